@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+#
+# What holds for every file we compile. Use it through the target `polytope_options`.
+
+# Release is what users and tests run. The level of optimisation is chosen per layer (see polytope_optimise): the core's
+# loops gain from -O3, YADE's class macros only take longer to compile.
+if(NOT CMAKE_BUILD_TYPE)
+	set(CMAKE_BUILD_TYPE Release CACHE STRING "Release or Debug" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-DNDEBUG")
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(POLYTOPE_CCACHE ccache)
+if(POLYTOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+	set(CMAKE_CXX_COMPILER_LAUNCHER "${POLYTOPE_CCACHE}")
+endif()
+
+add_library(polytope_options INTERFACE)
+target_compile_options(polytope_options INTERFACE -Wall -Wextra)
+# Warnings are errors with the compiler we develop with; what another one finds must not stop a user's build.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\.")
+	# seen wrongly by g++ 14 where it inlines Eigen's expressions
+	target_compile_options(polytope_options INTERFACE -Werror -Wno-error=maybe-uninitialized)
+endif()
+
+# YADE is compiled with these. Types of Eigen cross the border between core and YADE, so all our files need the same, or
+# the one-definition rule is broken. Loops that want SIMD work on plain arrays.
+target_compile_definitions(polytope_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_ALIGN EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
+
+# polytope_optimise(<target> <flags for a release build>…)
+function(polytope_optimise target)
+	foreach(flag IN LISTS ARGN)
+		target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${flag}>)
+	endforeach()
+endfunction()

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Polytope.hpp"
+
+#include <core/Scene.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Polytope)(Bo1_Polytope_Aabb));
+
+namespace {
+
+	/// Dynamics take the body's origin for the centroid and its axes for principal ones.
+	void requireCentralFrame(const polytope::ConvexShape& shape)
+	{
+		const polytope::MassProperties& mass = shape.mass();
+		const Real                      size = shape.boundingRadius();
+		if (mass.centroid.norm() > Polytope::frameTolerance * size)
+			throw std::invalid_argument("offsets: the body frame's origin must be the centroid, which is at a distance of "
+			                            + std::to_string(double(mass.centroid.norm())) + " m; use yade.polytope.fromHalfSpaces, which moves it there");
+		Real products = 0;
+		for (int i = 0; i < 3; ++i)
+			for (int j = 0; j < i; ++j)
+				products = math::max(products, math::abs(mass.inertia(i, j)));
+		if (products > Polytope::frameTolerance * mass.inertia.trace())
+			throw std::invalid_argument(
+			        "normals: the body frame's axes must be the principal axes of inertia; use yade.polytope.fromHalfSpaces, which turns the body");
+	}
+
+	/// The core takes any radius its formulas allow; a body's must leave an inner particle.
+	void requireInnerParticle(const polytope::ConvexShape& shape)
+	{
+		if (shape.cornerRadius() >= shape.inscribedRadius())
+			throw std::invalid_argument(
+			        "cornerRadius: must fit inside the body, that is, be smaller than the inscribed ball's radius "
+			        + boost::lexical_cast<std::string>(shape.inscribedRadius()) + " m; got " + boost::lexical_cast<std::string>(shape.cornerRadius()));
+	}
+
+} // namespace
+
+void Polytope::postLoad(Polytope&)
+{
+	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): planes are still to come from an archive
+	polytope::HalfSpaces planes;
+	planes.normals   = normals;
+	planes.offsets   = offsets;
+	planes.dimension = dimension;
+	try {
+		auto built = polytope::ConvexShape::shared(planes, cornerRadius, thickness);
+		requireCentralFrame(*built);
+		requireInnerParticle(*built);
+		convex_ = built;
+	} catch (const std::invalid_argument&) {
+		if (convex_) cornerRadius = convex_->cornerRadius(); // the only attribute that can have changed
+		throw;
+	}
+	normals = convex_->planes().normals;
+	offsets = convex_->planes().offsets;
+}
+
+Real Polytope::volume() const { return convex_ ? convex_->mass().volume : Real(0); }
+
+Vector3r Polytope::inertia() const { return convex_ ? Vector3r(convex_->mass().inertia.diagonal()) : Vector3r::Zero(); }
+
+vector<Vector3r> Polytope::vertices() const { return convex_ ? convex_->polyhedron().vertices : vector<Vector3r>(); }
+
+Real Polytope::inscribedRadius() const { return convex_ ? convex_->inscribedRadius() : Real(0); }
+
+boost::python::list Polytope::faces() const
+{
+	boost::python::list all;
+	if (!convex_) return all;
+	for (const auto& face : convex_->polyhedron().faces) {
+		boost::python::list one;
+		for (int vertex : face)
+			one.append(vertex);
+		all.append(one);
+	}
+	return all;
+}
+
+void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
+{
+	if (!bound) bound = shared_ptr<Bound>(new Aabb);
+	// the collider of a periodic cell works in unsheared coordinates; the map is linear, so the box stays tight
+	Matrix3r turn   = se3.orientation.toRotationMatrix();
+	Vector3r centre = se3.position;
+	if (scene->isPeriodic) {
+		turn   = scene->cell->getUnshearTrsf() * turn;
+		centre = scene->cell->unshearPt(centre);
+	}
+	const auto& convex = static_cast<const Polytope&>(*shape).convex();
+	Vector3r    low = Vector3r::Zero(), high = Vector3r::Zero();
+	if (convex && !convex->polyhedron().vertices.empty()) {
+		low = high = turn * convex->polyhedron().vertices.front();
+		for (const Vector3r& vertex : convex->polyhedron().vertices) {
+			const Vector3r moved = turn * vertex;
+			low                  = low.cwiseMin(moved);
+			high                 = high.cwiseMax(moved);
+		}
+	}
+	bound->min = centre + low;
+	bound->max = centre + high;
+}
+
+} // namespace yade

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Aabb.hpp>
+#include <core/Dispatching.hpp>
+#include <core/Shape.hpp>
+
+#include <src/ConvexShape.hpp>
+
+namespace yade {
+
+class Polytope : public Shape {
+public:
+	virtual ~Polytope() = default;
+
+	/// Validates and builds; on bad input throws std::invalid_argument naming the argument and leaves the shape as it was.
+	void postLoad(Polytope&);
+
+	/// Relative to the size (centroid) and to the trace (products of inertia): how far the body frame may be off before
+	/// the shape is refused. Loose enough for planes typed with six digits, far below what shows in a simulation.
+	static constexpr double frameTolerance = 1e-6;
+
+	/// Null until planes are given.
+	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
+
+	Real                            volume() const;
+	Vector3r                        inertia() const;
+	vector<Vector3r>                vertices() const;
+	boost::python::list             faces() const;
+	Real                            inscribedRadius() const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Polytope, Shape,
+	R"""(Convex polyhedron (or, with :yref:`dimension<Polytope.dimension>` 2, convex polygon) given by half-spaces $\vec a_i\cdot\vec x\le d_i$ in the body's frame, whose origin is the centroid and whose axes are the principal axes of inertia [Boon2012]_. Usually made by the functions of the module ``yade.polytope`` (*regular*, *cuboid*, *fromHalfSpaces*, *fromVertices*, *fromMesh*, *polygon*), which also set mass, inertia, position and orientation of the body. Planes cannot be changed after construction (mass and inertia would no longer fit): make a new shape.)""",
+		((vector<Vector3r>, normals, , Attr::readonly, "Unit outward normals $\\vec a_i$ in the body's frame [-]. Given with any length, they are normalised together with :yref:`offsets<Polytope.offsets>`."))
+		((vector<Real>, offsets, , Attr::readonly, "Offsets $d_i$ of the half-spaces $\\vec a_i\\cdot\\vec x\\le d_i$ [m]."))
+		((Real, cornerRadius, 0, Attr::triggerPostLoad, "Radius $r$ [m] with which corners of the inner potential particle are rounded; the contact normal is the gradient of this particle (Eqs 13-17 of [Boon2012]_). At least 0 and smaller than :yref:`inscribedRadius<Polytope.inscribedRadius>`. Where the contact point lies deeper than $r$ in a body, that body gives no normal, see :yref:`PolytopeGeom.status`."))
+		((int, dimension, 3, Attr::readonly, "3: polyhedron. 2: polygon in the $xy$ plane (normals without $z$ component), a prism of :yref:`thickness<Polytope.thickness>` for mass and drawing; contacts are solved in two dimensions. Polygons meet polygons only."))
+		((Real, thickness, 1, Attr::readonly, "Extent along $z$ of a polygon [m]; multiplies contact lengths to areas. Unused for polyhedra."))
+		, /*ctor*/ createIndex();
+		, /*py*/
+		.add_property("volume", &Polytope::volume, "Volume [m³].")
+		.add_property("inertia", &Polytope::inertia, "Principal moments of inertia about the centroid per unit density [m⁵]: multiply by the density for *state.inertia*.")
+		.add_property("vertices", &Polytope::vertices, "Vertices in the body's frame [m]; for drawing and bounding boxes, contacts do not use them.")
+		.add_property("faces", &Polytope::faces, "Faces as lists of indices into :yref:`vertices<Polytope.vertices>`, counter-clockwise seen from outside.")
+		.add_property("inscribedRadius", &Polytope::inscribedRadius, "Radius of the largest inscribed ball (disc for polygons) [m].")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(Polytope, Shape);
+
+private:
+	std::shared_ptr<const polytope::ConvexShape> convex_;
+};
+REGISTER_SERIALIZABLE(Polytope);
+
+class Bo1_Polytope_Aabb : public BoundFunctor {
+public:
+	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
+	FUNCTOR1D(Polytope);
+	// clang-format off
+	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the tight :yref:`Aabb` of a :yref:`Polytope` from its vertices; exact in sheared periodic cells too.");
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Bo1_Polytope_Aabb);
+
+} // namespace yade

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "PolytopeGeom.hpp"
+
+#include <core/Scene.hpp>
+#include <pkg/common/ElastMat.hpp>
+
+#include "RockJoint.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
+
+polytope::PairMemory PolytopeGeom::memory() const
+{
+	polytope::PairMemory memory;
+	for (int k = 0; k < 4; ++k)
+		memory.basis[k] = basis[k];
+	memory.hasBasis = basis[4];
+	memory.hasPoint = basis[5];
+	memory.point    = { point1, point2 };
+	return memory;
+}
+
+void PolytopeGeom::remember(const polytope::PairMemory& memory)
+{
+	basis << memory.basis[0], memory.basis[1], memory.basis[2], memory.basis[3], memory.hasBasis, memory.hasPoint;
+	point1 = memory.point[0];
+	point2 = memory.point[1];
+}
+
+namespace {
+
+	/// What a body's stiffness is worth in the weights of the normals.
+	Real stiffnessOf(const Body* body)
+	{
+		if (!body || !body->material) return 1;
+		if (const auto* joint = dynamic_cast<const RockJointMat*>(body->material.get())) return joint->normalStiffness;
+		if (const auto* elastic = dynamic_cast<const ElastMat*>(body->material.get())) return elastic->young;
+		return 1;
+	}
+
+	/// Index bound to the pair's memory: a body whose shape was exchanged must not be read beyond its planes.
+	bool basisFits(const polytope::PairMemory& memory, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
+	{
+		for (int code : memory.basis)
+			if (code < 0 || (code >> 1) >= ((code & 1) ? convex2 : convex1).planeCount()) return false;
+		return true;
+	}
+
+} // namespace
+
+Real normalWeightOfFirst(const Body* body1, const Body* body2)
+{
+	const Real k1 = stiffnessOf(body1), k2 = stiffnessOf(body2);
+	return k1 > 0 && k2 > 0 && math::isfinite(k1 + k2) ? k1 / (k1 + k2) : Real(0.5);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::go(
+        const shared_ptr<Shape>&       shape1,
+        const shared_ptr<Shape>&       shape2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
+	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex1 || !convex2) return false; // no planes: nothing to touch
+	return query(*convex1, *convex2, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::query(
+        const polytope::ConvexShape&   convex1,
+        const polytope::ConvexShape&   convex2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	// a thread's own buffers; they grow to the largest pair it has met
+	static thread_local polytope::ContactWorkspace workspace;
+	ContactCounters& count = counters_[omp_get_thread_num() < int(counters_.size()) ? omp_get_thread_num() : 0];
+	++count.pairs;
+
+	// the geometry is made with the pair, not with the contact: a separated pair is dismissed by what it remembers
+	if (!c->geom) {
+		auto geom          = shared_ptr<PolytopeGeom>(new PolytopeGeom);
+		geom->normalWeight = normalWeightOfFirst(Body::byId(c->getId1(), scene).get(), Body::byId(c->getId2(), scene).get());
+		c->geom            = geom;
+	}
+	auto&      geom    = static_cast<PolytopeGeom&>(*c->geom);
+	const bool wasReal = c->isReal();
+	if (convex1.dimension() != convex2.dimension()) {
+		geom.statusCode = int(polytope::ContactStatus::Failed);
+		++count.statuses[geom.statusCode];
+		return wasReal;
+	}
+
+	polytope::ContactSettings settings = settings_;
+	settings.warmStart                 = warmStart;
+	settings.timed                     = timing;
+	settings.section                   = computeArea || geom.needsArea;
+	settings.normalWeight[0]           = geom.normalWeight;
+	settings.normalWeight[1]           = 1 - geom.normalWeight;
+	settings.geometryAcrossGap         = wasReal || force;
+
+	polytope::PairMemory memory = geom.memory();
+	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
+	polytope::ContactResult result;
+	polytope::contactQuery(
+	        convex1,
+	        state1.ori.toRotationMatrix(),
+	        convex2,
+	        state2.ori.toRotationMatrix(),
+	        state2.pos + shift2 - state1.pos,
+	        settings,
+	        memory,
+	        workspace,
+	        result);
+	geom.remember(memory);
+	geom.statusCode    = int(result.status);
+	geom.infeasibility = result.infeasibility;
+
+	++count.statuses[int(result.status)];
+	count.contacts += result.inContact;
+	count.dismissed += result.dismissed;
+	count.simplexPivots += result.simplexPivots;
+	count.newtonIterations += result.newtonIterations;
+	if (timing) {
+		count.lpNanoseconds += result.lpNanoseconds;
+		count.centreNanoseconds += result.centreNanoseconds;
+		count.timedPairs += result.newtonIterations > 0;
+	}
+
+	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
+	if (!result.inContact && !wasReal && !force) return false;
+
+	geom.contactArea     = result.area;
+	const Vector3r point = state1.pos + result.point;
+	const Real     arm1 = result.point.norm(), arm2 = (result.point - (state2.pos + shift2 - state1.pos)).norm();
+	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal, /*avoidGranularRatcheting*/ false);
+	return true;
+}
+
+void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
+{
+	const auto refuse = [&](const std::string& message) {
+		contactPoint    = goodContactPoint_;
+		tolerance       = goodTolerance_;
+		newtonTolerance = goodNewtonTolerance_;
+		solver          = "newton";
+		throw std::invalid_argument(message);
+	};
+	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
+	else if (contactPoint == "chebyshevCentre")
+		settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
+	else if (contactPoint == "centroid")
+		settings_.contactPoint = polytope::ContactPoint::Centroid;
+	else
+		refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
+	if (solver != "newton") refuse("solver: must be 'newton' in this build, not '" + solver + "'");
+	if (!(tolerance >= 0 && tolerance < 1)) refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
+	if (!(newtonTolerance > 0 && newtonTolerance < 1)) refuse("newtonTolerance: must be above 0 and below 1");
+	settings_.tolerance       = tolerance;
+	settings_.newtonTolerance = newtonTolerance;
+	goodContactPoint_         = contactPoint;
+	goodTolerance_            = tolerance;
+	goodNewtonTolerance_      = newtonTolerance;
+}
+
+boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
+{
+	ContactCounters sum;
+	for (const ContactCounters& one : counters_) {
+		sum.pairs += one.pairs;
+		sum.contacts += one.contacts;
+		sum.dismissed += one.dismissed;
+		sum.simplexPivots += one.simplexPivots;
+		sum.newtonIterations += one.newtonIterations;
+		sum.lpNanoseconds += one.lpNanoseconds;
+		sum.centreNanoseconds += one.centreNanoseconds;
+		sum.timedPairs += one.timedPairs;
+		for (int k = 0; k < polytope::contactStatusCount; ++k)
+			sum.statuses[k] += one.statuses[k];
+	}
+	using polytope::ContactStatus;
+	const auto          of = [&](ContactStatus status) { return sum.statuses[int(status)]; };
+	boost::python::dict all, statuses;
+	for (int k = 0; k < polytope::contactStatusCount; ++k)
+		statuses[polytope::statusName(ContactStatus(k))] = sum.statuses[k];
+	all["pairs"]            = sum.pairs;
+	all["contacts"]         = sum.contacts;
+	all["dismissed"]        = sum.dismissed;
+	all["simplexPivots"]    = sum.simplexPivots;
+	all["newtonIterations"] = sum.newtonIterations;
+	all["fallbacks"]        = of(ContactStatus::CentreNotConverged) + of(ContactStatus::LpNotConverged) + of(ContactStatus::NoDirection);
+	all["failures"]         = of(ContactStatus::Failed);
+	all["statuses"]         = statuses;
+	if (timing) {
+		all["timedPairs"]    = sum.timedPairs;
+		all["lpSeconds"]     = 1e-9 * double(sum.lpNanoseconds);
+		all["centreSeconds"] = 1e-9 * double(sum.centreNanoseconds);
+	}
+	return all;
+}
+
+void Ig2_Polytope_Polytope_PolytopeGeom::resetStats()
+{
+	for (ContactCounters& one : counters_)
+		one = ContactCounters();
+}
+
+} // namespace yade

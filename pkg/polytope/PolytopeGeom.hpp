@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Polytope.hpp"
+
+#include <core/Dispatching.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+#include <src/ContactQuery.hpp>
+
+namespace yade {
+
+class PolytopeGeom : public ScGeom {
+public:
+	virtual ~PolytopeGeom() = default;
+
+	polytope::PairMemory memory() const;
+	void                 remember(const polytope::PairMemory& memory);
+	std::string          statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
+	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the gradient of their inner potential particles, the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper`; :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
+		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear programme [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
+		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
+		((bool, needsArea, false, Attr::readonly, "Whether this contact's law uses :yref:`contactArea<PolytopeGeom.contactArea>`; set when the contact's physics are made."))
+		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the contact normal, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
+		((int, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
+		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear programme's last basis (2 × plane + body), whether it is known, and whether the points are"))
+		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, for the next step's start"))
+		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
+		, /*ctor*/ createIndex();
+		, /*py*/
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear programme's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreNotConverged*, *lpNotConverged* (the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);
+};
+REGISTER_SERIALIZABLE(PolytopeGeom);
+
+/// Weight of body 1's normal against body 2's, from the stiffnesses of their materials: 0.5 for equal ones.
+Real normalWeightOfFirst(const Body* body1, const Body* body2);
+
+/// Counters of one thread, on cache lines of its own.
+struct alignas(64) ContactCounters {
+	long pairs = 0, contacts = 0, dismissed = 0, simplexPivots = 0, newtonIterations = 0;
+	long statuses[polytope::contactStatusCount] = {};
+	long lpNanoseconds = 0, centreNanoseconds = 0, timedPairs = 0;
+};
+
+class Ig2_Polytope_Polytope_PolytopeGeom : public IGeomFunctor {
+public:
+	bool go(const shared_ptr<Shape>&       shape1,
+	        const shared_ptr<Shape>&       shape2,
+	        const State&                   state1,
+	        const State&                   state2,
+	        const Vector3r&                shift2,
+	        const bool&                    force,
+	        const shared_ptr<Interaction>& c) override;
+	bool goReverse(
+	        const shared_ptr<Shape>&       shape1,
+	        const shared_ptr<Shape>&       shape2,
+	        const State&                   state1,
+	        const State&                   state2,
+	        const Vector3r&                shift2,
+	        const bool&                    force,
+	        const shared_ptr<Interaction>& c) override
+	{
+		return go(shape1, shape2, state1, state2, shift2, force, c); // symmetric: the dispatcher never reverses it
+	}
+
+	/// Refuses unknown names and settings out of range, naming the attribute, and restores the last good value.
+	void postLoad(Ig2_Polytope_Polytope_PolytopeGeom&);
+
+	const polytope::ContactSettings& settings() const { return settings_; }
+	boost::python::dict              stats() const;
+	void                             resetStats();
+
+	FUNCTOR2D(Polytope, Polytope);
+	DEFINE_FUNCTOR_ORDER_2D(Polytope, Polytope);
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
+	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
+		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear programme's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
+		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton*. (*ipopt* is refused by this build.)"))
+		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
+		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
+		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]."))
+		((bool, computeArea, false, , "Compute :yref:`PolytopeGeom.contactArea` for every contact (laws that need it ask by themselves)."))
+		((bool, timing, false, , "Measure the time of the linear programme and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
+		, /*ctor*/
+		, /*py*/
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *fallbacks* (contacts that use the linear programme's point or a substitute direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
+	);
+	// clang-format on
+
+	/// The geometry of one pair, whatever made the convex shapes: the body of every functor of this family.
+	bool query(
+	        const polytope::ConvexShape&   convex1,
+	        const polytope::ConvexShape&   convex2,
+	        const State&                   state1,
+	        const State&                   state2,
+	        const Vector3r&                shift2,
+	        const bool&                    force,
+	        const shared_ptr<Interaction>& c);
+
+private:
+	polytope::ContactSettings              settings_;
+	std::vector<ContactCounters>           counters_ = std::vector<ContactCounters>(omp_get_max_threads());
+	std::string                            goodContactPoint_ = "analyticCentre";
+	Real                                   goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
+};
+REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
+
+} // namespace yade

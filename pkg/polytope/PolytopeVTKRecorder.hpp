@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#ifdef YADE_VTK
+
+#include <pkg/common/PeriodicEngines.hpp>
+
+namespace yade {
+
+class PolytopeVTKRecorder : public PeriodicEngine {
+public:
+	/// Writes the snapshot of this step, and the series' list anew.
+	void action() override;
+	/// Refuses unknown recorders, and restores the last good list.
+	void postLoad(PolytopeVTKRecorder&);
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(PolytopeVTKRecorder, PeriodicEngine,
+	R"""(Records :yref:`Polytopes<Polytope>` and their contacts for ParaView and other programs that read VTK's files (bodies of other shapes: :yref:`VTKRecorder`). Every snapshot is a file per recorder, and a list of all snapshots with their times (``.pvd``, open this one in ParaView) is kept up to date:
+
+``bodies``
+	``<fileName>bodies.<step>.vtu``: a polyhedral cell for each body (polygons as prisms of their :yref:`thickness<Polytope.thickness>`), with *id*, *color* (three bytes: uncheck “map scalars” to see it), *mask*, *materialId*, *dynamic*, *mass*, *velocity*, *angularVelocity* and *displacement* (from :yref:`State.refPos`).
+``contacts``
+	``<fileName>contacts.<step>.vtp``: a point for each real interaction with a :yref:`PolytopeGeom`, with *id1*, *id2*, *normal* (from body 1 to 2), *normalForce* and *shearForce* (on body 2), *depth*, *area* (0 where it was not asked for), *infeasibility* and *status* (a number; the file's field data *statusNames* has the names in this order). Show them with a Glyph filter.
+
+In a periodic scene, bodies and contact points are moved into the cell. Called as a function, ``recorder()`` writes a snapshot at once. :yref:`PeriodicEngine.initRun` is ``True`` here.)""",
+		((string, fileName, "", , "Begin of all file names; may contain folders, which are made where they are missing."))
+		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad, "What to record: *bodies*, *contacts*."))
+		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts that have such a body; 0: all."))
+		((bool, skipNondynamic, false, , "Leave out bodies that cannot move (floors, walls); their contacts are kept."))
+		((bool, compress, true, , "Compress the data."))
+		((bool, ascii, false, , "Data as readable text."))
+		((vector<long>, steps, , (Attr::readonly), "Steps recorded so far: the series. Steps not before the present one are dropped when a snapshot is written, so that a simulation begun again starts its series again."))
+		((vector<Real>, times, , (Attr::readonly), "Times of these steps [s]."))
+		, /*ctor*/ initRun = true;
+	);
+	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	bool           has(const string& recorder) const;
+	bool           recorded(const Body& body) const;
+	void           writeBodies(const string& file) const;
+	void           writeContacts(const string& file) const;
+	void           writeSeries(const string& recorder, const string& extension) const;
+	string         snapshotName(const string& recorder, long step, const string& extension) const;
+	vector<string> goodRecorders_ = recorders;
+};
+REGISTER_SERIALIZABLE(PolytopeVTKRecorder);
+
+} // namespace yade
+
+#endif // YADE_VTK

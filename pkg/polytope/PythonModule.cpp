@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// The extension module yade._polytope: what yade.polytope (py/) needs beyond YADE's classes.
+//
+// It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
+// `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
+// classes and converters are registered by then.
+#include "PolytopeGeom.hpp"
+
+#include "BuildInfo.hpp"
+
+#include <core/Body.hpp>
+
+#include <src/RegularSolids.hpp>
+
+#include <boost/python.hpp>
+
+namespace py = boost::python;
+
+namespace {
+
+py::dict buildInfo()
+{
+	namespace info = polytope::buildInfo;
+	py::dict result;
+	result["version"]        = info::version;
+	result["precision"]      = info::precision;
+	result["yadeVersion"]    = info::yadeVersion;
+	result["yadeFeatures"]   = py::str(info::yadeFeatures).split();
+	result["instructionSet"] = polytope::instructionSet();
+#ifdef POLYTOPE_HAVE_IPOPT
+	result["ipopt"] = true;
+#else
+	result["ipopt"] = false;
+#endif
+	return result;
+}
+
+py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.normals, set.offsets); }
+
+py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
+
+py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension) { return asTuple(polytope::hullOf(points, dimension)); }
+
+/// Half-spaces in the frame of centroid and principal axes, and where that frame is.
+py::dict centred(
+        const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness, bool keepRedundant)
+{
+	polytope::HalfSpaces given;
+	given.normals            = normals;
+	given.offsets            = offsets;
+	given.dimension          = dimension;
+	polytope::HalfSpaces set = polytope::withoutDuplicates(polytope::normalised(given));
+	const auto           mass = polytope::massProperties(polytope::polyhedron(set, thickness));
+	if (!keepRedundant) set = polytope::withoutRedundant(set);
+	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
+	const auto central = polytope::moved(set, axes.rotation.transpose(), -(axes.rotation.transpose() * mass.centroid));
+	py::dict   result;
+	result["normals"]         = central.normals;
+	result["offsets"]         = central.offsets;
+	result["position"]        = yade::Vector3r(mass.centroid);
+	result["orientation"]     = yade::Quaternionr(axes.rotation);
+	result["inscribedRadius"] = polytope::ConvexShape(central, 0, thickness).inscribedRadius();
+	return result;
+}
+
+const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body, const char* name)
+{
+	const auto* shape = body ? dynamic_cast<const yade::Polytope*>(body->shape.get()) : nullptr;
+	if (!shape || !shape->convex()) throw std::invalid_argument(std::string(name) + ": must be a body with a Polytope shape that has planes");
+	return *shape->convex();
+}
+
+/// One pair as it is, without a scene.
+struct Contact {
+	polytope::ContactResult result;
+	yade::Vector3r          point, sectionCentroid;
+
+	std::string status() const { return polytope::statusName(result.status); }
+};
+
+Contact contact(
+        const boost::shared_ptr<yade::Body>& body1,
+        const boost::shared_ptr<yade::Body>& body2,
+        const std::string&                   contactPoint,
+        yade::Real                           tolerance,
+        yade::Real                           newtonTolerance)
+{
+	const auto& convex1 = convexOf(body1, "b1");
+	const auto& convex2 = convexOf(body2, "b2");
+	if (convex1.dimension() != convex2.dimension()) throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
+	// the functor validates the settings and knows the weights of the normals
+	yade::Ig2_Polytope_Polytope_PolytopeGeom functor;
+	functor.contactPoint    = contactPoint;
+	functor.tolerance       = tolerance;
+	functor.newtonTolerance = newtonTolerance;
+	functor.callPostLoad();
+	polytope::ContactSettings settings = functor.settings();
+	settings.section                   = true;
+	settings.geometryAcrossGap         = true;
+	settings.normalWeight[0]           = yade::normalWeightOfFirst(body1.get(), body2.get());
+	settings.normalWeight[1]           = 1 - settings.normalWeight[0];
+
+	polytope::PairMemory       memory;
+	polytope::ContactWorkspace workspace;
+	Contact                    answer;
+	const yade::Vector3r       centre2 = body2->state->pos - body1->state->pos;
+	polytope::contactQuery(
+	        convex1, body1->state->ori.toRotationMatrix(), convex2, body2->state->ori.toRotationMatrix(), centre2, settings, memory, workspace, answer.result);
+	answer.point           = body1->state->pos + answer.result.point;
+	answer.sectionCentroid = body1->state->pos + answer.result.sectionCentroid;
+	return answer;
+}
+
+template <class T, T polytope::ContactResult::* Member> T field(const Contact& contact) { return contact.result.*Member; }
+
+} // namespace
+
+BOOST_PYTHON_MODULE(_polytope)
+{
+	using polytope::ContactResult;
+	using yade::Real;
+	using yade::Vector3r;
+
+	py::docstring_options options(true, true, false);
+	py::def("buildInfo", &buildInfo, "Versions of the plug-in and of the YADE it was compiled for, as a dictionary.");
+	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
+	py::def("hull", &hull, (py::arg("points"), py::arg("dimension") = 3), "Normals and offsets of the convex hull of points.");
+	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
+
+	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
+	        .add_property("inContact", &field<bool, &ContactResult::inContact>, "Whether the bodies overlap (s* < −tolerance).")
+	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
+	        .add_property(
+	                "infeasibility",
+	                &field<Real, &ContactResult::infeasibility>,
+	                "Optimum s* of the phase-one linear programme [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball in the overlap.")
+	        .add_property(
+	                "point",
+	                +[](const Contact& c) { return c.point; },
+	                "Contact point, world coordinates [m]: the analytic centre of all half-spaces (Eq. 10). Across a gap, of both bodies grown until "
+	                "they just overlap.")
+	        .add_property("normal", &field<Vector3r, &ContactResult::normal>, "Unit contact normal from b1 to b2 (Eqs 13-17).")
+	        .add_property("depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
+	        .add_property("area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
+	        .add_property(
+	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; }, "Centroid of the contact section, world coordinates [m].")
+	        .add_property(
+	                "dualDirection",
+	                &field<Vector3r, &ContactResult::dualDirection>,
+	                "Σ over b1's planes of λ_i a_i, λ the linear programme's dual: moved by |s*|/|dualDirection| along it, b2 is free of b1.")
+	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
+	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear programme.");
+	py::def(
+	        "contact",
+	        &contact,
+	        (py::arg("b1"),
+	         py::arg("b2"),
+	         py::arg("contactPoint")    = "analyticCentre",
+	         py::arg("tolerance")       = Real(polytope::tolerance::contact),
+	         py::arg("newtonTolerance") = Real(polytope::tolerance::newton)),
+	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
+	        ":param Body b1: first body\n"
+	        ":param Body b2: second body; the normal points towards it\n"
+	        ":param str contactPoint, float tolerance, float newtonTolerance: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
+	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, newtonIterations, "
+	        "simplexPivots\n"
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, tolerances out of range");
+}

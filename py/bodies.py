@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies with Polytope shapes, from half-spaces, points, dimensions or mesh files.
+
+All functions return a yade Body, ready for ``O.bodies.append``, with mass and inertia from the material's density. They
+share these keyword arguments (*body* below), with the meaning they have in :yref:`yade.utils.box`:
+
+:param material: Material instance, index or label in O.materials, or a function that makes one; default the last one added
+:param bool fixed: block all degrees of freedom
+:param float cornerRadius: radius of the inner potential particle's corners [m] (Polytope.cornerRadius); default a tenth of
+    the inscribed ball's radius
+:param Vector3 color: RGB in 0…1; default random
+:param bool wire: draw edges only
+:param bool highlight: highlight in the 3d view
+:param int mask: Body.mask
+:param Vector3 velocity: initial velocity [m/s]
+:param Vector3 angularVelocity: initial angular velocity [rad/s]
+"""
+import os
+
+from yade import Body, Polytope, Quaternion, Vector3
+from yade import utils
+
+from yade import _polytope
+
+__all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
+
+defaultCornerFraction = 0.1
+"""Default cornerRadius over the inscribed ball's radius."""
+
+isotropyTolerance = 1e-9
+"""Relative difference of principal moments up to which a body is integrated as isotropic (exact for equal moments)."""
+
+
+def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
+	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid.
+
+	:param normals: (n, 3) outward normals of any length [-]
+	:param offsets: n offsets, in units of the normals' length [m]
+	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
+	    section 2.2). Planes that repeat another one are dropped in any case.
+	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
+	    four planes, lengths that differ, cornerRadius that does not fit inside
+	"""
+	return _bodyOf(_vectors(normals, 'normals', 3), _numbers(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
+
+
+def fromVertices(points, **body):
+	"""Convex hull of points in world coordinates, as a body at its centroid.
+
+	:param points: (n, 3) points [m]; points inside the hull are allowed
+	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
+	"""
+	normals, offsets = _polytope.hull(_vectors(points, 'points', 3), 3)
+	return _bodyOf(normals, offsets, **body)
+
+
+def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
+	"""Regular polyhedron.
+
+	:param int faces: 4, 6, 8, 12 or 20
+	:param float circumradius: distance of the vertices from the centre [m]
+	:param Vector3 center: centre [m]
+	:param Quaternion orientation: of the body
+	:raises ValueError: naming *faces* or *circumradius*
+	"""
+	normals, offsets = _polytope.regularSolid(faces, circumradius)
+	return _bodyOf(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+
+
+def cuboid(center, extents, orientation=Quaternion.Identity, **body):
+	"""Rectangular block.
+
+	:param Vector3 center: centre [m]
+	:param Vector3 extents: half-lengths along the body's axes [m], as for :yref:`yade.utils.box`
+	:param Quaternion orientation: of the body
+	:raises ValueError: naming *extents* if one is not positive and finite
+	"""
+	half = _vector(extents, 'extents')
+	if not all(0 < h < float('inf') for h in half):
+		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
+	axes = [Vector3.Unit(k) for k in range(3)]
+	normals = [a for axis in axes for a in (axis, -axis)]
+	offsets = [half[k // 2] for k in range(6)]
+	return _bodyOf(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+
+
+def polygon(points2d, thickness=1.0, **body):
+	"""Convex polygon in the xy plane (2-D): the hull of the points, with z and rotations out of the plane blocked.
+
+	:param points2d: (n, 2) points [m] in world coordinates
+	:param float thickness: extent along z for mass and contact areas [m]
+	:raises ValueError: naming *points2d* or *thickness*
+	"""
+	points = [Vector3(p[0], p[1], 0) for p in _vectors(points2d, 'points2d', 2)]
+	try:
+		normals, offsets = _polytope.hull(points, 2)
+	except ValueError as error:
+		raise ValueError(str(error).replace('points', 'points2d', 1)) from None
+	return _bodyOf(normals, offsets, dimension=2, thickness=thickness, **body)
+
+
+def fromMesh(path, scale=1.0, **body):
+	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
+
+	:param path: the file
+	:param float scale: factor on all coordinates, for files in other units than metres
+	:raises FileNotFoundError: if there is no such file
+	:raises ValueError: naming *path* if the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
+	"""
+	if not os.path.isfile(path):
+		raise FileNotFoundError(f"path: there is no file '{path}'")
+	if not 0 < scale < float('inf'):
+		raise ValueError(f'scale: must be positive and finite, got {scale}')
+	import trimesh
+	try:
+		mesh = trimesh.load(path, force='mesh', process=False)
+		points = mesh.vertices * scale
+	except Exception as error:  # trimesh raises whatever its many readers raise
+		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
+	try:
+		return fromVertices(points, **body)
+	except ValueError as error:
+		raise ValueError(str(error).replace('points', f"path: '{path}'", 1)) from None
+
+
+def _bodyOf(
+        normals,
+        offsets,
+        place=None,
+        dimension=3,
+        thickness=1.0,
+        keepRedundant=True,
+        material=-1,
+        fixed=False,
+        cornerRadius=None,
+        color=None,
+        wire=False,
+        highlight=False,
+        mask=1,
+        velocity=(0, 0, 0),
+        angularVelocity=(0, 0, 0)
+):
+	"""The body of a set of half-spaces; *place* moves it there instead of leaving it at its own centroid."""
+	central = _polytope.centred(normals, offsets, dimension, thickness, keepRedundant)
+	if cornerRadius is None:
+		cornerRadius = defaultCornerFraction * central['inscribedRadius']
+	body = Body()
+	body.shape = Polytope(
+	        normals=central['normals'],
+	        offsets=central['offsets'],
+	        cornerRadius=cornerRadius,
+	        dimension=dimension,
+	        thickness=thickness,
+	        color=utils.randomColor() if color is None else color,
+	        wire=wire,
+	        highlight=highlight
+	)
+	position, orientation = central['position'], central['orientation']
+	if place:
+		position, orientation = place[0] + place[1] * position, place[1] * orientation
+	inertia = body.shape.inertia
+	utils._commonBodySetup(body, body.shape.volume, inertia, material, pos=position, fixed=fixed)
+	body.state.ori = body.state.refOri = orientation
+	body.state.vel = _vector(velocity, 'velocity')
+	body.state.angVel = _vector(angularVelocity, 'angularVelocity')
+	if dimension == 2 and not fixed:
+		body.state.blockedDOFs = 'zXY'
+	# a polygon turns about z only, so its other moments never enter
+	body.aspherical = dimension == 3 and max(inertia) - min(inertia) > isotropyTolerance * max(inertia)
+	body.mask = mask
+	return body
+
+
+def _numbers(values, name):
+	try:
+		return [float(v) for v in values]
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be a sequence of numbers') from None
+
+
+def _vectors(rows, name, length):
+	try:
+		vectors = [[float(x) for x in row] for row in rows]
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
+	if any(len(v) != length for v in vectors):
+		raise ValueError(f'{name}: every row must have {length} components')
+	return [Vector3(*v) for v in vectors] if length == 3 else vectors
+
+
+def _vector(value, name):
+	vector = _vectors([value], name, 3)[0]
+	if not all(abs(x) < float('inf') for x in vector):
+		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
+	return vector
+
+
+def _rotation(orientation):
+	if not isinstance(orientation, Quaternion):
+		raise ValueError('orientation: must be a Quaternion')
+	if not 0 < orientation.norm() < float('inf'):
+		raise ValueError('orientation: must be a finite quaternion other than zero')
+	return orientation.normalized()

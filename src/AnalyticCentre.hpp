@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "PairPlanes.hpp"
+#include "Tolerances.hpp"
+
+#include <cmath>
+
+/// Analytic centre (Boon et al. 2012, Eq. 10): argmax Σ log(d_i − a_i·x) over all planes of both bodies, redundant ones
+/// kept. Newton on D unknowns for φ(x) = −Σ log(d_i − a_i·x); gradient Σ a_i/slack_i, Hessian Σ a_i a_iᵀ/slack_i².
+///
+/// No logarithm is evaluated: a full step from a point of decrement < 1 stays inside (Dikin's ellipsoid), and above
+/// `fullStep` the step length is the zero of the directional derivative Σ ρ_i/(1 − t ρ_i), ρ_i = a_i·Δ/slack_i, which
+/// lets a start close to a face's corner cross the whole face in one step where a damped step would double its distance.
+///
+/// The frame must have its last axis along the contact normal and its origin near the overlap: then a thin overlap makes
+/// the Hessian graded (one axis large), which Cholesky does not mind, instead of ill-conditioned.
+namespace polytope {
+
+enum class CentreStatus { Converged, RoundingLimited, NotConverged };
+
+template <class R, int D> struct BarrierStep {
+	R direction[D];
+	R decrement; ///< √(Δᵀ H Δ), the step's length in the local norm
+};
+
+/// Gradient and Hessian at x; slacks are left in planes.slack. False if x is not strictly inside.
+template <class R, int D, int W>
+POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R* x, R (&gradient)[D], R (&hessian)[D][D])
+{
+	using V = typename Lanes<R, W>::Type;
+	V X[D], g[D], h[D][D];
+	for (int k = 0; k < D; ++k) {
+		X[k] = broadcast<R, W>(x[k]);
+		g[k] = broadcast<R, W>(0);
+		for (int j = 0; j <= k; ++j)
+			h[k][j] = broadcast<R, W>(0);
+	}
+	V smallest = broadcast<R, W>(R(padOffset));
+	for (int i = 0; i < planes.total; i += W) {
+		V a[D];
+		V slack = load<R, W>(planes.offset + i);
+		for (int k = 0; k < D; ++k) {
+			a[k] = load<R, W>(planes.normal[k] + i);
+			slack -= a[k] * X[k];
+		}
+		smallest = minOf(smallest, slack);
+		store<R, W>(planes.slack + i, slack);
+		const V inverse = R(1) / slack;
+		for (int k = 0; k < D; ++k) {
+			a[k] *= inverse;
+			g[k] += a[k];
+			for (int j = 0; j <= k; ++j)
+				h[k][j] += a[k] * a[j];
+		}
+	}
+	for (int k = 0; k < D; ++k) {
+		gradient[k] = horizontalSum<R, W>(g[k]);
+		for (int j = 0; j <= k; ++j)
+			hessian[k][j] = horizontalSum<R, W>(h[k][j]);
+	}
+	return horizontalMin<R, W>(smallest) > 0;
+}
+
+/// Newton direction by Cholesky, eliminating the last axis (the contact normal, the large one) first.
+/// Returns false if the Hessian is not positive definite to rounding.
+template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const R (&h)[D][D], BarrierStep<R, D>& step)
+{
+	using std::sqrt;
+	if constexpr (D == 3) {
+		// LDLᵀ in the order z, y, x
+		const R dz = h[2][2];
+		if (!(dz > 0)) return false;
+		const R lzy = h[2][1] / dz, lzx = h[2][0] / dz;
+		const R dy = h[1][1] - lzy * h[2][1];
+		const R yx = h[1][0] - lzy * h[2][0];
+		if (!(dy > 0)) return false;
+		const R lyx = yx / dy;
+		const R dx  = h[0][0] - lzx * h[2][0] - lyx * yx;
+		if (!(dx > 0)) return false;
+		const R bz = -g[2], by = -g[1] - lzy * bz, bx = -g[0] - lzx * bz - lyx * by;
+		const R sz = bz / dz, sy = by / dy, sx = bx / dx;
+		step.direction[0] = sx;
+		step.direction[1] = sy - lyx * sx;
+		step.direction[2] = sz - lzy * step.direction[1] - lzx * sx;
+		step.decrement    = sqrt(bz * sz + by * sy + bx * sx);
+	} else {
+		const R dy = h[1][1];
+		if (!(dy > 0)) return false;
+		const R l  = h[1][0] / dy;
+		const R dx = h[0][0] - l * h[1][0];
+		if (!(dx > 0)) return false;
+		const R by = -g[1], bx = -g[0] - l * by;
+		const R sy = by / dy, sx = bx / dx;
+		step.direction[0] = sx;
+		step.direction[1] = sy - l * sx;
+		step.decrement    = sqrt(by * sy + bx * sx);
+	}
+	return step.decrement >= 0; // false for NaN
+}
+
+/// Step length along the direction: (nearly) the zero of φ'(t) = Σ ρ_i/(1 − t ρ_i), from the slacks of the last
+/// barrierDerivatives(). The pole nearest to t = 0 is treated exactly: t ← t_max + 1/S with S the other terms' sum.
+template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R, D>& planes, const BarrierStep<R, D>& step)
+{
+	using V = typename Lanes<R, W>::Type;
+	V X[D];
+	for (int k = 0; k < D; ++k)
+		X[k] = broadcast<R, W>(step.direction[k]);
+	V largest = broadcast<R, W>(0);
+	for (int i = 0; i < planes.total; i += W) {
+		V rate = load<R, W>(planes.normal[0] + i) * X[0];
+		for (int k = 1; k < D; ++k)
+			rate += load<R, W>(planes.normal[k] + i) * X[k];
+		rate /= load<R, W>(planes.slack + i);
+		store<R, W>(planes.rate + i, rate);
+		largest = maxOf(largest, rate);
+	}
+	const R pole  = -horizontalMin<R, W>(-largest);
+	const R slope = -step.decrement * step.decrement;
+	if (!(pole > 0)) return 1;
+	const R tMax = 1 / pole;
+	R       low = 0, high = tMax;
+	R       t = tMax + 1 / (slope - pole);
+	for (int trial = 0; trial < tolerance::lineSearchSteps; ++trial) {
+		if (!(t > low && t < high)) t = (low + high) / 2;
+		V       sum  = broadcast<R, W>(0);
+		const V time = broadcast<R, W>(t);
+		for (int i = 0; i < planes.total; i += W) {
+			const V rate = load<R, W>(planes.rate + i);
+			sum += rate / (R(1) - time * rate);
+		}
+		const R derivative = horizontalSum<R, W>(sum);
+		if (std::abs(derivative) <= R(tolerance::lineSearchSlope) * -slope) break;
+		(derivative < 0 ? low : high) = t;
+		const R rest = derivative - 1 / (tMax - t);
+		t            = rest < 0 ? tMax + 1 / rest : (low + high) / 2;
+	}
+	return t < tMax ? t : low;
+}
+
+/// Newton from x (strictly inside). `accept`: the predicted local length of what remains after the last step.
+template <class R, int D, int W>
+POLYTOPE_INLINE CentreStatus analyticCentre(const PairPlanes<R, D>& planes, R* x, R accept, int& iterations, R& decrement)
+{
+	R previous = R(padOffset);
+	for (;;) {
+		R                 g[D], h[D][D];
+		BarrierStep<R, D> step;
+		if (!barrierDerivatives<R, D, W>(planes, x, g, h) || !newtonStep<R, D>(g, h, step)) return CentreStatus::NotConverged;
+		decrement = step.decrement;
+		// rounding shows as a full step that did not contract: stay where we are
+		const bool stalled = previous <= R(tolerance::fullStep) && step.decrement > previous / 2;
+		if (stalled && step.decrement <= R(tolerance::stagnation)) return CentreStatus::RoundingLimited;
+		if (iterations >= tolerance::newtonIterations) return CentreStatus::NotConverged;
+		++iterations;
+		const R length = step.decrement <= R(tolerance::fullStep) ? R(1) : stepLength<R, D, W>(planes, step);
+		for (int k = 0; k < D; ++k)
+			x[k] += length * step.direction[k];
+		// quadratic convergence of a self-concordant function: the next decrement is below decrement²/(1 − decrement)²
+		if (step.decrement <= R(tolerance::fullStep) && step.decrement * step.decrement <= accept) return CentreStatus::Converged;
+		previous = length == 1 ? step.decrement : R(padOffset);
+	}
+}
+
+} // namespace polytope

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "CgalGeometry.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpzf.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <map>
+#include <type_traits>
+
+namespace polytope::exact {
+namespace {
+
+	// The one door to CGAL's numbers. Types wider than double go in exactly, as rationals.
+	constexpr bool isDouble = std::is_same<Real, double>::value;
+	using Number            = std::conditional_t<isDouble, double, CGAL::Gmpq>;
+	using ExactNumber       = std::conditional_t<isDouble, CGAL::Gmpzf, CGAL::Gmpq>;
+	using Kernel
+	        = std::conditional_t<isDouble, CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<CGAL::Gmpq>>;
+
+	/// A template only so that the branch not taken is not compiled.
+	template <class Value> Number toNumber(Value value)
+	{
+		if constexpr (isDouble) {
+			return value;
+		} else {
+			Number sum(0);
+			while (value != 0) {
+				const double part = static_cast<double>(value);
+				sum += Number(part);
+				value -= Value(part);
+			}
+			return sum;
+		}
+	}
+
+	bool finite(const Real& value) { return (Eigen::numext::isfinite)(value); }
+
+} // namespace
+
+DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const Real& cap, const Bounds& bounds)
+{
+	CGAL::Quadratic_program<Number> programme(CGAL::SMALLER, false, Number(0), false, Number(0));
+	for (int k = 0; k < 3; ++k) {
+		if (finite(bounds.lower[k])) programme.set_l(k, true, toNumber(bounds.lower[k]));
+		if (finite(bounds.upper[k])) programme.set_u(k, true, toNumber(bounds.upper[k]));
+	}
+	for (std::size_t i = 0; i < normals.size(); ++i) {
+		for (int k = 0; k < 3; ++k)
+			programme.set_a(k, int(i), toNumber(normals[i][k]));
+		programme.set_a(3, int(i), Number(1));
+		programme.set_b(int(i), toNumber(offsets[i]));
+	}
+	programme.set_u(3, true, toNumber(cap));
+	programme.set_c(3, Number(-1));
+	const auto solution = CGAL::solve_linear_program(programme, ExactNumber());
+	DeepPoint  result;
+	auto       value = solution.variable_values_begin();
+	for (int k = 0; k < 3; ++k, ++value)
+		result.point[k] = Real(CGAL::to_double(*value));
+	result.depth = Real(CGAL::to_double(*value));
+	return result;
+}
+
+Triangles hullTriangles(const std::vector<Vector3>& points)
+{
+	using Point = Kernel::Point_3;
+	std::vector<Point>   corners;
+	std::map<Point, int> indexOf;
+	for (const Vector3& p : points) {
+		corners.emplace_back(toNumber(p.x()), toNumber(p.y()), toNumber(p.z()));
+		indexOf.emplace(corners.back(), int(corners.size()) - 1);
+	}
+	// a mesh, not CGAL's plain triangle list: with the traits that one chooses, planes are constructed inexactly
+	CGAL::Surface_mesh<Point> mesh;
+	CGAL::convex_hull_3(corners.begin(), corners.end(), mesh);
+	Triangles triangles;
+	for (const auto face : mesh.faces()) {
+		Triangle    triangle;
+		std::size_t k = 0;
+		for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+			triangle[k++] = indexOf.at(mesh.point(vertex));
+		triangles.push_back(triangle);
+	}
+	return triangles;
+}
+
+} // namespace polytope::exact

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "ConvexShape.hpp"
+#include "Status.hpp"
+#include "Tolerances.hpp"
+
+#include <array>
+#include <vector>
+
+/// One contact, start to end: both bodies' planes → LP → analytic centre → normal → depth (→ section). The only entry of
+/// the plug-in into the numerical core. Nothing throws, prints or (after a thread's first pair of a size) allocates.
+namespace polytope {
+
+enum class ContactPoint : int {
+	AnalyticCentre = 0, ///< Eq. 10
+	ChebyshevCentre,    ///< the LP's own point: centre of a largest ball in the overlap, cheapest, jumps where it is not unique
+	Centroid,           ///< of the overlap's volume (area in 2-D), dearest
+};
+
+struct ContactSettings {
+	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
+	/// Contact when s* < −tolerance × the smaller body's circumradius.
+	Real tolerance = tolerance::contact;
+	/// Accepted remaining distance to the centre, in the overlap's own local norm.
+	Real newtonTolerance = tolerance::newton;
+	/// Start from the last query's basis and point, kept in PairMemory.
+	bool warmStart = true;
+	/// Also the contact section's area and centroid (length in 2-D).
+	bool section = false;
+	/// Weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
+	Real normalWeight[2] = { 1, 1 };
+	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
+	/// ends it.
+	bool geometryAcrossGap = false;
+	/// Measure the LP's and the centre's time.
+	bool timed = false;
+};
+
+/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction.
+struct PairMemory {
+	bool                   hasBasis = false;
+	bool                   hasPoint = false;
+	std::array<int, 4>     basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
+	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
+};
+
+struct ContactResult {
+	ContactStatus status         = ContactStatus::Separated;
+	bool          inContact      = false;
+	bool          hasGeometry    = false;           ///< point, normal and depth are set
+	Real          infeasibility  = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
+	Vector3       point          = Vector3::Zero(); ///< world axes, from body 1's centre
+	Vector3       normal         = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
+	Real          depth          = 0;               ///< chord along the normal, positive in overlap
+	Vector3       dualDirection  = Vector3::Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free
+	Real          area           = 0;               ///< contact section (times thickness in 2-D)
+	Vector3       sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
+	bool          dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
+	int           simplexPivots    = 0;
+	int           newtonIterations = 0;
+	Real          decrement        = 0; ///< Newton decrement before the last step
+	long          lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; Newton
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };  ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
+};
+
+/// Buffers of one thread; grow to the largest pair seen, then stay.
+class ContactWorkspace {
+public:
+	Real* rows(int rowCount, int length);
+	Real* polygons(int length);
+
+private:
+	std::vector<Real> rows_, polygons_;
+};
+
+/// One pair. `rotation1`, `rotation2`: body to world; `centre2`: from body 1's centre to body 2's, world axes (so scene
+/// coordinates never enter, and periodic shifts are the caller's). In 2-D the rotations are about z and z of everything
+/// is ignored.
+void contactQuery(
+        const ConvexShape&     shape1,
+        const Matrix3&         rotation1,
+        const ConvexShape&     shape2,
+        const Matrix3&         rotation2,
+        const Vector3&         centre2,
+        const ContactSettings& settings,
+        PairMemory&            memory,
+        ContactWorkspace&      workspace,
+        ContactResult&         result);
+
+/// Name of the instruction set the query runs with on this machine.
+const char* instructionSet();
+
+} // namespace polytope

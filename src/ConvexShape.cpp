@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ConvexShape.hpp"
+
+#include "SimplexLp.hpp"
+
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace polytope {
+
+namespace {
+
+	/// Largest inscribed ball by the same simplex, started from a simplex of artificial planes far outside.
+	template <int D> Real inscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall)
+	{
+		const int         total = padded + padWidth;
+		std::vector<Real> rows(std::size_t(D + 3) * total, Real(0));
+		PairPlanes<Real, D> planes;
+		for (int k = 0; k < D; ++k)
+			planes.normal[k] = rows.data() + k * total;
+		planes.offset = rows.data() + D * total;
+		planes.slack  = rows.data() + (D + 1) * total;
+		planes.rate   = rows.data() + (D + 2) * total;
+		planes.first  = padded;
+		planes.total  = total;
+		for (int i = 0; i < total; ++i) {
+			for (int k = 0; k < D; ++k)
+				planes.normal[k][i] = i < padded ? arrays[k * padded + i] : Real(0);
+			planes.offset[i] = i < padded ? arrays[D * padded + i] : Real(padOffset);
+		}
+		// a regular simplex (tetrahedron, triangle): Σ a = 0, so λ = 1/(D+1) is feasible
+		LpBasis<Real, D> basis;
+		const Real       corner[4][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
+		const Real       half = Real(1) / 2, root3 = std::sqrt(Real(3)) / 2;
+		const Real       fan[3][2] = { { 0, 1 }, { -root3, -half }, { root3, -half } };
+		for (int c = 0; c <= D; ++c) {
+			for (int k = 0; k < D; ++k)
+				planes.normal[k][padded + c] = D == 3 ? corner[c][k] / std::sqrt(Real(3)) : fan[c][k];
+			planes.offset[padded + c] = reach;
+			basis.plane[c]            = padded + c;
+		}
+		int pivots = 0;
+		solveBasis<Real, D>(planes, basis);
+		const LpStatus status = solveLp<Real, D, 1>(planes, basis, tolerance::violation * reach, Real(padOffset), 1000 + 100 * int(set.size()), pivots);
+		for (int k = 0; k <= D; ++k) {
+			if (status != LpStatus::Optimal || basis.plane[k] >= padded)
+				throw std::runtime_error("ConvexShape: the inscribed ball of a bounded set was not found");
+			planesOfBall[k] = basis.plane[k];
+		}
+		return -basis.infeasibility;
+	}
+
+} // namespace
+
+ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness)
+        : planes_(normalised(planes))
+        , cornerRadius_(cornerRadius)
+        , thickness_(thickness)
+        , polyhedron_(polytope::polyhedron(planes_, thickness))
+        , mass_(massProperties(polyhedron_))
+        , padded_((int(planes_.size()) + padWidth - 1) / padWidth * padWidth)
+{
+	const int D = dimension();
+	arrays_.assign(std::size_t(D + 1) * padded_, Real(0));
+	for (int i = 0; i < padded_; ++i) {
+		const bool real = i < planeCount();
+		for (int k = 0; k < D; ++k)
+			arrays_[k * padded_ + i] = real ? planes_.normals[i][k] : Real(0);
+		arrays_[D * padded_ + i] = real ? planes_.offsets[i] : Real(padOffset);
+	}
+	for (const Vector3& v : polyhedron_.vertices)
+		boundingRadius_ = std::max(boundingRadius_, D == 2 ? v.head<2>().norm() : v.norm());
+	// artificial planes must lie outside every ball that touches the set's planes
+	Real reach = boundingRadius_;
+	for (Real d : planes_.offsets)
+		reach = std::max(reach, std::abs(d));
+	reach *= 16;
+	inscribedRadius_ = D == 3 ? inscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_)
+	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
+	if (!std::isfinite(double(cornerRadius)) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
+		throw std::invalid_argument(
+		        "cornerRadius: must be at least 0 and smaller than the circumscribed ball's radius (" + std::to_string(double(boundingRadius_))
+		        + " m), usually a fraction of the inscribed one's (" + std::to_string(double(inscribedRadius_)) + " m); got "
+		        + std::to_string(double(cornerRadius)));
+}
+
+std::shared_ptr<const ConvexShape> ConvexShape::shared(const HalfSpaces& planes, Real cornerRadius, Real thickness)
+{
+	// keyed by the exact numbers; entries whose last body is gone are swept when the map has doubled
+	using Key = std::vector<Real>;
+	static std::mutex                                  mutex;
+	static std::map<Key, std::weak_ptr<const ConvexShape>> known;
+	static std::size_t                                 sweepAt = 64;
+
+	Key key { Real(planes.dimension), cornerRadius, thickness };
+	for (const Vector3& n : planes.normals)
+		key.insert(key.end(), { n[0], n[1], n[2] });
+	key.insert(key.end(), planes.offsets.begin(), planes.offsets.end());
+	for (const Real& number : key)
+		if (!(number == number)) return std::make_shared<const ConvexShape>(planes, cornerRadius, thickness); // NaN: refused there
+
+	const std::lock_guard<std::mutex> lock(mutex);
+	if (auto shape = known[key].lock()) return shape;
+	auto shape = std::make_shared<const ConvexShape>(planes, cornerRadius, thickness);
+	known[key] = shape;
+	if (known.size() > sweepAt) {
+		for (auto it = known.begin(); it != known.end();)
+			it = it->second.expired() ? known.erase(it) : std::next(it);
+		sweepAt = std::max<std::size_t>(64, 2 * known.size());
+	}
+	return shape;
+}
+
+} // namespace polytope

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "ShapeConstruction.hpp"
+
+namespace polytope {
+
+/// Volume, centroid and second moments for unit density.
+struct MassProperties {
+	Real    volume = 0;
+	Vector3 centroid = Vector3::Zero();
+	Matrix3 inertia  = Matrix3::Zero(); ///< about the centroid, axes of the vertices, per unit density [m^5]
+};
+
+/// Exact for a polyhedron (divergence theorem over the faces' triangles, taken about an inner point so that a shape far
+/// from the origin loses no digits).
+MassProperties massProperties(const Polyhedron& shape);
+
+/// Principal axes: rotation whose columns are the axes (det = +1), moments ascending unless the tensor is already
+/// diagonal to rounding: then identity, so a user's own aligned axes are kept. For dimension 2 the third axis stays z.
+struct PrincipalAxes {
+	Matrix3 rotation = Matrix3::Identity();
+	Vector3 moments  = Vector3::Zero();
+};
+PrincipalAxes principalAxes(const Matrix3& inertia, int dimension = 3);
+
+} // namespace polytope

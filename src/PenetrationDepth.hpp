@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "PairPlanes.hpp"
+
+/// Distance from the contact point to a body's surface along a direction (Boon et al. 2012, section 2.5, who bracket it
+/// numerically): for planes the closed form  exit = min over a·n > 0 of (d − a·x)/(a·n).
+/// The penetration depth is exit₁(+n) + exit₂(−n).
+namespace polytope {
+
+/// Needs planes.slack at the point (innerPotentialGradient leaves it). `direction` is ±1 times the unit vector n.
+template <class R, int D, int W> POLYTOPE_INLINE R exitDistance(const PairPlanes<R, D>& planes, int body, const R* n, R direction)
+{
+	using V = typename Lanes<R, W>::Type;
+	V N[D];
+	for (int k = 0; k < D; ++k)
+		N[k] = broadcast<R, W>(direction * n[k]);
+	const V zero = broadcast<R, W>(0), far = broadcast<R, W>(R(padOffset));
+	V       nearest = far;
+	for (int i = planes.begin(body); i < planes.end(body); i += W) {
+		V rate = load<R, W>(planes.normal[0] + i) * N[0];
+		for (int k = 1; k < D; ++k)
+			rate += load<R, W>(planes.normal[k] + i) * N[k];
+		const V distance = load<R, W>(planes.slack + i) / rate;
+		nearest          = minOf(nearest, V(rate > zero ? distance : far));
+	}
+	return horizontalMin<R, W>(nearest);
+}
+
+} // namespace polytope

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Status.hpp"
+
+namespace polytope {
+
+const char* statusName(ContactStatus status)
+{
+	switch (status) {
+		case ContactStatus::Separated: return "separated";
+		case ContactStatus::Contact: return "contact";
+		case ContactStatus::NormalFromOneBody: return "normalFromOneBody";
+		case ContactStatus::NormalFromDual: return "normalFromDual";
+		case ContactStatus::RoundingLimited: return "roundingLimited";
+		case ContactStatus::CentreNotConverged: return "centreNotConverged";
+		case ContactStatus::LpNotConverged: return "lpNotConverged";
+		case ContactStatus::NoDirection: return "noDirection";
+		case ContactStatus::Failed: return "failed";
+	}
+	return "unknown";
+}
+
+} // namespace polytope

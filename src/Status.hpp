@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace polytope {
+
+/// How one contact query ended. Everything but Failed gives a usable answer; the names are what scripts read.
+enum class ContactStatus : int {
+	Separated = 0,      ///< s* ≥ −tolerance: no contact
+	Contact,            ///< centre converged, normal from both bodies' inner potentials
+	NormalFromOneBody,  ///< the point lies deeper than cornerRadius in one body: the normal is the other body's gradient
+	NormalFromDual,     ///< deeper than cornerRadius in both (or the gradients cancel): the normal is the LP's dual direction
+	RoundingLimited,    ///< the overlap is so thin that Newton met rounding: the centre is as good as the planes' own digits
+	CentreNotConverged, ///< no analytic centre within the iteration limit: the LP's point was used instead
+	LpNotConverged,     ///< the simplex met its pivot limit: the bound reached so far was used
+	NoDirection,        ///< coincident bodies: no separating direction exists; the line of centres or the z axis was used
+	Failed,             ///< no finite answer: treated as separated and counted
+};
+
+constexpr int contactStatusCount = int(ContactStatus::Failed) + 1;
+
+/// The name scripts see, e.g. "contact".
+const char* statusName(ContactStatus status);
+
+} // namespace polytope

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Real.hpp"
+
+#include <limits>
+
+/// Every threshold of the contact path: meaning, scale, reason. Lengths are relative to the pair's size, the
+/// smaller of the two bodies' circumradii; weights and decrements are pure numbers. (Shape construction has its own in ConstructionTolerances.hpp.)
+namespace polytope::tolerance {
+
+constexpr Real rounding = std::numeric_limits<Real>::epsilon();
+
+/// Default of `tolerance` (× size): a pair touches when s* < −tolerance. A plane moved into the contact frame is rounded
+/// by about 4 × rounding × size; below ten times that the sign of s* is not decided by the input.
+constexpr Real contact = 45 * rounding;
+
+/// × size: a plane counts as violated by the LP's point beyond this. Evaluating a·x − d near the contact costs a few
+/// roundings of the size; a smaller value would pivot on noise.
+constexpr Real violation = 8 * rounding;
+
+/// A basis with a weight λ below −this is not dual feasible and is repaired or refused (λ sum to 1). A quarter of the
+/// digits: a basis of nearly parallel planes carries weights this noisy, and the final test is on s*, not on λ.
+constexpr Real weight = 1024 * rounding;
+
+/// Pivot elements below this are not pivoted on (columns are unit normals, so w is a pure number).
+constexpr Real pivot = 256 * rounding;
+
+/// |det| of the basis matrix of unit columns below which the basis is treated as singular and not warm-started from.
+constexpr Real singularBasis = 16 * rounding;
+
+/// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
+constexpr int stalledPivots = 12;
+
+/// Pivots after which the LP gives up, per plane: 20 × the largest count seen in the fuzz set (2 per plane).
+constexpr int pivotsPerPlane = 40;
+constexpr int pivotsAtLeast  = 200;
+
+/// Default of `newtonTolerance`: the analytic centre is accepted when the step that follows is predicted shorter than
+/// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
+constexpr Real newton = 1e-10;
+
+/// × size: how far the depth may be off for a centre not yet reached. The remaining step, in the local norm, is kept
+/// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
+constexpr Real depth = 2e-14;
+
+/// Newton decrement below which the full step is taken and convergence is quadratic (theory: any value < 0.38 for a
+/// self-concordant barrier); above it the step length comes from a line search.
+constexpr Real fullStep = 0.25;
+
+/// A full step that does not halve the decrement has met rounding: the centre is as good as the planes. Accepted as
+/// `RoundingLimited` when the decrement is below this; above it the solve has failed.
+constexpr Real stagnation = 0.1;
+
+constexpr int newtonIterations = 100;
+
+/// Line search stops when the slope has fallen to this fraction of its start: a crude search suffices, the next
+/// Hessian is worth more.
+constexpr Real lineSearchSlope = 0.1;
+constexpr int  lineSearchSteps = 30;
+
+/// A carried starting point may go at most this fraction of the way from the LP's point to the nearest plane.
+constexpr Real interiorStep = 0.9;
+
+/// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
+constexpr Real direction = 64 * rounding;
+
+/// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
+/// into overlap, so that its point is an analytic centre that continues the touching one's.
+constexpr Real gapSkin = 1e-6;
+
+} // namespace polytope::tolerance

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# shellcheck shell=bash
+#
+# What this machine's package system knows. Needs `project` and `cache`.
+# shellcheck disable=SC2154
+
+packages() { sed -E 's/#.*//; s/[[:space:]]+//g; /^$/d' "$project/tools/packages.txt"; }
+
+# Version of the installed package $1, in the root folder $2 (default /); fails if it is not installed.
+installedVersion() {
+	local status
+	status=$(dpkg-query --admindir="${2:-}/var/lib/dpkg" -W -f '${db:Status-Status} ${Version}' "$1" 2>/dev/null) || return 1
+	[[ $status == installed\ * ]] && echo "${status#installed }"
+}
+
+recentYade() { [ -n "${1:-}" ] && dpkg --compare-versions "$1" ge 2025; } # the first one we know the features of
+
+# Debian's testing and unstable have no VERSION_ID
+osRelease() { sed -n "s/^$1=//p" /etc/os-release | tr -d '"' | grep . || { [ "$1" = VERSION_ID ] && echo 99; }; }
+
+# Can this machine be used as it is?
+hasRecentYade() {
+	[ "${YADE_POLYTOPE_OWN_ROOT:-0}" = 1 ] && return 1
+	command -v dpkg-query apt-cache >/dev/null || return 1
+	recentYade "$(installedVersion yade)" && return 0
+	local candidate
+	candidate=$(LC_ALL=C apt-cache policy yade 2>/dev/null | sed -n 's/^  Candidate: //p')
+	if [ -z "$candidate" ] || [ "$candidate" = "(none)" ]; then
+		# no package lists yet, as in a fresh container
+		[ "$(osRelease ID)" = debian ] && dpkg --compare-versions "$(osRelease VERSION_ID)" ge 13
+		return
+	fi
+	recentYade "$candidate"
+}
+
+installMissingPackages() {
+	local missing=() package
+	while read -r package; do
+		installedVersion "$package" >/dev/null || missing+=("$package")
+	done < <(packages)
+	[ ${#missing[@]} -eq 0 ] && return
+	local line="apt-get install --no-install-recommends ${missing[*]}"
+	if [ "$(id -u)" -ne 0 ]; then
+		fail "${#missing[@]} packages are missing on this machine. Have them installed:" "sudo $line" \
+			"or let yade-polytope make a Debian root of its own: YADE_POLYTOPE_OWN_ROOT=1 ./run …"
+	fi
+	step "reading the package lists" "Check apt's sources and the network." apt-get update
+	# shellcheck disable=SC2086
+	DEBIAN_FRONTEND=noninteractive step "installing ${#missing[@]} packages" "Try by hand: $line" ${line/install/install -y}
+}
+
+# The archives of the distribution $1 that apt knows here: a line "URI SUITE COMPONENT" each. apt itself reads its source
+# files, in whatever format. Without package lists it cannot tell whose an archive is: then they are read into a folder of
+# our own.
+archivesOf() {
+	# shellcheck disable=SC2016
+	local lists=() format='$(ORIGIN)|$(LABEL)|$(REPO_URI)|$(RELEASE)|$(COMPONENT)'
+	command -v apt-get >/dev/null || return 0
+	if [ -z "$(apt-get indextargets 2>/dev/null)" ]; then
+		mkdir -p "$cache/apt/lists/partial"
+		lists=(-o "Dir::State::lists=$cache/apt/lists" -o "APT::Sandbox::User=$(id -un)")
+		apt-get "${lists[@]}" update >/dev/null 2>&1 || true
+	fi
+	apt-get "${lists[@]}" indextargets --format "$format" 'Created-By: Packages' | sed -n "s/^$1|$1|//Ip" | tr '|' ' ' | sort -u
+}
+ownArchives() { archivesOf "$(osRelease ID)"; }
+
+# The address Debian 13 is fetched from.
+debianMirror() {
+	if [ -n "${YADE_POLYTOPE_MIRROR:-}" ]; then
+		echo "$YADE_POLYTOPE_MIRROR"
+	else
+		archivesOf Debian | cut -d ' ' -f 1 | head -n 1
+	fi
+}
