@@ -31,6 +31,10 @@ isotropyTolerance = 1e-9
 """Relative difference of principal moments up to which a body is integrated as isotropic (exact for equal moments)."""
 
 
+singlePrecision = 1e-6
+"""Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
+
+
 def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid.
 
@@ -50,8 +54,7 @@ def fromVertices(points, **body):
 	:param points: (n, 3) points [m]; points inside the hull are allowed
 	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
 	"""
-	normals, offsets = _polytope.hull(_vectors(points, 'points', 3), 3)
-	return _bodyOf(normals, offsets, **body)
+	return _hullOf(_vectors(points, 'points', 3), 0, **body)
 
 
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
@@ -93,7 +96,7 @@ def polygon(points2d, thickness=1.0, **body):
 	"""
 	points = [Vector3(p[0], p[1], 0) for p in _vectors(points2d, 'points2d', 2)]
 	try:
-		normals, offsets = _polytope.hull(points, 2)
+		normals, offsets = _polytope.hull(points, 2, 0)
 	except ValueError as error:
 		raise ValueError(str(error).replace('points', 'points2d', 1)) from None
 	return _bodyOf(normals, offsets, dimension=2, thickness=thickness, **body)
@@ -118,9 +121,14 @@ def fromMesh(path, scale=1.0, **body):
 	except Exception as error:  # trimesh raises whatever its many readers raise
 		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
 	try:
-		return fromVertices(points, **body)
+		return _hullOf(_vectors(points, 'points', 3), singlePrecision, **body)
 	except ValueError as error:
 		raise ValueError(str(error).replace('points', f"path: '{path}'", 1)) from None
+
+
+def _hullOf(points, coplanar, **body):
+	normals, offsets = _polytope.hull(points, 3, coplanar)
+	return _bodyOf(normals, offsets, **body)
 
 
 def _bodyOf(

@@ -14,14 +14,17 @@
 /// lets a start close to a face's corner cross the whole face in one step where a damped step would double its distance.
 ///
 /// The frame must have its last axis along the contact normal and its origin near the overlap: then a thin overlap makes
-/// the Hessian graded (one axis large), which Cholesky does not mind, instead of ill-conditioned.
+/// the Hessian graded (one axis large), which Cholesky does not mind, instead of ill-conditioned. An overlap that is thin
+/// across two axes (parallel edges that just overlap, blocks of a wall that meet at a corner) needs the other axes along
+/// its own too: where Cholesky finds digits cancelling, `Skewed` asks for stiffAxes().
 namespace polytope {
 
-enum class CentreStatus { Converged, RoundingLimited, NotConverged };
+enum class CentreStatus { Converged, RoundingLimited, Skewed, NotConverged };
 
 template <class R, int D> struct BarrierStep {
-	R direction[D];
-	R decrement; ///< √(Δᵀ H Δ), the step's length in the local norm
+	R    direction[D];
+	R    decrement; ///< √(Δᵀ H Δ), the step's length in the local norm
+	bool skewed;    ///< not computed: the Hessian's digits cancel in these axes
 };
 
 /// Gradient and Hessian at x; slacks are left in planes.slack. False if x is not strictly inside.
@@ -63,10 +66,12 @@ POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R*
 }
 
 /// Newton direction by Cholesky, eliminating the last axis (the contact normal, the large one) first.
-/// Returns false if the Hessian is not positive definite to rounding.
+/// Returns false if the Hessian is skewed, or not positive definite to rounding.
 template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const R (&h)[D][D], BarrierStep<R, D>& step)
 {
 	using std::sqrt;
+	const R kept = R(tolerance::cancellation);
+	step.skewed  = false;
 	if constexpr (D == 3) {
 		// LDLᵀ in the order z, y, x
 		const R dz = h[2][2];
@@ -74,10 +79,10 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 		const R lzy = h[2][1] / dz, lzx = h[2][0] / dz;
 		const R dy = h[1][1] - lzy * h[2][1];
 		const R yx = h[1][0] - lzy * h[2][0];
-		if (!(dy > 0)) return false;
 		const R lyx = yx / dy;
 		const R dx  = h[0][0] - lzx * h[2][0] - lyx * yx;
-		if (!(dx > 0)) return false;
+		step.skewed = !(dy > kept * h[1][1]) || !(dx > kept * h[0][0]);
+		if (step.skewed) return false;
 		const R bz = -g[2], by = -g[1] - lzy * bz, bx = -g[0] - lzx * bz - lyx * by;
 		const R sz = bz / dz, sy = by / dy, sx = bx / dx;
 		step.direction[0] = sx;
@@ -89,7 +94,8 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 		if (!(dy > 0)) return false;
 		const R l  = h[1][0] / dy;
 		const R dx = h[0][0] - l * h[1][0];
-		if (!(dx > 0)) return false;
+		step.skewed = !(dx > kept * h[0][0]);
+		if (step.skewed) return false;
 		const R by = -g[1], bx = -g[0] - l * by;
 		const R sy = by / dy, sx = bx / dx;
 		step.direction[0] = sx;
@@ -97,6 +103,41 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 		step.decrement    = sqrt(by * sy + bx * sx);
 	}
 	return step.decrement >= 0; // false for NaN
+}
+
+/// Axes in which the Hessian at the point of planes.slack is graded: the last along the nearest plane's normal, the one
+/// before along the steepest plane across it (a_i/slack_i with the last axis taken out). QR factorisation of the rows
+/// a_i/slack_i, with pivoting.
+template <class R, int D> POLYTOPE_INLINE Rotation<R, D> stiffAxes(const PairPlanes<R, D>& planes)
+{
+	using std::sqrt;
+	int nearest = 0;
+	for (int i = 1; i < planes.total; ++i)
+		if (planes.slack[i] < planes.slack[nearest]) nearest = i;
+	R n[D], d;
+	planes.plane(nearest, n, d);
+	const R length = sqrt(dot<R, D>(n, n));
+	for (int k = 0; k < D; ++k)
+		n[k] /= length;
+	if constexpr (D == 2) return axesAround<R, D>(n);
+	else {
+		R best = 0, y[D] = {};
+		for (int i = 0; i < planes.total; ++i) {
+			R a[D];
+			planes.plane(i, a, d);
+			for (int twice = 0; twice < 2; ++twice) {
+				const R along = dot<R, D>(a, n);
+				for (int k = 0; k < D; ++k)
+					a[k] -= along * n[k];
+			}
+			const R across = dot<R, D>(a, a);
+			if (!(across > best * planes.slack[i] * planes.slack[i])) continue;
+			best = across / (planes.slack[i] * planes.slack[i]);
+			for (int k = 0; k < D; ++k)
+				y[k] = a[k] / sqrt(across);
+		}
+		return { { { y[1] * n[2] - y[2] * n[1], y[2] * n[0] - y[0] * n[2], y[0] * n[1] - y[1] * n[0] }, { y[0], y[1], y[2] }, { n[0], n[1], n[2] } } };
+	}
 }
 
 /// Step length along the direction: (nearly) the zero of φ'(t) = Σ ρ_i/(1 − t ρ_i), from the slacks of the last
@@ -147,7 +188,8 @@ POLYTOPE_INLINE CentreStatus analyticCentre(const PairPlanes<R, D>& planes, R* x
 	for (;;) {
 		R                 g[D], h[D][D];
 		BarrierStep<R, D> step;
-		if (!barrierDerivatives<R, D, W>(planes, x, g, h) || !newtonStep<R, D>(g, h, step)) return CentreStatus::NotConverged;
+		if (!barrierDerivatives<R, D, W>(planes, x, g, h)) return CentreStatus::NotConverged;
+		if (!newtonStep<R, D>(g, h, step)) return step.skewed ? CentreStatus::Skewed : CentreStatus::NotConverged;
 		decrement = step.decrement;
 		// rounding shows as a full step that did not contract: stay where we are
 		const bool stalled = previous <= R(tolerance::fullStep) && step.decrement > previous / 2;

@@ -83,7 +83,7 @@ POLYTOPE_INLINE bool startFrom(const PairInput& in, const ContactFrame<R, D>& f,
 	R a[D + 1][D], d[D + 1];
 	for (int k = 0; k <= D; ++k)
 		homePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a[k], d[k]);
-	if (!solveBasis<R, D>(a, d, basis) || !dualFeasible<R, D>(basis)) return false;
+	if (!solveBasis<R, D>(a, d, basis)) return false;
 	for (int j = 0; j < D; ++j) {
 		dual[j] = 0;
 		for (int k = 0; k <= D; ++k)
@@ -100,15 +100,6 @@ template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R,
 		for (int k = 0; k <= D; ++k)
 			if (basis.plane[k] < planes.first) dual[j] += basis.weight[k] * planes.normal[j][basis.plane[k]];
 	}
-}
-
-/// s of the basis less what weights below zero by rounding may pretend: a lower bound of s* within `reach` of x.
-template <class R, int D> POLYTOPE_INLINE R lowerBound(const LpBasis<R, D>& basis, R reach)
-{
-	R negative = 0;
-	for (int k = 0; k <= D; ++k)
-		negative -= minOf<R>(basis.weight[k], 0);
-	return basis.infeasibility - negative * reach;
 }
 
 template <class R, int D> POLYTOPE_INLINE R norm(const R* v)
@@ -288,6 +279,18 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	return planes;
 }
 
+/// Turns the frame's axes about its origin.
+template <class R, int D> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, const Rotation<R, D>& turn)
+{
+	const Rotation<R, D> old = f.axes;
+	for (int j = 0; j < D; ++j)
+		for (int k = 0; k < D; ++k) {
+			f.axes.m[j][k] = 0;
+			for (int i = 0; i < D; ++i)
+				f.axes.m[j][k] += turn.m[j][i] * old.m[i][k];
+		}
+}
+
 /// Turns the frame: last axis along `direction` (if it has one), origin to x; both in the planes' frame.
 template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>& f, const R* direction, const R* x)
 {
@@ -298,16 +301,9 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>&
 	const Rotation<R, D> turn = axesAround<R, D>(n);
 	R                    move[D];
 	rotateBack<R, D>(f.axes, x, move);
-	Rotation<R, D> axes;
-	for (int j = 0; j < D; ++j)
-		for (int k = 0; k < D; ++k) {
-			axes.m[j][k] = 0;
-			for (int i = 0; i < D; ++i)
-				axes.m[j][k] += turn.m[j][i] * f.axes.m[i][k];
-		}
+	turnFrame<R, D>(f, turn);
 	for (int k = 0; k < D; ++k)
 		f.origin[k] += move[k];
-	f.axes = axes;
 	return turn;
 }
 
@@ -338,11 +334,12 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	ContactFrame<R, D> f         = contactFrame<R, D>(in);
 	const R            tolerance = settings.tolerance * f.size;
 	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
+	const R            reach     = 2 * in.shape[1 - f.home]->boundingRadius(); // no point of a body is farther from its planes
 
 	// 1. a first basis: the last step's, or the smaller inscribed ball's
 	LpBasis<R, D> basis;
 	R             dual[D];
-	const bool    warm = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual);
+	const bool    warm = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
 	if (!warm) {
 		const int ball = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
 		for (int k = 0; k <= D; ++k)
@@ -356,7 +353,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		}
 		memory.hasBasis = true;
 	}
-	if (lowerBound<R, D>(basis, 2 * f.size) > dismiss) {
+	if (lowerBound<R, D>(basis, reach) > dismiss) {
 		out.status        = ContactStatus::Separated;
 		out.infeasibility = basis.infeasibility;
 		out.dismissed     = true;
@@ -375,7 +372,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	LpStatus lp = LpStatus::PivotLimit;
 	if (solveBasis<R, D>(planes, basis)) {
 		const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
-		lp              = solveLp<R, D, W>(planes, basis, R(tolerance::violation) * f.size, dismiss, limit, out.simplexPivots);
+		lp              = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
 		rememberBasis<R, D>(planes, basis, memory, out);
 	}
 	const long lpDone = settings.timed ? nanoseconds() : 0;
@@ -432,8 +429,23 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		// what is left of the way to the centre moves the depth by at most that part of itself
 		const R            deep   = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
 		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
-		const CentreStatus centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
-		if (centre == CentreStatus::NotConverged) outcome = ContactStatus::CentreNotConverged;
+		CentreStatus       centre;
+		for (int turns = 0;; ++turns) {
+			centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
+			if (centre != CentreStatus::Skewed || turns == tolerance::turns) break;
+			const Rotation<R, D> turn    = stiffAxes<R, D>(planes);
+			const R              here[D] = {};
+			turnPlanes<R, D, W>(turn, here, planes);
+			turnFrame<R, D>(f, turn);
+			R* const turned[] = { start, x, dual };
+			for (R* v : turned) {
+				R old[D];
+				for (int k = 0; k < D; ++k)
+					old[k] = v[k];
+				rotate<R, D>(turn, old, v);
+			}
+		}
+		if (centre == CentreStatus::NotConverged || centre == CentreStatus::Skewed) outcome = ContactStatus::CentreNotConverged;
 		else {
 			if (centre == CentreStatus::RoundingLimited && touching) outcome = ContactStatus::RoundingLimited;
 			for (int k = 0; k < D; ++k)

@@ -44,7 +44,7 @@ namespace {
 		}
 		int pivots = 0;
 		solveBasis<Real, D>(planes, basis);
-		const LpStatus status = solveLp<Real, D, 1>(planes, basis, tolerance::violation * reach, Real(padOffset), 1000 + 100 * int(set.size()), pivots);
+		const LpStatus status = solveLp<Real, D, 1>(planes, basis, reach, Real(padOffset), reach, 1000 + 100 * int(set.size()), pivots);
 		for (int k = 0; k <= D; ++k) {
 			if (status != LpStatus::Optimal || basis.plane[k] >= padded)
 				throw std::runtime_error("ConvexShape: the inscribed ball of a bounded set was not found");
@@ -61,16 +61,9 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
         , thickness_(thickness)
         , polyhedron_(polytope::polyhedron(planes_, thickness))
         , mass_(massProperties(polyhedron_))
-        , padded_((int(planes_.size()) + padWidth - 1) / padWidth * padWidth)
 {
+	fillArrays();
 	const int D = dimension();
-	arrays_.assign(std::size_t(D + 1) * padded_, Real(0));
-	for (int i = 0; i < padded_; ++i) {
-		const bool real = i < planeCount();
-		for (int k = 0; k < D; ++k)
-			arrays_[k * padded_ + i] = real ? planes_.normals[i][k] : Real(0);
-		arrays_[D * padded_ + i] = real ? planes_.offsets[i] : Real(padOffset);
-	}
 	for (const Vector3& v : polyhedron_.vertices)
 		boundingRadius_ = std::max(boundingRadius_, D == 2 ? v.head<2>().norm() : v.norm());
 	// artificial planes must lie outside every ball that touches the set's planes
@@ -85,6 +78,30 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 		        "cornerRadius: must be at least 0 and smaller than the circumscribed ball's radius (" + std::to_string(double(boundingRadius_))
 		        + " m), usually a fraction of the inscribed one's (" + std::to_string(double(inscribedRadius_)) + " m); got "
 		        + std::to_string(double(cornerRadius)));
+}
+
+void ConvexShape::fillArrays()
+{
+	const int D = dimension();
+	padded_     = (planeCount() + padWidth - 1) / padWidth * padWidth;
+	arrays_.assign(std::size_t(D + 1) * padded_, Real(0));
+	for (int i = 0; i < padded_; ++i) {
+		const bool real = i < planeCount();
+		for (int k = 0; k < D; ++k)
+			arrays_[k * padded_ + i] = real ? planes_.normals[i][k] : Real(0);
+		arrays_[D * padded_ + i] = real ? planes_.offsets[i] : Real(padOffset);
+	}
+}
+
+std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNormal, int dimension)
+{
+	std::shared_ptr<ConvexShape> wall(new ConvexShape);
+	wall->planes_         = { { unitNormal }, { Real(0) }, dimension };
+	wall->inscribedRadius_ = wall->boundingRadius_ = wall->thickness_ = std::numeric_limits<Real>::infinity();
+	// below padOffset, so neutral planes stay neutral, and far above every slack
+	wall->cornerRadius_ = Real(padOffset) / 1e30;
+	wall->fillArrays();
+	return wall;
 }
 
 std::shared_ptr<const ConvexShape> ConvexShape::shared(const HalfSpaces& planes, Real cornerRadius, Real thickness)

@@ -23,6 +23,10 @@ public:
 	/// The shared instance for these arguments; builds it only if no body holds one. Thread-safe.
 	static std::shared_ptr<const ConvexShape> shared(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
 
+	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded
+	/// shape, not another half-space. Its gradient is its own normal at any depth.
+	static std::shared_ptr<const ConvexShape> halfSpace(const Vector3& unitNormal, int dimension);
+
 	int  dimension() const { return planes_.dimension; }
 	int  planeCount() const { return int(planes_.size()); }
 	int  paddedCount() const { return padded_; }
@@ -46,9 +50,12 @@ public:
 	const MassProperties& mass() const { return mass_; }
 
 private:
+	ConvexShape() = default; // for halfSpace
+	void fillArrays();
+
 	HalfSpaces         planes_;
-	Real               cornerRadius_;
-	Real               thickness_;
+	Real               cornerRadius_ = 0;
+	Real               thickness_    = 1;
 	Polyhedron         polyhedron_;
 	MassProperties     mass_;
 	int                padded_ = 0;

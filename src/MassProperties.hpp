@@ -13,7 +13,9 @@ struct MassProperties {
 };
 
 /// Exact for a polyhedron (divergence theorem over the faces' triangles, taken about an inner point so that a shape far
-/// from the origin loses no digits).
+/// from the origin loses no digits; a thin shape is turned to its own directions first). Refuses (naming `shape`) a shape
+/// without positive volume. What no tensor in other than its principal axes can hold is a needle's small moment, once it is
+/// below rounding of the large ones: turn the planes to the principal axes and compute again.
 MassProperties massProperties(const Polyhedron& shape);
 
 /// Principal axes: rotation whose columns are the axes (det = +1), moments ascending unless the tensor is already

@@ -2,12 +2,11 @@
 #include "ShapeConstruction.hpp"
 
 #include "ConstructionTolerances.hpp"
+#include "LocalPlanes.hpp"
 #include "TriangleClusters.hpp"
 
 #include <Eigen/QR>
 
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -20,134 +19,9 @@
 namespace polytope {
 namespace {
 
-	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
-
-	[[noreturn]] void refuseOpen(const Vector3& direction)
-	{
-		std::ostringstream out;
-		out.precision(3);
-		out << "normals: the set is unbounded (it extends without end along (";
-		for (int k = 0; k < 3; ++k)
-			out << (k ? ", " : "") << (std::abs(double(direction[k])) < 5e-4 ? 0. : double(direction[k]));
-		out << ")); add planes that close it";
-		refuse(out.str());
-	}
-
-	/// A unit direction that no plane closes, or zero. Each face of the cube max|y_k| = 1 is asked in turn.
-	Vector3 openDirection(const HalfSpaces& set)
-	{
-		const std::vector<Real> level(set.size(), Real(0));
-		for (int k = 0; k < set.dimension; ++k)
-			for (int sign = -1; sign <= 1; sign += 2) {
-				exact::Bounds bounds { Vector3::Constant(-1), Vector3::Constant(1) };
-				if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
-				bounds.lower[k] = bounds.upper[k] = sign;
-				const exact::DeepPoint flattest  = exact::deepest(set.normals, level, 1, bounds);
-				if (flattest.depth >= -construction::recession) return flattest.point.normalized();
-			}
-		return Vector3::Zero();
-	}
-
-	void refuseIfOpen(const HalfSpaces& set)
-	{
-		const Vector3 direction = openDirection(set);
-		if (direction.squaredNorm() > 0) refuseOpen(direction);
-	}
-
-	/// Asks for an open direction first: between walls that are parallel but for rounding, everything looks flat from afar.
-	[[noreturn]] void refuseFlat(const HalfSpaces& set)
-	{
-		refuseIfOpen(set);
-		refuse("offsets: the set is flat (it has points, but no interior to rounding); move opposite planes apart or, if the body lies "
-		       "far from the origin, describe it near the origin");
-	}
-
 	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
 
-	/// The power of two below: dividing by it changes no digit.
-	Real powerOfTwo(const Real& size)
-	{
-		using std::frexp;
-		using std::ldexp;
-		int exponent = 0;
-		frexp(size, &exponent);
-		return ldexp(Real(1), exponent - 1);
-	}
-
-	/// The planes about an inner point, in a unit that brings the inradius to between 1 and 2. In 2-D two caps are added,
-	/// and in both dimensions four closing planes at the horizon, so that every set has vertices all round.
-	struct Local {
-		Vector3              centre;
-		Real                 unit;
-		Real                 distance; ///< of the centre from the origin: offsets carry its rounding
-		Real                 inradius;
-		std::vector<Vector3> normals;
-		std::vector<Real>    slacks;
-		Indices              plane; ///< index among the caller's planes, or one of the two below
-
-		static constexpr int cap = -1, closing = -2;
-
-		void add(const Vector3& normal, const Real& slack, int index)
-		{
-			normals.push_back(normal);
-			slacks.push_back(slack);
-			plane.push_back(index);
-		}
-		void drop(std::size_t i)
-		{
-			normals.erase(normals.begin() + std::ptrdiff_t(i));
-			slacks.erase(slacks.begin() + std::ptrdiff_t(i));
-			plane.erase(plane.begin() + std::ptrdiff_t(i));
-		}
-		bool isClosing(int i) const { return plane[std::size_t(i)] == closing; }
-		/// The length that rounding is measured by.
-		Real size(const Real& extent) const { return std::max(extent, distance); }
-	};
-
-	/// Which of the two a negative depth means: no point, or flat and rounded. Measured by the farthest plane, for lack of
-	/// an extent; a needlessly far plane can only make a small gap read "flat".
-	void refuseIfEmpty(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const exact::DeepPoint& ball)
-	{
-		Real size = ball.point.norm();
-		for (std::size_t i = 0; i < normals.size(); ++i)
-			size = std::max(size, magnitude(offsets[i] - normals[i].dot(ball.point)));
-		if (ball.depth < -construction::coincidence * size)
-			refuse("offsets: the half-spaces have no common point; a plane is normal·x <= offset with the normal pointing out of the body: "
-			       "check the signs of normals and offsets");
-	}
-
-	/// Refuses what has no interior.
-	Local aboutInnerPoint(const HalfSpaces& set)
-	{
-		Real largest = 0;
-		for (const Real& offset : set.offsets)
-			largest = std::max(largest, magnitude(offset));
-		const Real        scale  = largest > 0 ? powerOfTwo(largest) : Real(1);
-		std::vector<Real> scaled = set.offsets;
-		for (Real& offset : scaled)
-			offset /= scale;
-		exact::Bounds bounds;
-		if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
-		// a bounded set's inradius is a weighted mean of its offsets, below 2 in this unit: the cap never cuts it
-		const exact::DeepPoint ball  = exact::deepest(set.normals, scaled, 2, bounds);
-		if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
-		if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
-
-		Local local;
-		local.centre   = ball.point * scale;
-		local.unit     = powerOfTwo(ball.depth * scale);
-		local.distance = local.centre.norm() / local.unit;
-		local.inradius = ball.depth * scale / local.unit;
-		for (std::size_t i = 0; i < set.size(); ++i)
-			local.add(set.normals[i], (set.offsets[i] - set.normals[i].dot(local.centre)) / local.unit, int(i));
-		for (int side = -1; side <= 1 && set.dimension == 2; side += 2)
-			local.add(Vector3(0, 0, side), local.inradius, Local::cap);
-		for (const Vector3& corner : { Vector3(1, 1, 1), Vector3(1, -1, -1), Vector3(-1, 1, -1), Vector3(-1, -1, 1) })
-			local.add(corner.normalized(), construction::horizon, Local::closing);
-		return local;
-	}
-
-	Triangles dualHull(const Local& local)
+	Triangles dualHull(const LocalPlanes& local)
 	{
 		std::vector<Vector3> duals;
 		for (std::size_t i = 0; i < local.normals.size(); ++i)
@@ -161,7 +35,7 @@ namespace {
 		Real    misfit;
 	};
 
-	Meeting meeting(const Local& local, const Indices& planes)
+	Meeting meeting(const LocalPlanes& local, const Indices& planes)
 	{
 		Eigen::Matrix<Real, Eigen::Dynamic, 3> normals(Eigen::Index(planes.size()), 3);
 		Eigen::Matrix<Real, Eigen::Dynamic, 1> slacks(Eigen::Index(planes.size()));
@@ -176,7 +50,7 @@ namespace {
 	}
 
 	/// How far a point lies outside the set: negative inside.
-	Real reachBeyond(const Local& local, const Vector3& point)
+	Real reachBeyond(const LocalPlanes& local, const Vector3& point)
 	{
 		Real farthest = -construction::horizon;
 		for (std::size_t i = 0; i < local.normals.size(); ++i)
@@ -185,7 +59,7 @@ namespace {
 	}
 
 	/// Whether a vertex lies suspiciously far out. By Cramer's rule, which does not hide a vertex that rounding put at infinity.
-	bool mayBeOpen(const Local& local, const Triangles& triangles)
+	bool mayBeOpen(const LocalPlanes& local, const Triangles& triangles)
 	{
 		for (const exact::Triangle& t : triangles) {
 			if (local.isClosing(t[0]) || local.isClosing(t[1]) || local.isClosing(t[2])) return true;
@@ -198,7 +72,7 @@ namespace {
 	}
 
 	/// Largest distance of a vertex from the inner point. Refuses what is unbounded, or flat to rounding.
-	Real checkedExtent(const HalfSpaces& set, const Local& local, const Triangles& triangles)
+	Real checkedExtent(const HalfSpaces& set, const LocalPlanes& local, const Triangles& triangles)
 	{
 		if (mayBeOpen(local, triangles)) refuseIfOpen(set);
 		Real extent = 0;
@@ -209,7 +83,7 @@ namespace {
 	}
 
 	/// Drops the later of two neighbouring planes that are one plane to rounding; whether there was any.
-	bool dropCoplanar(Local& local, const Edges& edges, const Real& extent)
+	bool dropCoplanar(LocalPlanes& local, const Edges& edges, const Real& extent)
 	{
 		std::vector<bool> repeated(local.normals.size(), false);
 		for (const auto& edge : edges) {
@@ -272,7 +146,7 @@ namespace {
 	}
 
 	/// Still in the local frame.
-	Polyhedron assembled(const Local& local, const Triangles& triangles, const Edges& edges, const Clusters& clusters)
+	Polyhedron assembled(const LocalPlanes& local, const Triangles& triangles, const Edges& edges, const Clusters& clusters)
 	{
 		std::vector<Indices> rings = faceRings(local.normals.size(), triangles, edges, clusters);
 		removeDegenerate(rings, triangles.size());
@@ -313,11 +187,11 @@ Polyhedron polyhedron(const HalfSpaces& unit, Real thickness)
 {
 	const HalfSpaces set = normalised(unit);
 	if (set.dimension == 2 && !(thickness > 0 && (Eigen::numext::isfinite)(thickness)))
-		refuse("thickness: it must be positive and finite; give the body's length along z");
+		throw std::invalid_argument("thickness: it must be positive and finite; give the body's length along z");
 
-	Local     local     = aboutInnerPoint(set);
-	Triangles triangles = dualHull(local);
-	Real      extent    = checkedExtent(set, local, triangles);
+	LocalPlanes local     = aboutInnerPoint(set);
+	Triangles   triangles = dualHull(local);
+	Real        extent    = checkedExtent(set, local, triangles);
 	while (dropCoplanar(local, edgesOf(triangles), extent)) {
 		triangles = dualHull(local);
 		extent    = checkedExtent(set, local, triangles);

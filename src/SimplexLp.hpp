@@ -4,6 +4,8 @@
 #include "PairPlanes.hpp"
 #include "Tolerances.hpp"
 
+#include <cmath>
+
 /// Phase-one linear programme (Boon et al. 2012, Eq. 9): over all planes of both bodies
 ///
 ///     s* = min s   subject to   a_i·x − d_i ≤ s,
@@ -15,8 +17,10 @@
 /// planes.
 ///
 /// Departure from the usual revised simplex: the basis is solved afresh after each pivot. For unit normals and D = 3 that
-/// is three cross products of differences of normals (exact for nearly parallel planes), as cheap as updating an inverse,
-/// and nothing accumulates.
+/// is three cross products of differences of normals, as cheap as updating an inverse, and nothing accumulates. Bodies
+/// have faces that are parallel but for 1e-9, and then a basis of both is as ill-conditioned: weights and point are
+/// corrected by their residuals, and what is left of rounding in each weight (`noise`) is not mistaken for its sign.
+/// It does little harm: where λ_k is this uncertain, the other planes hold slack_k to rounding.
 namespace polytope {
 
 enum class LpStatus { Optimal, Separated, PivotLimit };
@@ -25,9 +29,45 @@ template <class R, int D> struct LpBasis {
 	int plane[D + 1];       ///< rows of PairPlanes
 	R   inverse[D + 1][D + 1]; ///< rows r_k of the inverse of the matrix with columns (a_k; 1)
 	R   weight[D + 1];      ///< λ_k, sum 1
+	R   noise[D + 1];       ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
 	R   point[D];           ///< x of the basis: its planes have equal violation
 	R   infeasibility = 0;  ///< s of the basis, ≤ s*
 };
+
+/// Corrects weights and point by their residuals: Σ λ_k (a_k; 1) = (0; 1) and a_k·x − s = d_k to rounding, whatever the
+/// inverse lost to cancellation.
+template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+{
+	R minusS = 0;
+	for (int k = 0; k <= D; ++k)
+		minusS += basis.weight[k] * d[k];
+	for (int round = 0; round < tolerance::refinements; ++round) {
+		R dual[D + 1], primal[D + 1];
+		for (int j = 0; j < D; ++j) {
+			dual[j] = 0;
+			for (int k = 0; k <= D; ++k)
+				dual[j] -= basis.weight[k] * a[k][j];
+		}
+		dual[D] = 1;
+		R size  = 0, wrong = 0;
+		for (int k = 0; k <= D; ++k) {
+			dual[D] -= basis.weight[k];
+			primal[k] = d[k] - dot<R, D>(a[k], basis.point) - minusS;
+			size      = maxOf<R>(size, std::abs(d[k]));
+			wrong     = maxOf<R>(wrong, std::abs(primal[k]));
+		}
+		for (int j = 0; j <= D; ++j)
+			wrong = maxOf<R>(wrong, std::abs(dual[j]) * size);
+		if (wrong <= R(tolerance::refined) * size) break;
+		for (int k = 0; k <= D; ++k) {
+			minusS += basis.inverse[k][D] * primal[k];
+			for (int j = 0; j < D; ++j)
+				basis.point[j] += basis.inverse[k][j] * primal[k];
+			for (int j = 0; j <= D; ++j)
+				basis.weight[k] += basis.inverse[k][j] * dual[j];
+		}
+	}
+}
 
 /// Solves the basis of the planes (a_k, d_k), k = 0…D: inverse, weights, point, s. False if singular (normals that,
 /// with the row of ones, are linearly dependent to rounding).
@@ -54,15 +94,7 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D]
 		c[1][1] = e[0][0];
 		det     = dot<R, 2>(e[0], c[0]);
 	}
-	// scale-free singularity test: det against the product of the lengths that enter it
-	R scale = 0;
-	for (int j = 0; j < D; ++j)
-		scale += e[0][j] * e[0][j];
-	R area = 0;
-	for (int j = 0; j < D; ++j)
-		area += c[0][j] * c[0][j];
-	const R square = scale * area;
-	if (!(det * det > R(tolerance::singularBasis) * R(tolerance::singularBasis) * square)) return false;
+	if (!(det != 0)) return false;
 	const R reciprocal = 1 / det;
 	for (int j = 0; j < D; ++j)
 		basis.inverse[0][j] = 0;
@@ -78,18 +110,28 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D]
 		basis.inverse[k + 1][D] = last;
 		basis.inverse[0][D] -= last;
 	}
+	R longest = 0;
+	for (int k = 0; k <= D; ++k) {
+		R length = 0;
+		for (int j = 0; j <= D; ++j)
+			length += std::abs(basis.inverse[k][j]);
+		basis.noise[k] = R(tolerance::rounding) * length;
+		longest        = maxOf<R>(longest, basis.noise[k]);
+	}
+	if (!(longest < R(tolerance::singularBasis))) return false;
 	// z = (x; −s) solves (a_k; 1)·z = d_k. Taking the differences to plane 0 keeps s exact when the planes agree.
 	for (int j = 0; j < D; ++j)
 		basis.point[j] = 0;
 	for (int k = 0; k < D; ++k)
 		for (int j = 0; j < D; ++j)
 			basis.point[j] += basis.inverse[k + 1][j] * (d[k + 1] - d[0]);
-	R s = 0;
-	for (int k = 0; k <= D; ++k) {
+	for (int k = 0; k <= D; ++k)
 		basis.weight[k] = basis.inverse[k][D];
-		s -= basis.weight[k] * d[k];
-	}
-	basis.infeasibility = s;
+	if (longest > R(tolerance::refinedBasis)) refineBasis<R, D>(a, d, basis);
+	// from the weights, not from z: their residual Σ λ a multiplies a point of the overlap, z's one multiplies x, which may be far
+	basis.infeasibility = 0;
+	for (int k = 0; k <= D; ++k)
+		basis.infeasibility -= basis.weight[k] * d[k];
 	return true;
 }
 
@@ -104,8 +146,15 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>
 template <class R, int D> POLYTOPE_INLINE bool dualFeasible(const LpBasis<R, D>& basis)
 {
 	for (int k = 0; k <= D; ++k)
-		if (!(basis.weight[k] >= -R(tolerance::weight))) return false;
+		if (!(basis.weight[k] >= -R(tolerance::weight) - R(tolerance::noise) * basis.noise[k])) return false;
 	return true;
+}
+
+template <class R, int D> POLYTOPE_INLINE bool inBasis(const LpBasis<R, D>& basis, int plane)
+{
+	for (int k = 0; k <= D; ++k)
+		if (basis.plane[k] == plane) return true;
+	return false;
 }
 
 /// The most violated plane at the basis' point: largest a·x − d − s. Also leaves the slacks d − a·x in planes.slack.
@@ -131,19 +180,38 @@ template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlan
 }
 
 /// The row that leaves for entering column w: the smallest λ_k/w_k over w_k > 0. Among near-ties (Harris' test: each λ
-/// may fall to −δ) the largest pivot, for stability; under Bland's rule the exact smallest ratio, ties by plane index.
+/// may fall by its noise) the one that leaves the best conditioned basis; under Bland's rule the smallest ratio, ties by
+/// plane index.
 template <class R, int D> POLYTOPE_INLINE int leavingRow(const LpBasis<R, D>& basis, const R (&w)[D + 1], bool bland)
 {
-	const R slackened = bland ? R(0) : R(tolerance::weight);
-	R       limit     = R(padOffset);
+	R limit = R(padOffset);
 	for (int k = 0; k <= D; ++k)
-		if (w[k] > R(tolerance::pivot)) limit = minOf<R>(limit, (maxOf<R>(basis.weight[k], 0) + slackened) / w[k]);
+		if (w[k] > R(tolerance::noise) * basis.noise[k])
+			limit = minOf<R>(limit, (maxOf<R>(basis.weight[k], 0) + (bland ? R(0) : R(tolerance::noise) * basis.noise[k])) / w[k]);
 	int leaving = -1;
 	for (int k = 0; k <= D; ++k) {
-		if (!(w[k] > R(tolerance::pivot)) || maxOf<R>(basis.weight[k], 0) > limit * w[k]) continue;
-		if (leaving < 0 || (bland ? basis.plane[k] < basis.plane[leaving] : w[k] > w[leaving])) leaving = k;
+		if (!(w[k] > R(tolerance::noise) * basis.noise[k]) || maxOf<R>(basis.weight[k], 0) > limit * w[k]) continue;
+		if (leaving < 0 || (bland ? basis.plane[k] < basis.plane[leaving] : w[k] * basis.noise[leaving] > w[leaving] * basis.noise[k])) leaving = k;
 	}
 	return leaving;
+}
+
+/// The row whose replacement leaves the best conditioned basis, whatever the weights.
+template <class R, int D> POLYTOPE_INLINE int steadiestRow(const LpBasis<R, D>& basis, const R (&w)[D + 1])
+{
+	int best = 0;
+	for (int k = 1; k <= D; ++k)
+		if (w[k] * basis.noise[best] > w[best] * basis.noise[k]) best = k;
+	return best;
+}
+
+/// The most violated plane outside the basis, from the slacks mostViolated() left.
+template <class R, int D> POLYTOPE_INLINE int mostViolatedOutside(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis)
+{
+	int q = -1;
+	for (int i = 0; i < planes.total; ++i)
+		if (!inBasis<R, D>(basis, i) && (q < 0 || planes.slack[i] < planes.slack[q])) q = i;
+	return q;
 }
 
 /// First violated plane, for Bland's rule.
@@ -154,47 +222,94 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 	return -1;
 }
 
-template <class R, int D> POLYTOPE_INLINE bool inBasis(const LpBasis<R, D>& basis, int plane)
+/// s of the basis less what weights below zero may pretend: a lower bound of s* for overlaps within `reach` of every plane.
+template <class R, int D> POLYTOPE_INLINE R lowerBound(const LpBasis<R, D>& basis, R reach)
 {
+	R negative = 0;
 	for (int k = 0; k <= D; ++k)
-		if (basis.plane[k] == plane) return true;
-	return false;
+		negative -= minOf<R>(basis.weight[k], 0);
+	return basis.infeasibility - negative * reach;
 }
 
-/// Simplex steps from a dual feasible, solved basis to the optimum, or until s > dismissAbove.
-/// `violation`: how far (length) a plane may be violated at the optimum.
+/// One step of the primal simplex, for a basis that violates no plane but has a weight below zero beyond its noise (a
+/// weight that was noise while a nearly parallel plane was in the basis may turn out to be none when that has left):
+/// leaves that plane along the edge of the others, where s falls, to the first plane met. Slacks as mostViolated() left
+/// them. False if there is no such weight (the basis is optimal); `entering` < 0 if no plane is met.
+template <class R, int D> POLYTOPE_INLINE bool primalStep(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, int& leaving, int& entering)
+{
+	leaving = -1;
+	for (int k = 0; k <= D; ++k)
+		if (basis.weight[k] < -R(tolerance::noise) * basis.noise[k] && (leaving < 0 || basis.weight[k] < basis.weight[leaving])) leaving = k;
+	if (leaving < 0) return false;
+	const R* row   = basis.inverse[leaving];
+	R        limit = R(padOffset);
+	entering       = -1;
+	for (int i = 0; i < planes.total; ++i) {
+		R rate = row[D];
+		for (int j = 0; j < D; ++j)
+			rate += row[j] * planes.normal[j][i];
+		if (!(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || inBasis<R, D>(basis, i)) continue; // a twin of a basic plane, or none met
+		const R distance = maxOf<R>(planes.slack[i] + basis.infeasibility, 0) / -rate;
+		if (distance < limit) {
+			limit    = distance;
+			entering = i;
+		}
+	}
+	return true;
+}
+
+/// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove, then primal ones
+/// where a weight is below zero.
+/// `size`: what the tolerances of lengths are relative to. `reach`: as lowerBound().
 template <class R, int D, int W>
-POLYTOPE_INLINE LpStatus solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R violation, R dismissAbove, int pivotLimit, int& pivots)
+POLYTOPE_INLINE LpStatus
+solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissAbove, R reach, int pivotLimit, int& pivots)
 {
 	int  stalled = 0;
 	bool bland   = false;
 	for (;;) {
-		if (basis.infeasibility > dismissAbove) return LpStatus::Separated;
-		R         smallest;
-		int       q     = mostViolated<R, D, W>(planes, basis.point, smallest);
-		const R   bound = -basis.infeasibility - violation;
-		if (!(smallest < bound)) return LpStatus::Optimal;
-		if (pivots >= pivotLimit) return LpStatus::PivotLimit;
-		if (bland) q = firstViolated<R, D>(planes, bound);
-		// a basic plane can be "violated" only by the rounding of the basis' point: nothing left to gain
-		if (inBasis<R, D>(basis, q)) return LpStatus::Optimal;
+		if (lowerBound<R, D>(basis, reach) > dismissAbove) return LpStatus::Separated;
+		R scale = size; // of rounding in a·x − d: the point may be farther from the origin than the size
+		for (int k = 0; k < D; ++k)
+			scale += std::abs(basis.point[k]);
+		R       smallest;
+		int     q     = mostViolated<R, D, W>(planes, basis.point, smallest);
+		const R bound = -basis.infeasibility - R(tolerance::violation) * scale;
+		bool    met   = !(smallest < bound);
+		if (!met) {
+			if (bland) q = firstViolated<R, D>(planes, bound);
+			// a basic plane can be violated only by the rounding of the basis' point, which may hide another one
+			if (inBasis<R, D>(basis, q)) {
+				q   = mostViolatedOutside<R, D>(planes, basis);
+				met = !(planes.slack[q] < bound);
+			}
+		}
+		int leaving = -1;
+		if (met && !primalStep<R, D>(planes, basis, leaving, q)) return LpStatus::Optimal;
+		if (pivots >= pivotLimit || q < 0) return LpStatus::PivotLimit;
 
 		R w[D + 1];
-		for (int k = 0; k <= D; ++k) {
+		for (int k = 0; k <= D && !met; ++k) {
 			w[k] = basis.inverse[k][D];
 			for (int j = 0; j < D; ++j)
 				w[k] += basis.inverse[k][j] * planes.normal[j][q];
 		}
-		const int leaving = leavingRow<R, D>(basis, w, bland);
+		if (!met) leaving = leavingRow<R, D>(basis, w, bland);
 		if (leaving < 0) return LpStatus::PivotLimit; // Σ w = 1, so only rounding can bring us here
-		LpBasis<R, D> next = basis;
+		LpBasis<R, D> next  = basis;
 		next.plane[leaving] = q;
 		++pivots;
-		if (!solveBasis<R, D>(planes, next)) return LpStatus::PivotLimit;
-		if (next.infeasibility > basis.infeasibility) stalled = 0;
-		else if (++stalled > tolerance::stalledPivots)
-			bland = true;
-		if (stalled == 0) bland = false;
+		if (!solveBasis<R, D>(planes, next)) {
+			if (met) return LpStatus::PivotLimit;
+			if (-planes.slack[q] - basis.infeasibility <= R(tolerance::twinViolation) * scale) return LpStatus::Optimal;
+			next                                     = basis;
+			next.plane[steadiestRow<R, D>(basis, w)] = q;
+			if (!solveBasis<R, D>(planes, next)) return LpStatus::PivotLimit;
+		}
+		if (!met) {
+			stalled = next.infeasibility > basis.infeasibility ? 0 : stalled + 1;
+			bland   = stalled > tolerance::stalledPivots;
+		}
 		basis = next;
 	}
 }

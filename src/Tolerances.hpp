@@ -23,11 +23,22 @@ constexpr Real violation = 8 * rounding;
 /// digits: a basis of nearly parallel planes carries weights this noisy, and the final test is on s*, not on λ.
 constexpr Real weight = 1024 * rounding;
 
-/// Pivot elements below this are not pivoted on (columns are unit normals, so w is a pure number).
-constexpr Real pivot = 256 * rounding;
+/// × LpBasis::noise: an entering column's components, and weights, below this have no sign. The sums behind them have
+/// four terms of three roundings each.
+constexpr Real noise = 16;
 
-/// |det| of the basis matrix of unit columns below which the basis is treated as singular and not warm-started from.
-constexpr Real singularBasis = 16 * rounding;
+/// Noise (rounding × length of an inverse row) from which a basis counts as singular: two normals nearer than 256 roundings
+/// are one normal to the simplex, of which the basis takes one.
+constexpr Real singularBasis = Real(1) / 256;
+
+/// × size: how far the one of two such normals that is not in the basis may be violated at the optimum.
+constexpr Real twinViolation = 1024 * rounding;
+
+/// Noise from which weights and point are refined (below it the inverse is as good), until what is corrected is below
+/// this. Each refinement gains two digits at the least.
+constexpr Real refinedBasis = 64 * rounding;
+constexpr Real refined      = 4 * rounding;
+constexpr int  refinements  = 8;
 
 /// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
 constexpr int stalledPivots = 12;
@@ -43,6 +54,13 @@ constexpr Real newton = 1e-10;
 /// × size: how far the depth may be off for a centre not yet reached. The remaining step, in the local norm, is kept
 /// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
 constexpr Real depth = 2e-14;
+
+/// Part of a diagonal element of the Hessian that elimination must leave. Below the square root of rounding the centre
+/// loses more than a relative 1e-12 of the overlap's size along that axis.
+constexpr Real cancellation = 1e-8;
+
+/// Times the axes are turned to the overlap's own before the centre is given up.
+constexpr int turns = 2;
 
 /// Newton decrement below which the full step is taken and convergence is quadratic (theory: any value < 0.38 for a
 /// self-concordant barrier); above it the step length comes from a line search.

@@ -30,11 +30,7 @@ build() {
 	(
 		flock 9 # two calls at a time build one after the other
 		configure
-		# a look first: nothing to do is the usual case, and needs no line
-		if ! ninja -C "$build" -n | grep -q 'no work to do'; then
-			step "building" "The compiler's messages are in the log. \`./run clean\` and again, if nothing else helps." \
-				ninja -C "$build" "$@"
-		fi
+		step "building" "All messages of the compiler are in the log." ninja -C "$build" "$@"
 	) 9>"$cache/build.lock"
 }
 

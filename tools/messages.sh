@@ -11,9 +11,9 @@ fail() { # TEXT…: ends the run
 }
 
 # step NAME REMEDY COMMAND ARGS…
-# Runs the command with its output in a log file. One line: the name, and the time it took.
+# Runs the command with its output in a log file. Shows the name and the time it takes; nothing if that is under 2 s.
 step() {
-	local name=$1 remedy=$2 log start pid result=0
+	local name=$1 remedy=$2 log start pid shown='' result=0
 	shift 2
 	# shellcheck disable=SC2154
 	log=$logs/${name//[^A-Za-z0-9]/-}.log
@@ -26,21 +26,28 @@ step() {
 	set +m
 	# shellcheck disable=SC2064
 	trap "kill -TERM -- -$pid 2>/dev/null; wait $pid 2>/dev/null; echo; exit 130" INT TERM
-	if [ -t 1 ]; then
-		while kill -0 "$pid" 2>/dev/null; do
-			printf '\r  %s … %d:%02d ' "$name" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60))
+	while kill -0 "$pid" 2>/dev/null; do
+		if [ $((SECONDS - start)) -ge 2 ]; then
+			if [ -t 1 ]; then
+				printf '\r  %s … %s ' "$name" "$(elapsed "$start")"
+			elif [ -z "$shown" ]; then
+				printf '  %s …\n' "$name"
+			fi
+			shown=yes
 			sleep 1
-		done
-		printf '\r'
-	else
-		printf '  %s …\n' "$name"
-	fi
+		else
+			sleep 0.05
+		fi
+	done
 	wait "$pid" || result=$?
 	trap - INT TERM
+	if [ -n "$shown" ] && [ -t 1 ]; then printf '\r'; fi
 	if [ "$result" -ne 0 ]; then
-		printf '  %s: failed after %d:%02d; the last lines of its log:\n\n' "$name" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) >&2
-		tail -n 20 "$log" | sed 's/^/    /' >&2
+		printf '  %s: failed after %s; the last lines of its log:\n\n' "$name" "$(elapsed "$start")" >&2
+		tail -n 20 "$log" | cut -c 1-300 | sed 's/^/    /' >&2
 		fail "the step '$name' failed." "Log: $log" "$remedy"
 	fi
-	printf '  %s: done in %d:%02d \n' "$name" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60))
+	if [ -n "$shown" ]; then printf '  %s: done in %s \n' "$name" "$(elapsed "$start")"; fi
 }
+
+elapsed() { printf '%d:%02d' $(((SECONDS - $1) / 60)) $(((SECONDS - $1) % 60)); }

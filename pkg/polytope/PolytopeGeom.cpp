@@ -67,11 +67,29 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::go(
 	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
 	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex1 || !convex2) return false; // no planes: nothing to touch
-	return query(*convex1, *convex2, state1, state2, shift2, force, c);
+	const Body1Frame frame1 { state1.pos, state1.ori.toRotationMatrix() };
+	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
+}
+
+PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Interaction>& c)
+{
+	if (!c->geom) {
+		auto geom          = shared_ptr<PolytopeGeom>(new PolytopeGeom);
+		geom->normalWeight = normalWeightOfFirst(Body::byId(c->getId1(), scene).get(), Body::byId(c->getId2(), scene).get());
+		c->geom            = geom;
+	}
+	return static_cast<PolytopeGeom&>(*c->geom);
+}
+
+ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
+{
+	const int thread = omp_get_thread_num();
+	return counters_[thread < int(counters_.size()) ? thread : 0];
 }
 
 bool Ig2_Polytope_Polytope_PolytopeGeom::query(
         const polytope::ConvexShape&   convex1,
+        const Body1Frame&              frame1,
         const polytope::ConvexShape&   convex2,
         const State&                   state1,
         const State&                   state2,
@@ -81,27 +99,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(
 {
 	// a thread's own buffers; they grow to the largest pair it has met
 	static thread_local polytope::ContactWorkspace workspace;
-	ContactCounters& count = counters_[omp_get_thread_num() < int(counters_.size()) ? omp_get_thread_num() : 0];
-	++count.pairs;
-
-	// the geometry is made with the pair, not with the contact: a separated pair is dismissed by what it remembers
-	if (!c->geom) {
-		auto geom          = shared_ptr<PolytopeGeom>(new PolytopeGeom);
-		geom->normalWeight = normalWeightOfFirst(Body::byId(c->getId1(), scene).get(), Body::byId(c->getId2(), scene).get());
-		c->geom            = geom;
-	}
-	auto&      geom    = static_cast<PolytopeGeom&>(*c->geom);
-	const bool wasReal = c->isReal();
-	if (convex1.dimension() != convex2.dimension()) {
-		geom.statusCode = int(polytope::ContactStatus::Failed);
-		++count.statuses[geom.statusCode];
-		return wasReal;
-	}
+	auto&                                          geom    = geometry(c);
+	const bool                                     wasReal = c->isReal();
+	if (convex1.dimension() != convex2.dimension()) return failed(c);
 
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.section                   = computeArea || geom.needsArea;
+	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it at once
 	settings.normalWeight[0]           = geom.normalWeight;
 	settings.normalWeight[1]           = 1 - geom.normalWeight;
 	settings.geometryAcrossGap         = wasReal || force;
@@ -109,20 +114,27 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
 	polytope::ContactResult result;
-	polytope::contactQuery(
-	        convex1,
-	        state1.ori.toRotationMatrix(),
-	        convex2,
-	        state2.ori.toRotationMatrix(),
-	        state2.pos + shift2 - state1.pos,
-	        settings,
-	        memory,
-	        workspace,
-	        result);
+	const Vector3r          centre2 = state2.pos + shift2 - frame1.origin;
+	polytope::contactQuery(convex1, frame1.rotation, convex2, state2.ori.toRotationMatrix(), centre2, settings, memory, workspace, result);
 	geom.remember(memory);
+	return apply(result, frame1.origin, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::apply(
+        const polytope::ContactResult& result,
+        const Vector3r&                origin1,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	auto& geom         = geometry(c);
 	geom.statusCode    = int(result.status);
 	geom.infeasibility = result.infeasibility;
 
+	ContactCounters& count = counters();
+	++count.pairs;
 	++count.statuses[int(result.status)];
 	count.contacts += result.inContact;
 	count.dismissed += result.dismissed;
@@ -134,14 +146,24 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(
 		count.timedPairs += result.newtonIterations > 0;
 	}
 
+	const bool wasReal = c->isReal();
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
 	geom.contactArea     = result.area;
-	const Vector3r point = state1.pos + result.point;
-	const Real     arm1 = result.point.norm(), arm2 = (result.point - (state2.pos + shift2 - state1.pos)).norm();
+	const Vector3r point = origin1 + result.point;
+	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();
 	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal, /*avoidGranularRatcheting*/ false);
 	return true;
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c)
+{
+	ContactCounters& count = counters();
+	++count.pairs;
+	++count.statuses[int(polytope::ContactStatus::Failed)];
+	geometry(c).statusCode = int(polytope::ContactStatus::Failed);
+	return c->isReal();
 }
 
 void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)

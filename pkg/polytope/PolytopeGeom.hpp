@@ -14,6 +14,10 @@ class PolytopeGeom : public ScGeom {
 public:
 	virtual ~PolytopeGeom() = default;
 
+	/// Half-spaces that stand for YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side; made when first needed.
+	std::shared_ptr<const polytope::ConvexShape> partner;
+	int                                          side = 0;
+
 	polytope::PairMemory memory() const;
 	void                 remember(const polytope::PairMemory& memory);
 	std::string          statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
@@ -96,15 +100,43 @@ public:
 	);
 	// clang-format on
 
-	/// The geometry of one pair, whatever made the convex shapes: the body of every functor of this family.
+protected:
+	/// Where body 1's half-spaces stand: its own frame, except for a wall, which is everywhere and not turned.
+	struct Body1Frame {
+		Vector3r origin;
+		Matrix3r rotation;
+	};
+
+	// Steps of go(), shared with the mixed pairs (MixedPairs.hpp).
+
+	/// The pair's geometry, made with the pair, not with the contact: a separated pair is dismissed by what it remembers.
+	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
+
+	/// Two sets of half-spaces: core query, then apply().
 	bool query(
 	        const polytope::ConvexShape&   convex1,
+	        const Body1Frame&              frame1,
 	        const polytope::ConvexShape&   convex2,
 	        const State&                   state1,
 	        const State&                   state2,
 	        const Vector3r&                shift2,
 	        const bool&                    force,
 	        const shared_ptr<Interaction>& c);
+
+	/// Counts the result and, for a contact, hands it to ScGeom. `origin1`: what result.point is relative to.
+	bool apply(
+	        const polytope::ContactResult& result,
+	        const Vector3r&                origin1,
+	        const State&                   state1,
+	        const State&                   state2,
+	        const Vector3r&                shift2,
+	        const bool&                    force,
+	        const shared_ptr<Interaction>& c);
+
+	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron).
+	bool failed(const shared_ptr<Interaction>& c);
+
+	ContactCounters& counters();
 
 private:
 	polytope::ContactSettings              settings_;

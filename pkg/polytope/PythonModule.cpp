@@ -40,7 +40,10 @@ py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.n
 
 py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
 
-py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension) { return asTuple(polytope::hullOf(points, dimension)); }
+py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::Real coplanar)
+{
+	return asTuple(polytope::hullOf(points, dimension, coplanar));
+}
 
 /// Half-spaces in the frame of centroid and principal axes, and where that frame is.
 py::dict centred(
@@ -51,14 +54,18 @@ py::dict centred(
 	given.offsets            = offsets;
 	given.dimension          = dimension;
 	polytope::HalfSpaces set = polytope::withoutDuplicates(polytope::normalised(given));
-	const auto           mass = polytope::massProperties(polytope::polyhedron(set, thickness));
 	if (!keepRedundant) set = polytope::withoutRedundant(set);
-	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
-	const auto central = polytope::moved(set, axes.rotation.transpose(), -(axes.rotation.transpose() * mass.centroid));
-	py::dict   result;
+	// first to the centroid, then to the axes: a small body far out has no digits to spare for its inertia
+	yade::Vector3r position = polytope::massProperties(polytope::polyhedron(set, thickness)).centroid;
+	if (dimension == 2) position[2] = 0;
+	set              = polytope::moved(set, yade::Matrix3r::Identity(), -position);
+	const auto  mass = polytope::massProperties(polytope::polyhedron(set, thickness));
+	const auto  axes = polytope::principalAxes(mass.inertia, dimension);
+	const auto  central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
+	py::dict    result;
 	result["normals"]         = central.normals;
 	result["offsets"]         = central.offsets;
-	result["position"]        = yade::Vector3r(mass.centroid);
+	result["position"]        = position;
 	result["orientation"]     = yade::Quaternionr(axes.rotation);
 	result["inscribedRadius"] = polytope::ConvexShape(central, 0, thickness).inscribedRadius();
 	return result;
@@ -125,7 +132,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::docstring_options options(true, true, false);
 	py::def("buildInfo", &buildInfo, "Versions of the plug-in and of the YADE it was compiled for, as a dictionary.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
-	py::def("hull", &hull, (py::arg("points"), py::arg("dimension") = 3), "Normals and offsets of the convex hull of points.");
+	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")), "Normals and offsets of the convex hull of points.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

@@ -1,23 +1,161 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <core/Dispatching.hpp>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/MatchMaker.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 
+#include <array>
+#include <atomic>
+
+/// Rock joints between Polytopes: material, contact physics, and the Mohr–Coulomb law.
+///
+/// Signs: forces are those on body 2 from body 1 (as everywhere in YADE), the normal points from body 1 to body 2, so a
+/// compressed contact has normalForce·normal > 0. Slip and relative velocity are body 2's relative to body 1.
 namespace yade {
+
+class PolytopeGeom;
 
 class RockJointMat : public FrictMat {
 public:
 	virtual ~RockJointMat() = default;
+
+	/// Refuses values out of range with std::invalid_argument naming the attribute, and restores the last good ones.
 	void postLoad(RockJointMat&);
+
+	/// FrictMat's attribute, checked like this class' own.
+	Real getFrictionAngle() const { return frictionAngle; }
+	void setFrictionAngle(Real angle)
+	{
+		frictionAngle = angle;
+		postLoad(*this);
+	}
+
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RockJointMat, FrictMat, "Material of rock blocks.",
-		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Joint normal stiffness."))
-		, createIndex();
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointMat, FrictMat,
+	R"""(Material of rock blocks, given by the joints between them [Hart1988]_: stiffnesses, Mohr-Coulomb strength and dilation of a joint whose two sides are of this material. :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` says how two different materials combine, :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb` what the values do. Values out of range are refused when set. Of the inherited attributes, :yref:`density<Material.density>` gives the bodies their mass; :yref:`young<ElastMat.young>` and :yref:`poisson<ElastMat.poisson>` are used by YADE's own functors (:yref:`Ip2_FrictMat_FrictMat_FrictPhys`) alone.)""",
+		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Normal stiffness $k_n$ of the joint, above 0: [Pa/m] (times the contact area) or [N/m] for each contact, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`. Contact normals lean to the face of the body with the larger value, see :yref:`PolytopeGeom.normalWeight`."))
+		((Real, shearStiffness, 1e9, Attr::triggerPostLoad, "Shear stiffness $k_s$ of the joint, above 0, in the units of :yref:`normalStiffness<RockJointMat.normalStiffness>`."))
+		((Real, cohesion, 0, Attr::triggerPostLoad, "Cohesion $c$ [Pa], at least 0: shear strength of the intact joint at zero normal force over its contact area. Lost for good when the joint fails in shear or tension."))
+		((Real, tensileStrength, 0, Attr::triggerPostLoad, "Tensile strength [Pa] of the intact joint, at least 0, times the contact area. Lost for good when the joint fails in shear or tension. A joint with cohesion but no tensile strength fails when it opens."))
+		((Real, residualFrictionAngle, -1, Attr::triggerPostLoad, "Friction angle after the joint has failed (first slip, or tension) [rad], from 0 to below $\\pi/2$; -1: the same as :yref:`frictionAngle<RockJointMat.frictionAngle>`."))
+		((Real, dilationAngle, 0, Attr::triggerPostLoad, "Dilation angle $\\psi$ [rad], from 0 to below $\\pi/2$: a joint that has slipped by $u$ in total is wider by $u\\tan\\psi$. Not above the friction angle in any real joint."))
+		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest widening by dilation [m], at least 0 (infinity: none); the height of the joint's asperities."))
+		, /*ctor*/ createIndex();
+		, /*py*/
+		.add_property("frictionAngle", &RockJointMat::getFrictionAngle, &RockJointMat::setFrictionAngle, "Friction angle $\\phi$ of the joint [rad], from 0 to below $\\pi/2$ (in scripts: *radians(degrees)*). Contacts take it when they are made; afterwards change :yref:`FrictPhys.tangensOfFrictionAngle` of their physics.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(RockJointMat, FrictMat);
+
+private:
+	using Values = std::array<Real, 8>;
+	Values values() const;
+	void   setValues(const Values& values);
+	Values good_ = values();
 };
 REGISTER_SERIALIZABLE(RockJointMat);
+
+class RockJointPhys : public FrictPhys {
+public:
+	virtual ~RockJointPhys() = default;
+
+	/// Whether the joint has a peak strength to lose.
+	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
+	/// The joint fails: peak values give way to residual ones.
+	void fail();
+	/// Largest shear force at a normal force (positive in compression) [N].
+	Real shearStrength(Real normal) const;
+	/// ½ fₙ²/kₙ + ½ |fₛ|²/kₛ of the given elastic parts [J].
+	Real storedEnergy(Real normal, const Vector3r& shear) const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RockJointPhys, FrictPhys,
+	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses [N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present friction, peak or residual.)""",
+		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` in each step; 0: *kn* stays as it is."))
+		((Real, shearStiffness, 0, , "Shear stiffness per area [Pa/m], in the same way for $k_s$."))
+		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, kept while the joint is open. For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
+		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
+		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
+		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none to lose and are never intact."))
+		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
+		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
+		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))
+		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
+		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal."))
+		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
+		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
+		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
+		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
+		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
+		((Real, lastStored, 0, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy)"))
+		, /*ctor*/ createIndex();
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(RockJointPhys, FrictPhys);
+};
+REGISTER_SERIALIZABLE(RockJointPhys);
+
+class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor {
+public:
+	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& contact) override;
+	FUNCTOR2D(RockJointMat, RockJointMat);
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,
+	R"""(Creates a :yref:`RockJointPhys` from two :yref:`RockJointMats<RockJointMat>`. Stiffnesses are those of the joint, so equal materials give exactly their value; of two different ones each contributes half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of friction angles, cohesions, tensile strengths, dilation angles and limits the smaller holds (the residual angle of a material without one is its friction angle).)""",
+		((bool, stiffnessPerArea, true, , R"""(True: stiffnesses are [Pa/m], the contact's :yref:`kn<NormPhys.kn>` is $k_n A$ with its present contact area $A$ in each step (:yref:`PolytopeGeom.contactArea`, which is computed for this alone). False: [N/m] for each contact, whatever its area. Contacts whose geometry is not a :yref:`PolytopeGeom` have no contact area: a :yref:`ScGeom` (two spheres) gets $A=\pi\min(R_1,R_2)^2$ once and for all, anything else 1 m². Their law is YADE's own :yref:`Law2_ScGeom_FrictPhys_CundallStrack`, which takes a :yref:`RockJointPhys` as any :yref:`FrictPhys` and has to be in the loop besides this plug-in's.)"""))
+		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later are not glued."))
+		((shared_ptr<MatchMaker>, kn, , , ":yref:`MatchMaker` for the joint's normal stiffness instead of the rule above."))
+		((shared_ptr<MatchMaker>, ks, , , ":yref:`MatchMaker` for the joint's shear stiffness instead of the rule above."))
+		((shared_ptr<MatchMaker>, frictAngle, , , ":yref:`MatchMaker` for the friction angle [rad] instead of the smaller one."))
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Ip2_RockJointMat_RockJointMat_RockJointPhys);
+
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
+public:
+	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* contact) override;
+	/// Refuses negative damping, naming the attribute, and restores the last good values.
+	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
+	Real ratioSlidingContacts() const;
+	long nonFiniteForces() const { return nonFinite_; }
+	FUNCTOR2D(PolytopeGeom, RockJointPhys);
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, LawFunctor,
+	R"""(Elastic joint with Mohr-Coulomb strength, after [Hart1988]_ and [Boon2012]_.
+
+* Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>` $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that has lost its strength is kept without force as long as the gap is smaller than the bodies, so that it does not heal when it closes.
+* The shear force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length), then incremented by $-k_s\Delta\vec u_s$ from the relative velocity at the contact point. With area-dependent stiffness the increments use the present $k_s$.
+* Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
+* Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again.
+* Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` does not know: with $\zeta>0.5$ lower its *timestepSafetyCoefficient*.
+
+A single contact point carries no moment: damping at a face contact does not damp rocking about it.
+
+With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, less the work of dilation), *normDampDissip* and *shearDampDissip* (viscous), *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. Normal and depth of [Boon2012]_ are not gradients of a potential, nor is $k_n A u_n$ with a changing area, so energy can be created; this is where it shows. It is zero to second order in the time step where depth, normal and area belong together, as for a face that stays flat on another. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
+		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
+		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
+		, /*ctor*/
+		, /*py*/
+		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
+		.def("nonFiniteForces", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nonFiniteForces, "How often a contact gave a force that is not a number (from such a value set in a script) and was left out.")
+	);
+	// clang-format on
+
+private:
+	struct Pair;
+	struct StepWork;
+	void book(const Pair& pair, RockJointPhys& phys, const Vector3r& lastForce, const StepWork& work, Real stored);
+	bool open(const Pair& pair, PolytopeGeom& geom, RockJointPhys& phys);
+
+	enum Energy { elastic, plastic, normalDamper, shearDamper, fracture, nonconservative, energyCount };
+	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
+	std::atomic<bool>            energiesNamed_ { false };
+	std::atomic<long>            nonFinite_ { 0 };
+	Real                         goodNormalDamping_ = 0, goodShearDamping_ = 0;
+};
+REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);
 
 } // namespace yade

@@ -4,7 +4,6 @@
 #include "ShapeSamples.hpp"
 
 #include <limits>
-#include <set>
 
 using namespace polytope;
 using namespace polytope::samples;

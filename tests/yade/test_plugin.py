@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The plug-in is loaded with YADE, and is the one compiled for it."""
+"""The plug-in is loaded with YADE, is the one compiled for it, and refuses in words where it is not."""
+import os
+import subprocess
+import sys
+
 import yade
 from yade import polytope
 
@@ -9,3 +13,28 @@ def testCompiledForThisYade():
 	assert info['yadeVersion'] == yade.config.version
 	assert info['yadeFeatures'] == yade.config.features
 	assert info['precision'] == 'double'
+
+
+def yadeWithout(missing, folder, script):
+	"""Runs a script in a YADE whose library folder is this one's, but for one file of the plug-in."""
+	library = folder / os.path.relpath(yade.config.libDir, yade.config.prefix)
+	(library / 'polytope-py').mkdir(parents=True)
+	for place in ('.', 'polytope-py'):
+		for name in os.listdir(os.path.join(yade.config.libDir, place)):
+			if name not in (missing, 'polytope-py'):
+				(library / place / name).symlink_to(os.path.join(yade.config.libDir, place, name))
+	environment = dict(os.environ, YADE_PREFIX=str(folder))
+	return subprocess.run([sys.executable, '-c', script], env=environment, capture_output=True, text=True, timeout=100)
+
+
+def testYadeRunsOnWithoutClassesThatCannotBeLoaded(tmp_path):
+	run = yadeWithout('_polytope.so', tmp_path, 'import yade; yade.Sphere(); print("went on")')
+	assert run.returncode == 0
+	assert 'went on' in run.stdout
+	assert 'yade-polytope' in run.stderr and '_polytope.so' in run.stderr and './run build' in run.stderr
+
+
+def testImportTellsWhyThereIsNoPlugin(tmp_path):
+	run = yadeWithout('_polytope.so', tmp_path, 'import yade\nfrom yade import polytope')
+	assert run.returncode == 1
+	assert run.stderr.splitlines()[-2].startswith('ImportError: the plug-in yade-polytope')

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "MixedPairs.hpp"
+
+#include <lib/high-precision/Constants.hpp>
+#include <core/Scene.hpp>
+
+#include <src/ClosestPoint.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
+
+namespace {
+
+	using Convex = std::shared_ptr<const polytope::ConvexShape>;
+
+	/// A stand-in for YADE's shape, or null where it is no solid (construction refuses it).
+	Convex solidOf(const polytope::HalfSpaces& planes, Real cornerRadius)
+	{
+		try {
+			return polytope::ConvexShape::shared(planes, cornerRadius);
+		} catch (const std::invalid_argument&) {
+			return nullptr;
+		}
+	}
+
+	Convex boxOf(const Box& box, const polytope::ConvexShape& other)
+	{
+		polytope::HalfSpaces planes;
+		for (int k = 0; k < 3; ++k)
+			for (int sign = -1; sign <= 1; sign += 2) {
+				planes.normals.push_back(sign * Vector3r::Unit(k));
+				planes.offsets.push_back(box.extents[k]);
+			}
+		return solidOf(planes, math::min(other.cornerRadius(), box.extents.minCoeff() / 2));
+	}
+
+	/// side: +1 if the polytope's centre is on the facet's normal's side.
+	Convex facetOf(const Facet& facet, const polytope::ConvexShape& other, int side)
+	{
+		const auto&    v = facet.vertices;
+		const Vector3r n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+		polytope::HalfSpaces planes;
+		planes.normals = { n, -n };
+		planes.offsets = { n.dot(v[0]), 2 * other.boundingRadius() - n.dot(v[0]) };
+		for (int k = 0; k < 3; ++k) {
+			Vector3r out = (v[(k + 1) % 3] - v[k]).cross(n).normalized();
+			if (out.dot(v[(k + 2) % 3] - v[k]) > 0) out = -out;
+			planes.normals.push_back(out);
+			planes.offsets.push_back(out.dot(v[k]));
+		}
+		const Convex prism = solidOf(planes, 0);
+		return prism ? solidOf(planes, math::min(other.cornerRadius(), prism->inscribedRadius() / 2)) : prism;
+	}
+
+} // namespace
+
+bool Ig2_Wall_Polytope_PolytopeGeom::go(
+        const shared_ptr<Shape>&       shape1,
+        const shared_ptr<Shape>&       shape2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	const auto& wall   = static_cast<const Wall&>(*shape1);
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	auto& geom = geometry(c);
+	if (!geom.partner) {
+		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
+		geom.partner    = polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+	}
+	// the wall's point nearest to the polytope's centre
+	Body1Frame foot { state2.pos + shift2, Matrix3r::Identity() };
+	foot.origin[wall.axis] = state1.pos[wall.axis];
+	return query(*geom.partner, foot, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Box_Polytope_PolytopeGeom::go(
+        const shared_ptr<Shape>&       shape1,
+        const shared_ptr<Shape>&       shape2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	auto& geom = geometry(c);
+	if (!geom.partner) geom.partner = boxOf(static_cast<const Box&>(*shape1), *convex);
+	if (!geom.partner) return failed(c);
+	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Facet_Polytope_PolytopeGeom::go(
+        const shared_ptr<Shape>&       shape1,
+        const shared_ptr<Shape>&       shape2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	const auto& facet  = static_cast<const Facet&>(*shape1);
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	auto& geom = geometry(c);
+	if (!geom.partner || !c->isReal()) {
+		// the side is settled when the contact begins, and kept while it lasts
+		const Vector3r centre = state1.ori.conjugate() * (state2.pos + shift2 - state1.pos);
+		const int      side   = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
+		if (!geom.partner || side != geom.side) geom.partner = facetOf(facet, *convex, side);
+		geom.side = side;
+	}
+	if (!geom.partner) return failed(c);
+	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Sphere_Polytope_PolytopeGeom::go(
+        const shared_ptr<Shape>&       shape1,
+        const shared_ptr<Shape>&       shape2,
+        const State&                   state1,
+        const State&                   state2,
+        const Vector3r&                shift2,
+        const bool&                    force,
+        const shared_ptr<Interaction>& c)
+{
+	const Real  radius = static_cast<const Sphere&>(*shape1).radius;
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	const Vector3r centre2 = state2.pos + shift2 - state1.pos;
+	const bool     wasReal = c->isReal();
+	if (!wasReal && !force && centre2.norm() > radius + convex->boundingRadius()) return false;
+
+	const polytope::ClosestPoint nearest = polytope::closestPoint(*convex, state2.ori.conjugate() * Vector3r(-centre2));
+	const Real                   depth   = radius - nearest.distance;
+	polytope::ContactResult      result;
+	result.inContact   = depth > tolerance * radius;
+	result.hasGeometry = true;
+	result.status      = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
+	result.depth       = depth;
+	result.infeasibility = -depth / 2; // the largest ball between a sphere and a plane has the depth for its diameter
+	result.normal      = -(state2.ori * nearest.outward);
+	result.point       = (radius - depth / 2) * result.normal;
+	const Real cap     = math::max(Real(0), math::min(depth / 2, radius));
+	result.area        = Mathr::PI * cap * (2 * radius - cap);
+	return apply(result, state1.pos, state1, state2, shift2, force, c);
+}
+
+} // namespace yade

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run of a scene gave: counters, times, energies, overlaps, and a hash of the state it ended in."""
+import collections
+import hashlib
+import struct
+
+from yade import O
+from yade.utils import kineticEnergy
+
+__all__ = ['RunWatch', 'stateHash']
+
+
+def stateHash():
+	"""Hash of all bodies' positions, orientations and velocities, to the last bit: equal states have equal hashes."""
+	digest = hashlib.sha256()
+	for body in O.bodies:
+		state = body.state
+		numbers = [float(x) for vector in (state.pos, state.ori, state.vel, state.angVel) for x in vector]
+		digest.update(struct.pack(f'<{len(numbers)}d', *numbers))
+	return digest.hexdigest()[:16]
+
+
+class RunWatch:
+	"""Steps the simulation, and measures without disturbing what it measures.
+
+	The loop's time is taken with O.timingEnabled. The contact functor's own clock (Ig2_….timing) costs more than what it
+	measures in a dismissed pair, so it runs in some steps only, and these do not count for the loop's time. Steps are taken
+	with O.step in the calling thread: O.run(…, wait=True) looks every 40 ms whether it is done.
+	"""
+
+	sampleEvery = 10
+	"""Steps between two looks at all contacts for the deepest overlap; a collision at 0.2 sqrt(m/k) takes some ten."""
+	timeEvery = 100
+	timedSteps = 10
+	"""The functor's clock runs in the first timedSteps of timeEvery steps."""
+
+	def __init__(self, geometryFunctor, interactionLoop):
+		self.functor, self.loop = geometryFunctor, interactionLoop
+		self.counts = collections.Counter()
+		self.timed = collections.Counter()
+		self.untimedPairs = self.untimedContacts = 0
+		self.steps = self.untimedSteps = 0
+		self.deepestOverlap = 0.0
+		self.functor.resetStats()
+		self.loop.execTime = 0
+
+	def run(self, steps, afterStep=lambda: None):
+		"""Take *steps* steps, calling *afterStep* after each."""
+		timingBefore = O.timingEnabled, self.functor.timing
+		try:
+			for _ in range(steps):
+				phase = self.steps % self.timeEvery
+				if phase in (0, self.timedSteps):
+					self._bookCounters()
+					self.functor.timing = phase == 0
+					O.timingEnabled = not self.functor.timing
+				O.step()
+				self.steps += 1
+				self.untimedSteps += not self.functor.timing
+				if self.steps % self.sampleEvery == 0:
+					self.deepestOverlap = max(self.deepestOverlap, overlapNow())
+				afterStep()
+			self._bookCounters()
+			self.deepestOverlap = max(self.deepestOverlap, overlapNow())
+		finally:
+			O.timingEnabled, self.functor.timing = timingBefore
+
+	def _bookCounters(self):
+		"""Moves the functor's counters to ours: what was counted with its clock on goes to both."""
+		stats = self.functor.stats()
+		self.functor.resetStats()
+		statuses = stats.pop('statuses')
+		self.counts.update(stats)
+		self.counts.update({'status ' + name: count for name, count in statuses.items()})
+		if self.functor.timing:
+			self.timed.update(stats)
+		else:
+			self.untimedPairs += stats['pairs']
+			self.untimedContacts += stats['contacts']
+
+	def summary(self):
+		"""Counters over the whole run and mean times [µs], as a dictionary."""
+		counts, timed = self.counts, self.timed
+		ratio = lambda sum, count: sum / count if count else 0.0
+		return {
+		        'steps': self.steps,
+		        'pairs': counts['pairs'],
+		        'contactQueries': counts['contacts'],
+		        'dismissed': counts['dismissed'],
+		        'pivotsPerPair': ratio(counts['simplexPivots'], counts['pairs']),
+		        'newtonPerContact': ratio(counts['newtonIterations'], counts['contacts']),
+		        'fallbacks': counts['fallbacks'],
+		        'failures': counts['failures'],
+		        'statuses': {key[len('status '):]: count for key, count in counts.items() if key.startswith('status ') and count},
+		        'lpMicroseconds': 1e6 * ratio(timed['lpSeconds'], timed['pairs']),
+		        'centreMicroseconds': 1e6 * ratio(timed['centreSeconds'], timed['timedPairs']),
+		        'loopMicrosecondsPerPair': 1e-3 * ratio(self.loop.execTime, self.untimedPairs),
+		        'loopMicrosecondsPerContact': 1e-3 * ratio(self.loop.execTime, self.untimedContacts),
+		        'loopMicrosecondsPerStep': 1e-3 * ratio(self.loop.execTime, self.untimedSteps),
+		        'deepestOverlap': self.deepestOverlap,
+		        'overlap': overlapNow(),
+		        'contacts': sum(1 for contact in O.interactions if contact.isReal),
+		        'kineticEnergy': kineticEnergy(),
+		        'stateHash': stateHash(),
+		}
+
+
+def overlapNow():
+	"""Deepest overlap of all contacts [m]."""
+	return max((contact.geom.penetrationDepth for contact in O.interactions if contact.isReal), default=0.0)
