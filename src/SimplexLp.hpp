@@ -150,13 +150,6 @@ template <class R, int D> POLYTOPE_INLINE bool dualFeasible(const LpBasis<R, D>&
 	return true;
 }
 
-template <class R, int D> POLYTOPE_INLINE bool inBasis(const LpBasis<R, D>& basis, int plane)
-{
-	for (int k = 0; k <= D; ++k)
-		if (basis.plane[k] == plane) return true;
-	return false;
-}
-
 /// The most violated plane at the basis' point: largest a·x − d − s. Also leaves the slacks d − a·x in planes.slack.
 template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlanes<R, D>& planes, const R* x, R& smallestSlack)
 {
@@ -205,15 +198,6 @@ template <class R, int D> POLYTOPE_INLINE int steadiestRow(const LpBasis<R, D>& 
 	return best;
 }
 
-/// The most violated plane outside the basis, from the slacks mostViolated() left.
-template <class R, int D> POLYTOPE_INLINE int mostViolatedOutside(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis)
-{
-	int q = -1;
-	for (int i = 0; i < planes.total; ++i)
-		if (!inBasis<R, D>(basis, i) && (q < 0 || planes.slack[i] < planes.slack[q])) q = i;
-	return q;
-}
-
 /// First violated plane, for Bland's rule.
 template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, D>& planes, R below)
 {
@@ -248,7 +232,8 @@ template <class R, int D> POLYTOPE_INLINE bool primalStep(const PairPlanes<R, D>
 		R rate = row[D];
 		for (int j = 0; j < D; ++j)
 			rate += row[j] * planes.normal[j][i];
-		if (!(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || inBasis<R, D>(basis, i)) continue; // a twin of a basic plane, or none met
+		// not met, or a twin of a basic plane
+		if (!(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || planes.offset[i] >= R(padOffset) / 2) continue;
 		const R distance = maxOf<R>(planes.slack[i] + basis.infeasibility, 0) / -rate;
 		if (distance < limit) {
 			limit    = distance;
@@ -269,21 +254,15 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
 	bool bland   = false;
 	for (;;) {
 		if (lowerBound<R, D>(basis, reach) > dismissAbove) return LpStatus::Separated;
-		R scale = size; // of rounding in a·x − d: the point may be farther from the origin than the size
-		for (int k = 0; k < D; ++k)
-			scale += std::abs(basis.point[k]);
-		R       smallest;
-		int     q     = mostViolated<R, D, W>(planes, basis.point, smallest);
-		const R bound = -basis.infeasibility - R(tolerance::violation) * scale;
-		bool    met   = !(smallest < bound);
-		if (!met) {
-			if (bland) q = firstViolated<R, D>(planes, bound);
-			// a basic plane can be violated only by the rounding of the basis' point, which may hide another one
-			if (inBasis<R, D>(basis, q)) {
-				q   = mostViolatedOutside<R, D>(planes, basis);
-				met = !(planes.slack[q] < bound);
-			}
-		}
+		R   smallest;
+		int q = mostViolated<R, D, W>(planes, basis.point, smallest);
+		// by how much the basis' own planes miss s is what rounding makes of the others
+		R rounding = R(tolerance::violation) * size;
+		for (int k = 0; k <= D; ++k)
+			rounding = maxOf<R>(rounding, 2 * std::abs(planes.slack[basis.plane[k]] + basis.infeasibility));
+		const R    bound = -basis.infeasibility - rounding;
+		const bool met   = !(smallest < bound);
+		if (!met && bland) q = firstViolated<R, D>(planes, bound);
 		int leaving = -1;
 		if (met && !primalStep<R, D>(planes, basis, leaving, q)) return LpStatus::Optimal;
 		if (pivots >= pivotLimit || q < 0) return LpStatus::PivotLimit;
@@ -301,7 +280,7 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
 		++pivots;
 		if (!solveBasis<R, D>(planes, next)) {
 			if (met) return LpStatus::PivotLimit;
-			if (-planes.slack[q] - basis.infeasibility <= R(tolerance::twinViolation) * scale) return LpStatus::Optimal;
+			if (-planes.slack[q] - basis.infeasibility <= R(tolerance::twinViolation) * size) return LpStatus::Optimal;
 			next                                     = basis;
 			next.plane[steadiestRow<R, D>(basis, w)] = q;
 			if (!solveBasis<R, D>(planes, next)) return LpStatus::PivotLimit;

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One block falls onto a floor; prints the contact it rests on.
+
+	./run python examples/hello.py          or, in YADE:  ./run yade -n -x examples/hello.py
+"""
+from math import radians
+
+from yade import O, Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, RockJointMat
+from yade import polytope
+
+# stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=radians(35)))
+
+O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+block = O.bodies.append(polytope.cuboid(center=(0, 0, 0.55), extents=(0.5, 0.4, 0.5)))
+
+O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Polytope_Aabb()]),
+        InteractionLoop(
+                [Ig2_Polytope_Polytope_PolytopeGeom()],
+                [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
+                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)],
+        ),
+        NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
+]
+O.dt = 2e-4
+O.run(10000, wait=True)
+
+contact = O.interactions[0, block]
+weight = 9.81 * O.bodies[block].state.mass
+print('contact point    ', contact.geom.contactPoint)
+print('normal           ', contact.geom.normal)
+print('depth            ', contact.geom.penetrationDepth, 'm')
+print('area             ', contact.geom.contactArea, 'm²')
+print('force over weight', contact.phys.normalForce.norm() / weight)

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Files for ParaView: polyhedra fall, and every 100 steps are recorded as real polyhedra, with their contacts.
+
+	./run python examples/paraview.py          then open output/paraview/bodies.pvd and contacts.pvd in ParaView
+"""
+from yade import O, PolytopeVTKRecorder
+from yade.polytope.scenes import FallingPolyhedra
+
+FallingPolyhedra(faces=(4, 6, 8, 12, 20), number=60, columns=4).build()
+O.engines = O.engines + [PolytopeVTKRecorder(fileName='output/paraview/', iterPeriod=100)]
+O.run(4000, wait=True)
+
+# In ParaView: the bodies' “color” is in bytes, so uncheck “Map Scalars” for it; for the contacts add a Glyph (arrows) along
+# “normalForce”, scaled by its magnitude.

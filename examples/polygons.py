@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Polygons (2-D): blocks slide out of a hopper; draws where they are after two seconds.
+
+	./run python examples/polygons.py          writes polygons.png
+"""
+from math import cos, pi, radians, sin
+from random import Random
+
+from yade import O, Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, RockJointMat
+from yade import polytope
+from yade.polytope.pictures import picture
+
+O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, frictionAngle=radians(25)))
+
+# convex bodies only: the hopper is two slabs, the floor a third
+for corners in ([(-3, 2.2), (-0.5, 0.6), (-0.5, 0.4), (-3, 2)], [(3, 2.2), (0.5, 0.6), (0.5, 0.4), (3, 2)], [(-3, -1.4), (3, -1.4), (3, -1.2), (-3, -1.2)]):
+	O.bodies.append(polytope.polygon(corners, fixed=True, color=(0.8, 0.8, 0.78)))
+
+random = Random(1)
+for row in range(8):
+	for column in range(9):
+		center, corners, turn = (0.25 * (column - 4), 1.55 + 0.25 * row), random.randint(3, 7), random.uniform(0, pi)
+		angles = [turn + 2 * pi * k / corners for k in range(corners)]
+		O.bodies.append(polytope.polygon([(center[0] + 0.12 * cos(a), center[1] + 0.12 * sin(a)) for a in angles]))
+
+O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Polytope_Aabb()]),
+        InteractionLoop(
+                [Ig2_Polytope_Polytope_PolytopeGeom()],
+                [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],  # N/m for each contact
+                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2)],
+        ),
+        NewtonIntegrator(gravity=(0, -9.81, 0), damping=0.1),
+]
+O.dt = 2e-4
+O.run(10000, wait=True)
+picture('polygons.png', colorBy='speed', legend='speed [m/s]')

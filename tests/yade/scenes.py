@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Small scenes that several physics tests share."""
+from math import sqrt
+
+from yade import (
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, Quaternion,
+        RockJointMat, Vector3
+)
+from yade import polytope
+
+gravity = 9.81
+density = 2600.
+
+
+def joint(**attributes):
+	"""Adds a RockJointMat with the test's usual values, which the arguments replace."""
+	values = dict(density=density, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5)
+	values.update(attributes)
+	return O.materials.append(RockJointMat(**values))
+
+
+def loop(perArea=False, normalDamping=0., shearDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):
+	"""Engines with the plug-in's law. Returns the NewtonIntegrator."""
+	newton = NewtonIntegrator(gravity=gravity, damping=damping)
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
+	        InteractionLoop(
+	                [Ig2_Polytope_Polytope_PolytopeGeom(**ig2)], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea, **ip2)],
+	                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=normalDamping, shearDamping=shearDamping)]
+	        ),
+	        newton,
+	]
+	return newton
+
+
+def law():
+	return O.engines[2].lawDispatcher.functors[0]
+
+
+def blockOnFloor(overlap=0., half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **block):
+	"""A block on a large fixed one, pressed into it by *overlap*; both turned about the origin, the contact. Returns (floor, block)."""
+	floor = polytope.cuboid(turn * Vector3(0, 0, -1), (5, 5, 1), turn, fixed=True)
+	top = polytope.cuboid(turn * Vector3(0, 0, half[2] - overlap), half, turn, **block)
+	O.bodies.append([floor, top])
+	return floor, top
+
+
+def driven(body, velocity=(0, 0, 0), angularVelocity=(0, 0, 0)):
+	"""From now on the body moves as told, whatever the forces."""
+	body.state.blockedDOFs = 'xyzXYZ'
+	body.state.vel = velocity
+	body.state.angVel = angularVelocity
+
+
+def contact(body1, body2):
+	return O.interactions[body1.id, body2.id]
+
+
+def period(mass, stiffness):
+	"""1/ω of a mass on a spring."""
+	return sqrt(mass / stiffness)

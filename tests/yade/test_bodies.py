@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The builders of yade.polytope: textbook answers at every size, and refusals that name the argument."""
+import math
+
+import pytest
+from yade import Body, FrictMat, O, Polytope, Quaternion, Vector3, polytope
+
+SIZES = [1e-9, 1e-3, 1, 1e3]
+
+# faces: vertices, volume and moment of inertia per unit density for edge length 1 (Weisstein, MathWorld: Platonic solids),
+# circumradius for edge length 1
+phi = (1 + math.sqrt(5)) / 2
+REGULAR = {
+        4: (4, math.sqrt(2) / 12, math.sqrt(2) / 240, math.sqrt(6) / 4),
+        6: (8, 1, 1 / 6, math.sqrt(3) / 2),
+        8: (6, math.sqrt(2) / 3, math.sqrt(2) / 30, math.sqrt(2) / 2),
+        12: (20, (15 + 7 * math.sqrt(5)) / 4, (28 + 39 * phi) / 150 * (15 + 7 * math.sqrt(5)) / 4, math.sqrt(3) * phi / 2),
+        20: (12, 5 * (3 + math.sqrt(5)) / 12, phi**2 / 10 * 5 * (3 + math.sqrt(5)) / 12, math.sqrt(phi * math.sqrt(5)) / 2),
+}
+
+
+@pytest.fixture(autouse=True)
+def scene():
+	O.reset()
+	O.materials.append(FrictMat(density=2600, label='rock'))
+
+
+@pytest.mark.parametrize('size', SIZES)
+@pytest.mark.parametrize('faces', REGULAR)
+def testRegularSolids(faces, size):
+	vertices, volume, moment, circumradius = REGULAR[faces]
+	b = polytope.regular(faces, circumradius * size, center=(1, 2, 3))
+	assert len(b.shape.vertices) == vertices and len(b.shape.faces) == faces == len(b.shape.normals)
+	assert b.shape.volume == pytest.approx(volume * size**3, rel=1e-12)
+	assert max(abs(i / (moment * size**5) - 1) for i in b.shape.inertia) < 1e-12
+	assert b.state.mass == pytest.approx(2600 * volume * size**3, rel=1e-12)
+	assert (b.state.pos - Vector3(1, 2, 3)).norm() < 1e-14 * max(size, 1) * 10
+	assert max(abs(v.norm() / (circumradius * size) - 1) for v in b.shape.vertices) < 1e-12
+	assert not b.aspherical
+
+
+def testCuboidKeepsItsAxes():
+	turned = Quaternion((0, 0, 1), 0.3)
+	b = polytope.cuboid((1, 0, 0), (3, 2, 1), orientation=turned)
+	assert b.state.ori == turned and b.state.pos == Vector3(1, 0, 0)
+	assert b.shape.volume == pytest.approx(48)
+	assert list(b.shape.inertia) == pytest.approx([48 / 3 * 5, 48 / 3 * 10, 48 / 3 * 13])
+	assert b.aspherical
+
+
+def testHalfSpacesGoToTheirCentroidAndAxes():
+	# the block of 6 × 4 × 2 at (10, 20, 30), turned by 0.4 about z, as world planes of any length
+	turn = Quaternion((0, 0, 1), 0.4)
+	centre = Vector3(10, 20, 30)
+	normals, offsets = [], []
+	for k, half in enumerate((3, 2, 1)):
+		for sign in (-1, 1):
+			n = turn * (sign * Vector3.Unit(k))
+			normals.append(7 * n)
+			offsets.append(7 * (n.dot(centre) + half))
+	b = polytope.fromHalfSpaces(normals, offsets)
+	assert (b.state.pos - centre).norm() < 1e-13
+	assert list(b.shape.inertia) == pytest.approx(sorted([48 / 3 * 5, 48 / 3 * 10, 48 / 3 * 13]))
+	corners = sorted(tuple(round(x, 9) for x in b.state.pos + b.state.ori * v) for v in b.shape.vertices)
+	expected = sorted(
+	        tuple(round(x, 9) for x in centre + turn * Vector3(3 * i, 2 * j, k)) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)
+	)
+	assert corners == expected
+
+
+def testRedundantPlanesAreKeptOrDroppedAsAsked():
+	cube = polytope.cuboid((0, 0, 0), (1, 1, 1)).shape
+	normals = list(cube.normals) + [Vector3(1, 1, 0), Vector3(1, 0, 0)]
+	offsets = list(cube.offsets) + [5, 1]
+	assert len(polytope.fromHalfSpaces(normals, offsets).shape.normals) == 7  # the repeated face goes in any case
+	assert len(polytope.fromHalfSpaces(normals, offsets, keepRedundant=False).shape.normals) == 6
+
+
+def testVerticesGiveTheirHull():
+	points = [(i, j, k) for i in (0, 2) for j in (0, 1) for k in (0, 1)] + [(1, .5, .5), (1, .5, 1)]
+	b = polytope.fromVertices(points)
+	assert len(b.shape.normals) == 6 and len(b.shape.vertices) == 8
+	assert b.shape.volume == pytest.approx(2)
+	assert b.state.pos == Vector3(1, .5, .5)
+
+
+def testPolygonStaysInItsPlane():
+	b = polytope.polygon([(0, 0), (2, 0), (2, 1), (0, 1)], thickness=0.5)
+	assert b.shape.dimension == 2 and b.state.blockedDOFs == 'zXY'
+	assert b.shape.volume == pytest.approx(1) and b.state.mass == pytest.approx(2600)
+	assert b.state.pos == Vector3(1, .5, 0)
+	assert b.shape.inertia[2] == pytest.approx(5 / 12)
+	assert polytope.polygon([(0, 0), (1, 0), (0, 1)], fixed=True).state.blockedDOFs == 'xyzXYZ'
+
+
+def testMeshFile(tmp_path):
+	import trimesh
+	for name in ('box.stl', 'box.obj', 'box.ply', 'box.off'):
+		path = str(tmp_path / name)
+		trimesh.creation.box((2, 1, 1)).export(path)
+		b = polytope.fromMesh(path, scale=1e-3)
+		assert b.shape.volume == pytest.approx(2e-9, rel=1e-6) and len(b.shape.normals) == 6
+
+
+def testBodyArguments():
+	b = polytope.regular(6, 1, fixed=True, color=(1, 0, 0), mask=5, velocity=(1, 2, 3), angularVelocity=(0, 0, 4), material='rock', wire=True)
+	assert b.state.blockedDOFs == 'xyzXYZ' and b.mask == 5 and b.shape.wire
+	assert b.state.vel == Vector3(1, 2, 3) and b.state.angVel == Vector3(0, 0, 4)
+	assert b.shape.color == Vector3(1, 0, 0) and b.material.label == 'rock'
+	assert b.shape.cornerRadius == pytest.approx(b.shape.inscribedRadius / 10)
+	with pytest.raises(TypeError):
+		polytope.regular(6, 1, colour=(1, 0, 0))
+
+
+CUBE = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+nan, inf = math.nan, math.inf
+
+
+@pytest.mark.parametrize(
+        'build, names', [
+                (lambda: polytope.fromHalfSpaces(CUBE[:5], [1] * 5), ['normals', 'unbounded']),
+                (lambda: polytope.fromHalfSpaces(CUBE, [1, -2, 1, 1, 1, 1]), ['offsets', 'common point']),
+                (lambda: polytope.fromHalfSpaces(CUBE, [1, -1, 1, 1, 1, 1]), ['offsets', 'flat']),
+                (lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, nan]), ['offsets']),
+                (lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, inf]), ['offsets']),
+                (lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, nan, 1)], [1] * 6), ['normals']),
+                (lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, 0, 0)], [1] * 6), ['normals', 'zero']),
+                (lambda: polytope.fromHalfSpaces(CUBE[:3], [1] * 3), ['normals', '4']),
+                (lambda: polytope.fromHalfSpaces(CUBE, [1] * 5), ['offsets', 'normals']),
+                (lambda: polytope.fromHalfSpaces([(1, 0)] * 6, [1] * 6), ['normals']),
+                (lambda: polytope.fromHalfSpaces('abc', [1] * 3), ['normals']),
+                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0)]), ['points']),
+                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), ['points']),
+                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, nan)]), ['points']),
+                (lambda: polytope.polygon([(0, 0), (1, 0)]), ['points2d']),
+                (lambda: polytope.polygon([(0, 0), (1, 1), (2, 2)]), ['points2d']),
+                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness=0), ['thickness']),
+                (lambda: polytope.regular(5, 1), ['faces']),
+                (lambda: polytope.regular(6, 0), ['circumradius']),
+                (lambda: polytope.regular(6, 1, center=(nan, 0, 0)), ['center']),
+                (lambda: polytope.regular(6, 1, cornerRadius=1), ['cornerRadius']),
+                (lambda: polytope.regular(6, 1, cornerRadius=-.1), ['cornerRadius']),
+                (lambda: polytope.regular(6, 1, cornerRadius=nan), ['cornerRadius']),
+                (lambda: polytope.regular(6, 1, velocity=(0, 0, nan)), ['velocity']),
+                (lambda: polytope.cuboid((0, 0, 0), (1, 0, 1)), ['extents']),
+                (lambda: polytope.cuboid((0, 0, 0), (1, 1, 1), orientation=(0, 0, 0, 1)), ['orientation']),
+                (lambda: Polytope(normals=[Vector3(*n) for n in CUBE], offsets=[2, 1, 1, 1, 1, 1]), ['offsets', 'fromHalfSpaces']),
+        ]
+)
+def testWrongInputIsRefusedByName(build, names):
+	with pytest.raises(ValueError) as refusal:
+		build()
+	for name in names:
+		assert name in str(refusal.value)
+	assert len(O.bodies) == 0
+
+
+def testMissingAndUnreadableMeshes(tmp_path):
+	with pytest.raises(FileNotFoundError, match='path'):
+		polytope.fromMesh(str(tmp_path / 'none.stl'))
+	broken = tmp_path / 'broken.stl'
+	broken.write_text('not a mesh')
+	with pytest.raises(ValueError, match='path'):
+		polytope.fromMesh(str(broken))
+
+
+def testRefusedCornerRadiusLeavesTheShape():
+	shape = polytope.regular(6, 1).shape
+	before = shape.cornerRadius
+	with pytest.raises(ValueError, match='cornerRadius'):
+		shape.cornerRadius = 10
+	assert shape.cornerRadius == before
+	shape.cornerRadius = before / 2
+	assert shape.cornerRadius == before / 2
+
+
+def testContactOfTwoCubes():
+	a = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	b = polytope.cuboid((.25, .125, .99), (.5, .5, .5))
+	c = polytope.contact(a, b)
+	assert c.inContact and c.status == 'contact'
+	assert c.infeasibility == pytest.approx(-0.005, rel=1e-12)
+	assert (c.point - Vector3(.125, .0625, .495)).norm() < 1e-12
+	assert (c.normal - Vector3(0, 0, 1)).norm() < 1e-15
+	assert c.depth == pytest.approx(0.01, rel=1e-12) and c.area == pytest.approx(.75 * .875, rel=1e-12)
+	apart = polytope.contact(a, polytope.cuboid((0, 0, 1.5), (.5, .5, .5)))
+	assert not apart.inContact and apart.status == 'separated' and apart.depth == pytest.approx(-.5) and apart.infeasibility == pytest.approx(.25)
+
+
+def testContactRefusesWhatIsNoPolytope():
+	cube = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	with pytest.raises(ValueError, match='b2'):
+		polytope.contact(cube, Body())
+	with pytest.raises(ValueError, match='b2'):
+		polytope.contact(cube, polytope.polygon([(0, 0), (1, 0), (0, 1)]))
+	with pytest.raises(ValueError, match='contactPoint'):
+		polytope.contact(cube, cube, contactPoint='middle')

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Polytopes against YADE's own walls, boxes, facets and spheres: a block comes to rest and is carried, on each."""
+import pytest
+from yade import (
+        Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Box_Polytope_PolytopeGeom,
+        Ig2_Facet_Polytope_PolytopeGeom, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom,
+        InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, Vector3,
+        polytope, utils
+)
+
+def settle(supports, body):
+	O.reset()
+	O.materials.append(FrictMat(young=1e7, poisson=.5, frictionAngle=.5, density=2600))
+	for support in supports:
+		O.bodies.append(support())
+	block = O.bodies[O.bodies.append(body())]
+	functors = [
+	        Ig2_Polytope_Polytope_PolytopeGeom(),
+	        Ig2_Wall_Polytope_PolytopeGeom(),
+	        Ig2_Box_Polytope_PolytopeGeom(),
+	        Ig2_Facet_Polytope_PolytopeGeom(),
+	        Ig2_Sphere_Polytope_PolytopeGeom(),
+	]
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb()], verletDist=.01),
+	        InteractionLoop(functors, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+	        NewtonIntegrator(gravity=(0, 0, -9.81), damping=.4),
+	]
+	O.dt = 1e-4
+	O.run(8000, True)
+	contacts = [i for i in O.interactions if i.isReal]
+	carried = sum((i.phys.normalForce + i.phys.shearForce)[2] * (1 if i.id2 == block.id else -1) for i in contacts)
+	assert sum(f.stats()['failures'] + f.stats()['fallbacks'] for f in functors) == 0
+	return block, contacts, carried
+
+
+def cube():
+	return polytope.cuboid((.05, .03, .11), (.1, .1, .1))
+
+
+SUPPORTS = {
+        'wall': [lambda: utils.wall(0, 2)],
+        'wall, upper side': [lambda: utils.wall(0, 2, sense=1)],
+        'box': [lambda: utils.box((0, 0, -.1), (1, 1, .1), fixed=True)],
+        'facet': [lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], fixed=True)],
+        'facet seen from behind': [lambda: utils.facet([(0, 1, 0), (1, -1, 0), (-1, -1, 0)], fixed=True)],
+        'two facets': [
+                lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (1, 1, 0)], fixed=True),
+                lambda: utils.facet([(-1, -1, 0), (1, 1, 0), (-1, 1, 0)], fixed=True)
+        ],
+        'polytope': [lambda: polytope.cuboid((0, 0, -.1), (1, 1, .1), fixed=True)],
+        'sphere': [lambda: utils.sphere((.05, .03, -1), 1, fixed=True)],
+}
+
+
+@pytest.mark.parametrize('support', SUPPORTS)
+def testCubeRestsOn(support):
+	block, contacts, carried = settle(SUPPORTS[support], cube)
+	assert len(contacts) == len(SUPPORTS[support])
+	assert carried == pytest.approx(9.81 * block.state.mass, rel=1e-3)
+	depths = [i.geom.penetrationDepth for i in contacts]
+	assert all(0 < d < .002 for d in depths)
+	assert abs(block.state.pos[2] - (.1 - max(depths))) < 2e-4
+	assert all(i.geom.status == 'contact' for i in contacts)
+
+
+def testSphereRestsOnPolytope():
+	ball, contacts, carried = settle(SUPPORTS['polytope'], lambda: utils.sphere((.1, .2, .11), .1))
+	assert len(contacts) == 1 and carried == pytest.approx(9.81 * ball.state.mass, rel=1e-3)
+	geom = contacts[0].geom
+	assert geom.normal[2] == (-1 if contacts[0].id1 == ball.id else 1)
+	assert ball.state.pos[2] == pytest.approx(.1 - geom.penetrationDepth, abs=1e-12)
+	assert geom.contactPoint[2] == pytest.approx(-geom.penetrationDepth / 2, abs=1e-12)
+
+
+def testWallOfTheOtherSenseLetsThrough():
+	block, contacts, carried = settle([lambda: utils.wall(0, 2, sense=-1)], lambda: polytope.cuboid((0, 0, .5), (.1, .1, .1)))
+	assert not contacts or block.state.pos[2] < 0  # it is pushed to, or falls on, the side the wall guards
+
+
+def testSphereAgainstEdgeAndVertex():
+	# a unit cube's edge and vertex: shortest distances known
+	O.reset()
+	O.materials.append(FrictMat())
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), fixed=True))
+	for direction in (Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(1, .2, .3)):
+		corner = Vector3(*[1 if d == 1 else d for d in direction])
+		away = Vector3(*[1 if d == 1 else 0 for d in direction]).normalized()
+		O.bodies.append(utils.sphere(corner + .45 * away, .5, fixed=True))
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()]),
+	        InteractionLoop(
+	                [Ig2_Sphere_Polytope_PolytopeGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+	                [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
+	        ),
+	        NewtonIntegrator()
+	]
+	O.dt = 1e-6
+	O.step()
+	contacts = [i for i in O.interactions if i.isReal]
+	assert len(contacts) == 3
+	for i in contacts:
+		assert i.geom.penetrationDepth == pytest.approx(.05, abs=1e-12)
+		# from the sphere (body 1) to the cube
+		assert i.id1 != 0 and i.geom.normal.dot(O.bodies[i.id1].state.pos) < 0
+
+
+def testBoxWithoutVolumeIsCountedNotFatal():
+	O.reset()
+	O.materials.append(FrictMat())
+	O.bodies.append(utils.box((0, 0, 0), (1, 1, 0), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, .05), (.1, .1, .1)))
+	functor = Ig2_Box_Polytope_PolytopeGeom()
+	O.engines = [
+	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Box_Aabb()]),
+	        InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+	        NewtonIntegrator()
+	]
+	O.step()
+	assert functor.stats()['failures'] == 1 and not [i for i in O.interactions if i.isReal]
