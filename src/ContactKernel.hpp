@@ -334,7 +334,9 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	ContactFrame<R, D> f         = contactFrame<R, D>(in);
 	const R            tolerance = settings.tolerance * f.size;
 	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
-	const R            reach     = 2 * in.shape[1 - f.home]->boundingRadius(); // no point of a body is farther from its planes
+	// no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
+	const R larger = in.shape[1 - f.home]->boundingRadius();
+	const R reach  = 2 * (larger < R(padOffset) ? larger : f.size);
 
 	// 1. a first basis: the last step's, or the smaller inscribed ball's
 	LpBasis<R, D> basis;
