@@ -173,7 +173,7 @@ def shadingPass(radius):
 	occlusion = vtk.vtkSSAOPass()
 	occlusion.SetDelegatePass(vtk.vtkRenderStepsPass())
 	occlusion.SetRadius(1.6 * radius)
-	occlusion.SetBias(0.02 * radius)
+	occlusion.SetBias(0.04 * radius)
 	occlusion.SetKernelSize(128)
 	occlusion.BlurOn()
 	return occlusion

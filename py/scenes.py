@@ -69,8 +69,8 @@ class FallingPolyhedra:
 	"""Time step over sqrt(mass / normalStiffness)."""
 	wallHeight: float = 1.6
 	wallThickness: float = 0.1
-	verletFraction: float = 0.1
-	"""Reach of the collider's bounding boxes beyond the bodies, over L."""
+	verletFraction: float = 0.05
+	"""Reach of the collider's bounding boxes beyond the bodies, over L. Measured: 0.02 to 0.3 differ by less than noise."""
 
 	# what build() made
 	floorId: int = dataclasses.field(default=-1, init=False)

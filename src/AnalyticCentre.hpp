@@ -31,14 +31,13 @@ template <class R, int D> struct BarrierStep {
 template <class R, int D, int W>
 POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R* x, R (&gradient)[D], R (&hessian)[D][D])
 {
-	using V = typename Lanes<R, W>::Type;
-	V X[D], g[D], h[D][D];
-	for (int k = 0; k < D; ++k) {
+	using V             = typename Lanes<R, W>::Type;
+	constexpr int count = D + D * (D + 1) / 2;
+	V             X[D], sum[count]; // gradient, then the Hessian's lower triangle by rows
+	for (int k = 0; k < D; ++k)
 		X[k] = broadcast<R, W>(x[k]);
-		g[k] = broadcast<R, W>(0);
-		for (int j = 0; j <= k; ++j)
-			h[k][j] = broadcast<R, W>(0);
-	}
+	for (V& s : sum)
+		s = broadcast<R, W>(0);
 	V smallest = broadcast<R, W>(R(padOffset));
 	for (int i = 0; i < planes.total; i += W) {
 		V a[D];
@@ -50,17 +49,19 @@ POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R*
 		smallest = minOf(smallest, slack);
 		store<R, W>(planes.slack + i, slack);
 		const V inverse = R(1) / slack;
-		for (int k = 0; k < D; ++k) {
+		for (int k = 0, next = D; k < D; ++k) {
 			a[k] *= inverse;
-			g[k] += a[k];
-			for (int j = 0; j <= k; ++j)
-				h[k][j] += a[k] * a[j];
+			sum[k] += a[k];
+			for (int j = 0; j <= k; ++j, ++next)
+				sum[next] += a[k] * a[j];
 		}
 	}
-	for (int k = 0; k < D; ++k) {
-		gradient[k] = horizontalSum<R, W>(g[k]);
-		for (int j = 0; j <= k; ++j)
-			hessian[k][j] = horizontalSum<R, W>(h[k][j]);
+	R total[count];
+	horizontalSums<R, W>(sum, total);
+	for (int k = 0, next = D; k < D; ++k) {
+		gradient[k] = total[k];
+		for (int j = 0; j <= k; ++j, ++next)
+			hessian[k][j] = total[next];
 	}
 	return horizontalMin<R, W>(smallest) > 0;
 }

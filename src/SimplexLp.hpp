@@ -18,9 +18,9 @@
 ///
 /// Departure from the usual revised simplex: the basis is solved afresh after each pivot. For unit normals and D = 3 that
 /// is three cross products of differences of normals, as cheap as updating an inverse, and nothing accumulates. Bodies
-/// have faces that are parallel but for 1e-9, and then a basis of both is as ill-conditioned: weights and point are
-/// corrected by their residuals, and what is left of rounding in each weight (`noise`) is not mistaken for its sign.
-/// It does little harm: where λ_k is this uncertain, the other planes hold slack_k to rounding.
+/// have faces that are parallel but for 1e-9, and a basis of both is as ill-conditioned: then the differences are taken
+/// between these, weights and point are corrected by their residuals, and what is left of rounding in each weight
+/// (`noise`) is not mistaken for its sign. It does little harm: where λ_k is so uncertain, the other planes bound slack_k.
 namespace polytope {
 
 enum class LpStatus { Optimal, Separated, PivotLimit };
@@ -34,6 +34,69 @@ template <class R, int D> struct LpBasis {
 	R   infeasibility = 0;  ///< s of the basis, ≤ s*
 };
 
+/// Inverse, noise, weights and point of the basis from D differences of normals: of planes order[1] … order[D] to plane
+/// order[0], or (`chained`) of the last one to the last but one. Returns the largest noise; infinite if singular.
+///
+///     (p; t) = Σ μ_k (a_k; 1)   ⇔   Σ ν_k e_k = p − t a_0,   ν_k: sum of μ over the planes that hang on edge k
+template <class R, int D>
+POLYTOPE_INLINE R
+solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, LpBasis<R, D>& basis)
+{
+	R e[D][D], c[D][D], difference[D], det;
+	for (int k = 0; k < D; ++k) {
+		const int from = chained && k == D - 1 ? order[D - 1] : order[0];
+		difference[k]  = d[order[k + 1]] - d[from];
+		for (int j = 0; j < D; ++j)
+			e[k][j] = a[order[k + 1]][j] - a[from][j];
+	}
+	if constexpr (D == 3) {
+		for (int k = 0; k < 3; ++k) {
+			const R *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
+			c[k][0] = u[1] * v[2] - u[2] * v[1];
+			c[k][1] = u[2] * v[0] - u[0] * v[2];
+			c[k][2] = u[0] * v[1] - u[1] * v[0];
+		}
+		det = dot<R, 3>(e[0], c[0]);
+	} else {
+		c[0][0] = e[1][1];
+		c[0][1] = -e[1][0];
+		c[1][0] = -e[0][1];
+		c[1][1] = e[0][0];
+		det     = dot<R, 2>(e[0], c[0]);
+	}
+	if (!(det != 0)) return R(padOffset);
+	const R reciprocal = 1 / det;
+	R *     root = basis.inverse[order[0]], *before = basis.inverse[order[D - 1]];
+	for (int j = 0; j < D; ++j) {
+		root[j]        = 0;
+		basis.point[j] = 0;
+	}
+	root[D] = 1;
+	for (int k = 0; k < D; ++k) {
+		R* row = basis.inverse[order[k + 1]];
+		row[D] = 0;
+		for (int j = 0; j < D; ++j) {
+			row[j] = c[k][j] * reciprocal;
+			row[D] -= row[j] * a[order[0]][j];
+			// z = (x; −s) solves (a_k; 1)·z = d_k. Differences keep s exact when the planes agree.
+			basis.point[j] += row[j] * difference[k];
+		}
+		R* upper = chained && k == D - 1 ? before : root;
+		for (int j = 0; j <= D; ++j)
+			upper[j] -= row[j];
+	}
+	R longest = 0;
+	for (int k = 0; k <= D; ++k) {
+		R length = 0;
+		for (int j = 0; j <= D; ++j)
+			length += std::abs(basis.inverse[k][j]);
+		basis.weight[k] = basis.inverse[k][D];
+		basis.noise[k]  = R(tolerance::rounding) * length;
+		longest         = maxOf<R>(longest, basis.noise[k]);
+	}
+	return longest;
+}
+
 /// Corrects weights and point by their residuals: Σ λ_k (a_k; 1) = (0; 1) and a_k·x − s = d_k to rounding, whatever the
 /// inverse lost to cancellation.
 template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
@@ -43,13 +106,14 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 		minusS += basis.weight[k] * d[k];
 	for (int round = 0; round < tolerance::refinements; ++round) {
 		R dual[D + 1], primal[D + 1];
+		R size = 0, wrong = 0;
 		for (int j = 0; j < D; ++j) {
 			dual[j] = 0;
 			for (int k = 0; k <= D; ++k)
 				dual[j] -= basis.weight[k] * a[k][j];
+			size = maxOf<R>(size, std::abs(basis.point[j]));
 		}
 		dual[D] = 1;
-		R size  = 0, wrong = 0;
 		for (int k = 0; k <= D; ++k) {
 			dual[D] -= basis.weight[k];
 			primal[k] = d[k] - dot<R, D>(a[k], basis.point) - minusS;
@@ -69,65 +133,50 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 	}
 }
 
+/// As solveBasis(), for a basis that has nearly parallel planes: these are paired, for differences that are small keep
+/// their digits if they are taken as such. Out of line, for it is rare.
+template <class R, int D>
+__attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+{
+	const auto apart = [&](int i, int j) {
+		R sum = 0;
+		for (int k = 0; k < D; ++k)
+			sum += (a[i][k] - a[j][k]) * (a[i][k] - a[j][k]);
+		return sum;
+	};
+	// the closest two first
+	int order[D + 1] = { 0, 1 };
+	for (int i = 0; i <= D; ++i)
+		for (int j = 0; j < i; ++j)
+			if (apart(i, j) < apart(order[0], order[1])) {
+				order[0] = i;
+				order[1] = j;
+			}
+	for (int k = 2, i = 0; i <= D; ++i)
+		if (i != order[0] && i != order[1]) order[k++] = i;
+	bool chained = false;
+	if constexpr (D == 3) {
+		if (apart(order[3], order[0]) < apart(order[2], order[0])) {
+			const int nearer = order[3];
+			order[3]         = order[2];
+			order[2]         = nearer;
+		}
+		chained = apart(order[2], order[3]) < apart(order[0], order[3]);
+	}
+	if (!(solveFromDifferences<R, D>(a, d, order, chained, basis) < R(tolerance::singularBasis))) return false;
+	refineBasis<R, D>(a, d, basis);
+	return true;
+}
+
 /// Solves the basis of the planes (a_k, d_k), k = 0…D: inverse, weights, point, s. False if singular (normals that,
 /// with the row of ones, are linearly dependent to rounding).
 template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
 {
-	// (p; t) = Σ μ_k (a_k; 1)  ⇔  Σ_{k≥1} μ_k (a_k − a_0) = p − t a_0,  μ_0 = t − Σ_{k≥1} μ_k
-	R e[D][D], c[D][D];
-	for (int k = 0; k < D; ++k)
-		for (int j = 0; j < D; ++j)
-			e[k][j] = a[k + 1][j] - a[0][j];
-	R det;
-	if constexpr (D == 3) {
-		for (int k = 0; k < 3; ++k) {
-			const R *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
-			c[k][0] = u[1] * v[2] - u[2] * v[1];
-			c[k][1] = u[2] * v[0] - u[0] * v[2];
-			c[k][2] = u[0] * v[1] - u[1] * v[0];
-		}
-		det = dot<R, 3>(e[0], c[0]);
-	} else {
-		c[0][0] = e[1][1];
-		c[0][1] = -e[1][0];
-		c[1][0] = -e[0][1];
-		c[1][1] = e[0][0];
-		det     = dot<R, 2>(e[0], c[0]);
-	}
-	if (!(det != 0)) return false;
-	const R reciprocal = 1 / det;
-	for (int j = 0; j < D; ++j)
-		basis.inverse[0][j] = 0;
-	basis.inverse[0][D] = 1;
-	for (int k = 0; k < D; ++k) {
-		R last = 0;
-		for (int j = 0; j < D; ++j) {
-			const R r               = c[k][j] * reciprocal;
-			basis.inverse[k + 1][j] = r;
-			basis.inverse[0][j] -= r;
-			last -= r * a[0][j];
-		}
-		basis.inverse[k + 1][D] = last;
-		basis.inverse[0][D] -= last;
-	}
-	R longest = 0;
-	for (int k = 0; k <= D; ++k) {
-		R length = 0;
-		for (int j = 0; j <= D; ++j)
-			length += std::abs(basis.inverse[k][j]);
-		basis.noise[k] = R(tolerance::rounding) * length;
-		longest        = maxOf<R>(longest, basis.noise[k]);
-	}
-	if (!(longest < R(tolerance::singularBasis))) return false;
-	// z = (x; −s) solves (a_k; 1)·z = d_k. Taking the differences to plane 0 keeps s exact when the planes agree.
-	for (int j = 0; j < D; ++j)
-		basis.point[j] = 0;
-	for (int k = 0; k < D; ++k)
-		for (int j = 0; j < D; ++j)
-			basis.point[j] += basis.inverse[k + 1][j] * (d[k + 1] - d[0]);
+	int order[D + 1];
 	for (int k = 0; k <= D; ++k)
-		basis.weight[k] = basis.inverse[k][D];
-	if (longest > R(tolerance::refinedBasis)) refineBasis<R, D>(a, d, basis);
+		order[k] = k;
+	const R noise = solveFromDifferences<R, D>(a, d, order, false, basis);
+	if (!(noise <= R(tolerance::refinedBasis)) && !solveNearlyParallel<R, D>(a, d, basis)) return false;
 	// from the weights, not from z: their residual Σ λ a multiplies a point of the overlap, z's one multiplies x, which may be far
 	basis.infeasibility = 0;
 	for (int k = 0; k <= D; ++k)
@@ -232,8 +281,11 @@ template <class R, int D> POLYTOPE_INLINE bool primalStep(const PairPlanes<R, D>
 		R rate = row[D];
 		for (int j = 0; j < D; ++j)
 			rate += row[j] * planes.normal[j][i];
-		// not met, or a twin of a basic plane
-		if (!(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || planes.offset[i] >= R(padOffset) / 2) continue;
+		// basic, not met, or a twin of a basic plane
+		bool basic = false;
+		for (int k = 0; k <= D; ++k)
+			basic = basic || basis.plane[k] == i;
+		if (basic || !(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || planes.offset[i] >= R(padOffset) / 2) continue;
 		const R distance = maxOf<R>(planes.slack[i] + basis.infeasibility, 0) / -rate;
 		if (distance < limit) {
 			limit    = distance;

@@ -2,7 +2,7 @@
 """Simulation A of Boon, Houlsby & Utili (2012): 200 regular polyhedra fall onto a floor between four walls.
 
 Runs one solid or all five, measures every part of the contact detection, compares the result with what is expected, and
-writes results, pictures and ParaView files. Ends with 1 if anything is not as it must be.
+writes results, pictures and ParaView files. Ends with 1 if a particle has left the box or a contact query had no answer.
 
 	./run demo                                 # all five solids, with pictures
 	./run demo --shape cube --threads 2 --vtk-every 100
@@ -21,7 +21,8 @@ import time
 
 solidNames = ('tetrahedron', 'cube', 'octahedron', 'dodecahedron', 'icosahedron')
 
-# Expected for 200 particles and 7000 steps, from an independent program of the paper's algorithm; lengths in L.
+# Found for 200 particles and 7000 steps by an independent program of the paper's algorithm, one run of each solid; lengths
+# in L. Other orientations at the start scatter about as much: a single body that topples late holds 1e-3 of the energy.
 fullNumber, fullSteps, halfStep = 200, 7000, 4000
 expected = {
         'energyHalf': (1e-3, 2e-2),
@@ -72,8 +73,9 @@ def simulate(name, given):
 	scene.geometryFunctor.contactPoint = given.contact_point
 	folder = given.output / name
 	folder.mkdir(parents=True, exist_ok=True)
+	recorder = PolytopeVTKRecorder(fileName=f'{folder}/', iterPeriod=given.vtk_every)
 	if given.vtk_every:
-		O.engines = O.engines + [PolytopeVTKRecorder(fileName=f'{folder}/', iterPeriod=given.vtk_every)]
+		O.engines = O.engines + [recorder]
 
 	watch = RunWatch(scene.geometryFunctor, scene.interactionLoop)
 	energyUnit = given.number * scene.mass * scene.gravity * scene.size
@@ -90,6 +92,8 @@ def simulate(name, given):
 			watch.run(given.steps - half, progress.update)
 			wallTime += time.perf_counter() - began
 	draw(folder, scene, given)
+	if given.vtk_every:
+		recorder()  # the state at the end
 
 	summary = watch.summary()
 	positions = [body.state.pos for body in scene.particles()]
@@ -117,17 +121,23 @@ def draw(folder, scene, given):
 		return
 	from yade import O
 	from yade.polytope.pictures import picture
-	half, top = scene.width / 2, scene.lattice()[:, 2].max() + scene.spacing / 2
-	corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-scene.wallThickness, top)]
-	picture(f'{folder}/step{O.iter:05d}.png', colorBy='color', fixed=lambda body: 'solid' if body.id == scene.floorId else 'hidden', frame=corners, size=(1200, 1200))
+	floor, top = scene.width / 2 + scene.wallThickness, scene.lattice()[:, 2].max() + scene.spacing / 2
+	frame = [(x, y, -scene.wallThickness) for x in (-floor, floor) for y in (-floor, floor)]
+	frame += [(x, y, top) for x in (-scene.width / 2, scene.width / 2) for y in (-scene.width / 2, scene.width / 2)]
+	without = lambda body: 'solid' if body.id == scene.floorId else 'hidden'
+	picture(f'{folder}/step{O.iter:05d}.png', fixed=without, frame=frame, size=(1200, 1100))
 
 
 def judge(result, comparable):
-	"""[(what, value, expected, ok)]: the ranges where the run is the one they were made for, and what must hold in any run."""
-	checks = [('all inside', result['inside'], result['number'], result['inside'] == result['number']),
-	          ('queries without an answer', result['failures'], 0, result['failures'] == 0)]
-	if comparable:
-		checks += [(labels[key], result[key], f'{low:g} … {high:g}', low <= result[key] <= high) for key, (low, high) in expected.items()]
+	"""[(what, value, expected, verdict)]: what must hold in any run, and the ranges if the run is the one they are for."""
+	required = lambda holds: 'ok' if holds else 'NOT OK'
+	checks = [
+	        ('particles inside', result['inside'], result['number'], required(result['inside'] == result['number'])),
+	        ('queries without an answer', result['failures'], 0, required(result['failures'] == 0)),
+	]
+	for key, (low, high) in expected.items():
+		verdict = '' if not comparable else 'ok' if low <= result[key] <= high else 'outside'
+		checks.append((labels[key], result[key], f'{low:g} … {high:g}' if comparable else '', verdict))
 	return checks
 
 
@@ -144,14 +154,14 @@ def show(results, comparable):
 	print('\nWhat the contact detection did, and what it cost')
 	print(tabulate([[cell(r[key], form) for key, _, form in columns] for r in results], [title for _, title, _ in columns], stralign='right', disable_numparse=True))
 
-	print('\nWhat came out' + ('' if comparable else f' (ranges are for {fullNumber} particles and {fullSteps} steps; not compared)'))
+	print('\nWhat came out' + ('' if comparable else f' (what is expected is known for {fullNumber} particles and {fullSteps} steps)'))
 	verdicts = {r['shape']: judge(r, comparable) for r in results}
-	mark = lambda value, ok: (f'{value:.3g}' if isinstance(value, float) else str(value)) + ('  ok' if ok else '  NOT OK')
-	rows = [[checks[0][0], checks[0][2]] + [mark(value, ok) for _, value, _, ok in checks] for checks in zip(*verdicts.values())]
+	mark = lambda value, verdict: f'{value:.3g}  {verdict}' if isinstance(value, float) else f'{value}  {verdict}'
+	rows = [[checks[0][0], checks[0][2]] + [mark(value, verdict) for _, value, _, verdict in checks] for checks in zip(*verdicts.values())]
 	print(tabulate(rows, ['', 'expected', *verdicts], disable_numparse=True))
 	print('\nState at the end (SHA-256, first 16 digits; the same every time with one thread)')
 	print(tabulate([[r['shape'], r['stateHash']] for r in results], tablefmt='plain'))
-	return all(ok for checks in verdicts.values() for *_, ok in checks)
+	return not any(verdict == 'NOT OK' for checks in verdicts.values() for *_, verdict in checks)
 
 
 def save(results, folder):

@@ -26,14 +26,15 @@ namespace {
 		const std::size_t            block  = malloc_usable_size(dynamic_cast<void*>(object.get()));
 		// malloc rounds a block up to a multiple of 16 bytes, less the 8 of its own head
 		if (block < sizeof(Class) || block > sizeof(Class) + 24) {
-			faults += std::string("\t") + name + " takes " + std::to_string(sizeof(Class)) + " bytes in the plug-in, about " + std::to_string(block)
-			        + " in YADE\n";
+			faults += std::string("\t") + name + " takes " + std::to_string(sizeof(Class)) + " bytes in the plug-in, about "
+			        + std::to_string(block) + " in YADE\n";
 			return nullptr;
 		}
 		return boost::static_pointer_cast<Class>(object);
 	}
 
-	template <class Class, class Base, class Value> void compare(const char* name, Class& object, const char* attribute, Value Base::* member)
+	template <class Class, class Base, class Value>
+	void compare(const char* name, Class& object, const char* attribute, Value Base::* member)
 	{
 		const Value old  = object.*member;
 		const Value sent = static_cast<Value>(!old); // 0 or 1, and never the old value
@@ -48,50 +49,33 @@ namespace {
 		if (object) (compare(name, *object, members.first, members.second), ...);
 	}
 
-	template <class Base, class Value> std::pair<const char*, Value Base::*> member(const char* name, Value Base::* pointer) { return { name, pointer }; }
+	template <class Base, class Value> std::pair<const char*, Value Base::*> member(const char* name, Value Base::* pointer)
+	{
+		return { name, pointer };
+	}
 
 	void compareAll()
 	{
-		check<Scene>(
-		        "Scene",
-		        member("dt", &Scene::dt),
-		        member("iter", &Scene::iter),
-		        member("subStep", &Scene::subStep),
-		        member("time", &Scene::time),
-		        member("stopAtTime", &Scene::stopAtTime),
-		        member("isPeriodic", &Scene::isPeriodic),
+		check<Scene>("Scene", member("dt", &Scene::dt), member("iter", &Scene::iter), member("subStep", &Scene::subStep),
+		        member("time", &Scene::time), member("stopAtTime", &Scene::stopAtTime), member("isPeriodic", &Scene::isPeriodic),
 		        member("selectedBody", &Scene::selectedBody));
-		check<Body>(
-		        "Body",
-		        member("id", &Body::id),
-		        member("flags", &Body::flags),
-		        member("clumpId", &Body::clumpId),
-		        member("iterBorn", &Body::iterBorn),
-		        member("timeBorn", &Body::timeBorn));
-		check<State>("State", member("mass", &State::mass), member("isDamped", &State::isDamped), member("densityScaling", &State::densityScaling));
+		check<Body>("Body", member("id", &Body::id), member("flags", &Body::flags), member("clumpId", &Body::clumpId),
+		        member("iterBorn", &Body::iterBorn), member("timeBorn", &Body::timeBorn));
+		check<State>("State", member("mass", &State::mass), member("isDamped", &State::isDamped),
+		        member("densityScaling", &State::densityScaling));
 		check<Shape>("Shape", member("wire", &Shape::wire), member("highlight", &Shape::highlight));
 		check<Aabb>("Aabb", member("lastUpdateIter", &Aabb::lastUpdateIter), member("sweepLength", &Aabb::sweepLength));
 		check<Cell>("Cell", member("homoDeform", &Cell::homoDeform), member("flipFlippable", &Cell::flipFlippable));
-		check<Interaction>(
-		        "Interaction",
-		        member("id1", &Interaction::id1),
-		        member("iterMadeReal", &Interaction::iterMadeReal),
-		        member("linIx", &Interaction::linIx),
-		        member("iterBorn", &Interaction::iterBorn));
-		check<FrictMat>(
-		        "FrictMat",
-		        member("id", &FrictMat::id),
-		        member("density", &FrictMat::density),
-		        member("young", &FrictMat::young),
-		        member("frictionAngle", &FrictMat::frictionAngle));
-		check<FrictPhys>(
-		        "FrictPhys",
-		        member("kn", &FrictPhys::kn),
-		        member("ks", &FrictPhys::ks),
+		check<Interaction>("Interaction", member("id1", &Interaction::id1), member("iterMadeReal", &Interaction::iterMadeReal),
+		        member("linIx", &Interaction::linIx), member("iterBorn", &Interaction::iterBorn));
+		check<FrictMat>("FrictMat", member("id", &FrictMat::id), member("density", &FrictMat::density),
+		        member("young", &FrictMat::young), member("frictionAngle", &FrictMat::frictionAngle));
+		check<FrictPhys>("FrictPhys", member("kn", &FrictPhys::kn), member("ks", &FrictPhys::ks),
 		        member("tangensOfFrictionAngle", &FrictPhys::tangensOfFrictionAngle));
-		check<ScGeom>(
-		        "ScGeom", member("refR1", &ScGeom::refR1), member("refR2", &ScGeom::refR2), member("penetrationDepth", &ScGeom::penetrationDepth));
-		check<InteractionLoop>("InteractionLoop", member("dead", &InteractionLoop::dead), member("ompThreads", &InteractionLoop::ompThreads));
+		check<ScGeom>("ScGeom", member("refR1", &ScGeom::refR1), member("refR2", &ScGeom::refR2),
+		        member("penetrationDepth", &ScGeom::penetrationDepth));
+		check<InteractionLoop>(
+		        "InteractionLoop", member("dead", &InteractionLoop::dead), member("ompThreads", &InteractionLoop::ompThreads));
 	}
 
 	shared_ptr<Factorable> refuse()

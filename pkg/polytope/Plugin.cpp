@@ -26,12 +26,11 @@ namespace {
 /// Owns one reference to a Python object; null where the call that made it failed (the Python error is cleared).
 class Reference {
 public:
-	explicit Reference(PyObject* newReference)
-	        : object(newReference)
+	explicit Reference(PyObject* newReference) : object(newReference)
 	{
 		if (!object) PyErr_Clear();
 	}
-	Reference(const Reference&) = delete;
+	Reference(const Reference&)            = delete;
 	Reference& operator=(const Reference&) = delete;
 	~Reference() { Py_XDECREF(object); }
 
@@ -132,7 +131,8 @@ __attribute__((constructor)) void loadPlugin()
 	if (fault.empty()) fault = loadClasses(folder);
 	if (fault.empty()) extendYadePath(folder + "/polytope-py");
 	else
-		refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault + ".\nBuild it again for this YADE: `./run build`.");
+		refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault
+		        + ".\nBuild it again for this YADE: `./run build`.");
 	PyGILState_Release(gil);
 }
 

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures: they show what is in the scene. Colours of pixels are compared, not pictures to the last bit."""
+import os
+import shutil
+import subprocess
+
+import matplotlib.image
+import numpy as np
+import pytest
+from yade import FrictMat, O, utils
+from yade import polytope
+from yade.polytope.pictures import collect, picture
+
+red, blue = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9)
+
+
+@pytest.fixture(autouse=True)
+def material():
+	O.materials.append(FrictMat(density=2600))
+
+
+def pixels(path):
+	return matplotlib.image.imread(path)[:, :, :3]
+
+
+def drawn(path, **options):
+	picture(str(path), **{'size': (300, 200), **options})
+	return pixels(path)
+
+
+def shareLike(image, channel):
+	"""Share of the pixels in which this channel is more than twice each of the others."""
+	others = [k for k in range(3) if k != channel]
+	return np.mean((image[:, :, channel] > 2 * image[:, :, others].max(axis=2)))
+
+
+def testPictureShowsTheBodiesInTheirColours(tmp_path):
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True, color=(0.8, 0.8, 0.8)))
+	O.bodies.append(polytope.regular(4, 0.6, center=(-1, 0, 0.3), color=red))
+	O.bodies.append(polytope.regular(20, 0.5, center=(1, 0, 0.4), color=blue))
+	image = drawn(tmp_path / 'folder' / 'a.png')
+	assert image.shape == (200, 300, 3)
+	assert shareLike(image, 0) > 0.01 and shareLike(image, 2) > 0.01
+	columns = [np.nonzero((image[:, :, k] > 2 * image[:, :, 2 - k]).any(axis=0))[0].mean() for k in (0, 2)]
+	assert columns[0] < 150 < columns[1], 'the red one is on the left'
+	assert 0.05 < np.mean(image.min(axis=2) > 0.99) < 0.9, 'white around the bodies'
+
+
+def testBodiesAreDrawnWhereTheyAre(tmp_path):
+	"""A cube from the side, in a frame of twice its size, covers a quarter of a square picture."""
+	O.bodies.append(polytope.cuboid((5, 6, 7), (0.5, 0.5, 0.5), color=red))
+	frame = [(x, 6.5, z) for x in (4, 6) for z in (6, 8)]
+	image = drawn(tmp_path / 'a.png', size=(200, 200), view=(0, -1, 0), frame=frame, edges=False)
+	covered = np.mean(image.min(axis=2) < 0.9)
+	assert covered == pytest.approx(0.25, rel=0.25)  # perspective and the frame's margin
+	middle = np.argwhere(image.min(axis=2) < 0.9).mean(axis=0)
+	assert list(middle) == pytest.approx([100, 100], abs=2)
+
+
+def testColoursFollowTheValueAskedFor(tmp_path):
+	for k in range(2):
+		O.bodies.append(polytope.regular(8, 0.5, center=(2 * k, 0, 0), velocity=(3 * k, 0, 0), color=(0, 1, 0)))
+	image = drawn(tmp_path / 'a.png', colorBy='speed', view=(0, -1, 0), legend='speed [m/s]')
+	left, right = image[60:, :150], image[60:, 150:]
+	difference = [part[:, :, 0].astype(float) - part[:, :, 2] for part in (left, right)]
+	assert difference[0].min() < -0.1 and difference[0].max() < 0.1, 'slow: blue'
+	assert difference[1].max() > 0.1 and difference[1].min() > -0.1, 'fast: red'
+
+
+def testFixedBodiesInFrontDoNotHideTheOthers(tmp_path):
+	O.bodies.append(polytope.regular(12, 0.5, color=red))
+	O.bodies.append(polytope.cuboid((0, -1, 0), (1, 0.1, 1), fixed=True))
+	assert shareLike(drawn(tmp_path / 'auto.png'), 0) > 0.02
+	assert shareLike(drawn(tmp_path / 'solid.png', fixed='solid', view=(0, -1, 0)), 0) == 0
+	assert shareLike(drawn(tmp_path / 'hidden.png', fixed='hidden', view=(0, -1, 0)), 0) > 0.1
+
+
+def testPolygonsAreSeenAlongZ(tmp_path):
+	O.bodies.append(polytope.polygon([(0, 0), (2, 0), (0, 1)], color=red))
+	image = drawn(tmp_path / 'a.png')
+	lower, upper = image[100:], image[:100]
+	assert shareLike(image, 0) > 0.2
+	assert shareLike(lower, 0) > 1.5 * shareLike(upper, 0), 'the triangle stands on its long side'
+
+
+def testOtherShapesOfYadeAreDrawnToo():
+	O.bodies.append(utils.sphere((0, 0, 0), 0.5))
+	O.bodies.append(utils.box((2, 0, 0), (0.5, 0.5, 0.5)))
+	O.bodies.append(utils.facet([(0, 0, 0), (1, 0, 0), (0, 1, 0)]))
+	O.bodies.append(utils.wall(0, axis=2))
+	meshes = collect(O.bodies)
+	assert set(meshes) == {'smooth', 'solid'}
+	assert np.linalg.norm(meshes['smooth']['points'], axis=1) == pytest.approx(0.5)
+	assert set(meshes['solid']['ids']) == {1, 2}
+	assert len(meshes['solid']['ids']) == 6 + 1
+
+
+def testCollectedFacesLieOnTheBodies():
+	O.bodies.append(polytope.regular(12, 0.3, center=(1, 2, 3)))
+	mesh = collect(O.bodies)['solid']
+	assert len(mesh['offsets']) == 13 and list(mesh['ids']) == [0] * 12
+	assert np.linalg.norm(mesh['points'] - (1, 2, 3), axis=1) == pytest.approx(0.3)
+
+
+def testRefusals(tmp_path, monkeypatch):
+	with pytest.raises(ValueError, match='bodies: there is nothing to draw'):
+		picture(str(tmp_path / 'a.png'))
+	O.bodies.append(polytope.regular(4, 1))
+	with pytest.raises(ValueError, match='colorBy'):
+		picture(str(tmp_path / 'a.png'), colorBy='beauty')
+	with pytest.raises(ValueError, match='fixed'):
+		picture(str(tmp_path / 'a.png'), fixed='invisible')
+	monkeypatch.setenv('PATH', str(tmp_path))
+	with pytest.raises(RuntimeError, match='install the package xvfb'):
+		picture(str(tmp_path / 'a.png'))
+	assert not (tmp_path / 'a.png').exists()
+
+
+viewScript = '''
+import os, time
+from yade import O, FrictMat, Gl1_Polytope, qt
+from yade import polytope
+from PyQt5.QtWidgets import QApplication
+
+O.materials.append(FrictMat())
+O.bodies.append(polytope.regular(12, 0.5, color=(1, 0, 0)))
+qt.Renderer().bgColor = (1, 1, 1)
+view = qt.View()
+
+def shown(name):
+	for _ in range(100):
+		QApplication.processEvents()
+		time.sleep(0.01)
+	view.saveSnapshot(name)
+	for _ in range(100):
+		QApplication.processEvents()
+		time.sleep(0.01)
+
+view.center()
+shown('solid.jpg')
+Gl1_Polytope.wire = True
+shown('wire.jpg')
+os._exit(0)
+'''
+
+
+@pytest.mark.skipif(not (shutil.which('xvfb-run') and shutil.which('yade')), reason='needs yade and xvfb-run')
+def testYadesOwnViewDrawsPolytopes(tmp_path):
+	"""Gl1_Polytope, in the Qt window on a virtual screen."""
+	(tmp_path / 'view.py').write_text(viewScript)
+	environment = {**os.environ, 'LIBGL_ALWAYS_SOFTWARE': '1', 'XDG_RUNTIME_DIR': str(tmp_path)}
+	done = subprocess.run(
+	        ['xvfb-run', '-a', '-s', '-screen 0 1024x768x24', 'yade', 'view.py'], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120
+	)
+	assert done.returncode == 0, done.stdout + done.stderr
+	# in JPEG whatever the name says
+	solid, wire = (shareLike(matplotlib.image.imread(tmp_path / name) / 255, 0) for name in ('solid.jpg', 'wire.jpg'))
+	assert solid > 0.05 and 0 < wire < solid / 3

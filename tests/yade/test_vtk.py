@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""PolytopeVTKRecorder: what it writes is read back with VTK's own readers and compared with the scene."""
+import os
+import xml.etree.ElementTree
+
+import pytest
+import vtk
+from scenes import joint, loop
+from vtk.util.numpy_support import vtk_to_numpy
+from yade import FrictMat, O, PolytopeVTKRecorder, Quaternion, polytope
+
+
+def readBodies(path):
+	reader = vtk.vtkXMLUnstructuredGridReader()
+	reader.SetFileName(str(path))
+	reader.Update()
+	return reader.GetOutput()
+
+
+def readContacts(path):
+	reader = vtk.vtkXMLPolyDataReader()
+	reader.SetFileName(str(path))
+	reader.Update()
+	return reader.GetOutput()
+
+
+def surfaceOf(grid, cell):
+	"""Triangles of one cell's faces."""
+	pick = vtk.vtkExtractCells()
+	pick.SetInputData(grid)
+	pick.AddCellRange(cell, cell)
+	surface = vtk.vtkGeometryFilter()
+	surface.SetInputConnection(pick.GetOutputPort())
+	triangles = vtk.vtkTriangleFilter()
+	triangles.SetInputConnection(surface.GetOutputPort())
+	triangles.Update()
+	return triangles.GetOutput()
+
+
+def openEdges(surface):
+	edges = vtk.vtkFeatureEdges()
+	edges.SetInputData(surface)
+	edges.FeatureEdgesOff()
+	edges.ManifoldEdgesOff()
+	edges.Update()
+	return edges.GetOutput().GetNumberOfCells()
+
+
+def volumeOf(surface):
+	properties = vtk.vtkMassProperties()
+	properties.SetInputData(surface)
+	return properties.GetVolume()
+
+
+@pytest.fixture
+def someBodies():
+	"""One of each regular solid, turned, and a pentagon; distinct values in every field."""
+	O.materials.append(FrictMat(density=2600))
+	O.materials.append(FrictMat(density=2000))
+	for k, faces in enumerate((4, 6, 8, 12, 20)):
+		body = polytope.regular(
+		        faces,
+		        0.1 * (k + 1),
+		        center=(k, 2, -1),
+		        orientation=Quaternion((1, k, 2), 0.3 * k),
+		        material=k % 2,
+		        mask=1 << k,
+		        color=(0.2 * k, 0.5, 1),
+		        velocity=(k, -1, 2),
+		        angularVelocity=(0, k, 1),
+		        fixed=faces == 6,
+		)
+		O.bodies.append(body)
+	O.bodies.append(polytope.polygon([(0, 0), (1, 0), (1.4, 0.7), (0.5, 1.5), (-0.3, 0.8)], thickness=0.3))
+	O.bodies[2].state.refPos = O.bodies[2].state.pos - (0.5, 0, 0)
+
+
+@pytest.mark.parametrize('options', [{}, {'ascii': True}, {'compress': False}])
+def testBodiesComeBackAsClosedSolidsWithTheirData(tmp_path, someBodies, options):
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/run-', **options)()
+	grid = readBodies(tmp_path / 'run-bodies.0.vtu')
+	assert grid.GetNumberOfCells() == len(O.bodies)
+	data = {grid.GetCellData().GetArrayName(k): vtk_to_numpy(grid.GetCellData().GetArray(k)) for k in range(grid.GetCellData().GetNumberOfArrays())}
+	for body in O.bodies:
+		k = body.id
+		assert grid.GetCellType(k) == vtk.VTK_POLYHEDRON
+		assert grid.GetCell(k).GetNumberOfFaces() == len(body.shape.faces)
+		surface = surfaceOf(grid, k)
+		assert openEdges(surface) == 0
+		assert volumeOf(surface) == pytest.approx(body.shape.volume, rel=1e-9)
+		assert data['id'][k] == k and data['mask'][k] == body.mask and data['materialId'][k] == body.material.id
+		assert data['dynamic'][k] == body.dynamic
+		assert data['mass'][k] == pytest.approx(body.state.mass)
+		assert list(data['velocity'][k]) == pytest.approx(list(body.state.vel))
+		assert list(data['angularVelocity'][k]) == pytest.approx(list(body.state.angVel))
+		assert list(data['displacement'][k]) == pytest.approx(list(body.state.pos - body.state.refPos))
+		assert list(data['color'][k]) == pytest.approx([255 * c for c in body.shape.color], abs=1)
+	bounds = grid.GetBounds()
+	corners = [b.state.pos + b.state.ori * v for b in O.bodies for v in b.shape.vertices]
+	assert list(bounds) == pytest.approx([f(c[k] for c in corners) for k in range(3) for f in (min, max)], abs=1e-12)
+
+
+def testContactsComeBackWithTheirForces(tmp_path):
+	joint()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	for k in range(3):
+		O.bodies.append(polytope.cuboid((0.1 * k, 0, 0.5 + 0.999 * k), (0.5, 0.4, 0.5)))
+	loop(perArea=True, gravity=(0.5, 0, -9.81))
+	O.dt = 1e-4
+	for _ in range(20):
+		O.step()
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/')()
+	data = readContacts(tmp_path / f'contacts.{O.iter}.vtp')
+	assert data.GetNumberOfPoints() == data.GetNumberOfCells() == 3
+	arrays = {data.GetPointData().GetArrayName(k): vtk_to_numpy(data.GetPointData().GetArray(k)) for k in range(data.GetPointData().GetNumberOfArrays())}
+	names = data.GetFieldData().GetAbstractArray('statusNames')
+	for k in range(3):
+		contact = O.interactions[int(arrays['id1'][k]), int(arrays['id2'][k])]
+		assert list(data.GetPoint(k)) == pytest.approx(list(contact.geom.contactPoint))
+		assert list(arrays['normal'][k]) == pytest.approx(list(contact.geom.normal))
+		assert list(arrays['normalForce'][k]) == pytest.approx(list(contact.phys.normalForce))
+		assert list(arrays['shearForce'][k]) == pytest.approx(list(contact.phys.shearForce))
+		assert arrays['depth'][k] == pytest.approx(contact.geom.penetrationDepth)
+		assert arrays['area'][k] == pytest.approx(contact.geom.contactArea)
+		assert arrays['infeasibility'][k] == pytest.approx(contact.geom.infeasibility)
+		assert names.GetValue(int(arrays['status'][k])) == contact.geom.status
+
+
+def seriesIn(path):
+	"""[(time, file)] of a .pvd list."""
+	return [(float(e.get('timestep')), e.get('file')) for e in xml.etree.ElementTree.parse(path).iter('DataSet')]
+
+
+def testSeriesListsEverySnapshotOnceWithItsTime(tmp_path, someBodies):
+	recorder = PolytopeVTKRecorder(fileName=f'{tmp_path}/deep/folder/x.', iterPeriod=3)
+	O.engines = [recorder]
+	O.dt = 0.25
+	for _ in range(8):
+		O.step()
+	for recorded, extension in (('bodies', 'vtu'), ('contacts', 'vtp')):
+		series = seriesIn(tmp_path / f'deep/folder/x.{recorded}.pvd')
+		assert series == [(0.25 * k, f'x.{recorded}.{k}.{extension}') for k in (0, 3, 6)]
+		assert all(os.path.exists(tmp_path / 'deep/folder' / file) for _, file in series)
+
+
+def testSeriesGoesOnAfterLoadAndStartsAgainWithTheSimulation(tmp_path, someBodies):
+	O.engines = [PolytopeVTKRecorder(fileName=f'{tmp_path}/', iterPeriod=2, recorders=['bodies'], label='recorder')]
+	O.dt = 0.5
+	for _ in range(3):
+		O.step()
+	O.save(str(tmp_path / 'scene.xml'))
+	for _ in range(4):
+		O.step()
+	assert [t for t, _ in seriesIn(tmp_path / 'bodies.pvd')] == [0, 1, 2, 3]
+	O.load(str(tmp_path / 'scene.xml'))
+	recorder = O.engines[0]
+	assert type(recorder) is PolytopeVTKRecorder and recorder.steps == [0, 2] and recorder.iterPeriod == 2
+	for _ in range(2):
+		O.step()
+	assert [t for t, _ in seriesIn(tmp_path / 'bodies.pvd')] == [0, 1, 2]
+	assert not (tmp_path / 'contacts.pvd').exists()
+
+
+def testOnlyBodiesAskedForAreRecorded(tmp_path, someBodies):
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/mask-', mask=0b101)()
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/moving-', skipNondynamic=True)()
+
+	def idsIn(name):
+		return list(vtk_to_numpy(readBodies(tmp_path / name).GetCellData().GetArray('id')))
+
+	assert idsIn('mask-bodies.0.vtu') == [b.id for b in O.bodies if b.mask & 0b101]
+	assert idsIn('moving-bodies.0.vtu') == [b.id for b in O.bodies if b.dynamic]
+
+
+def testBodiesOfPeriodicSceneAreInsideTheCell(tmp_path):
+	O.materials.append(FrictMat(density=2600))
+	O.periodic = True
+	O.cell.setBox(2, 2, 2)
+	O.bodies.append(polytope.regular(8, 0.1, center=(5, -1, 0.5)))
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/')()
+	bounds = readBodies(tmp_path / 'bodies.0.vtu').GetBounds()
+	assert [(bounds[2 * k] + bounds[2 * k + 1]) / 2 for k in range(3)] == pytest.approx([1, 1, 0.5])
+
+
+def testEmptySceneGivesFilesWithoutCells(tmp_path):
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/')()
+	assert readBodies(tmp_path / 'bodies.0.vtu').GetNumberOfCells() == 0
+	assert readContacts(tmp_path / 'contacts.0.vtp').GetNumberOfCells() == 0
+
+
+def testRefusesWhatItCannotDo(tmp_path):
+	with pytest.raises(ValueError, match="recorders: must be among 'bodies' and 'contacts', not 'spheres'"):
+		PolytopeVTKRecorder(recorders=['spheres'])
+	recorder = PolytopeVTKRecorder(recorders=['bodies'])
+	with pytest.raises(ValueError, match='recorders'):
+		recorder.recorders = ['bodies', 'all']
+	assert recorder.recorders == ['bodies']
+	(tmp_path / 'file').write_text('')
+	with pytest.raises(RuntimeError, match='file'):
+		PolytopeVTKRecorder(fileName=f'{tmp_path}/file/x')()
