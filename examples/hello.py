@@ -5,8 +5,7 @@
 """
 from math import radians
 
-from yade import O, Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, RockJointMat
+from yade import *
 from yade import polytope
 
 # stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
@@ -17,7 +16,7 @@ block = O.bodies.append(polytope.cuboid(center=(0, 0, 0.55), extents=(0.5, 0.4, 
 
 O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Polytope_Aabb()]),
+        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
         InteractionLoop(
                 [Ig2_Polytope_Polytope_PolytopeGeom()],
                 [Ip2_RockJointMat_RockJointMat_RockJointPhys()],

@@ -27,6 +27,9 @@ fixedColor = (0.86, 0.86, 0.84)
 viewAngle = 24
 """Vertical opening of the camera [degrees]; small, so that bodies of equal size look so."""
 
+legendShare = 0.12
+"""Share of the picture's height kept free for the legend, above the scene."""
+
 timeLimit = 300
 """Seconds after which a picture is given up."""
 
@@ -55,7 +58,8 @@ def picture(
 	:param valueRange: (low, high) ends of the colour scale; default those of the moving bodies
 	:param str legend: draw the colour scale, with this text
 	:param str fixed: bodies that cannot move: 'solid', 'glass' (translucent), 'wire' (edges), 'hidden', or 'auto': wire where
-	    they stand before the moving bodies, glass behind them, solid below. Or a function of the body that returns one of these
+	    they stand before the moving bodies, glass behind them, solid below (and solid in scenes of polygons). Or a function of
+	    the body that returns one of these
 	:param view: direction from the scene to the camera; default from the front, above and a little from the left, for scenes
 	    of polygons along z
 	:param up: direction that is up in the picture; default z, for polygons y
@@ -72,12 +76,14 @@ def picture(
 	up = _unit(up if up is not None else (0, 1, 0) if flat else (0, 0, 1))
 
 	low, high, colorOf = _colors(drawn, colorBy, valueRange)
+	if flat and fixed == 'auto':
+		fixed = 'solid'
 	meshes = collect(drawn, colorOf, _styles(drawn, fixed, view, up))
 	if not meshes:
 		raise ValueError('bodies: there is nothing to draw (only Polytope, Box, Sphere and Facet are)')
 	if frame is None:
 		frame = np.concatenate([mesh['points'] for style, mesh in meshes.items() if style != 'wire' or len(meshes) == 1])
-	camera = _camera(np.asarray(frame, float), view, up, size[0] / size[1], zoom, flat)
+	camera = _camera(np.asarray(frame, float), view, up, size[0] / size[1], zoom, flat, legendShare if legend else 0)
 	_draw(
 	        path, meshes, {
 	                'size': list(size),
@@ -122,8 +128,8 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 
 
 def _joined(parts):
-	first = np.cumsum([0] + [len(points) for points, *_ in parts])
-	faces = [[shift + v for v in face] for (_, bodyFaces, *_), shift in zip(parts, first) for face in bodyFaces]
+	first = np.cumsum([0] + [len(points) for points, *_ in parts[:-1]])
+	faces = [[shift + v for v in face] for (_, bodyFaces, *_), shift in zip(parts, first, strict=True) for face in bodyFaces]
 	counts = [len(bodyFaces) for _, bodyFaces, *_ in parts]
 	return {
 	        'points': np.concatenate([points for points, *_ in parts]),
@@ -150,12 +156,14 @@ def _localFaces(shape):
 
 def _sphereFaces(radius, rings=24):
 	"""Quadrilaterals between circles of latitude; triangles at the poles would not look better."""
-	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False), indexing='ij')
-	points = radius * np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
 	around = 2 * rings
-	faces = [
-	        (k * around + i, (k + 1) * around + i, (k + 1) * around + (i + 1) % around, k * around + (i + 1) % around) for k in range(rings) for i in range(around)
-	]
+	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, around, endpoint=False), indexing='ij')
+	points = radius * np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
+	faces = []
+	for k in range(rings):
+		for i in range(around):
+			here, next = k * around + i, k * around + (i + 1) % around
+			faces.append((here, here + around, next + around, next))
 	return points.reshape(-1, 3), faces
 
 
@@ -176,6 +184,8 @@ def _colors(bodies, colorBy, valueRange):
 		raise ValueError(f"colorBy: must be 'color', a function, or one of {sorted(_values)}, not {colorBy!r}")
 	values = [value(body) for body in bodies if body.dynamic] or [0, 1]
 	low, high = valueRange or (min(values), max(values))
+	if valueRange is None and 0 < low < 0.1 * high:
+		low = 0
 	from matplotlib.colors import LinearSegmentedColormap
 	scale = LinearSegmentedColormap.from_list('polytope', colorMap)
 	span = high - low or 1
@@ -193,7 +203,7 @@ def _styles(bodies, fixed, view, up):
 	moving = [body.state.pos for body in bodies if body.dynamic]
 	if not moving:
 		return lambda body: 'solid'
-	middle = np.mean(np.array(moving, float), axis=0)
+	middle = np.median(np.array(moving, float), axis=0)  # one that has fallen off does not count
 
 	def style(body):
 		if body.dynamic:
@@ -214,29 +224,30 @@ def _styles(bodies, fixed, view, up):
 
 def _typicalRadius(bodies):
 	"""Median of the half-extent of the moving bodies (of all, if none moves): the reach of the soft shading."""
-	reach = lambda body: np.linalg.norm(_localFaces(body.shape)[0], axis=1).max(initial=0)
-	radii = [reach(body) for body in bodies if body.dynamic] or [reach(body) for body in bodies]
-	return float(np.median(radii)) or 1.0
+	several = [body for body in bodies if body.dynamic] or bodies
+	return float(np.median([np.linalg.norm(_localFaces(body.shape)[0], axis=1).max(initial=0) for body in several])) or 1.0
 
 
-def _camera(points, view, up, aspect, zoom, flat):
-	"""The camera that looks against *view* and holds all points."""
+def _camera(points, view, up, aspect, zoom, flat, free):
+	"""The camera that looks against *view* and holds all points, with a share of the height left *free* above them."""
 	right = _unit(np.cross(up, view))
 	axes = np.array([right, np.cross(view, right), view])  # right, up, towards the camera
 	local = points @ axes.T
 	middle = (local.min(axis=0) + local.max(axis=0)) / 2
 	margin = 1.04 / zoom
-	extent = np.ptp(local, axis=0)
 	if flat:
-		height = margin * max(extent[1], extent[0] / aspect, 1e-12)
-		distance = extent[2] + height
-		return _cameraAt(middle, distance, axes, {'parallelScale': height / 2})
-	slope = math.tan(math.radians(viewAngle / 2)) * np.array([aspect, 1])
+		extent = np.ptp(local, axis=0)
+		height = margin * max(extent[1] / (1 - free), extent[0] / aspect, 1e-12)
+		middle[1] += free * height / 2
+		return _cameraAt(middle, extent[2] + height, axes, {'parallelScale': height / 2})
+	slope = math.tan(math.radians(viewAngle / 2))
+	reach = slope * np.array([aspect, 1 - free])
 	for _ in range(20):  # perspective: nearer points reach farther out, so the middle moves with the distance
 		seen = local - middle
-		distance = margin * max((np.abs(seen[:, :2]) / slope + seen[:, 2:]).max(), 1e-12)
+		distance = max((margin * np.abs(seen[:, :2]) / reach + seen[:, 2:]).max(), 1e-12)
 		inPicture = seen[:, :2] / (distance - seen[:, 2:])
 		middle[:2] += distance * (inPicture.min(axis=0) + inPicture.max(axis=0)) / 2
+	middle[1] += free * slope * distance
 	return _cameraAt(middle, distance, axes, {'viewAngle': viewAngle})
 
 

@@ -55,9 +55,7 @@ def polyData(mesh):
 	points = vtk.vtkPoints()
 	points.SetData(numpy_to_vtk(mesh['points'], deep=True))
 	faces = vtk.vtkCellArray()
-	faces.SetData(
-	        numpy_to_vtkIdTypeArray(mesh['offsets'].astype(np.int64), deep=True), numpy_to_vtkIdTypeArray(mesh['connectivity'].astype(np.int64), deep=True)
-	)
+	faces.SetData(*(numpy_to_vtkIdTypeArray(mesh[name].astype(np.int64), deep=True) for name in ('offsets', 'connectivity')))
 	colors = numpy_to_vtk(mesh['colors'], deep=True)
 	colors.SetName('color')
 	data = vtk.vtkPolyData()
@@ -100,6 +98,8 @@ def actorOf(style, mesh, edges):
 	look.SetSpecular(0.06)
 	look.SetSpecularPower(12)
 	look.SetOpacity(styleOpacity[style])
+	if style == 'glass':
+		look.BackfaceCullingOn()  # a wall's underside lies in the floor's plane
 	if edges and style != 'smooth':
 		look.EdgeVisibilityOn()
 		look.SetEdgeColor(*edgeColor)
@@ -159,8 +159,8 @@ def addLegend(renderer, legend, height):
 		text.ItalicOff()
 		text.ShadowOff()
 	bar.SetOrientationToHorizontal()
-	bar.SetPosition(0.03, 0.87)  # a corner that is empty in most pictures
-	bar.SetPosition2(0.32, 0.11)
+	bar.SetPosition(0.05, 0.88)
+	bar.SetPosition2(0.35, 0.10)
 	bar.SetBarRatio(0.22)
 	bar.SetTextPositionToPrecedeScalarBar()
 	bar.SetVerticalTitleSeparation(int(0.01 * height))

@@ -81,22 +81,21 @@ class RunWatch:
 	def summary(self):
 		"""Counters over the whole run and mean times [µs], as a dictionary."""
 		counts, timed = self.counts, self.timed
-		ratio = lambda sum, count: sum / count if count else 0.0
 		return {
 		        'steps': self.steps,
 		        'pairs': counts['pairs'],
 		        'contactQueries': counts['contacts'],
 		        'dismissed': counts['dismissed'],
-		        'pivotsPerPair': ratio(counts['simplexPivots'], counts['pairs']),
-		        'newtonPerContact': ratio(counts['newtonIterations'], counts['contacts']),
+		        'pivotsPerPair': _ratio(counts['simplexPivots'], counts['pairs']),
+		        'newtonPerContact': _ratio(counts['newtonIterations'], counts['contacts']),
 		        'fallbacks': counts['fallbacks'],
 		        'failures': counts['failures'],
 		        'statuses': {key[len('status '):]: count for key, count in counts.items() if key.startswith('status ') and count},
-		        'lpMicroseconds': 1e6 * ratio(timed['lpSeconds'], timed['pairs']),
-		        'centreMicroseconds': 1e6 * ratio(timed['centreSeconds'], timed['timedPairs']),
-		        'loopMicrosecondsPerPair': 1e-3 * ratio(self.loop.execTime, self.untimedPairs),
-		        'loopMicrosecondsPerContact': 1e-3 * ratio(self.loop.execTime, self.untimedContacts),
-		        'loopMicrosecondsPerStep': 1e-3 * ratio(self.loop.execTime, self.untimedSteps),
+		        'lpMicroseconds': 1e6 * _ratio(timed['lpSeconds'], timed['pairs']),
+		        'centreMicroseconds': 1e6 * _ratio(timed['centreSeconds'], timed['timedPairs']),
+		        'loopMicrosecondsPerPair': 1e-3 * _ratio(self.loop.execTime, self.untimedPairs),
+		        'loopMicrosecondsPerContact': 1e-3 * _ratio(self.loop.execTime, self.untimedContacts),
+		        'loopMicrosecondsPerStep': 1e-3 * _ratio(self.loop.execTime, self.untimedSteps),
 		        'deepestOverlap': self.deepestOverlap,
 		        'overlap': overlapNow(),
 		        'contacts': sum(1 for contact in O.interactions if contact.isReal),
@@ -108,3 +107,7 @@ class RunWatch:
 def overlapNow():
 	"""Deepest overlap of all contacts [m]."""
 	return max((contact.geom.penetrationDepth for contact in O.interactions if contact.isReal), default=0.0)
+
+
+def _ratio(total, count):
+	return total / count if count else 0.0

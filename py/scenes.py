@@ -4,13 +4,13 @@
 A builder empties the simulation (O.reset), makes bodies and engines, and returns an object that says what it made.
 """
 import dataclasses
-import itertools
 import math
 
 import numpy as np
 from yade import (
         Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, Quaternion, RockJointMat
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, Quaternion,
+        RockJointMat
 )
 
 from .bodies import cuboid, regular
@@ -21,6 +21,7 @@ solids = {'tetrahedron': 4, 'cube': 6, 'octahedron': 8, 'dodecahedron': 12, 'ico
 """The regular solids' numbers of faces."""
 
 solidColors = {4: (0.85, 0.42, 0.16), 6: (0.16, 0.42, 0.58), 8: (0.47, 0.70, 0.70), 12: (0.93, 0.83, 0.58), 20: (0.62, 0.20, 0.17)}
+layerColors = [(0.16, 0.42, 0.58), (0.35, 0.60, 0.72), (0.55, 0.76, 0.75), (0.93, 0.86, 0.66), (0.93, 0.64, 0.29), (0.78, 0.31, 0.16)]
 
 
 def circumradiusOfUnitVolume(faces):
@@ -131,9 +132,9 @@ class FallingPolyhedra:
 		"""Starting points of the particles' centres: layers of columns × columns, from below."""
 		layer = self.columns**2
 		k = np.arange(self.number)
-		horizontal = lambda index: (index + 0.5) * self.spacing - self.width / 2
 		lowest = 0.5 * self.spacing + 0.1 * self.size
-		return np.stack([horizontal(k % self.columns), horizontal(k % layer // self.columns), lowest + k // layer * self.spacing], axis=1)
+		horizontal = (np.arange(self.columns) + 0.5) * self.spacing - self.width / 2
+		return np.stack([horizontal[k % self.columns], horizontal[k % layer // self.columns], lowest + k // layer * self.spacing], axis=1)
 
 	def orientations(self):
 		"""Uniformly random rotations as unit quaternions (w, x, y, z)."""
@@ -151,18 +152,19 @@ class FallingPolyhedra:
 		)
 
 	def _addParticles(self):
-		self.particleIds = O.bodies.append(
-		        [
-		                regular(
-		                        faces,
-		                        circumradiusOfUnitVolume(faces) * self.size,
-		                        center=tuple(center),
-		                        orientation=Quaternion(*orientation),
-		                        cornerRadius=self.cornerFraction * self.size,
-		                        color=solidColors[faces],
-		                ) for faces, center, orientation in zip(itertools.cycle(self.faces), self.lattice(), self.orientations())
-		        ]
-		)
+		"""Different solids in different colours; of one alone, each layer of the lattice."""
+		for k, (center, orientation) in enumerate(zip(self.lattice(), self.orientations(), strict=True)):
+			faces = self.faces[k % len(self.faces)]
+			layer = k // self.columns**2
+			body = regular(
+			        faces,
+			        circumradiusOfUnitVolume(faces) * self.size,
+			        center=tuple(center),
+			        orientation=Quaternion(*orientation),
+			        cornerRadius=self.cornerFraction * self.size,
+			        color=solidColors[faces] if len(self.faces) > 1 else layerColors[layer % len(layerColors)],
+			)
+			self.particleIds.append(O.bodies.append(body))
 
 	def particles(self):
 		return [O.bodies[k] for k in self.particleIds]

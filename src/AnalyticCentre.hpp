@@ -165,7 +165,8 @@ template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R
 	R       low = 0, high = tMax;
 	R       t = tMax + 1 / (slope - pole);
 	for (int trial = 0; trial < tolerance::lineSearchSteps; ++trial) {
-		if (!(t > low && t < high)) t = (low + high) / 2;
+		// every third trial halves the bracket: the fixed point may swing between its ends
+		if (trial % 3 == 2 || !(t > low && t < high)) t = (low + high) / 2;
 		V       sum  = broadcast<R, W>(0);
 		const V time = broadcast<R, W>(t);
 		for (int i = 0; i < planes.total; i += W) {

@@ -343,17 +343,20 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	R             dual[D];
 	const bool    warm = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
 	if (!warm) {
-		const int ball = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
-		for (int k = 0; k <= D; ++k)
-			memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-		memory.hasPoint = false;
-		if (!startFrom<R, D>(in, f, memory.basis, basis, dual)) {
-			memory.hasBasis   = false;
+		int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
+		memory.hasPoint = memory.hasBasis = false;
+		// the other one, where turning a basis of nearly parallel planes has made it singular
+		for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
+			if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
+			for (int k = 0; k <= D; ++k)
+				memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+			memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
+		}
+		if (!memory.hasBasis) {
 			out.status        = ContactStatus::Failed;
 			out.infeasibility = basis.infeasibility;
 			return;
 		}
-		memory.hasBasis = true;
 	}
 	if (lowerBound<R, D>(basis, reach) > dismiss) {
 		out.status        = ContactStatus::Separated;

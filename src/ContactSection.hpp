@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PairPlanes.hpp"
+#include "Tolerances.hpp"
 
 #include <cmath>
 
@@ -14,8 +15,17 @@ template <class R, int D> struct Section {
 	R centroid[D] = {}; ///< in the frame of the planes
 };
 
-/// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i but `skip`} by successive clipping of a square of the
-/// given half width. `buffer` holds 4 (total + 5) numbers.
+/// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
+template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>& planes, int i, int j, R size)
+{
+	R difference = 0;
+	for (int k = 0; k < D; ++k)
+		difference += std::abs(planes.normal[k][i] - planes.normal[k][j]);
+	return difference <= R(tolerance::violation) && std::abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
+}
+
+/// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half
+/// width; without the planes that lie on plane `skip`, if that is not −1. `buffer` holds 4 (total + 5) numbers.
 template <class R> POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer, int skip)
 {
 	const Rotation<R, 3> axes  = axesAround<R, 3>(normal);
@@ -26,7 +36,7 @@ template <class R> POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3
 	for (int k = 0; k < 8; ++k)
 		here[k] = corners[k];
 	for (int i = 0; i < planes.total && count > 0; ++i) {
-		if (i == skip) continue;
+		if (skip >= 0 && coincident<R, 3>(planes, skip, i, halfWidth)) continue;
 		R a[3], d;
 		planes.plane(i, a, d);
 		if (d >= R(padOffset) / 2) continue;
@@ -82,7 +92,7 @@ template <class R> POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2
 	const Rotation<R, 2> axes = axesAround<R, 2>(normal);
 	R                    low = -halfWidth, high = halfWidth;
 	for (int i = 0; i < planes.total; ++i) {
-		if (i == skip) continue;
+		if (skip >= 0 && coincident<R, 2>(planes, skip, i, halfWidth)) continue;
 		R a[2], d;
 		planes.plane(i, a, d);
 		const R rate = dot<R, 2>(a, axes.m[0]);

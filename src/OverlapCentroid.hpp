@@ -7,15 +7,6 @@
 /// face found by clipping its plane with all the others.
 namespace polytope {
 
-/// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
-template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>& planes, int i, int j, R size)
-{
-	R difference = 0;
-	for (int k = 0; k < D; ++k)
-		difference += std::abs(planes.normal[k][i] - planes.normal[k][j]);
-	return difference <= R(tolerance::violation) && std::abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
-}
-
 /// `x`: a point inside; replaced by the centroid. False if the overlap has no measurable volume.
 template <class R, int D> POLYTOPE_INLINE bool overlapCentroid(const PairPlanes<R, D>& planes, R* x, R halfWidth, R* buffer)
 {

@@ -41,10 +41,29 @@ labels = {
         'overlap': 'deepest overlap / L, end',
 }
 
+# result, column title, format
+costColumns = (
+        ('shape', 'solid', ''),
+        ('planesPerPair', 'planes\nper pair', ''),
+        ('pairs', 'pairs\nqueried', ','),
+        ('dismissed', 'dismissed\nat once', ','),
+        ('contactQueries', 'contacts\nsolved', ','),
+        ('pivotsPerPair', 'pivots\nper LP', '.3f'),
+        ('newtonPerContact', 'Newton\nper centre', '.2f'),
+        ('lpMicroseconds', 'µs per\nLP', '.2f'),
+        ('centreMicroseconds', 'µs per\ncentre', '.2f'),
+        ('loopMicrosecondsPerPair', 'loop: µs\nper pair', '.2f'),
+        ('loopMicrosecondsPerContact', 'loop: µs\nper contact', '.2f'),
+        ('fallbacks', 'fall-\nbacks', ','),
+        ('failures', 'fail-\nures', ','),
+        ('seconds', 'run\n[s]', '.1f'),
+)
+
 
 def options():
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-	parser.add_argument('--shape', choices=(*solidNames, 'mixed', 'all'), default='all', help='all: the five solids one after another; mixed: in one scene')
+	shapes = (*solidNames, 'mixed', 'all')
+	parser.add_argument('--shape', choices=shapes, default='all', help='all: the five solids one after another; mixed: in one scene')
 	parser.add_argument('--number', type=int, default=fullNumber, help='of particles')
 	parser.add_argument('--steps', type=int, default=fullSteps)
 	parser.add_argument('--threads', type=int, default=1, help='one thread ends in the same state, to the last bit, every time')
@@ -80,18 +99,20 @@ def simulate(name, given):
 	watch = RunWatch(scene.geometryFunctor, scene.interactionLoop)
 	energyUnit = given.number * scene.mass * scene.gravity * scene.size
 	half = min(halfStep, given.steps)
+	pictures = [f'{folder}/step{step:05d}.png' for step in sorted({0, half, given.steps})]
 	with tqdm(total=given.steps, desc=f'{name:12}', unit=' steps', smoothing=0.05, disable=None) as progress:
-		draw(folder, scene, given)
+		draw(pictures[0], scene, given)
 		began = time.perf_counter()
 		watch.run(half, progress.update)
 		wallTime = time.perf_counter() - began
 		energyHalf = kineticEnergy() / energyUnit
 		if half < given.steps:
-			draw(folder, scene, given)
+			draw(pictures[1], scene, given)
 			began = time.perf_counter()
 			watch.run(given.steps - half, progress.update)
 			wallTime += time.perf_counter() - began
-	draw(folder, scene, given)
+	draw(pictures[-1], scene, given)
+	drawSeries(folder, pictures, scene, given)
 	if given.vtk_every:
 		recorder()  # the state at the end
 
@@ -115,26 +136,40 @@ def simulate(name, given):
 	}
 
 
-def draw(folder, scene, given):
+def draw(path, scene, given):
 	"""As in the paper's Fig. 5: at the start, half-way and at the end, from the same place."""
 	if given.no_pictures:
 		return
-	from yade import O
 	from yade.polytope.pictures import picture
 	floor, top = scene.width / 2 + scene.wallThickness, scene.lattice()[:, 2].max() + scene.spacing / 2
 	frame = [(x, y, -scene.wallThickness) for x in (-floor, floor) for y in (-floor, floor)]
 	frame += [(x, y, top) for x in (-scene.width / 2, scene.width / 2) for y in (-scene.width / 2, scene.width / 2)]
-	without = lambda body: 'solid' if body.id == scene.floorId else 'hidden'
-	picture(f'{folder}/step{O.iter:05d}.png', fixed=without, frame=frame, size=(1200, 1100))
+	picture(path, bodies=shownBodies(scene), fixed='solid', frame=frame, size=(1000, 1000))
+
+
+def shownBodies(scene):
+	"""Without the walls."""
+	from yade import O
+	return [body for body in O.bodies if body.id not in scene.wallIds]
+
+
+def drawSeries(folder, pictures, scene, given):
+	"""The three pictures side by side, and the end once more from nearer."""
+	if given.no_pictures:
+		return
+	import numpy as np
+	from matplotlib.image import imread, imsave
+	from yade.polytope.pictures import picture
+	imsave(f'{folder}/steps.png', np.concatenate([imread(path) for path in pictures], axis=1))
+	picture(f'{folder}/end.png', bodies=shownBodies(scene), fixed='solid', size=(1600, 1000))
 
 
 def judge(result, comparable):
 	"""[(what, value, expected, verdict)]: what must hold in any run, and the ranges if the run is the one they are for."""
-	required = lambda holds: 'ok' if holds else 'NOT OK'
-	checks = [
-	        ('particles inside', result['inside'], result['number'], required(result['inside'] == result['number'])),
-	        ('queries without an answer', result['failures'], 0, required(result['failures'] == 0)),
-	]
+	checks = []
+	musts = ('particles inside', result['inside'], result['number']), ('queries without an answer', result['failures'], 0)
+	for what, value, required in musts:
+		checks.append((what, value, required, 'ok' if value == required else 'NOT OK'))
 	for key, (low, high) in expected.items():
 		verdict = '' if not comparable else 'ok' if low <= result[key] <= high else 'outside'
 		checks.append((labels[key], result[key], f'{low:g} … {high:g}' if comparable else '', verdict))
@@ -143,21 +178,17 @@ def judge(result, comparable):
 
 def show(results, comparable):
 	from tabulate import tabulate
-	columns = [
-	        ('shape', 'solid', ''), ('planesPerPair', 'planes\nper pair', ''), ('pairs', 'pairs\nqueried', ','), ('dismissed', 'dismissed\nat once', ','),
-	        ('contactQueries', 'contacts\nsolved', ','), ('pivotsPerPair', 'pivots\nper LP', '.3f'), ('newtonPerContact', 'Newton\nper centre', '.2f'),
-	        ('lpMicroseconds', 'µs per\nLP', '.2f'), ('centreMicroseconds', 'µs per\ncentre', '.2f'), ('loopMicrosecondsPerPair', 'loop: µs\nper pair', '.2f'),
-	        ('loopMicrosecondsPerContact', 'loop: µs\nper contact', '.2f'), ('fallbacks', 'fall-\nbacks', ','), ('failures', 'fail-\nures', ','),
-	        ('seconds', 'run\n[s]', '.1f')
-	]
-	cell = lambda value, form: '' if value is None else format(value, form)
+	titles = [title for _, title, _ in costColumns]
+	rows = [['' if r[key] is None else format(r[key], form) for key, _, form in costColumns] for r in results]
 	print('\nWhat the contact detection did, and what it cost')
-	print(tabulate([[cell(r[key], form) for key, _, form in columns] for r in results], [title for _, title, _ in columns], stralign='right', disable_numparse=True))
+	print(tabulate(rows, titles, stralign='right', disable_numparse=True))
 
 	print('\nWhat came out' + ('' if comparable else f' (what is expected is known for {fullNumber} particles and {fullSteps} steps)'))
 	verdicts = {r['shape']: judge(r, comparable) for r in results}
-	mark = lambda value, verdict: f'{value:.3g}  {verdict}' if isinstance(value, float) else f'{value}  {verdict}'
-	rows = [[checks[0][0], checks[0][2]] + [mark(value, verdict) for _, value, _, verdict in checks] for checks in zip(*verdicts.values())]
+	rows = []
+	for checks in zip(*verdicts.values(), strict=True):
+		what, _, wanted, _ = checks[0]
+		rows.append([what, wanted] + [f'{value:.4g}  {verdict}' for _, value, _, verdict in checks])
 	print(tabulate(rows, ['', 'expected', *verdicts], disable_numparse=True))
 	print('\nState at the end (SHA-256, first 16 digits; the same every time with one thread)')
 	print(tabulate([[r['shape'], r['stateHash']] for r in results], tablefmt='plain'))

@@ -51,7 +51,10 @@ namespace {
 		array->InsertNextTuple3(double(vector[0]), double(vector[1]), double(vector[2]));
 	}
 
-	void append(vtkPoints* points, const Vector3r& point) { points->InsertNextPoint(double(point[0]), double(point[1]), double(point[2])); }
+	void append(vtkPoints* points, const Vector3r& point)
+	{
+		points->InsertNextPoint(double(point[0]), double(point[1]), double(point[2]));
+	}
 
 	void appendColor(vtkUnsignedCharArray* array, const Vector3r& color)
 	{
@@ -62,7 +65,8 @@ namespace {
 	}
 
 	/// The polyhedron as one cell, with vertices of its own.
-	void appendSolid(vtkUnstructuredGrid* grid, vtkPoints* points, const polytope::Polyhedron& solid, const Vector3r& position, const Matrix3r& turn)
+	void appendSolid(vtkUnstructuredGrid* grid, vtkPoints* points, const polytope::Polyhedron& solid, const Vector3r& position,
+	        const Matrix3r& turn)
 	{
 		const vtkIdType first = points->GetNumberOfPoints();
 		for (const Vector3r& vertex : solid.vertices)
@@ -77,10 +81,16 @@ namespace {
 		grid->InsertNextCell(VTK_POLYHEDRON, faces);
 	}
 
-	Vector3r insideCell(const Scene& scene, const Vector3r& point) { return scene.isPeriodic ? scene.cell->wrapShearedPt(point) : point; }
+	Vector3r insideCell(const Scene& scene, const Vector3r& point)
+	{
+		return scene.isPeriodic ? scene.cell->wrapShearedPt(point) : point;
+	}
 
 	/// Readers take this as the snapshot's time even without the series' list.
-	void stampTime(vtkDataObject* data, const Scene& scene) { column<vtkDoubleArray>(data->GetFieldData(), "TimeValue")->InsertNextValue(double(scene.time)); }
+	void stampTime(vtkDataObject* data, const Scene& scene)
+	{
+		column<vtkDoubleArray>(data->GetFieldData(), "TimeValue")->InsertNextValue(double(scene.time));
+	}
 
 	template <class Writer> void writeFile(vtkDataObject* data, const string& file, bool ascii, bool compress)
 	{
@@ -93,14 +103,16 @@ namespace {
 			writer->EncodeAppendedDataOff();
 		}
 		if (compress && !ascii) writer->SetCompressorTypeToZLib();
-		else
-			writer->SetCompressorTypeToNone();
+		else writer->SetCompressorTypeToNone();
 		if (!writer->Write()) throw std::runtime_error("PolytopeVTKRecorder.fileName: cannot write " + file);
 	}
 
 } // namespace
 
-bool PolytopeVTKRecorder::has(const string& recorder) const { return std::find(recorders.begin(), recorders.end(), recorder) != recorders.end(); }
+bool PolytopeVTKRecorder::has(const string& recorder) const
+{
+	return std::find(recorders.begin(), recorders.end(), recorder) != recorders.end();
+}
 
 bool PolytopeVTKRecorder::recorded(const Body& body) const { return mask == 0 || body.maskCompatible(mask); }
 
@@ -113,8 +125,9 @@ void PolytopeVTKRecorder::postLoad(PolytopeVTKRecorder&)
 {
 	for (const string& recorder : recorders)
 		if (recorder != "bodies" && recorder != "contacts") {
-			recorders = goodRecorders_;
-			throw std::invalid_argument("recorders: must be among 'bodies' and 'contacts', not '" + recorder + "'");
+			const string message = "recorders: must be among 'bodies' and 'contacts', not '" + recorder + "'";
+			recorders            = goodRecorders_;
+			throw std::invalid_argument(message);
 		}
 	goodRecorders_ = recorders;
 }
@@ -128,7 +141,7 @@ void PolytopeVTKRecorder::action()
 		steps.pop_back();
 		times.pop_back();
 	}
-	steps.push_back(scene->iter);
+	steps.push_back(int(scene->iter));
 	times.push_back(scene->time);
 
 	if (has("bodies")) {

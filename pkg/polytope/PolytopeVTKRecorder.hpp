@@ -30,7 +30,7 @@ In a periodic scene, bodies and contact points are moved into the cell. Called a
 		((bool, skipNondynamic, false, , "Leave out bodies that cannot move (floors, walls); their contacts are kept."))
 		((bool, compress, true, , "Compress the data."))
 		((bool, ascii, false, , "Data as readable text."))
-		((vector<long>, steps, , (Attr::readonly), "Steps recorded so far: the series. Steps not before the present one are dropped when a snapshot is written, so that a simulation begun again starts its series again."))
+		((vector<int>, steps, , (Attr::readonly), "Steps recorded so far: the series. Steps not before the present one are dropped when a snapshot is written, so that a simulation begun again starts its series again."))
 		((vector<Real>, times, , (Attr::readonly), "Times of these steps [s]."))
 		, /*ctor*/ initRun = true;
 	);

@@ -210,7 +210,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 
 /// What a step did with energy beyond storing it [J].
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::StepWork {
-	Real plastic = 0, normalDamping = 0, shearDamping = 0;
+	Real plastic = 0, normalDamping = 0, shearDamping = 0, rockingDamping = 0;
 	bool fractured = false;
 };
 
@@ -224,9 +224,10 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (phys.normalStiffness > 0) phys.kn = phys.normalStiffness * phys.contactArea;
 	if (phys.shearStiffness > 0) phys.ks = phys.shearStiffness * phys.contactArea;
 
-	// what has been carried over from the last step
+	// what is carried over from the last step
 	const Vector3r lastForce         = phys.normalForce + phys.shearForce;
 	const Vector3r lastShearViscous  = phys.shearViscous;
+	const Vector3r lastMoment        = phys.rockingMoment;
 	const Real     lastNormalViscous = phys.normalViscous.dot(geom.normal);
 	const Real     lastElastic       = phys.normalForce.dot(geom.normal) - lastNormalViscous;
 	Vector3r       shear             = phys.shearForce - phys.shearViscous;
@@ -279,19 +280,46 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	const Vector3r force = phys.normalForce + phys.shearForce;
 	if (!math::isfinite(force.squaredNorm())) {
-		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.slip = Vector3r::Zero();
+		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip = Vector3r::Zero();
 		nonFinite_ += 1;
 		return true;
 	}
 	applyForceAtContactPoint(-force, geom.contactPoint, pair.id1, pair.state1.pos, pair.id2, pair.state2.pos + pair.shift2);
 
+	if (rockingDamping > 0 || lastMoment != Vector3r::Zero()) {
+		phys.rockingMoment = rockingDamper(pair, geom, phys, normal);
+		addTorque(pair.id1, -phys.rockingMoment, scene);
+		addTorque(pair.id2, phys.rockingMoment, scene);
+	}
+
 	if (scene->trackEnergy) {
 		work.plastic -= (lastElastic + elasticNormal) / 2 * (phys.dilation - lastDilation);
 		work.normalDamping = -(lastNormalViscous + normalViscous) / 2 * geom.normal.dot(pair.velocity) * scene->dt;
+		work.rockingDamping = -(lastMoment + phys.rockingMoment).dot(pair.state2.angVel - pair.state1.angVel) / 2 * scene->dt;
 		work.shearDamping  = -(lastShearViscous + shearViscous).dot(geom.shearIncrement()) / 2;
 		book(pair, phys, lastForce, work, phys.storedEnergy(elasticNormal, shear));
 	}
 	return true;
+}
+
+/// Moment on body 2 of dampers spread over the contact area.
+Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(
+        const Pair& pair, PolytopeGeom& geom, const RockJointPhys& phys, Real normal) const
+{
+	if (rockingDamping > 0) geom.needsArea = true;
+	Real        gyrationSquared = phys.contactArea / 12;
+	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
+	if (polygon && polygon->dimension == 2) {
+		const auto* other  = static_cast<const Polytope*>(pair.body2->shape.get());
+		gyrationSquared    = math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
+	}
+	Vector3r rocking = pair.state2.angVel - pair.state1.angVel;
+	rocking -= geom.normal.dot(rocking) * geom.normal;
+	const Real limit  = math::sqrt(3 * gyrationSquared) * math::max(normal, Real(0));
+	Vector3r   moment = -damper(rockingDamping, phys.kn, pair.body1, pair.body2, scene) * gyrationSquared * rocking;
+	const Real size   = moment.norm();
+	if (size > limit) moment *= limit / size;
+	return moment;
 }
 
 /// The joint is open: no force. False ends the contact.
@@ -301,8 +329,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, Polytop
 	work.fractured           = phys.intact;
 	const Vector3r lastForce = phys.normalForce + phys.shearForce;
 	if (phys.intact) phys.fail();
-	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = Vector3r::Zero();
-	phys.isSliding                                                               = false;
+	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
+	phys.isSliding   = false;
 	if (scene->trackEnergy) book(pair, phys, lastForce, work, 0);
 	return phys.hasPeak() && -geom.penetrationDepth < math::min(geom.refR1, geom.refR2);
 }
@@ -329,7 +357,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	const auto add = [&](Energy kind, Real value) { scene->energy->add(value, "", energyIds_[kind], kind == elastic); };
 	add(elastic, stored);
 	add(plastic, work.plastic);
-	add(normalDamper, work.normalDamping);
+	add(normalDamper, work.normalDamping + work.rockingDamping);
 	add(shearDamper, work.shearDamping);
 	add(work.fractured ? fracture : nonconservative, rest);
 	phys.lastArm1   = pair.arm1;
@@ -355,16 +383,17 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::postLoad(Law2_PolytopeGeom_Roc
 {
 	const auto require = [&](const char* name, Real value) {
 		if (value >= 0 && math::isfinite(value)) return;
-		normalDamping = goodNormalDamping_;
-		shearDamping  = goodShearDamping_;
+		normalDamping  = good_[0];
+		shearDamping   = good_[1];
+		rockingDamping = good_[2];
 		std::ostringstream message;
 		message << name << ": must be a fraction of critical damping, at least 0 and finite, got " << value;
 		throw std::invalid_argument(message.str());
 	};
 	require("normalDamping", normalDamping);
 	require("shearDamping", shearDamping);
-	goodNormalDamping_ = normalDamping;
-	goodShearDamping_  = shearDamping;
+	require("rockingDamping", rockingDamping);
+	good_ = { { normalDamping, shearDamping, rockingDamping } };
 }
 
 } // namespace yade

@@ -87,6 +87,7 @@ public:
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
 		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
+		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
 		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
 		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
 		((Real, lastStored, 0, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy)"))
@@ -131,12 +132,12 @@ public:
 * Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
 * Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again.
 * Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` does not know: with $\zeta>0.5$ lower its *timestepSafetyCoefficient*.
+* Rocking damping: one contact point carries no moment, so the dampers above leave rocking on a face undamped. A block that slides on a face is then unstable: the friction that acts below its centre shakes it onto its leading edge, where the normal tilts against it, and it stops on slopes far above its friction angle. With :yref:`rockingDamping<Law2_PolytopeGeom_RockJointPhys_MohrCoulomb.rockingDamping>` the bodies' relative rotation about the contact's tangents meets the moment of dampers spread over the contact area, $\vec m=-2\zeta\sqrt{m k_n}\,\rho^2\vec\omega_t$ with $\rho^2=A/12$ (that of a square; polygons: length²/12), at most $\sqrt3\rho f_n$, where the force's line leaves that square. It vanishes at vertices and edges.
 
-A single contact point carries no moment: damping at a face contact does not damp rocking about it.
-
-With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, less the work of dilation), *normDampDissip* and *shearDampDissip* (viscous), *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. Normal and depth of [Boon2012]_ are not gradients of a potential, nor is $k_n A u_n$ with a changing area, so energy can be created; this is where it shows. It is zero to second order in the time step where depth, normal and area belong together, as for a face that stays flat on another. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
+With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *shearDampDissip*, *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. Normal and depth of [Boon2012]_ are not gradients of a potential, nor is $k_n A u_n$ with a changing area, so energy can be created; this is where it shows. It is zero to second order in the time step where depth, normal and area belong together, as for a face that stays flat on another. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
 		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
 		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
+		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0. Needs contact areas, which are computed then. With 1, a cube slides steadily at any angle of friction tried (up to 40°)."))
 		, /*ctor*/
 		, /*py*/
 		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
@@ -149,12 +150,13 @@ private:
 	struct StepWork;
 	void book(const Pair& pair, RockJointPhys& phys, const Vector3r& lastForce, const StepWork& work, Real stored);
 	bool open(const Pair& pair, PolytopeGeom& geom, RockJointPhys& phys);
+	Vector3r rockingDamper(const Pair& pair, PolytopeGeom& geom, const RockJointPhys& phys, Real normal) const;
 
 	enum Energy { elastic, plastic, normalDamper, shearDamper, fracture, nonconservative, energyCount };
 	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
 	std::atomic<bool>            energiesNamed_ { false };
 	std::atomic<long>            nonFinite_ { 0 };
-	Real                         goodNormalDamping_ = 0, goodShearDamping_ = 0;
+	std::array<Real, 3>          good_ { { 0, 0, 0 } };
 };
 REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);
 

@@ -95,14 +95,13 @@ TEST(InnerPotential, LaneWidthsAgree)
 {
 	std::mt19937_64 random(7);
 	for (int trial = 0; trial < 100; ++trial) {
-		PlaneRows<Real, 3> rows(randomPlanes(4 + trial % 50, random), randomPlanes(9, random));
+		const HalfSpaces   set1 = randomPlanes(4 + trial % 50, random), set2 = randomPlanes(9, random);
+		PlaneRows<Real, 3> rows(set1, set2);
 		const Vector3      x = uniform(random, 0, 1) * randomDirection(random);
-		Real               gradient[3][3];
+		Real               gradient[2][3];
 		innerPotentialGradient<Real, 3, 1>(rows.planes, 0, x.data(), Real(0.8), gradient[0]);
 		innerPotentialGradient<Real, 3, 2>(rows.planes, 0, x.data(), Real(0.8), gradient[1]);
-		innerPotentialGradient<Real, 3, 4>(rows.planes, 0, x.data(), Real(0.8), gradient[2]);
-		for (int width = 1; width < 3; ++width)
-			EXPECT_LE((vectorOf(gradient[width], 3) - vectorOf(gradient[0], 3)).norm(), 1e-14 * (1 + vectorOf(gradient[0], 3).norm()));
+		EXPECT_LE((vectorOf(gradient[1], 3) - vectorOf(gradient[0], 3)).norm(), 1e-14 * (1 + vectorOf(gradient[0], 3).norm()));
 	}
 }
 

@@ -178,6 +178,22 @@ inline HalfSpaces randomPlanes(int planes, std::mt19937_64& random, int dimensio
 	return set;
 }
 
+/// With copies of some planes, turned by 1e-16 … 1e-3 and moved by as much or not at all: faces of a mesh that are flat but
+/// for rounding.
+inline HalfSpaces withNearCopies(HalfSpaces set, int copies, std::mt19937_64& random)
+{
+	const std::size_t own = set.size();
+	for (int i = 0; i < copies; ++i) {
+		const std::size_t j      = random() % own;
+		const Vector3     aside  = randomDirection(random, set.dimension);
+		const bool        turned = random() % 4 != 0, shifted = random() % 3 != 0;
+		const Real        turn = decades(random, -16, -3), shift = (random() % 2 ? 1 : -1) * decades(random, -16, -3);
+		set.normals.push_back(turned ? (set.normals[j] + turn * aside).normalized() : set.normals[j]);
+		set.offsets.push_back(set.offsets[j] * (shifted ? 1 + shift : 1));
+	}
+	return set;
+}
+
 using Shapes = std::vector<std::shared_ptr<const ConvexShape>>;
 
 /// Regular solids (in 2-D: polygons), random hulls of 4 to 60 planes, and plates, needles and slivers of aspect up to 1e4,
@@ -223,6 +239,32 @@ inline Pair randomPair(const Shapes& shapes, std::mt19937_64& random)
 	if (random() % 4 == 0) moveTo(pair, direction, decades(random, -12, 0) * inner);
 	else
 		moveTo(pair, direction, -std::max(decades(random, -12, std::log10(Real(0.5))) * inner, 2000 * tolerance::rounding * pair.reach()));
+	return pair;
+}
+
+/// Boxes and regular solids (rectangles) with near copies of their planes, every third pair with its axes aligned.
+inline Pair nearlyParallelPair(std::mt19937_64& random, int dimension = 3)
+{
+	const int faces[] = { 4, 6, 8, 12, 20 };
+	Pair      pair;
+	for (auto& shape : pair.shape) {
+		HalfSpaces set = rectangle(1, decades(random, -3, 0));
+		if (dimension == 3) set = random() % 2 ? cuboid(1, decades(random, -3, 0), decades(random, -3, 0)) : regularSolid(faces[random() % 5], 1);
+		const Matrix3 turn = random() % 2 ? randomRotation(random, dimension) : Matrix3(Matrix3::Identity());
+		for (Vector3& normal : set.normals)
+			normal = turn * normal;
+		set   = withNearCopies(set, 1 + int(random() % 6), random);
+		shape = ConvexShape::shared(set, Real(0.1) * *std::min_element(set.offsets.begin(), set.offsets.end()));
+	}
+	for (Matrix3& rotation : pair.rotation)
+		rotation = randomRotation(random, dimension);
+	Vector3 direction = randomDirection(random, dimension);
+	if (random() % 3 == 0) {
+		pair.rotation[1] = pair.rotation[0];
+		direction        = pair.rotation[0].col(int(random() % dimension));
+	}
+	const bool apart = random() % 4 == 0;
+	moveTo(pair, direction, (apart ? 1 : -1) * decades(random, -11, -1) * pair.inscribedRadius());
 	return pair;
 }
 

@@ -162,18 +162,24 @@ public:
 		return true;
 	}
 
-	/// From x along n to the body's surface.
-	Quad exit(int body, const QuadVector& x, const QuadVector& n, int sign) const
+	/// From x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.
+	struct Exit {
+		Quad distance = 1e30;
+		Quad rate     = 1;
+	};
+	Exit exit(int body, const QuadVector& x, const QuadVector& n, int sign) const
 	{
-		Quad nearest = 1e30;
+		Exit nearest;
 		for (const Plane& plane : planes[body]) {
 			const Quad rate = sign * dot(plane.normal, n);
-			if (rate > 0) nearest = std::min<Quad>(nearest, plane.slack(x) / rate);
+			if (!(rate > 0)) continue;
+			const Quad distance = plane.slack(x) / rate;
+			if (distance < nearest.distance) nearest = { distance, rate };
 		}
 		return nearest;
 	}
 
-	Quad depth(const QuadVector& x, const QuadVector& n) const { return exit(0, x, n, 1) + exit(1, x, n, -1); }
+	Quad depth(const QuadVector& x, const QuadVector& n) const { return exit(0, x, n, 1).distance + exit(1, x, n, -1).distance; }
 };
 
 } // namespace polytope::samples

@@ -20,7 +20,7 @@ def joint(**attributes):
 	return O.materials.append(RockJointMat(**values))
 
 
-def loop(perArea=False, normalDamping=0., shearDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):
+def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):
 	"""Engines with the plug-in's law. Returns the NewtonIntegrator."""
 	newton = NewtonIntegrator(gravity=gravity, damping=damping)
 	O.engines = [
@@ -28,7 +28,7 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., gravity=(0, 0, 0), da
 	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
 	        InteractionLoop(
 	                [Ig2_Polytope_Polytope_PolytopeGeom(**ig2)], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea, **ip2)],
-	                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=normalDamping, shearDamping=shearDamping)]
+	                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=normalDamping, shearDamping=shearDamping, rockingDamping=rockingDamping)]
 	        ),
 	        newton,
 	]

@@ -31,7 +31,7 @@ def testShortDemoComesToRestWithoutFailure(tmp_path):
 		assert result['inside'] == 72 and result['failures'] == 0
 		assert result['energyEnd'] < 1e-3 < result['energyHalf'] + 1e-2
 		assert result['overlap'] < 0.005 and result['deepestOverlap'] < 0.03
-		assert result['contacts'] >= 72 * 1.2
+		assert result['contacts'] >= 72, 'each lies on something'
 		assert 0.4 < result['meanHeight'] < 0.9
 		assert result['stateHash'] in text
 	assert (tmp_path / 'out' / 'results.csv').read_text().count('\n') == 6
@@ -65,7 +65,10 @@ def testHelloPrintsTheContact(tmp_path):
 	assert float(lines['area'].split()[0]) == pytest.approx(0.8, rel=1e-3)
 
 
-@pytest.mark.parametrize('script, product', [('polygons.py', 'polygons.png'), ('mesh.py', 'pebbles.png'), ('paraview.py', 'output/paraview/bodies.pvd')])
+products = {'polygons.py': 'polygons.png', 'mesh.py': 'pebbles.png', 'paraview.py': 'output/paraview/bodies.pvd'}
+
+
+@pytest.mark.parametrize('script, product', products.items())
 def testExampleMakesItsFile(tmp_path, script, product):
 	done = run(tmp_path, script)
 	assert done.returncode == 0, done.stdout + done.stderr

@@ -24,6 +24,10 @@ def readContacts(path):
 	return reader.GetOutput()
 
 
+def arraysOf(attributes):
+	return {attributes.GetArrayName(k): vtk_to_numpy(attributes.GetArray(k)) for k in range(attributes.GetNumberOfArrays())}
+
+
 def surfaceOf(grid, cell):
 	"""Triangles of one cell's faces."""
 	pick = vtk.vtkExtractCells()
@@ -80,7 +84,7 @@ def testBodiesComeBackAsClosedSolidsWithTheirData(tmp_path, someBodies, options)
 	PolytopeVTKRecorder(fileName=f'{tmp_path}/run-', **options)()
 	grid = readBodies(tmp_path / 'run-bodies.0.vtu')
 	assert grid.GetNumberOfCells() == len(O.bodies)
-	data = {grid.GetCellData().GetArrayName(k): vtk_to_numpy(grid.GetCellData().GetArray(k)) for k in range(grid.GetCellData().GetNumberOfArrays())}
+	data = arraysOf(grid.GetCellData())
 	for body in O.bodies:
 		k = body.id
 		assert grid.GetCellType(k) == vtk.VTK_POLYHEDRON
@@ -112,7 +116,7 @@ def testContactsComeBackWithTheirForces(tmp_path):
 	PolytopeVTKRecorder(fileName=f'{tmp_path}/')()
 	data = readContacts(tmp_path / f'contacts.{O.iter}.vtp')
 	assert data.GetNumberOfPoints() == data.GetNumberOfCells() == 3
-	arrays = {data.GetPointData().GetArrayName(k): vtk_to_numpy(data.GetPointData().GetArray(k)) for k in range(data.GetPointData().GetNumberOfArrays())}
+	arrays = arraysOf(data.GetPointData())
 	names = data.GetFieldData().GetAbstractArray('statusNames')
 	for k in range(3):
 		contact = O.interactions[int(arrays['id1'][k]), int(arrays['id2'][k])]
