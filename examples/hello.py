@@ -5,8 +5,11 @@
 """
 from math import radians
 
-from yade import *
-from yade import polytope
+from yade import (
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
+        RockJointMat, polytope
+)
 
 # stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
 O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=radians(35)))
@@ -18,9 +21,8 @@ O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
         InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()],
-                [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)],
+                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
+                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)]
         ),
         NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
 ]

@@ -6,8 +6,11 @@
 import os
 from math import radians
 
-from yade import *
-from yade import polytope
+from yade import (
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
+        RockJointMat, polytope
+)
 from yade.polytope.pictures import picture
 
 pebble = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pebble.obj')  # in centimetres
@@ -25,9 +28,8 @@ O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.002),
         InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()],
-                [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.3)],
+                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
+                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.3)]
         ),
         NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
 ]

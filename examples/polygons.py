@@ -6,31 +6,31 @@
 from math import cos, pi, radians, sin
 from random import Random
 
-from yade import *
-from yade import polytope
+from yade import (
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
+        RockJointMat, polytope
+)
 from yade.polytope.pictures import picture
 
 O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, frictionAngle=radians(25)))
 
 # convex bodies only: the hopper is two slabs, the floor a third
-hopper = [[(-3, 2.2), (-0.5, 0.6), (-0.5, 0.4), (-3, 2)], [(3, 2.2), (0.5, 0.6), (0.5, 0.4), (3, 2)]]
-floor = [(-3, -1.4), (3, -1.4), (3, -1.2), (-3, -1.2)]
-O.bodies.append([polytope.polygon(corners, fixed=True, color=(0.8, 0.8, 0.78)) for corners in hopper + [floor]])
-
+slabs = [[(-3, 2.2), (-0.5, 0.6), (-0.5, 0.4), (-3, 2)], [(3, 2.2), (0.5, 0.6), (0.5, 0.4), (3, 2)]]
+slabs.append([(-3, -1.4), (3, -1.4), (3, -1.2), (-3, -1.2)])
+O.bodies.append([polytope.polygon(corners, fixed=True, color=(0.8, 0.8, 0.78)) for corners in slabs])
 random = Random(1)
-for row in range(8):
-	for column in range(9):
-		corners, turn = random.randint(3, 7), random.uniform(0, pi)
-		angles = [turn + 2 * pi * k / corners for k in range(corners)]
-		O.bodies.append(polytope.polygon([(0.25 * column - 1 + 0.12 * cos(a), 1.55 + 0.25 * row + 0.12 * sin(a)) for a in angles]))
+for k in range(72):
+	corners, x, y = random.randint(3, 7), 0.25 * (k % 9) - 1, 0.25 * (k // 9) + 1.55
+	angles = [2 * pi * (i + random.uniform(0, 0.4)) / corners for i in range(corners)]
+	O.bodies.append(polytope.polygon([(x + 0.12 * cos(a), y + 0.12 * sin(a)) for a in angles]))
 
 O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
         InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()],
-                [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],  # N/m for each contact
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2)],
+                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
+                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2)]
         ),
         NewtonIntegrator(gravity=(0, -9.81, 0), damping=0.1),
 ]

@@ -68,7 +68,8 @@ class FallingPolyhedra:
 	"""Corner radius over L."""
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(mass / normalStiffness)."""
-	wallHeight: float = 1.6
+	leastWallHeight: float = 1.6
+	"""Walls of more than six layers are higher. [m]"""
 	wallThickness: float = 0.1
 	verletFraction: float = 0.05
 	"""Reach of the collider's bounding boxes beyond the bodies, over L. Measured: 0.02 to 0.3 differ by less than noise."""
@@ -96,6 +97,10 @@ class FallingPolyhedra:
 	def width(self):
 		"""Of the square floor between the walls [m]."""
 		return self.columns * self.spacing
+
+	@property
+	def wallHeight(self):
+		return max(self.leastWallHeight, self.lattice()[-1, 2] + 0.5 * self.spacing)
 
 	@property
 	def timeStep(self):

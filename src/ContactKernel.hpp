@@ -367,8 +367,13 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	}
 
 	// 2. all planes, in a frame turned and moved by what that basis knows
+	// (its point may be far outside both bodies: there every plane would lose digits)
 	PairPlanes<R, D> planes = pairRows<R, D>(in, workspace);
-	aim<R, D>(f, dual, basis.point);
+	const R          away   = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
+	R                origin[D];
+	for (int k = 0; k < D; ++k)
+		origin[k] = basis.point[k] / away;
+	aim<R, D>(f, dual, origin);
 	placePair<R, D, W>(in, f, planes);
 	for (int k = 0; k <= D; ++k)
 		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
@@ -470,6 +475,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
 	out.depth = exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1);
+	// across a gap the chord may miss a body and say nothing; the bodies are s*/|n_λ| apart at the least
+	if (!touching) out.depth = minOf<R>(out.depth, -maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction)));
 
 	out.status = outcome;
 	out.normal = worldDirection<R, D>(in, f, n);

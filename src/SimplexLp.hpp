@@ -40,7 +40,7 @@ template <class R, int D> struct LpBasis {
 ///     (p; t) = Σ μ_k (a_k; 1)   ⇔   Σ ν_k e_k = p − t a_0,   ν_k: sum of μ over the planes that hang on edge k
 template <class R, int D>
 POLYTOPE_INLINE R
-solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, LpBasis<R, D>& basis)
+solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, R leastVolume, LpBasis<R, D>& basis)
 {
 	R e[D][D], c[D][D], difference[D], det;
 	for (int k = 0; k < D; ++k) {
@@ -64,7 +64,10 @@ solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&or
 		c[1][1] = e[0][0];
 		det     = dot<R, 2>(e[0], c[0]);
 	}
-	if (!(det != 0)) return R(padOffset);
+	R lengths = 1;
+	for (int k = 0; k < D; ++k)
+		lengths *= dot<R, D>(e[k], e[k]);
+	if (!(det * det > leastVolume * leastVolume * lengths)) return R(padOffset);
 	const R reciprocal = 1 / det;
 	R *     root = basis.inverse[order[0]], *before = basis.inverse[order[D - 1]];
 	for (int j = 0; j < D; ++j) {
@@ -163,7 +166,7 @@ __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const
 		}
 		chained = apart(order[2], order[3]) < apart(order[0], order[3]);
 	}
-	if (!(solveFromDifferences<R, D>(a, d, order, chained, basis) < R(tolerance::singularBasis))) return false;
+	if (!(solveFromDifferences<R, D>(a, d, order, chained, R(tolerance::noVolume), basis) < R(tolerance::singularBasis))) return false;
 	refineBasis<R, D>(a, d, basis);
 	return true;
 }
@@ -175,7 +178,7 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D]
 	int order[D + 1];
 	for (int k = 0; k <= D; ++k)
 		order[k] = k;
-	const R noise = solveFromDifferences<R, D>(a, d, order, false, basis);
+	const R noise = solveFromDifferences<R, D>(a, d, order, false, R(tolerance::smallVolume), basis);
 	if (!(noise <= R(tolerance::refinedBasis)) && !solveNearlyParallel<R, D>(a, d, basis)) return false;
 	// from the weights, not from z: their residual Σ λ a multiplies a point of the overlap, z's one multiplies x, which may be far
 	basis.infeasibility = 0;

@@ -31,6 +31,11 @@ constexpr Real noise = 16;
 /// are one normal to the simplex, of which the basis takes one.
 constexpr Real singularBasis = Real(1) / 256;
 
+/// Volume of three (area of two) differences of normals over the product of their lengths: from the first on they are
+/// chosen anew, so that nearly parallel normals are subtracted from each other; the second is no volume but rounding.
+constexpr Real smallVolume = 1e-3;
+constexpr Real noVolume    = 4 * rounding;
+
 /// × size: how far the one of two such normals that is not in the basis may be violated at the optimum.
 constexpr Real twinViolation = 1024 * rounding;
 

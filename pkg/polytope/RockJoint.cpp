@@ -188,14 +188,16 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	Vector3r     velocity = Vector3r::Zero(); ///< of body 2 relative to body 1 at the contact point
 	Vector3r     centreVelocity = Vector3r::Zero(); ///< the same of the centres
 	Vector3r     arm1, arm2;                  ///< from the centres to the contact point
+	bool         isNew; ///< made in this step
 
-	Pair(const Interaction& contact, const PolytopeGeom& geom, Scene* scene)
+	Pair(Interaction& contact, const PolytopeGeom& geom, Scene* scene)
 	        : body1(Body::byId(contact.getId1(), scene).get())
 	        , body2(Body::byId(contact.getId2(), scene).get())
 	        , id1(contact.getId1())
 	        , id2(contact.getId2())
 	        , state1(*body1->state)
 	        , state2(*body2->state)
+	        , isNew(contact.isFresh(scene))
 	{
 		centreVelocity = state2.vel - state1.vel;
 		if (scene->isPeriodic) {
@@ -292,6 +294,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		addTorque(pair.id2, phys.rockingMoment, scene);
 	}
 
+	phys.lastStored = scene->trackEnergy ? phys.lastStored : Real(-1);
 	if (scene->trackEnergy) {
 		work.plastic -= (lastElastic + elasticNormal) / 2 * (phys.dilation - lastDilation);
 		work.normalDamping = -(lastNormalViscous + normalViscous) / 2 * geom.normal.dot(pair.velocity) * scene->dt;
@@ -323,7 +326,7 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(
 }
 
 /// The joint is open: no force. False ends the contact.
-bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, PolytopeGeom& geom, RockJointPhys& phys)
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, const PolytopeGeom& geom, RockJointPhys& phys)
 {
 	StepWork work;
 	work.fractured           = phys.intact;
@@ -332,6 +335,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, Polytop
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding   = false;
 	if (scene->trackEnergy) book(pair, phys, lastForce, work, 0);
+	else
+		phys.lastStored = -1;
 	return phys.hasPeak() && -geom.penetrationDepth < math::min(geom.refR1, geom.refR2);
 }
 
@@ -352,7 +357,9 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	const Real     given = scene->dt / 2
 	        * ((lastForce + force).dot(pair.centreVelocity) + (phys.lastArm2.cross(lastForce) + pair.arm2.cross(force)).dot(pair.state2.angVel)
 	           - (phys.lastArm1.cross(lastForce) + pair.arm1.cross(force)).dot(pair.state1.angVel));
-	const Real rest = -given - (stored - phys.lastStored) - work.plastic - work.normalDamping - work.shearDamping;
+	// a contact that was there before tracking was switched on has no last step to compare with
+	const bool known = phys.lastStored >= 0 || pair.isNew;
+	const Real rest  = known ? -given - (stored - math::max(phys.lastStored, Real(0))) - work.plastic - work.normalDamping - work.shearDamping : Real(0);
 
 	const auto add = [&](Energy kind, Real value) { scene->energy->add(value, "", energyIds_[kind], kind == elastic); };
 	add(elastic, stored);

@@ -90,7 +90,7 @@ public:
 		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
 		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
 		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
-		((Real, lastStored, 0, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy)"))
+		((Real, lastStored, -1, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy; -1: was not tracked)"))
 		, /*ctor*/ createIndex();
 	);
 	// clang-format on
@@ -149,7 +149,7 @@ private:
 	struct Pair;
 	struct StepWork;
 	void book(const Pair& pair, RockJointPhys& phys, const Vector3r& lastForce, const StepWork& work, Real stored);
-	bool open(const Pair& pair, PolytopeGeom& geom, RockJointPhys& phys);
+	bool open(const Pair& pair, const PolytopeGeom& geom, RockJointPhys& phys);
 	Vector3r rockingDamper(const Pair& pair, PolytopeGeom& geom, const RockJointPhys& phys, Real normal) const;
 
 	enum Energy { elastic, plastic, normalDamper, shearDamper, fracture, nonconservative, energyCount };

@@ -88,9 +88,9 @@ TEST(GeometryAcrossGap, TheOverlapAtTheSkinHoldsTheTouchingPoint)
 				plane.offset += open.infeasibility + tolerance::gapSkin * pair.size();
 		const QuadVector x = precise(open.point);
 		EXPECT_LE(Real(grown.localLength(x, minus(precise(touching.point), x))), 18);
-		EXPECT_LE((touching.point - open.point).norm(), 1e-4);
-		EXPECT_LE((touching.normal - open.normal).norm(), 2e-3);
-		EXPECT_NEAR(touching.depth, open.depth, 1e-4);
+		EXPECT_LE((touching.point - open.point).norm(), 1e-3);
+		EXPECT_LE((touching.normal - open.normal).norm(), 1e-2);
+		EXPECT_NEAR(touching.depth, open.depth, 1e-3);
 	}
 }
 
@@ -110,7 +110,7 @@ TEST(GeometryAcrossGap, FaceOnFaceTheDepthIsMinusTheGap)
 	}
 }
 
-TEST(GeometryAcrossGap, FinalOnEveryPairAndTheSameInContact)
+TEST(GeometryAcrossGap, IsGivenForEveryPairAndChangesNoContact)
 {
 	std::mt19937_64 random(202);
 	for (int dimension = 2; dimension <= 3; ++dimension) {
@@ -128,7 +128,9 @@ TEST(GeometryAcrossGap, FinalOnEveryPairAndTheSameInContact)
 			}
 			++open;
 			EXPECT_EQ(result.status, ContactStatus::Separated);
-			EXPECT_LT(result.depth, 0);
+			const Real apart = result.infeasibility / result.dualDirection.norm(); // at the least
+			EXPECT_LE(result.depth, -apart + 32 * tolerance::rounding * pair.reach());
+			EXPECT_LE(result.depth, 0);
 			EXPECT_NEAR(result.normal.norm(), 1, 4e-15);
 			EXPECT_NEAR(result.infeasibility, infeasibility(pair), 32 * tolerance::rounding * pair.reach());
 		}

@@ -72,7 +72,7 @@ TEST_P(Walks, SmallStepsAreCheaperAndTheSame)
 	EXPECT_GT(warm.contacts, 2000);
 	EXPECT_GT(warm.separated, 1000);
 	EXPECT_LT(warm.pivots, 0.3 * cold.pivots);
-	EXPECT_LT(warm.iterations, 0.8 * cold.iterations);
+	EXPECT_LT(warm.iterations, 0.9 * cold.iterations); // a thin overlap's point is no nearer than the linear programme's
 }
 
 TEST_P(Walks, LargeStepsAreTheSame)

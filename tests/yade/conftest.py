@@ -3,6 +3,8 @@
 import os
 import sys
 
+os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # threads that wait do not take the core from those that work
+
 import pytest
 import yade
 

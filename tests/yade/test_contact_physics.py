@@ -40,7 +40,7 @@ def testStackCarriesItsWeight():
 	O.bodies.append([polytope.cuboid((0, 0, k + .5), (.5, .5, .5)) for k in range(5)])
 	weight = O.bodies[1].state.mass * gravity
 	O.dt = 0.1 * period(O.bodies[1].state.mass, stiffness)
-	O.run(4000, True)
+	O.run(8000, True)
 	for k in range(5):
 		assert O.interactions[k, k + 1].phys.normalForce[2] == pytest.approx((5 - k) * weight, rel=1e-6)
 
@@ -77,7 +77,7 @@ def tiltTest(slope, halfHeight=0.5, rockingDamping=1., steps=2000, **dampers):
 	turn = Quaternion((0, 1, 0), radians(slope))
 	floor, block = blockOnFloor(half=(.5, .5, halfHeight), turn=turn)
 	O.dt = 0.1 * period(block.state.mass, stiffness)
-	O.run(1000, True)
+	O.run(2500, True)
 	assert block.state.vel.norm() < 1e-5
 	newton.damping = 0
 	law().rockingDamping = rockingDamping
@@ -119,11 +119,12 @@ def testUndampedFlatBlockSlidesToo():
 @pytest.mark.parametrize('dampers', [dict(normalDamping=1, shearDamping=1), dict(normalDamping=0, shearDamping=0)])
 def testCubeWithoutRockingDampingRidesOnItsLeadingEdge(dampers):
 	"""A weakness of one contact point with the averaged normal: sliding shakes the cube onto its leading edge, where the normal leans
-	uphill, and it makes but a part of the way. Recorded, not wanted: if this fails because it slides well, good news."""
+	against it, and it falls behind: by little without any damping, nearly to a stop with a normal damper, which carries the shaking into
+	the edge. Recorded, not wanted: if this fails because the cube slides as it should, good news."""
 	distance, acceleration, theory = tiltTest(40, rockingDamping=0, **dampers)
 	way = theory / 2 * (0.1 * period(density, stiffness) * 2000)**2
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: {distance:.3f} m of {way:.3f} m')
-	assert distance < 0.3 * way
+	assert distance < (0.1 if dampers['normalDamping'] else 0.95) * way
 
 
 # ------------------------------------------------------------------------------------------------ flight and collision
@@ -243,13 +244,15 @@ def testDeformingCellMovesTheImage():
 			O.cell.homoDeform = 0
 		image = gradient * shift
 		joint(normalStiffness=stiffness, shearStiffness=stiffness / 3)
-		loop(normalDamping=0.2).dead = True
+		loop(normalDamping=0.2)  # the integrator is what makes a change of velGrad effective
 		O.bodies.append([polytope.cuboid((0.3, 1, 1), (.5, .4, .3)), polytope.cuboid(Vector3(-.6, 1, 1) + (shift if periodic else Vector3.Zero), (.5, .4, .3))])
 		if not periodic: O.bodies[1].state.vel = -image
 		O.dt = 1e-9
-		O.run(1, True)
+		O.run(2, True)
 		i = O.interactions[0, 1]
-		results.append((Vector3(i.phys.normalViscous), Vector3(i.phys.shearForce)))
+		before = Vector3(i.phys.shearForce)
+		O.run(5, True)
+		results.append((Vector3(i.phys.normalViscous), i.phys.shearForce - before))
 	for one, other in zip(*results):
 		assert other.norm() > 0
 		assert (one - other).norm() < 1e-6 * other.norm()  # the cell itself has moved by 1e-9 of its strain rate
@@ -313,8 +316,8 @@ def testGlobalStiffnessTimeStepperIsStable(which):
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
 	O.bodies.append([polytope.cuboid((0.4 * (k % 2), 0, 1 + 1.8 * k), (.5, .5, .5), Quaternion((1, 2, k), 0.4 * k)) for k in range(5)])
 	mass = O.bodies[1].state.mass
-	O.engines = O.engines + [GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.5, defaultDt=1e-4, maxDt=1e-3, timeStepUpdateInterval=1)]
-	O.dt = 1e-4
+	O.engines = O.engines + [GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.5, defaultDt=2e-3, maxDt=2e-3, timeStepUpdateInterval=1)]
+	O.dt = 1e-3
 	start = sum(b.state.mass * gravity * b.state.pos[2] for b in O.bodies if b.dynamic)
 	smallest = 1.
 	while O.time < 3:
@@ -323,5 +326,5 @@ def testGlobalStiffnessTimeStepperIsStable(which):
 		total = sum(b.state.mass * gravity * b.state.pos[2] for b in O.bodies if b.dynamic) + kinetic([b for b in O.bodies if b.dynamic])
 		assert total < start
 	unit = period(mass, stiffness)
-	print(f'{which}: smallest dt {smallest / unit:.3f} √(m/k), at the end {O.dt / unit:.3f}, kinetic energy {kinetic(O.bodies[1:]):.3e} J' if False else f'{which}: smallest dt {smallest / unit:.3f} √(m/k), at the end {O.dt / unit:.3f}')
+	print(f'{which}: smallest dt {smallest / unit:.3f} √(m/k), at the end {O.dt / unit:.3f}')
 	assert 0.02 * unit < smallest < unit

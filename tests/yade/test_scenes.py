@@ -90,3 +90,8 @@ def testWatchCountsWhatTheFunctorCounts():
 	assert 0 < summary['loopMicrosecondsPerPair'] <= summary['loopMicrosecondsPerContact']
 	assert not O.timingEnabled and not scene.geometryFunctor.timing
 	assert summary['deepestOverlap'] >= summary['overlap'] > 0
+
+
+def testWallsAreHigherThanTheHighestLayer():
+	assert FallingPolyhedra().wallHeight == 1.6
+	assert FallingPolyhedra(number=100, columns=2).wallHeight > 25 * FallingPolyhedra().spacing
