@@ -309,20 +309,21 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>&
 
 template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {
-	R shift[D], v[D];
+	const R        nowhere[D] = {};
+	R              centre[D], origin[D];
+	Rotation<R, D> turn;
+	rotateBack<R, D>(f.other, f.centre, centre);
+	rotateBack<R, D>(f.other, f.origin, origin);
+	for (int j = 0; j < D; ++j)
+		for (int k = 0; k < D; ++k) {
+			turn.m[j][k] = 0;
+			for (int i = 0; i < D; ++i)
+				turn.m[j][k] += f.axes.m[j][i] * f.other.m[i][k];
+		}
 	for (int body = 0; body < 2; ++body) {
-		Rotation<R, D> turn = f.axes;
-		for (int k = 0; k < D; ++k)
-			v[k] = (body == f.home ? R(0) : f.centre[k]) - f.origin[k];
-		if (body != f.home)
-			for (int j = 0; j < D; ++j)
-				for (int k = 0; k < D; ++k) {
-					turn.m[j][k] = 0;
-					for (int i = 0; i < D; ++i)
-						turn.m[j][k] += f.axes.m[j][i] * f.other.m[i][k];
-				}
-		rotate<R, D>(f.axes, v, shift);
-		placePlanes<R, D, W>(*in.shape[body], turn, shift, planes, planes.begin(body), planes.end(body));
+		const bool home = body == f.home;
+		placePlanes<R, D, W>(
+		        *in.shape[body], home ? f.axes : turn, home ? nowhere : centre, home ? f.origin : origin, planes, planes.begin(body), planes.end(body));
 	}
 }
 
@@ -405,7 +406,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		x[k] = basis.point[k];
 	if (out.simplexPivots > 0 || !warm) {
 		const Rotation<R, D> turn = aim<R, D>(f, dual, x);
-		turnPlanes<R, D, W>(turn, x, planes);
+		placePair<R, D, W>(in, f, planes);
 		R turned[D];
 		rotate<R, D>(turn, dual, turned);
 		for (int k = 0; k < D; ++k) {

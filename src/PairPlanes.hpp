@@ -59,14 +59,18 @@ template <class R, int D> struct PairPlanes {
 	}
 };
 
-/// Planes of `shape` into pair rows from `begin` on: a ← T·a, d ← d + (T·a)·shift.
+/// Planes of `shape` into pair rows from `begin` on: a ← T·a, d ← d + a·centre − a·origin with the body's own a. `centre`
+/// (the body's, in the home frame) and `origin` (of the rows' frame, in the home frame) are given in the body's axes: so a
+/// normal's rounding acts over the overlap only, and a plane that passes near the contact loses no digits to its body's size.
 template <class R, int D, int W>
-POLYTOPE_INLINE void placePlanes(const ConvexShape& shape, const Rotation<R, D>& t, const R* shift, PairPlanes<R, D>& out, int begin, int end)
+POLYTOPE_INLINE void
+placePlanes(const ConvexShape& shape, const Rotation<R, D>& t, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
 {
 	using V = typename Lanes<R, W>::Type;
-	V T[D][D], S[D];
+	V T[D][D], C[D], O[D];
 	for (int j = 0; j < D; ++j) {
-		S[j] = broadcast<R, W>(shift[j]);
+		C[j] = broadcast<R, W>(centre[j]);
+		O[j] = broadcast<R, W>(origin[j]);
 		for (int k = 0; k < D; ++k)
 			T[j][k] = broadcast<R, W>(t.m[j][k]);
 	}
@@ -76,17 +80,20 @@ POLYTOPE_INLINE void placePlanes(const ConvexShape& shape, const Rotation<R, D>&
 	const R* offsets = shape.offsetArray();
 	for (int i = 0; begin + i < end; i += W) {
 		V a[D];
-		for (int k = 0; k < D; ++k)
-			a[k] = load<R, W>(source[k] + i);
 		V d = load<R, W>(offsets + i);
+		for (int k = 0; k < D; ++k) {
+			a[k] = load<R, W>(source[k] + i);
+			d += a[k] * C[k];
+		}
+		for (int k = 0; k < D; ++k)
+			d -= a[k] * O[k];
+		store<R, W>(out.offset + begin + i, d);
 		for (int j = 0; j < D; ++j) {
 			V moved = T[j][0] * a[0];
 			for (int k = 1; k < D; ++k)
 				moved += T[j][k] * a[k];
-			d += moved * S[j];
 			store<R, W>(out.normal[j] + begin + i, moved);
 		}
-		store<R, W>(out.offset + begin + i, d);
 	}
 }
 

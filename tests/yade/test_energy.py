@@ -50,7 +50,7 @@ def testFlatDampedDropBalances():
 	start = sum(first.values())
 	scale = density * gravity * 0.01
 	exact, yade, unexplained = 0, 0, 0
-	for _ in range(9000):
+	for _ in range(14000):
 		terms = ledger.step()
 		exact = max(exact, abs(sum(terms.values()) - start) / scale)
 		unexplained = max(unexplained, abs(terms['nonconservative']) / scale)
@@ -122,9 +122,11 @@ def testFractureReleasesWhatWasStored():
 	O.trackEnergy = True
 	O.dt = 1e-4
 	O.step()
+	# the contact appears compressed: energy from nowhere
+	assert energies()['nonconservative'] == pytest.approx(-stiffness * 1e-8 / 2, rel=1e-9)
 	block.state.vel = (0, 0, 1e-2)
-	made = energies()['nonconservative']  # the contact appears compressed: energy from nowhere
-	assert made == pytest.approx(-stiffness * 1e-8 / 2, rel=1e-9)
+	O.step()  # a start out of rest is not leapfrog motion
+	made = energies()['nonconservative']
 	i = contact(floor, block)
 	while i.phys.intact:
 		O.step()

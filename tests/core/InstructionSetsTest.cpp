@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// The kernel for each lane width and instruction set this machine has, whichever of them ContactQuery.cpp chooses.
+// (vectors are handed over within this file only: no ABI to warn of)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#include "ContactKernel.hpp"
+#include "SameAnswer.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
+
+template <int D> void scalar(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+{
+	contactKernel<Real, D, 1>(in, settings, memory, workspace, out);
+}
+
+template <int D> void twoLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+{
+	contactKernel<Real, D, 2>(in, settings, memory, workspace, out);
+}
+
+/// Of the same pair as query() gives, from another kernel.
+void expectSameFrom(const Kernel* kernels)
+{
+	std::mt19937_64 random(600);
+	for (int dimension = 2; dimension <= 3; ++dimension) {
+		const Shapes shapes = randomShapes(60, random, dimension);
+		int          contacts = 0;
+		for (int trial = 0; trial < 1500 && !testing::Test::HasFailure(); ++trial) {
+			const Pair          pair = randomPair(shapes, random);
+			ContactWorkspace    workspace;
+			PairMemory          memory;
+			ContactResult       other;
+			const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
+			const ContactResult result = query(pair);
+			kernels[dimension - 2](in, {}, memory, workspace, other);
+			ASSERT_EQ(result.inContact, other.inContact);
+			if (!result.inContact) continue;
+			++contacts;
+			const PrecisePair exact(pair);
+			expectSame(exact, Allowance(pair, exact, result), result, other);
+		}
+		EXPECT_GT(contacts, 1000);
+	}
+}
+
+TEST(InstructionSets, ScalarsGiveTheSame)
+{
+	const Kernel kernels[] = { scalar<2>, scalar<3> };
+	expectSameFrom(kernels);
+}
+
+#if defined(__x86_64__) && !defined(POLYTOPE_REAL)
+
+TEST(InstructionSets, TwoLanesGiveTheSame)
+{
+	const Kernel kernels[] = { twoLanes<2>, twoLanes<3> };
+	expectSameFrom(kernels);
+}
+
+template <int D>
+__attribute__((target("arch=x86-64-v3"))) void
+fourLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+{
+	contactKernel<Real, D, 4>(in, settings, memory, workspace, out);
+}
+
+TEST(InstructionSets, FourLanesGiveTheSame)
+{
+	__builtin_cpu_init();
+	if (!__builtin_cpu_supports("x86-64-v3")) GTEST_SKIP() << "no AVX2 here";
+	const Kernel kernels[] = { fourLanes<2>, fourLanes<3> };
+	expectSameFrom(kernels);
+}
+
+#endif
+
+} // namespace
