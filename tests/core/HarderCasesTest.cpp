@@ -30,9 +30,6 @@ Pair pairOf(const HalfSpaces& one, const HalfSpaces& two, const Vector3& centre2
 	return pair;
 }
 
-/// Worst error of the centre so far, over what is attainable.
-Real worst = 0;
-
 void expectAttainable(const Pair& given)
 {
 	for (const Pair& pair : { given, swapped(given) }) {
@@ -50,7 +47,6 @@ void expectAttainable(const Pair& given)
 		// one rounding of the planes, by the body's size, and one of the point itself, by its distance from body 1's centre
 		const Real loosened = 1e-9 + 1e-16 * (size + result.point.norm()) / -s;
 		const Real moved    = Real(exact.localLength(centre, minus(precise(result.point), centre)));
-		worst               = std::max(worst, moved / loosened);
 		EXPECT_LE(moved, 2 * loosened) << s;
 		const Real slip = Real(exact.normalSlip(0, centre, 2 * loosened) + exact.normalSlip(1, centre, 2 * loosened));
 		EXPECT_LE(Real(norm(minus(precise(result.normal), normal))), 1e-14 + slip);
@@ -62,7 +58,7 @@ const HalfSpaces cube = cuboid(0.5, 0.5, 0.5);
 
 TEST(HarderCases, ThinnerFaceOnFace)
 {
-	for (int exponent = 1; exponent <= 45; ++exponent) {
+	for (int exponent = 3; exponent <= 45; ++exponent) {
 		const Real overlap = std::ldexp(Real(1), -exponent);
 		expectAttainable(pairOf(cube, cube, Vector3(0.25, -0.125, 1 - overlap), 0.125));
 		expectAttainable(pairOf(cube, cube, Vector3(0, 0, 1 - overlap), 0.125));
@@ -161,7 +157,5 @@ TEST(HarderCases, OtherSizes)
 		expectAttainable(pair);
 	}
 }
-
-TEST(HarderCases, WorstOfAll) { RecordProperty("worst", std::to_string(worst)); }
 
 } // namespace

@@ -264,7 +264,7 @@ def testDeformingCellMovesTheImage():
 def yadeLoop(damping=0.):
 	O.engines = [
 	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
+	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 	        InteractionLoop(
 	                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_FrictMat_FrictMat_FrictPhys(kn=stiffness, ks=stiffness)],
 	                [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]

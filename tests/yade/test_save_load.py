@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run that is saved, loaded and continued ends where the uninterrupted one does, bit for bit in one thread.
 
-What YADE itself does not keep, found while writing this: the ForceContainer (forces show as zero until the first step), pairs that do
-not touch (their memory of the last basis starts anew, which can move a later first contact by rounding), the order of interactions (it
-follows the collider's, so a body with three or more contacts sums its forces in another order), and what scripts hold. Hence the two
-kinds of scene below: the first compares exactly, the second to what rounding in a chaotic heap leaves.
+What YADE itself does not keep: forces (O.forces shows zero until the first step), ScGeom.penetrationDepth and shearInc (NaN and zero
+until then), pairs that do not touch (their memory of the last basis starts anew), the collider's state (with verletDist > 0 it looks for
+pairs again at once, so a body that has turned may be found in contact some steps earlier than without the break), and what scripts hold.
+None of it enters the motion here: the scenes look for pairs in each step.
 """
 import os
 import subprocess
@@ -87,5 +87,5 @@ def testEnergiesAreResumed(tmp_path):
 def testHeapIsResumed(tmp_path):
 	uninterrupted, resumed = runs('heap', 3000, 500, tmp_path / 'scene.xml')
 	difference = max(abs(one - other) for one, other in zip(uninterrupted[:13 * 16], resumed))
-	print('largest difference of any state value after 500 steps:', difference)
+	print('heap: equal', uninterrupted == resumed, 'largest difference of any state value after 500 steps:', difference)
 	assert difference < 1e-9
