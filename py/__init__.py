@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: :yref:`fromHalfSpaces`, *fromVertices*, *regular*, *cuboid*,
-*polygon*, *fromMesh*. One pair without a scene: *contact*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
+*polygon*, *fromMesh*. One pair without a scene: *contact*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
 RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
@@ -10,7 +10,8 @@ The C++ side is in the extension module yade._polytope, loaded with YADE itself 
 from yade._polytope import buildInfo, contact
 
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .pictures import picture
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'polygon', 'regular']
+__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'picture', 'polygon', 'regular']

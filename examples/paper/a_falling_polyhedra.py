@@ -5,7 +5,7 @@ Runs one solid or all five, measures every part of the contact detection, compar
 writes results, pictures and ParaView files. Ends with 1 if a particle has left the box or a contact query had no answer.
 
 	./run demo                                 # all five solids, with pictures
-	./run demo --shape cube --threads 2 --vtk-every 100
+	./run demo --shape cube --threads 2 --vtk-every 100   # ParaView files every 100 steps
 	./run python examples/paper/a_falling_polyhedra.py --help
 
 It is an ordinary Python program (`import yade`), for its options and its exit code; within `yade` it does not run.
@@ -71,7 +71,7 @@ def options():
 	parser.add_argument('--contact-point', choices=('analyticCentre', 'chebyshevCentre', 'centroid'), default='analyticCentre')
 	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output/a_falling_polyhedra'), help='folder for all files')
 	parser.add_argument('--no-pictures', action='store_true')
-	parser.add_argument('--vtk-every', type=int, default=0, metavar='STEPS', help='ParaView files every so many steps; 0: none')
+	parser.add_argument('--vtk-every', type=int, default=1000, metavar='STEPS', help='ParaView files every so many steps; 0: none')
 	given = parser.parse_args()
 	for name in ('number', 'steps', 'threads'):
 		if getattr(given, name) < 1:
