@@ -15,6 +15,7 @@ share these keyword arguments (*body* below), with the meaning they have in :yre
 :param Vector3 velocity: initial velocity [m/s]
 :param Vector3 angularVelocity: initial angular velocity [rad/s]
 """
+import numbers
 import os
 
 from yade import Body, Polytope, Quaternion, Vector3
@@ -45,7 +46,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
-	return _bodyOf(_vectors(normals, 'normals', 3), _numbers(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
+	return _body(_vectors(normals, 'normals', 3), _numbers(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
 
 
 def fromVertices(points, **body):
@@ -66,8 +67,10 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 	:param Quaternion orientation: of the body
 	:raises ValueError: naming *faces* or *circumradius*
 	"""
-	normals, offsets = _polytope.regularSolid(faces, circumradius)
-	return _bodyOf(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+	if not isinstance(faces, numbers.Integral):
+		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
+	normals, offsets = _polytope.regularSolid(int(faces), _number(circumradius, 'circumradius'))
+	return _body(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
 
 
 def cuboid(center, extents, orientation=Quaternion.Identity, **body):
@@ -84,7 +87,7 @@ def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	axes = [Vector3.Unit(k) for k in range(3)]
 	normals = [a for axis in axes for a in (axis, -axis)]
 	offsets = [half[k // 2] for k in range(6)]
-	return _bodyOf(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+	return _body(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
 
 
 def polygon(points2d, thickness=1.0, **body):
@@ -99,7 +102,7 @@ def polygon(points2d, thickness=1.0, **body):
 		normals, offsets = _polytope.hull(points, 2, 0)
 	except ValueError as error:
 		raise ValueError(str(error).replace('points', 'points2d', 1)) from None
-	return _bodyOf(normals, offsets, dimension=2, thickness=thickness, **body)
+	return _body(normals, offsets, dimension=2, thickness=thickness, **body)
 
 
 def fromMesh(path, scale=1.0, **body):
@@ -110,9 +113,9 @@ def fromMesh(path, scale=1.0, **body):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
-	if not os.path.isfile(path):
+	if not os.path.exists(path):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
-	if not 0 < scale < float('inf'):
+	if not isinstance(scale, numbers.Real) or not 0 < scale < float('inf'):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
 	import trimesh
 	try:
@@ -120,18 +123,20 @@ def fromMesh(path, scale=1.0, **body):
 		points = mesh.vertices * scale
 	except Exception as error:  # trimesh raises whatever its many readers raise
 		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
+	if len(points) == 0:
+		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
 	try:
 		return _hullOf(_vectors(points, 'points', 3), singlePrecision, **body)
 	except ValueError as error:
-		raise ValueError(str(error).replace('points', f"path: '{path}'", 1)) from None
+		raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
 
 
 def _hullOf(points, coplanar, **body):
 	normals, offsets = _polytope.hull(points, 3, coplanar)
-	return _bodyOf(normals, offsets, **body)
+	return _body(normals, offsets, **body)
 
 
-def _bodyOf(
+def _body(
         normals,
         offsets,
         place=None,
@@ -152,6 +157,7 @@ def _bodyOf(
 	central = _polytope.centred(normals, offsets, dimension, thickness, keepRedundant)
 	if cornerRadius is None:
 		cornerRadius = defaultCornerFraction * central['inscribedRadius']
+	cornerRadius = _number(cornerRadius, 'cornerRadius')
 	body = Body()
 	body.shape = Polytope(
 	        normals=central['normals'],
@@ -179,6 +185,12 @@ def _bodyOf(
 	return body
 
 
+def _number(value, name):
+	if not isinstance(value, numbers.Real):
+		raise ValueError(f'{name}: must be a number, got {value!r}')
+	return float(value)
+
+
 def _numbers(values, name):
 	try:
 		return [float(v) for v in values]
@@ -197,7 +209,10 @@ def _vectors(rows, name, length):
 
 
 def _vector(value, name):
-	vector = _vectors([value], name, 3)[0]
+	try:
+		vector = Vector3(*[float(x) for x in value])
+	except Exception:  # whatever is no sequence of three numbers
+		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
 	if not all(abs(x) < float('inf') for x in vector):
 		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
 	return vector

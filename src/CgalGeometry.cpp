@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <algorithm>
 #include <map>
 #include <type_traits>
 
@@ -85,8 +86,11 @@ Triangles hullTriangles(const std::vector<Vector3>& points)
 		std::size_t k = 0;
 		for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
 			triangle[k++] = indexOf.at(mesh.point(vertex));
+		std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
 		triangles.push_back(triangle);
 	}
+	// CGAL's order follows addresses in memory, which differ from run to run
+	std::sort(triangles.begin(), triangles.end());
 	return triangles;
 }
 

@@ -414,10 +414,9 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 			x[k]    = 0;
 		}
 	}
-	// a separated pair gets the point it would have if both bodies were grown until they just overlap
-	R grown = 0;
+	// a separated pair gets the point, normal and section it would have if both bodies were grown until they just overlap
 	if (!touching) {
-		grown = basis.infeasibility + R(tolerance::gapSkin) * f.size;
+		const R grown = basis.infeasibility + R(tolerance::gapSkin) * f.size;
 		for (int i = 0; i < planes.total; ++i)
 			planes.offset[i] += grown;
 	}
@@ -444,9 +443,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		for (int turns = 0;; ++turns) {
 			centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
 			if (centre != CentreStatus::Skewed || turns == tolerance::turns) break;
-			const Rotation<R, D> turn    = stiffAxes<R, D>(planes);
-			const R              here[D] = {};
-			turnPlanes<R, D, W>(turn, here, planes);
+			const Rotation<R, D> turn = stiffAxes<R, D>(planes);
+			turnPlanes<R, D, W>(turn, planes);
 			turnFrame<R, D>(f, turn);
 			R* const turned[] = { start, x, dual };
 			for (R* v : turned) {
@@ -468,16 +466,13 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 
 	if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
 
-	// 6. normal and depth, from the surfaces as they are
-	if (grown != 0)
-		for (int i = 0; i < planes.total; ++i)
-			planes.offset[i] -= grown;
+	// 6. normal and depth
 	R                   n[D];
 	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
 	out.depth = exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1);
-	// across a gap the chord may miss a body and say nothing; the bodies are s*/|n_λ| apart at the least
-	if (!touching) out.depth = minOf<R>(out.depth, -maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction)));
+	// of the grown bodies; what they are apart is to −s* as this chord is to the skin
+	if (!touching) out.depth *= -basis.infeasibility / (R(tolerance::gapSkin) * f.size);
 
 	out.status = outcome;
 	out.normal = worldDirection<R, D>(in, f, n);

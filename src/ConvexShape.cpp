@@ -6,12 +6,20 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace polytope {
 
 namespace {
+
+	std::string text(Real value)
+	{
+		std::ostringstream stream;
+		stream << value;
+		return stream.str();
+	}
 
 	/// Largest inscribed ball by the same simplex, started from a simplex of artificial planes far outside.
 	template <int D> Real inscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall)
@@ -75,9 +83,8 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
 	if (!std::isfinite(double(cornerRadius)) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
 		throw std::invalid_argument(
-		        "cornerRadius: must be at least 0 and smaller than the circumscribed ball's radius (" + std::to_string(double(boundingRadius_))
-		        + " m), usually a fraction of the inscribed one's (" + std::to_string(double(inscribedRadius_)) + " m); got "
-		        + std::to_string(double(cornerRadius)));
+		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius " + text(inscribedRadius_)
+		        + " m; got " + text(cornerRadius));
 }
 
 void ConvexShape::fillArrays()

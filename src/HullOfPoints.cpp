@@ -42,7 +42,7 @@ namespace {
 	[[noreturn]] void refuseFlat(int dimension)
 	{
 		refuse(dimension == 2 ? "points: they lie on a line; give at least three corners of a polygon"
-		                      : "points: they lie in a plane; give points that span a volume (or dimension = 2 for a polygon)");
+		                      : "points: they lie in a plane; give points that span a volume (for a polygon use yade.polytope.polygon)");
 	}
 
 	UnitPoints atUnitSize(const std::vector<Vector3>& points, int dimension)
@@ -187,12 +187,17 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
 	};
 	const Clusters facets = cluster(triangles, edges, misfit, outside, tolerance);
 
+	// in the order of their points: that of the triangles depends on how the hull cut the facets
+	std::vector<Indices> ordered;
+	for (std::size_t t = 0; t < triangles.size(); ++t)
+		if (facets.of[t] == int(t)) ordered.push_back(facets.members[t]);
+	std::sort(ordered.begin(), ordered.end());
+
 	HalfSpaces planes;
 	planes.dimension = dimension;
-	for (std::size_t t = 0; t < triangles.size(); ++t) {
-		if (facets.of[t] != int(t)) continue;
-		const Fit fit = outwardFit(set.points, facets.members[t], inner);
-		if (fit.width > tolerance) addPlane(planes, set, facets.members[t], fit); // else it is an edge, and its neighbours bound it
+	for (const Indices& members : ordered) {
+		const Fit fit = outwardFit(set.points, members, inner);
+		if (fit.width > tolerance) addPlane(planes, set, members, fit); // else it is an edge, and its neighbours bound it
 	}
 	return planes;
 }

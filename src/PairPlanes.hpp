@@ -97,24 +97,18 @@ placePlanes(const ConvexShape& shape, const Rotation<R, D>& t, const R* centre, 
 	}
 }
 
-/// Turns and shifts in place: a ← T·a, d ← d − a·origin (origin in the old axes).
-template <class R, int D, int W> POLYTOPE_INLINE void turnPlanes(const Rotation<R, D>& t, const R* origin, PairPlanes<R, D>& planes)
+/// Turns in place, about the frame's origin: a ← T·a.
+template <class R, int D, int W> POLYTOPE_INLINE void turnPlanes(const Rotation<R, D>& t, PairPlanes<R, D>& planes)
 {
 	using V = typename Lanes<R, W>::Type;
-	V T[D][D], O[D];
-	for (int j = 0; j < D; ++j) {
-		O[j] = broadcast<R, W>(origin[j]);
+	V T[D][D];
+	for (int j = 0; j < D; ++j)
 		for (int k = 0; k < D; ++k)
 			T[j][k] = broadcast<R, W>(t.m[j][k]);
-	}
 	for (int i = 0; i < planes.total; i += W) {
 		V a[D];
 		for (int k = 0; k < D; ++k)
 			a[k] = load<R, W>(planes.normal[k] + i);
-		V d = load<R, W>(planes.offset + i);
-		for (int k = 0; k < D; ++k)
-			d -= a[k] * O[k];
-		store<R, W>(planes.offset + i, d);
 		for (int j = 0; j < D; ++j) {
 			V moved = T[j][0] * a[0];
 			for (int k = 1; k < D; ++k)

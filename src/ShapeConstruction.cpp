@@ -152,7 +152,10 @@ namespace {
 		removeDegenerate(rings, triangles.size());
 		Polyhedron shape;
 		Indices    number(triangles.size(), -1);
+		// each face begins with the same vertex whichever way the hull cut its coplanar facets into triangles
+		const auto earlier = [&](int a, int b) { return clusters.members[std::size_t(a)] < clusters.members[std::size_t(b)]; };
 		const auto addFace = [&](std::size_t i) {
+			std::rotate(rings[i].begin(), std::min_element(rings[i].begin(), rings[i].end(), earlier), rings[i].end());
 			for (int& vertex : rings[i]) {
 				int& final = number[std::size_t(vertex)];
 				if (final < 0) {

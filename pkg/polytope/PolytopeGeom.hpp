@@ -24,7 +24,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
-	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the gradient of their inner potential particles, the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper`; :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
+	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the gradient of their inner potential particles, the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear programme [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's law uses :yref:`contactArea<PolytopeGeom.contactArea>`; set when the contact's physics are made."))
@@ -87,7 +87,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear programme's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
-		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton*. (*ipopt* is refused by this build.)"))
+		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre; *newton* is the only one so far."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
 		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]."))
@@ -95,7 +95,7 @@ public:
 		((bool, timing, false, , "Measure the time of the linear programme and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *fallbacks* (contacts that use the linear programme's point or a substitute direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *fallbacks* (contacts that use the linear programme's point, and coincident bodies without a direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on

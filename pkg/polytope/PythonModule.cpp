@@ -28,11 +28,6 @@ py::dict buildInfo()
 	result["yadeVersion"]    = info::yadeVersion;
 	result["yadeFeatures"]   = py::str(info::yadeFeatures).split();
 	result["instructionSet"] = polytope::instructionSet();
-#ifdef POLYTOPE_HAVE_IPOPT
-	result["ipopt"] = true;
-#else
-	result["ipopt"] = false;
-#endif
 	return result;
 }
 
@@ -75,6 +70,9 @@ const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body,
 {
 	const auto* shape = body ? dynamic_cast<const yade::Polytope*>(body->shape.get()) : nullptr;
 	if (!shape || !shape->convex()) throw std::invalid_argument(std::string(name) + ": must be a body with a Polytope shape that has planes");
+	const auto& state = *body->state;
+	if (!yade::math::isfinite(state.pos.squaredNorm() + state.ori.squaredNorm()))
+		throw std::invalid_argument(std::string(name) + ": its position and orientation must be finite");
 	return *shape->convex();
 }
 

@@ -7,15 +7,12 @@
 #include <pkg/dem/FrictPhys.hpp>
 
 #include <array>
-#include <atomic>
 
-/// Rock joints between Polytopes: material, contact physics, and the Mohr–Coulomb law.
+/// Rock joints between Polytopes: material and contact physics.
 ///
 /// Signs: forces are those on body 2 from body 1 (as everywhere in YADE), the normal points from body 1 to body 2, so a
-/// compressed contact has normalForce·normal > 0. Slip and relative velocity are body 2's relative to body 1.
+/// compressed contact has normalForce·normal > 0. Slip is body 2's relative to body 1.
 namespace yade {
-
-class PolytopeGeom;
 
 class RockJointMat : public FrictMat {
 public:
@@ -65,6 +62,8 @@ public:
 	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
 	/// The joint fails: peak values give way to residual ones.
 	void fail();
+	/// Whether the joint holds a tensile force [N].
+	bool bearsTension(Real force) const;
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
 	/// ½ fₙ²/kₙ + ½ |fₛ|²/kₛ of the given elastic parts [J].
@@ -75,7 +74,7 @@ public:
 	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses [N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present friction, peak or residual.)""",
 		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` in each step; 0: *kn* stays as it is."))
 		((Real, shearStiffness, 0, , "Shear stiffness per area [Pa/m], in the same way for $k_s$."))
-		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, kept while the joint is open. For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
+		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the joint is open. For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none to lose and are never intact."))
@@ -114,50 +113,5 @@ public:
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Ip2_RockJointMat_RockJointMat_RockJointPhys);
-
-class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
-public:
-	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* contact) override;
-	/// Refuses negative damping, naming the attribute, and restores the last good values.
-	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
-	Real ratioSlidingContacts() const;
-	long nonFiniteForces() const { return nonFinite_; }
-	FUNCTOR2D(PolytopeGeom, RockJointPhys);
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, LawFunctor,
-	R"""(Elastic joint with Mohr-Coulomb strength, after [Hart1988]_ and [Boon2012]_.
-
-* Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>` $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that has lost its strength is kept without force as long as the gap is smaller than the bodies, so that it does not heal when it closes.
-* The shear force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length), then incremented by $-k_s\Delta\vec u_s$ from the relative velocity at the contact point. With area-dependent stiffness the increments use the present $k_s$.
-* Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
-* Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again.
-* Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` does not know: with $\zeta>0.5$ lower its *timestepSafetyCoefficient*.
-* Rocking damping: one contact point carries no moment, so the dampers above leave rocking on a face undamped. A block that slides on a face is then unstable: the friction that acts below its centre shakes it onto its leading edge, where the normal tilts against it, and it stops on slopes far above its friction angle. With :yref:`rockingDamping<Law2_PolytopeGeom_RockJointPhys_MohrCoulomb.rockingDamping>` the bodies' relative rotation about the contact's tangents meets the moment of dampers spread over the contact area, $\vec m=-2\zeta\sqrt{m k_n}\,\rho^2\vec\omega_t$ with $\rho^2=A/12$ (that of a square; polygons: length²/12), at most $\sqrt3\rho f_n$, where the force's line leaves that square. It vanishes at vertices and edges.
-
-With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *shearDampDissip*, *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. Normal and depth of [Boon2012]_ are not gradients of a potential, nor is $k_n A u_n$ with a changing area, so energy can be created; this is where it shows. It is zero to second order in the time step where depth, normal and area belong together, as for a face that stays flat on another. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
-		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
-		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
-		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0. Needs contact areas, which are computed then. With 1, a cube slides steadily at any angle of friction tried (up to 40°)."))
-		, /*ctor*/
-		, /*py*/
-		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
-		.def("nonFiniteForces", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nonFiniteForces, "How often a contact gave a force that is not a number (from such a value set in a script) and was left out.")
-	);
-	// clang-format on
-
-private:
-	struct Pair;
-	struct StepWork;
-	void book(const Pair& pair, RockJointPhys& phys, const Vector3r& lastForce, const StepWork& work, Real stored);
-	bool open(const Pair& pair, const PolytopeGeom& geom, RockJointPhys& phys);
-	Vector3r rockingDamper(const Pair& pair, PolytopeGeom& geom, const RockJointPhys& phys, Real normal) const;
-
-	enum Energy { elastic, plastic, normalDamper, shearDamper, fracture, nonconservative, energyCount };
-	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
-	std::atomic<bool>            energiesNamed_ { false };
-	std::atomic<long>            nonFinite_ { 0 };
-	std::array<Real, 3>          good_ { { 0, 0, 0 } };
-};
-REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);
 
 } // namespace yade

@@ -191,6 +191,33 @@ TEST(ContactQuery, ThePlaneContactOfPrismsIsThatOfTheirSections)
 	EXPECT_EQ(contacts, 500);
 }
 
+TEST(ContactQuery, WhatTheBuffersHeldBeforeDoesNotMatter)
+{
+	std::mt19937_64  random(25);
+	ContactWorkspace used;
+	for (int dimension = 2; dimension <= 3; ++dimension) {
+		const Shapes shapes = randomShapes(40, random, dimension);
+		for (int trial = 0; trial < 1000; ++trial) {
+			const Pair      pair = randomPair(shapes, random);
+			ContactSettings settings;
+			settings.section = settings.geometryAcrossGap = true;
+			settings.contactPoint = ContactPoint(trial % 3);
+			ContactWorkspace fresh;
+			PairMemory       memory[2];
+			ContactResult    result[2];
+			for (int again = 0; again < 2; ++again)
+				for (int k = 0; k < 2; ++k)
+					contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memory[k], k ? used : fresh, result[k]);
+			EXPECT_EQ(result[0].point, result[1].point);
+			EXPECT_EQ(result[0].normal, result[1].normal);
+			EXPECT_EQ(result[0].depth, result[1].depth);
+			EXPECT_EQ(result[0].area, result[1].area);
+			EXPECT_EQ(result[0].basis, result[1].basis);
+			EXPECT_EQ(memory[0].point, memory[1].point);
+		}
+	}
+}
+
 TEST(ContactQuery, NormalsAreWeightedAsAsked)
 {
 	std::mt19937_64 random(24);

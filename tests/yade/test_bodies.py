@@ -136,9 +136,14 @@ nan, inf = math.nan, math.inf
                 (lambda: polytope.polygon([(0, 0), (1, 1), (2, 2)]), ['points2d']),
                 (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness=0), ['thickness']),
                 (lambda: polytope.regular(5, 1), ['faces']),
+                (lambda: polytope.regular(6.5, 1), ['faces']),
                 (lambda: polytope.regular(6, 0), ['circumradius']),
+                (lambda: polytope.regular(6, 'a'), ['circumradius']),
+                (lambda: polytope.regular(6, 1, cornerRadius='a'), ['cornerRadius']),
+                (lambda: polytope.cuboid((0, 0, 0), 1), ['extents']),
                 (lambda: polytope.regular(6, 1, center=(nan, 0, 0)), ['center']),
-                (lambda: polytope.regular(6, 1, cornerRadius=1), ['cornerRadius']),
+                (lambda: polytope.regular(6, 1, cornerRadius=1), ['cornerRadius', 'inscribed']),
+                (lambda: polytope.regular(6, 1, cornerRadius=.6), ['cornerRadius', 'inscribed', '0.57735']),
                 (lambda: polytope.regular(6, 1, cornerRadius=-.1), ['cornerRadius']),
                 (lambda: polytope.regular(6, 1, cornerRadius=nan), ['cornerRadius']),
                 (lambda: polytope.regular(6, 1, velocity=(0, 0, nan)), ['velocity']),
@@ -162,6 +167,8 @@ def testMissingAndUnreadableMeshes(tmp_path):
 	broken.write_text('not a mesh')
 	with pytest.raises(ValueError, match='path'):
 		polytope.fromMesh(str(broken))
+	with pytest.raises(ValueError, match='path'):
+		polytope.fromMesh(str(tmp_path))
 
 
 def testRefusedCornerRadiusLeavesTheShape():
@@ -193,5 +200,9 @@ def testContactRefusesWhatIsNoPolytope():
 		polytope.contact(cube, Body())
 	with pytest.raises(ValueError, match='b2'):
 		polytope.contact(cube, polytope.polygon([(0, 0), (1, 0), (0, 1)]))
+	astray = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	astray.state.pos = (nan, 0, 0)
+	with pytest.raises(ValueError, match='b2.*finite'):
+		polytope.contact(cube, astray)
 	with pytest.raises(ValueError, match='contactPoint'):
 		polytope.contact(cube, cube, contactPoint='middle')

@@ -276,6 +276,23 @@ def testTensionBreaksAndDoesNotHeal(perArea):
 	assert i.phys.normalForce.norm() == 0
 
 
+@pytest.mark.parametrize('gap', [0, 1e-6])
+def testBlocksCutFaceToFaceCanBeBondedBeforeTheyOverlap(gap):
+	"""utils.createInteraction makes the joint of blocks that just touch; it has its area and its tension from the start."""
+	joint(tensileStrength=1e6, normalStiffness=stiffness)
+	loop(perArea=True)
+	floor, block = blockOnFloor(-gap)
+	driven(block)
+	O.dt = dt
+	O.step()
+	assert O.interactions.countReal() == 0
+	i = utils.createInteraction(0, 1)
+	assert i.phys.intact and i.phys.kn == pytest.approx(stiffness, rel=1e-5)
+	block.state.vel = (0, 0, 1e-3)
+	O.run(11, True)
+	assert i.phys.normalForce[2] == pytest.approx(-stiffness * (gap + 1e-5), rel=1e-5)
+
+
 def testJointWithoutStrengthEndsWhenItOpens():
 	floor, block, i = pressed(velocity=(0, 0, 0.1))
 	O.run(9, True)
@@ -389,10 +406,27 @@ def testRockingDamperIsSpreadOverTheArea():
 	O.step()
 	expected = -2 * 0.5 * sqrt(block.state.mass * stiffness) / 12 * 1e-3
 	assert i.phys.rockingMoment[0] == pytest.approx(expected, rel=1e-3)  # the normal has turned a little
-	assert (O.forces.t(floor.id) + i.geom.contactPoint.cross(Vector3.Zero)).norm() > 0
+	arm = i.geom.contactPoint - block.state.pos
+	assert (O.forces.t(block.id) - i.phys.rockingMoment - arm.cross(i.phys.normalForce + i.phys.shearForce)).norm() < 1e-2  # the block has moved since
 	block.state.angVel = (10, 0, 0)
 	O.step()
 	assert i.phys.rockingMoment.norm() <= i.phys.normalForce.norm() * sqrt(i.geom.contactArea) / 2 * (1 + 1e-12)
+
+
+def testPolygonsRockOnALength():
+	"""2-D: the radius of gyration is of the contact's length, the area its length times the thickness."""
+	joint(normalStiffness=stiffness, shearStiffness=stiffness)
+	loop(perArea=True, rockingDamping=0.5)
+	O.bodies.append(polytope.polygon([(-2, -1), (2, -1), (2, 0), (-2, 0)], thickness=0.3, fixed=True))
+	O.bodies.append(polytope.polygon([(-.5, -overlap), (.5, -overlap), (.5, .5), (-.5, .5)], thickness=0.3))
+	block = O.bodies[1]
+	O.dt = 1e-6
+	O.step()
+	phys = O.interactions[0, 1].phys
+	assert phys.contactArea == pytest.approx(0.3, rel=1e-9) and phys.kn == pytest.approx(0.3 * stiffness, rel=1e-9)
+	block.state.angVel = (0, 0, 1e-3)
+	O.step()
+	assert phys.rockingMoment[2] == pytest.approx(-2 * 0.5 * sqrt(block.state.mass * phys.kn) / 12 * 1e-3, rel=1e-6)
 
 
 # ------------------------------------------------------------------------------------------------ nothing breaks the loop

@@ -86,6 +86,5 @@ def testEnergiesAreResumed(tmp_path):
 
 def testHeapIsResumed(tmp_path):
 	uninterrupted, resumed = runs('heap', 3000, 500, tmp_path / 'scene.xml')
-	difference = max(abs(one - other) for one, other in zip(uninterrupted[:13 * 16], resumed))
-	print('heap: equal', uninterrupted == resumed, 'largest difference of any state value after 500 steps:', difference)
-	assert difference < 1e-9
+	assert len(uninterrupted) > 13 * 16 + 9 * 9
+	assert resumed == uninterrupted

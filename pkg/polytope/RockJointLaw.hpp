@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Dispatching.hpp>
+
+#include <array>
+#include <atomic>
+
+/// The law of rock joints: springs, Mohr–Coulomb strength, dilation, dampers, and the book of their energy.
+///
+/// Signs as in RockJoint.hpp; relative velocities are body 2's relative to body 1.
+namespace yade {
+
+class PolytopeGeom;
+class RockJointPhys;
+
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
+public:
+	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* contact) override;
+	/// Refuses negative damping, naming the attribute, and restores the last good values.
+	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
+	Real ratioSlidingContacts() const;
+	long nonFiniteForces() const { return nonFinite_; }
+	FUNCTOR2D(PolytopeGeom, RockJointPhys);
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, LawFunctor,
+	R"""(Elastic joint with Mohr-Coulomb strength, after [Hart1988]_ and [Boon2012]_.
+
+* Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>` $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that has lost its strength is kept without force as long as the gap is smaller than the bodies, so that it does not heal when it closes.
+* The shear force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length), then incremented by $-k_s\Delta\vec u_s$ from the relative velocity at the contact point. With area-dependent stiffness the increments use the present $k_s$.
+* Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
+* Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again.
+* Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` does not know, as it does not know the rotation of a body about a contact off its centre, stiff with $k_n$: keep its *timestepSafetyCoefficient* at 0.5 or lower for $k_s<0.3k_n$ or $\zeta>0.5$.
+* Rocking damping: one contact point carries no moment, so the dampers above leave rocking on a face undamped. A block that slides on a face is then unstable: the friction that acts below its centre shakes it onto its leading edge, where the normal tilts against it, and it stops on slopes far above its friction angle. With :yref:`rockingDamping<Law2_PolytopeGeom_RockJointPhys_MohrCoulomb.rockingDamping>` the bodies' relative rotation about the contact's tangents meets the moment of dampers spread over the contact area, $\vec m=-2\zeta\sqrt{m k_n}\,\rho^2\vec\omega_t$ with $\rho^2=A/12$ (that of a square; polygons: length²/12), at most $\sqrt3\rho f_n$, where the force's line leaves that square. It vanishes at vertices and edges.
+
+With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *shearDampDissip*, *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. Normal and depth of [Boon2012]_ are not gradients of a potential, nor is $k_n A u_n$ with a changing area, so energy can be created; this is where it shows. It is zero to second order in the time step where depth, normal and area belong together, as for a face that stays flat on another. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
+		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
+		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
+		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0. Needs contact areas, which are computed then. A cube slides steadily down a slope of 40° at a friction angle of 30° with 0.5 beside a normalDamping of 0.3, or 0.1 beside 1; not without normal damping."))
+		, /*ctor*/
+		, /*py*/
+		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
+		.def("nonFiniteForces", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nonFiniteForces, "How often a contact gave a force that is not a number (from such a value set in a script) and was left out.")
+	);
+	// clang-format on
+
+private:
+	struct Pair;
+	struct Last;
+	struct StepWork;
+	bool     limitShear(RockJointPhys& phys, Real normal, Vector3r& shear) const;
+	Real     normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const;
+	Vector3r shearDamper(const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;
+	Vector3r rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const;
+	bool     apply(const Pair& pair, RockJointPhys& phys);
+	bool     open(const Pair& pair, RockJointPhys& phys, const Last& last);
+	void     nameEnergies();
+	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work);
+
+	enum Energy { elastic, plastic, normalViscosity, shearViscosity, fracture, nonconservative, energyCount };
+	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
+	std::atomic<bool>            energiesNamed_ { false };
+	std::atomic<long>            nonFinite_ { 0 };
+	std::array<Real, 3>          good_ { { 0, 0, 0 } };
+};
+REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);
+
+} // namespace yade
