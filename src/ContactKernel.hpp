@@ -415,8 +415,9 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		}
 	}
 	// a separated pair gets the point, normal and section it would have if both bodies were grown until they just overlap
+	R grown = 0;
 	if (!touching) {
-		const R grown = basis.infeasibility + R(tolerance::gapSkin) * f.size;
+		grown = basis.infeasibility + R(tolerance::gapSkin) * f.size;
 		for (int i = 0; i < planes.total; ++i)
 			planes.offset[i] += grown;
 	}
@@ -470,9 +471,12 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	R                   n[D];
 	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
-	out.depth = exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1);
-	// of the grown bodies; what they are apart is to −s* as this chord is to the skin
-	if (!touching) out.depth *= -basis.infeasibility / (R(tolerance::gapSkin) * f.size);
+	if (touching) out.depth = exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1);
+	else {
+		// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
+		const R apart = maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
+		out.depth     = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -apart);
+	}
 
 	out.status = outcome;
 	out.normal = worldDirection<R, D>(in, f, n);

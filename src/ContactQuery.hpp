@@ -52,8 +52,7 @@ struct ContactResult {
 	Real          infeasibility  = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
 	Vector3       point          = Vector3::Zero(); ///< world axes, from body 1's centre
 	Vector3       normal         = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
-	Real          depth          = 0;               ///< chord along the normal, positive in overlap; across a gap minus s* times what the
-	                                                ///< chord of the bodies, grown until they just overlap, is of their ball's radius
+	Real          depth          = 0;               ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces
 	Vector3       dualDirection  = Vector3::Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free
 	Real          area           = 0;               ///< contact section (times thickness in 2-D)
 	Vector3       sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre

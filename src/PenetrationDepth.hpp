@@ -27,4 +27,21 @@ template <class R, int D, int W> POLYTOPE_INLINE R exitDistance(const PairPlanes
 	return horizontalMin<R, W>(nearest);
 }
 
+/// Of a body grown by `grown` (a length by which all its planes were moved out): how far the plane it is left through,
+/// where it really stands, is ahead of the point; negative if that lies behind. Across a gap the grown body says which plane
+/// counts: to be a little outside of a plane seen edge-on is to be far behind it.
+template <class R, int D> POLYTOPE_INLINE R exitOfGrown(const PairPlanes<R, D>& planes, int body, const R* n, R direction, R grown)
+{
+	R nearest = R(padOffset), exit = R(padOffset);
+	for (int i = planes.begin(body); i < planes.end(body); ++i) {
+		R rate = 0;
+		for (int k = 0; k < D; ++k)
+			rate += planes.normal[k][i] * direction * n[k];
+		if (!(rate > 0) || !(planes.slack[i] < nearest * rate)) continue;
+		nearest = planes.slack[i] / rate;
+		exit    = (planes.slack[i] - grown) / rate;
+	}
+	return exit;
+}
+
 } // namespace polytope

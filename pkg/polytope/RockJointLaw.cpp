@@ -222,11 +222,11 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 		return false;
 	}
 	const Body::id_t id1 = pair.contact.getId1(), id2 = pair.contact.getId2();
-	applyForceAtContactPoint(-force, pair.geom.contactPoint, id1, pair.state1.pos, id2, pair.centre2);
-	if (phys.rockingMoment != Vector3r::Zero()) {
-		addTorque(id1, -phys.rockingMoment, scene);
-		addTorque(id2, phys.rockingMoment, scene);
-	}
+	// one sum for each body: with two contacts on it the total does not depend on the order, nor on the number of threads
+	addForce(id1, -force, scene);
+	addForce(id2, force, scene);
+	addTorque(id1, -(pair.arm1.cross(force) + phys.rockingMoment), scene);
+	addTorque(id2, pair.arm2.cross(force) + phys.rockingMoment, scene);
 	return true;
 }
 

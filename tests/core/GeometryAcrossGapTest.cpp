@@ -89,31 +89,31 @@ TEST(GeometryAcrossGap, TheOverlapAtTheSkinHoldsTheTouchingPoint)
 		const QuadVector x = precise(open.point);
 		EXPECT_LE(Real(grown.localLength(x, minus(precise(touching.point), x))), 18);
 		EXPECT_LE((touching.normal - open.normal).norm(), 1e-2);
-		EXPECT_LE(std::abs(touching.depth) + std::abs(open.depth), 1e-9);
+		EXPECT_NEAR(touching.depth, open.depth, 10 * tolerance::gapSkin);
 	}
 }
 
-TEST(GeometryAcrossGap, DepthAndAreaGoOnAsTheyWereInOverlap)
+TEST(GeometryAcrossGap, DepthIsTheWayBetweenTheSurfaces)
 {
-	// no kink: overlap and gap of the same |s*| have opposite depths, in so far as the overlap keeps its shape
-	std::mt19937_64 random(204);
-	const int       faces[] = { 4, 6, 8, 12, 20 };
-	ContactSettings settings = acrossGap();
-	settings.section         = true;
-	int near = 0;
-	for (int trial = 0; trial < 300; ++trial) {
+	// never less than the bodies are apart, seldom more than a few times that: a plane seen edge-on does not count
+	std::mt19937_64   random(204);
+	const int         faces[] = { 4, 6, 8, 12, 20 };
+	std::vector<Real> ratios;
+	ContactSettings   settings = acrossGap();
+	settings.section           = true;
+	for (int trial = 0; trial < 1000; ++trial) {
 		Pair          pair      = regularPair(faces[trial % 5], faces[trial / 5 % 5], Real(0.02), random);
 		const Vector3 direction = pair.centre2.normalized();
-		moveTo(pair, direction, -1e-7);
-		const ContactResult overlap = query(pair, settings);
-		moveTo(pair, direction, 1e-7);
+		moveTo(pair, direction, decades(random, -5, -2));
 		const ContactResult gap = query(pair, settings);
-		ASSERT_TRUE(overlap.inContact && !gap.inContact);
-		near += std::abs(gap.depth / -overlap.depth - 1) < 0.1;
-		EXPECT_LT(gap.depth, 0);
-		EXPECT_GT(gap.area, 0);
+		ASSERT_FALSE(gap.inContact);
+		ratios.push_back(-gap.depth * gap.dualDirection.norm() / gap.infeasibility);
+		EXPECT_GT(gap.area, 0) << "of the grown bodies";
 	}
-	EXPECT_GT(near, 285);
+	std::sort(ratios.begin(), ratios.end());
+	EXPECT_GE(ratios.front(), 1 - 1e-9);
+	EXPECT_LE(ratios[990], 3);
+	EXPECT_LE(ratios.back(), 10);
 }
 
 TEST(GeometryAcrossGap, FaceOnFaceTheDepthIsMinusTheGap)
@@ -126,7 +126,7 @@ TEST(GeometryAcrossGap, FaceOnFaceTheDepthIsMinusTheGap)
 		EXPECT_EQ(result.status, ContactStatus::Separated);
 		EXPECT_FALSE(result.inContact);
 		EXPECT_TRUE(result.hasGeometry);
-		EXPECT_NEAR(result.depth, 2 - pair.centre2.z(), 1e-9 * gap);
+		EXPECT_NEAR(result.depth, 2 - pair.centre2.z(), 1e-15);
 		EXPECT_LE((result.normal - Vector3::UnitZ()).norm(), 1e-14);
 		EXPECT_LE((result.point - pair.centre2 / 2).norm(), 1e-9);
 	}

@@ -31,12 +31,13 @@ def columns():
 	O.dt = 3e-4
 
 def heap():
+	"""Twelve solids fallen on each other."""
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
 	loop(False, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.1)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
 	for k in range(12):
 		O.bodies.append(polytope.regular((4, 6, 8, 12)[k % 4], .5, (.7 * (k % 2), .6 * (k // 2 % 2), .6 + .7 * k), Quaternion((1, k, 2), k)))
-	O.dt = 3e-4
+	O.dt = 6e-4
 
 def state():
 	out = []
@@ -86,5 +87,5 @@ def testEnergiesAreResumed(tmp_path):
 
 def testHeapIsResumed(tmp_path):
 	uninterrupted, resumed = runs('heap', 3000, 500, tmp_path / 'scene.xml')
-	assert len(uninterrupted) > 13 * 16 + 9 * 9
+	assert len(uninterrupted) >= 13 * 16 + 10 * 9  # ten contacts or more
 	assert resumed == uninterrupted

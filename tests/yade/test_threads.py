@@ -36,13 +36,13 @@ def testTwoThreadsAgreeExactlyWithTwoContactsABody():
 
 
 def testOneThreadRepeatsItself():
-	assert run('heap', 1, 2500) == run('heap', 1, 2500)
+	assert run('heap', 1, 3500) == run('heap', 1, 3500)
 
 
 def testTwoThreadsAgreeInAHeap():
-	one, two = run('heap', 1, 2500), run('heap', 2, 2500)
+	one, two = run('heap', 1, 3500), run('heap', 2, 3500)
 	difference = max(abs(a - b) for a, b in zip(one[:13 * 16], two))
-	print('equal', one == two, 'largest difference of any state value after 2500 steps:', difference)
+	print('equal', one == two, 'largest difference of any state value after 3500 steps:', difference)
 	assert difference < 1e-6
 
 
