@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Polytope.hpp"
 
+#include <core/Body.hpp>
 #include <core/Scene.hpp>
+#include <core/State.hpp>
 
 namespace yade {
 
@@ -78,18 +80,27 @@ boost::python::list Polytope::faces() const
 	return all;
 }
 
-void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
+namespace {
+
+	/// Whether the body may turn before its box is made anew.
+	bool mayTurn(const Body* body)
+	{
+		if (!body || !body->state || body->isClumpMember()) return true;
+		const State& state = *body->state;
+		return (state.blockedDOFs & State::DOF_RXRYRZ) != State::DOF_RXRYRZ || state.angVel != Vector3r::Zero();
+	}
+
+} // namespace
+
+void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body)
 {
 	if (!bound) bound = shared_ptr<Bound>(new Aabb);
 	// the collider of a periodic cell works in unsheared coordinates; the map is linear, so the box stays tight
-	Matrix3r turn   = se3.orientation.toRotationMatrix();
-	Vector3r centre = se3.position;
-	if (scene->isPeriodic) {
-		turn   = scene->cell->getUnshearTrsf() * turn;
-		centre = scene->cell->unshearPt(centre);
-	}
-	const auto& convex = static_cast<const Polytope&>(*shape).convex();
-	Vector3r    low = Vector3r::Zero(), high = Vector3r::Zero();
+	const Matrix3r unshear = scene->isPeriodic ? scene->cell->getUnshearTrsf() : Matrix3r(Matrix3r::Identity());
+	const Matrix3r turn    = unshear * se3.orientation.toRotationMatrix();
+	const Vector3r centre  = unshear * se3.position;
+	const auto&    convex  = static_cast<const Polytope&>(*shape).convex();
+	Vector3r       low = Vector3r::Zero(), high = Vector3r::Zero();
 	if (convex && !convex->polyhedron().vertices.empty()) {
 		low = high = turn * convex->polyhedron().vertices.front();
 		for (const Vector3r& vertex : convex->polyhedron().vertices) {
@@ -97,6 +108,11 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 			low                  = low.cwiseMin(moved);
 			high                 = high.cwiseMax(moved);
 		}
+		if (mayTurn(body)) // a polygon turns about z alone
+			for (int k = 0; k < convex->dimension(); ++k) {
+				high[k] = convex->boundingRadius() * unshear.row(k).head(convex->dimension()).norm();
+				low[k]  = -high[k];
+			}
 	}
 	bound->min = centre + low;
 	bound->max = centre + high;

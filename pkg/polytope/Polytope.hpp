@@ -58,7 +58,7 @@ public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
 	FUNCTOR1D(Polytope);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the tight :yref:`Aabb` of a :yref:`Polytope` from its vertices; exact in sheared periodic cells too.");
+	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the :yref:`Aabb` of a :yref:`Polytope`, exact in sheared periodic cells too. A body that cannot turn (rotations blocked and *angVel* zero) gets the tight box of its vertices; one that can gets that of its circumscribed ball (disc), because with :yref:`verletDist<InsertionSortCollider.verletDist>` above 0 the collider makes boxes anew only after a translation, and a body that turns in place would leave a tight one unseen. Set the *angVel* of a body turned by the script before the run.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Bo1_Polytope_Aabb);
