@@ -101,18 +101,19 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 	const Vector3r centre  = unshear * se3.position;
 	const auto&    convex  = static_cast<const Polytope&>(*shape).convex();
 	Vector3r       low = Vector3r::Zero(), high = Vector3r::Zero();
-	if (convex && !convex->polyhedron().vertices.empty()) {
+	// along these axes it is the ball's (disc's: a polygon turns about z alone), and the vertices need not be looked at
+	const int rounded = convex && mayTurn(body) ? convex->dimension() : 0;
+	if (convex && rounded < 3) {
 		low = high = turn * convex->polyhedron().vertices.front();
 		for (const Vector3r& vertex : convex->polyhedron().vertices) {
 			const Vector3r moved = turn * vertex;
 			low                  = low.cwiseMin(moved);
 			high                 = high.cwiseMax(moved);
 		}
-		if (mayTurn(body)) // a polygon turns about z alone
-			for (int k = 0; k < convex->dimension(); ++k) {
-				high[k] = convex->boundingRadius() * unshear.row(k).head(convex->dimension()).norm();
-				low[k]  = -high[k];
-			}
+	}
+	for (int k = 0; k < rounded; ++k) {
+		high[k] = convex->boundingRadius() * unshear.row(k).head(rounded).norm();
+		low[k]  = -high[k];
 	}
 	bound->min = centre + low;
 	bound->max = centre + high;
