@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Builders of scenes, shared by examples, tests and benchmarks.
-
-A builder empties the simulation (O.reset), makes bodies and engines, and returns an object that says what it made.
-"""
+"""Simulation A of the paper: regular polyhedra fall onto a floor between four walls."""
 import dataclasses
 import math
 
@@ -13,7 +10,7 @@ from yade import (
         RockJointMat
 )
 
-from .bodies import cuboid, regular
+from ..bodies import cuboid, regular
 
 __all__ = ['FallingPolyhedra', 'circumradiusOfUnitVolume', 'solids']
 
