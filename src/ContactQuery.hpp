@@ -9,7 +9,7 @@
 #include <vector>
 
 /// One contact, start to end: both bodies' planes → LP → analytic centre → normal → depth (→ section). The only entry of
-/// the plug-in into the numerical core. Nothing throws, prints or (after a thread's first pair of a size) allocates.
+/// the plug-in into the numerical core. Nothing throws, prints or (after a thread's first pair of a size, Ipopt aside) allocates.
 namespace polytope {
 
 enum class ContactPoint : int {
@@ -18,11 +18,18 @@ enum class ContactPoint : int {
 	Centroid,           ///< of the overlap's volume (area in 2-D), dearest
 };
 
+/// Of the analytic centre.
+enum class CentreSolver : int {
+	Newton = 0, ///< AnalyticCentre.hpp; where it gives up, Ipopt if the build has it
+	Ipopt,      ///< IpoptCentre.hpp for every contact: a hundred to a thousand times slower, independent of Newton
+};
+
 struct ContactSettings {
 	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
+	CentreSolver solver       = CentreSolver::Newton;
 	/// Contact when s* < −tolerance × the smaller body's circumradius.
 	Real tolerance = tolerance::contact;
-	/// Accepted remaining distance to the centre, in the overlap's own local norm.
+	/// Accepted remaining distance to the centre, in the overlap's own local norm (Newton; Ipopt goes to tolerance::ipoptMove).
 	Real newtonTolerance = tolerance::newton;
 	/// Start from the last query's basis and point, kept in PairMemory.
 	bool warmStart = true;
@@ -59,8 +66,10 @@ struct ContactResult {
 	bool          dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
 	int           simplexPivots    = 0;
 	int           newtonIterations = 0;
+	bool          ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int           ipoptIterations  = 0;
 	Real          decrement        = 0; ///< Newton decrement before the last step
-	long          lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; Newton
+	long          lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
 	std::array<int, 4>  basis { { 0, 0, 0, 0 } };  ///< as PairMemory::basis
 	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
 };

@@ -11,7 +11,9 @@ const char* statusName(ContactStatus status)
 		case ContactStatus::NormalFromOneBody: return "normalFromOneBody";
 		case ContactStatus::NormalFromDual: return "normalFromDual";
 		case ContactStatus::RoundingLimited: return "roundingLimited";
+		case ContactStatus::CentreByIpopt: return "centreByIpopt";
 		case ContactStatus::CentreNotConverged: return "centreNotConverged";
+		case ContactStatus::IpoptNotAvailable: return "ipoptNotAvailable";
 		case ContactStatus::LpNotConverged: return "lpNotConverged";
 		case ContactStatus::NoDirection: return "noDirection";
 		case ContactStatus::Failed: return "failed";

@@ -10,7 +10,9 @@ enum class ContactStatus : int {
 	NormalFromOneBody,  ///< the point lies deeper than cornerRadius in one body: the normal is the other body's gradient
 	NormalFromDual,     ///< deeper than cornerRadius in both (or the gradients cancel): the normal is the LP's dual direction
 	RoundingLimited,    ///< the overlap is so thin that Newton met rounding: the centre is as good as the planes' own digits
-	CentreNotConverged, ///< no analytic centre within the iteration limit: the LP's point was used instead
+	CentreByIpopt,      ///< Newton gave up on the analytic centre, Ipopt found it
+	CentreNotConverged, ///< Ipopt, too, found no analytic centre: the LP's point was used instead
+	IpoptNotAvailable,  ///< Newton gave up (or Ipopt was asked for) and this build has no Ipopt: the LP's point was used instead
 	LpNotConverged,     ///< the simplex met its pivot limit: the bound reached so far was used
 	NoDirection,        ///< coincident bodies: no separating direction exists; the line of centres or the z axis was used
 	Failed,             ///< no finite answer: treated as separated and counted

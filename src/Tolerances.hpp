@@ -82,6 +82,15 @@ constexpr int newtonIterations = 100;
 constexpr Real lineSearchSlope = 0.1;
 constexpr int  lineSearchSteps = 30;
 
+/// Ipopt's `tol`, on numbers that are about one (see IpoptCentre.cpp).
+constexpr double ipopt           = 1e-12;
+constexpr int    ipoptIterations = 15;
+
+/// Ipopt's centre is accepted when solving once more, scaled anew, moves it by less than this in the local norm: a tenth of
+/// the 1e-8 in which it agrees with Newton's. The first round comes near, the second polishes, the third finds nothing to do.
+constexpr Real ipoptMove   = 1e-9;
+constexpr int  ipoptRounds = 20;
+
 /// A carried starting point may go at most this fraction of the way from the LP's point to the nearest plane.
 constexpr Real interiorStep = 0.9;
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include <IpSparseSymLinearSolverInterface.hpp>
+
+#include <vector>
+
+/// Ipopt's linear systems for the programme of IpoptCentre.cpp, in its unknowns u (2 or 3), slacks σ and multipliers λ (one a
+/// plane each):
+///
+///     ⎡ E   0   Cᵀ ⎤ ⎡u⎤         E, P, Δ diagonal; σ and λ are eliminated, and what is left for u is
+///     ⎢ 0   P   1  ⎥ ⎢σ⎥ = b     (E + Cᵀ w C) u = …,   w = P/(1 + P Δ),
+///     ⎣ C   1  −Δ  ⎦ ⎣λ⎦         solved through a QR factorisation of √E over √w C (Ipopt refines the solution).
+///
+/// Instead of MUMPS, the one solver that Debian's Ipopt brings: it is built with MPI, which Ipopt would start inside the
+/// simulation and end, for the whole process and for ever, with its last solver object, that is, with a thread. And a
+/// general solver's threads and bookkeeping cost more than this system.
+namespace polytope {
+
+class IpoptLinearSolver : public Ipopt::SparseSymLinearSolverInterface {
+public:
+	/// Number of unknowns u, to be set before a programme is solved.
+	void setDimension(int dimension) { dimension_ = dimension; }
+
+	bool                    InitializeImpl(const Ipopt::OptionsList&, const std::string&) override { return true; }
+	Ipopt::ESymSolverStatus InitializeStructure(Ipopt::Index size, Ipopt::Index nonZeros, const Ipopt::Index* rows, const Ipopt::Index* columns) override;
+	Ipopt::Number*          GetValuesArrayPtr() override { return values_.data(); }
+	Ipopt::ESymSolverStatus MultiSolve(
+	        bool                newMatrix,
+	        const Ipopt::Index* rows,
+	        const Ipopt::Index* columns,
+	        Ipopt::Index        rightSides,
+	        Ipopt::Number*      vectors,
+	        bool                checkNegative,
+	        Ipopt::Index        negative) override;
+
+	Ipopt::Index  NumberOfNegEVals() const override { return planes_; }
+	bool          IncreaseQuality() override { return false; }
+	bool          ProvidesInertia() const override { return true; }
+	EMatrixFormat MatrixFormat() const override { return Triplet_Format; }
+
+private:
+	Ipopt::ESymSolverStatus factorise(const Ipopt::Index* rows, const Ipopt::Index* columns);
+	void                    solve(double* vector) const;
+
+	int                 dimension_ = 3, planes_ = 0;
+	std::vector<double> values_;                     ///< of the triplets
+	Eigen::VectorXd     diagonal_;                   ///< E, P, −Δ
+	Eigen::MatrixXd     constraints_, factor_;       ///< C; R, upper triangular
+};
+
+} // namespace polytope
