@@ -34,7 +34,10 @@ class Findings:
 		:param accept: (low, high), both included: the row must lie within, or the run has failed; None: only reported
 		:param str note: where a difference comes from, or what the acceptance rests on
 		:returns: True unless the row must hold and does not
+		:raises ValueError: for a range whose ends are in the wrong order, or not numbers
 		"""
+		if accept is not None and not accept[0] <= accept[1]:
+			raise ValueError(f"row {quantity}: accept must be (low, high), not {accept}")
 		good = None if accept is None else bool(accept[0] <= ours <= accept[1])  # False for NaN
 		self.content['rows'].append(
 		        {
@@ -96,13 +99,27 @@ class Findings:
 
 
 def rowCells(row):
-	"""The cells of one row as text: quantity, unit, paper, closed form, ours, difference to the closed form (else to the paper), must be, verdict."""
-	reference = row['theory'] if row['theory'] is not None else row['paper']
-	numbers = isinstance(reference, (int, float)) and isinstance(row['ours'], (int, float))
-	difference = format(row['ours'] - reference, '+.3g') if numbers else ''
-	accept = '' if row['accept'] is None else ' … '.join(_text(x) for x in row['accept'])
+	"""One row as text: quantity, unit, paper, closed form, ours, difference to the closed form (else to the paper), must be, verdict."""
+	difference = rowDifference(row)
+	difference = '' if difference is None else format(difference, '+.3g') if difference else '0'
+	accept = '' if row['accept'] is None else _range(*row['accept'])
 	verdict = {None: '', True: 'ok', False: 'MISSED'}[row['good']]
 	return [row['quantity'], row['unit'], _text(row['paper']), _text(row['theory']), _text(row['ours']), difference, accept, verdict]
+
+
+def rowDifference(row):
+	"""Ours less the closed form, where there is none less the paper's; None where these are no numbers."""
+	reference = row['theory'] if row['theory'] is not None else row['paper']
+	numbers = isinstance(reference, (int, float)) and isinstance(row['ours'], (int, float))
+	return row['ours'] - reference if numbers else None
+
+
+def _range(low, high):
+	if low == high:
+		return _text(low)
+	if low == '-inf' or high == 'inf':
+		return '≤ ' + _text(high) if low == '-inf' else '≥ ' + _text(low)
+	return f'{_text(low)} … {_text(high)}'
 
 
 def _number(x):

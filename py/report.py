@@ -3,6 +3,7 @@
 import collections
 import hashlib
 import struct
+import time
 
 from yade import O
 from yade.utils import kineticEnergy
@@ -24,8 +25,9 @@ class RunWatch:
 	"""Steps the simulation, and measures without disturbing what it measures.
 
 	The loop's time is taken with O.timingEnabled. The contact functor's own clock (Ig2_….timing) costs more than what it
-	measures in a dismissed pair, so it runs in some steps only, and these do not count for the loop's time. Steps are taken
-	with O.step in the calling thread: O.run(…, wait=True) looks every 40 ms whether it is done.
+	measures in a dismissed pair, so it runs in some steps only, and these do not count for the loop's time. A step in which
+	another program took the processor counts for neither the programme's nor the centre's time. Steps are taken with O.step in
+	the calling thread: O.run(…, wait=True) looks every 40 ms whether it is done.
 	"""
 
 	sampleEvery = 10
@@ -33,11 +35,13 @@ class RunWatch:
 	timeEvery = 100
 	timedSteps = 10
 	"""The functor's clock runs in the first timedSteps of timeEvery steps."""
+	mostLost = 0.05
+	"""Share of a timed step's wall time that it may have been without the processor."""
 
 	def __init__(self, geometryFunctor, interactionLoop):
 		self.functor, self.loop = geometryFunctor, interactionLoop
 		self.counts = collections.Counter()
-		self.timed = collections.Counter()
+		self.timed, self.disturbed = collections.Counter(), collections.Counter()
 		self.untimedPairs = self.untimedContacts = 0
 		self.steps = self.untimedSteps = 0
 		self.deepestOverlap = 0.0
@@ -54,7 +58,11 @@ class RunWatch:
 					self._bookCounters()
 					self.functor.timing = phase == 0
 					O.timingEnabled = not self.functor.timing
+				wall, own = time.perf_counter(), time.thread_time()
 				O.step()
+				wall, own = time.perf_counter() - wall, time.thread_time() - own
+				if self.functor.timing:
+					self._bookCounters(disturbed=wall - own > self.mostLost * wall)
 				self.steps += 1
 				self.untimedSteps += not self.functor.timing
 				if self.steps % self.sampleEvery == 0:
@@ -65,22 +73,23 @@ class RunWatch:
 		finally:
 			O.timingEnabled, self.functor.timing = timingBefore
 
-	def _bookCounters(self):
-		"""Moves the functor's counters to ours: what was counted with its clock on goes to both."""
+	def _bookCounters(self, disturbed=False):
+		"""Moves the functor's counters to ours: what was counted with its clock on goes to the timed ones as well."""
 		stats = self.functor.stats()
 		self.functor.resetStats()
 		statuses = stats.pop('statuses')
 		self.counts.update(stats)
 		self.counts.update({'status ' + name: count for name, count in statuses.items()})
 		if self.functor.timing:
-			self.timed.update(stats)
+			(self.disturbed if disturbed else self.timed).update(stats)
 		else:
 			self.untimedPairs += stats['pairs']
 			self.untimedContacts += stats['contacts']
 
 	def summary(self):
 		"""Counters over the whole run and mean times [µs], as a dictionary."""
-		counts, timed = self.counts, self.timed
+		counts = self.counts
+		timed = self.timed if self.timed['pairs'] else self.disturbed
 		return {
 		        'steps': self.steps,
 		        'pairs': counts['pairs'],

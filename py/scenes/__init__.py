@@ -3,6 +3,10 @@
 
 A builder empties the simulation (O.reset), makes bodies and engines, and returns an object that says what it made.
 """
+from .beam import BeamReading, ThreeHingedBeam
+from .collisions import Block, Collision, readBlocks
 from .falling import FallingPolyhedra, circumradiusOfUnitVolume, solids
+from .slope import SlumpingSlope, readSlope
+from .wedges import BlockGeometry, Joint, RoofWedge, WedgeScene, stiffnessFactors, touchingRoofBlocks
 
-__all__ = ['FallingPolyhedra', 'circumradiusOfUnitVolume', 'solids']
+__all__ = ['BeamReading', 'Block', 'BlockGeometry', 'Collision', 'FallingPolyhedra', 'Joint', 'RoofWedge', 'ThreeHingedBeam', 'WedgeScene', 'circumradiusOfUnitVolume', 'readBlocks', 'solids', 'stiffnessFactors', 'touchingRoofBlocks']

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Records one body's motion, the force on it and its one contact in every step, and draws up the budgets of momentum and energy."""
+
+import numpy as np
+from yade import O
+
+from .contactTypes import ContactTypes, typeOf
+
+__all__ = ['MotionRecord', 'noContact']
+
+noContact = 'none'
+
+_booked = ('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative')
+"""Terms of O.energy that the contact law books (RockJoint law: fracture needs strength, which no body here has)."""
+
+
+class MotionRecord:
+	"""Steps the simulation and keeps what one free body does; after `finish()` all below are arrays with one row a step.
+
+	Time n belongs to the position the step starts from: time, position, orientation (w, x, y, z), contactForce, torque,
+	point, normal, depth (NaN without contact), type (`noContact` or as ContactTypes names it). velocityBefore and velocityAfter
+	(spin…) are YADE's at half a step before and after it. Needs O.trackEnergy, a body of which all motion is free, and a
+	partner that does not move.
+
+	:param body: the Body
+	:param contactOf: function without argument: its present Interaction, or None
+	:param integrator: the NewtonIntegrator; its damping and gravity enter the budgets
+	:param tolerance: of ContactTypes
+	"""
+
+	def __init__(self, body, contactOf, integrator, tolerance=None):
+		self.body, self.contactOf, self.integrator = body, contactOf, integrator
+		self.types, self.partner = ContactTypes(tolerance), None
+		self._rows = []
+
+	def step(self):
+		state = self.body.state
+		here = [O.time, *state.pos, *_wxyz(state.ori), *state.vel, *state.angVel]
+		O.step()
+		force, torque = O.forces.f(self.body.id), O.forces.t(self.body.id)
+		contact = self.contactOf()
+		if contact:
+			geom = contact.geom
+			self.partner = contact.id2 if contact.id1 == self.body.id else contact.id1
+			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth]
+		else:
+			touch = [np.nan] * 7
+		energy = dict(O.energy.items())  # the law names its terms at its first contact
+		self._rows.append([*here, *state.vel, *state.angVel, *force, *torque, *touch, *(energy.get(name, 0.0) for name in _booked)])
+
+	def finish(self):
+		rows = np.array(self._rows)
+		del self._rows
+		widths = {
+		        'time': 1, 'position': 3, 'orientation': 4, 'velocityBefore': 3, 'spinBefore': 3, 'velocityAfter': 3, 'spinAfter': 3,
+		        'contactForce': 3, 'torque': 3, 'point': 3, 'normal': 3, 'depth': 1, **dict.fromkeys(_booked, 1)
+		}  # yapf: disable
+		start = 0
+		for name, width in widths.items():
+			setattr(self, name, rows[:, start] if width == 1 else rows[:, start : start + width])
+			start += width
+		self.timeStep = O.dt
+		self.mass = self.body.state.mass
+		self.gravity = np.array(self.integrator.gravity, float)
+		self.damping, self.dampGravity = self.integrator.damping, self.integrator.dampGravity
+		self.inertia = np.array(self.body.state.inertia, float)
+		self.type = self._namedTypes()
+		return self
+
+	def _namedTypes(self):
+		touching = np.flatnonzero(np.isfinite(self.depth))
+		names = np.full(len(self.depth), noContact, dtype='<U13')
+		if len(touching):
+			points, partner = self.point[touching], O.bodies[self.partner]
+			own = self.types.features(self.body, points, self.position[touching], _rotations(self.orientation[touching]))
+			turn = np.array(partner.state.ori.toRotationMatrix(), float).reshape(3, 3)
+			still = [partner.state.pos] * len(points), np.broadcast_to(turn, (len(points), 3, 3))
+			names[touching] = [typeOf(*pair) for pair in zip(own, self.types.features(partner, points, *still), strict=True)]
+		return names
+
+	def dampingForce(self):
+		"""What NewtonIntegrator's damping adds to the force, by its own rule: a fraction of each component, against the velocity [N]."""
+		acceleration = self.contactForce / self.mass + (self.gravity if self.dampGravity else 0)
+		middle = self.velocityBefore + 0.5 * self.timeStep * acceleration
+		return -self.mass * self.damping * np.abs(acceleration) * np.sign(middle)
+
+	def dampingTorque(self):
+		"""The same for the torque [N·m]; bodies of unequal moments are damped by the torque itself."""
+		if self.body.aspherical:
+			return -self.damping * np.abs(self.torque) * np.sign(self.spinBefore)
+		acceleration = self.torque / self.inertia
+		middle = self.spinBefore + 0.5 * self.timeStep * acceleration
+		return -self.inertia * self.damping * np.abs(acceleration) * np.sign(middle)
+
+	def momentumError(self):
+		"""Largest |Δ(m v) − ∫(F + F_damping) dt − m g t| at any time, in any direction, over ∫|F| dt + m |g| t of the whole run [-]."""
+		impulse = np.cumsum(self.contactForce + self.dampingForce() + self.mass * self.gravity, axis=0) * self.timeStep
+		change = self.mass * (self.velocityAfter - self.velocityBefore[0])
+		scale = self.timeStep * np.sum(np.linalg.norm(self.contactForce, axis=1) + self.mass * np.linalg.norm(self.gravity))
+		return np.abs(change - impulse).max() / scale
+
+	def kineticEnergy(self):
+		"""½ m v₋·v₊ + ½ ω₋·I ω₊ with the velocities half a step before and after [J]: free flight of a leapfrog conserves it exactly."""
+		translation = 0.5 * self.mass * np.sum(self.velocityBefore * self.velocityAfter, axis=1)
+		turn = _rotations(self.orientation)
+		before, after = (np.einsum('nji,nj->ni', turn, spin) for spin in (self.spinBefore, self.spinAfter))
+		return translation + 0.5 * np.sum(self.inertia * before * after, axis=1)
+
+	def potentialEnergy(self):
+		return -self.mass * self.position @ self.gravity
+
+	def energy(self):
+		"""Kinetic, potential and elastic energy [J]."""
+		return self.kineticEnergy() + self.potentialEnergy() + self.elastPotential
+
+	def dampingLoss(self):
+		"""What the integrator's damping has taken up to time n [J]."""
+		force, torque = self.dampingForce(), self.dampingTorque()
+		work = np.sum((force[:-1] + force[1:]) * self.velocityAfter[:-1] + (torque[:-1] + torque[1:]) * self.spinAfter[:-1], axis=1)
+		return np.concatenate([[0], -0.5 * self.timeStep * np.cumsum(work)])
+
+	def contactLoss(self):
+		"""What the contact's friction and dampers have taken up to time n [J]."""
+		return self.plastDissip + self.normDampDissip + self.shearDampDissip
+
+	def balance(self):
+		"""Energy, all losses, and what the contact law books as nonconservative, less their sum at the start [J]: zero if the books are right."""
+		total = self.energy() + self.contactLoss() + self.nonconservative + self.dampingLoss()
+		return total - total[0]
+
+
+def _wxyz(orientation):
+	return orientation[3], orientation[0], orientation[1], orientation[2]
+
+
+def _rotations(quaternions):
+	w, x, y, z = quaternions.T
+	return np.stack(
+		[
+			np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)], axis=-1),
+			np.stack([2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)], axis=-1),
+			np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1),
+		],
+		axis=1,
+	)

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs the scripts of examples/paper: as a user does, or within this process, which saves loading YADE."""
+
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+folder = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper'
+
+
+def run(name, where, *options):
+	"""The script as a program of its own in the folder *where*, with --output out and one thread."""
+	return subprocess.run(
+		[sys.executable, folder / f'{name}.py', '--output', 'out', *options],
+		cwd=where,
+		env={**os.environ, 'OMP_NUM_THREADS': '1'},
+		capture_output=True,
+		text=True,
+		timeout=300,
+	)
+
+
+def runHere(name, where, monkeypatch, *options):
+	"""The same within this process; returns what main() does."""
+	specification = importlib.util.spec_from_file_location(name, folder / f'{name}.py')
+	script = importlib.util.module_from_spec(specification)
+	specification.loader.exec_module(script)
+	monkeypatch.setattr(sys, 'argv', [str(folder / f'{name}.py'), '--output', str(where / 'out'), *options])
+	return script.main()
+
+
+def results(where):
+	"""(findings, their rows by quantity) of a run in *where*."""
+	content = json.loads((where / 'out/findings.json').read_text())
+	return content, {row['quantity']: row for row in content['rows']}

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Simulation E of the paper: the script's quick variant holds its tolerances; other geometry and settings are taken."""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+from yade import O
+from yade.polytope.scenes import SlumpingSlope, readSlope
+
+paper = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper'
+geometry = paper / 'geometry/e_slope.json'
+
+
+def script(folder, *options):
+	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
+	command = [sys.executable, paper / 'e_slumping_slope.py', '--quick', '--no-pictures', '--output', 'out', *options]
+	return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+
+
+def rowsOf(folder):
+	content = json.loads((folder / 'out/findings.json').read_text())
+	return content['good'], {row['quantity']: row for row in content['rows']}
+
+
+def testQuickVariantHoldsEveryTolerance(tmp_path):
+	done = script(tmp_path)
+	assert done.returncode == 0, done.stdout + done.stderr
+	good, rows = rowsOf(tmp_path)
+	assert good
+	assert 19 <= rows['critical friction angle']['ours'] <= 22.5
+	assert rows['critical friction angle, limit analysis']['ours'] == pytest.approx(19.75, abs=0.005)
+	assert rows['least backward rotation of the lowest five outer blocks at failure']['ours'] > 0.1
+	assert rows['largest motion of an inner block at failure']['ours'] < 0.02
+	assert rows['failed contact queries']['ours'] == 0
+	with open(tmp_path / 'out/blocks.csv') as file:
+		blocks = list(csv.DictReader(file))
+	turns = [float(block['rotation [°]']) for block in blocks]
+	assert all(turn < 0 for turn in turns[:7]), 'the outer layer turns clockwise, the face is on the left'
+	assert max(abs(turn) for turn in turns[7:]) < 0.1 * abs(turns[0])
+	with open(tmp_path / 'out/contacts.csv') as file:
+		contacts = list(csv.DictReader(file))
+	assert float(contacts[-1]['largest motion [m]']) > 0.1
+	counts = [[int(row[name]) for name in ('face–face', 'edge–face', 'edge–edge')] for row in (contacts[0], contacts[-1])]
+	assert counts[1][0] < counts[0][0], 'faces part as blocks turn'
+	assert all(min(count) > 0 for count in counts)
+
+
+def testBlockOnInclineSlidesAtItsDip(tmp_path):
+	"""Another geometry, whose answer is known: limit analysis and simulation give the dip."""
+	dip = math.radians(21.1)
+	turn = (math.cos(dip), math.sin(dip))
+
+	def turned(points):
+		return [[x * turn[0] - y * turn[1], x * turn[1] + y * turn[0]] for x, y in points]
+
+	(tmp_path / 'incline.json').write_text(
+		json.dumps({'free': [turned([(0, 0), (2, 0), (2, 1), (0, 1)])], 'fixed': [turned([(-5, -3), (5, -3), (5, 0), (-5, 0)])]})
+	)
+	done = script(
+		tmp_path,
+		'--geometry',
+		'incline.json',
+		'--start',
+		'30',
+		'--steps',
+		'2',
+		'0.2',
+		'--normal-stiffness',
+		'5e8',
+		'--stiffness-per-contact',
+		'--contact-point',
+		'centroid',
+		'--gravity',
+		'9.81',
+	)
+	assert done.returncode == 0, done.stdout + done.stderr
+	_, rows = rowsOf(tmp_path)
+	assert rows['critical friction angle, limit analysis']['ours'] == pytest.approx(21.1, abs=1e-5)
+	assert rows['critical friction angle']['accept'] is None
+	assert rows['critical friction angle']['ours'] == pytest.approx(21.1, abs=0.11)
+
+
+@pytest.mark.parametrize(
+	'options',
+	[
+		('--damping', '1'),
+		('--steps', '0.1', '1'),
+		('--start', '90'),
+		('--time-step', '0.01'),
+		('--geometry', 'none'),
+		('--most-steps', '1'),
+	],
+)
+def testRefusesNonsense(tmp_path, options):
+	done = script(tmp_path, *options)
+	assert done.returncode == 2 and options[0] in done.stderr
+
+
+def testUnstableStartIsSaid(tmp_path):
+	"""Below the critical angle nothing can be found."""
+	done = script(tmp_path, '--start', '15')
+	assert done.returncode == 1 and 'not stable at the starting angle' in done.stderr
+
+
+def testGeometryFileIsChecked(tmp_path):
+	path = tmp_path / 'slope.json'
+	for content, word in (
+		('{"free": []}', 'free'),
+		('{"free": [[[0, 0], [1, 0], [0, 1]]]}', 'fixed'),
+		('{"free": [[[0, 0], [1, 0]]], "fixed": [1]}', 'three'),
+	):
+		path.write_text(content)
+		with pytest.raises(ValueError, match=word):
+			readSlope(path)
+
+
+def testBuilderMakesLayersOfPolygons():
+	scene = SlumpingSlope(**readSlope(geometry)).build()
+	assert scene.layers() == [k // 7 for k in range(28)]
+	assert all(body.shape.dimension == 2 and body.shape.thickness == 1 for body in scene.bodies())
+	assert sum(body.state.mass for body in scene.bodies()[:6]) == pytest.approx(6 * 5000)  # 1 m × 2 m × 1 m × 2500 kg/m³
+	assert len(O.bodies) == 30 and not any(O.bodies[k].dynamic for k in scene.fixedIds)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Simulation F of the paper: the script's quick variant holds its tolerances, and its budgets notice an error."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from yade import O
+from yade.polytope.motionRecord import MotionRecord
+from yade.polytope.scenes import Block, Collision, readBlocks
+
+paper = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper'
+geometry = paper / 'geometry/f_collisions.json'
+
+
+def script(folder, *options):
+	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
+	command = [sys.executable, paper / 'f_collisions.py', '--quick', '--no-pictures', '--output', 'out', *options]
+	return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+
+
+def rowsOf(folder):
+	content = json.loads((folder / 'out/findings.json').read_text())
+	return content['good'], {row['quantity']: row for row in content['rows']}
+
+
+def testQuickVariantHoldsEveryTolerance(tmp_path):
+	done = script(tmp_path)
+	assert done.returncode == 0, done.stdout + done.stderr
+	good, rows = rowsOf(tmp_path)
+	assert good
+	assert rows['F1: height at rest']['ours'] == pytest.approx(0.499804, abs=1e-5)
+	assert rows['F1: lies on its face −z']['ours'] == 1
+	assert rows['F1: place of rest, distance from (0.472, 0.518)']['ours'] < 0.1
+	assert rows['F1: energy at the start']['ours'] == pytest.approx(16917.96, abs=0.01)
+	assert rows['F1: energy at the end']['ours'] == pytest.approx(9808.08, abs=0.01)
+	for label in ('F1', 'F2'):
+		for words in ('', ', YADE damping 0'):
+			assert rows[f'{label}: momentum budget{words}']['ours'] < 1e-6
+			assert rows[f'{label}: energy in free flight{words}']['ours'] < 1e-9
+			assert rows[f'{label}: energy balance{words}']['ours'] < 1e-6
+	assert {path.name for path in (tmp_path / 'out').iterdir()} >= {
+	        'transitions.csv', 'energy_rises.csv', 'F1_overview.png', 'F1_jumps.png', 'F1_transitions.png', 'F2_overview.png', 'F2_jumps.png',
+	        'F2_transitions.png'
+	}  # yapf: disable
+	types = [line.split(',')[3] for line in (tmp_path / 'out/transitions.csv').read_text().splitlines() if line.startswith('F2')]
+	assert types[:2] == ['edge-edge', 'edge-face'] and types[-1] == 'none'
+
+
+def testOtherSettingsKeepTheBudgets(tmp_path):
+	"""Other blocks (no cubes, other places), stiffness, friction, contact point and time step: no reference, but laws hold."""
+	blocks = json.loads(geometry.read_text())
+	blocks['vertexFace']['fixed']['position'] = [10, 20, 29.5]
+	blocks['vertexFace']['free'] = {'halfLengths': [0.5, 0.4, 0.3], 'position': [10, 20, 30.72], 'orientation': [0.9, 0.3, -0.3, 0.1]}
+	(tmp_path / 'other.json').write_text(json.dumps(blocks))
+	done = script(
+		tmp_path,
+		'--collision',
+		'vertexFace',
+		'--geometry',
+		'other.json',
+		'--contact-point',
+		'centroid',
+		'--normal-stiffness',
+		'4e7',
+		'--friction',
+		'0.5',
+		'--time-step',
+		'2e-4',
+		'--density',
+		'2600',
+	)
+	good, rows = rowsOf(tmp_path)
+	print(done.stdout, done.stderr)
+	assert rows['F1: momentum budget']['ours'] < 1e-6
+	assert rows['F1: energy in free flight, YADE damping 0']['ours'] < 1e-9
+	assert rows['F1: first touch']['accept'] is None
+	height = 30 + 0.3 - 2600 * 8 * 0.5 * 0.4 * 0.3 * 9.81 / 4e7
+	assert rows['F1: height at rest']['theory'] == pytest.approx(height, abs=1e-9)
+	assert rows['F1: height at rest']['ours'] == pytest.approx(height, abs=1e-5)
+	assert done.returncode == 0
+
+
+@pytest.mark.parametrize(
+	'option, value',
+	[('--damping', '1'), ('--density', '0'), ('--time-step', '1'), ('--friction', 'nan'), ('--contact-point', 'x'), ('--geometry', 'none')],
+)
+def testRefusesNonsense(tmp_path, option, value):
+	done = script(tmp_path, option, value)
+	assert done.returncode == 2 and option in done.stderr
+
+
+def testGeometryFileIsChecked(tmp_path):
+	path = tmp_path / 'blocks.json'
+	path.write_text('{"vertexFace": {"fixed": {}}}')
+	with pytest.raises(ValueError, match='free'):
+		readBlocks(path, 'vertexFace')
+	path.write_text('{"vertexFace": {"fixed": {}, "free": {"size": [1, 1, 1]}}}')
+	with pytest.raises(ValueError, match='size'):
+		readBlocks(path, 'vertexFace')
+
+
+def shortRecord(steps=600, **settings):
+	scene = Collision(*readBlocks(geometry, 'vertexFace'), **settings).build()
+	record = MotionRecord(scene.body, scene.contact, scene.integrator)
+	for _ in range(steps):
+		record.step()
+	return record.finish()
+
+
+def testBudgetsNoticeAnError():
+	record = shortRecord()
+	assert record.momentumError() < 1e-12
+	assert abs(record.balance()).max() < 1e-9 * record.energy()[0]
+	record.damping = 0.299  # the integrator's rule with another fraction
+	assert record.momentumError() > 1e-6
+	record.damping = 0.3
+	record.contactForce[300] *= 1.01  # one step's force of 600
+	assert record.momentumError() > 1e-6
+
+
+def testEnergyOfTurningBlockIsRight():
+	"""Unequal moments, no forces: translation and rotation by hand."""
+	scene = Collision(Block(position=(0, 0, -10)), Block((0.5, 0.4, 0.3), (0, 0, 5)), damping=0, gravity=1e-12).build()
+	scene.body.state.vel = (1, 2, 3)
+	scene.body.state.angVel = (0, 0, 2)
+	record = MotionRecord(scene.body, scene.contact, scene.integrator)
+	record.step()
+	record.finish()
+	mass = 2000 * 8 * 0.5 * 0.4 * 0.3
+	assert record.kineticEnergy()[0] == pytest.approx(mass * (14 / 2 + (0.5**2 + 0.4**2) / 3 * 4 / 2), rel=1e-9)
+	assert O.iter == 1 and np.all(record.type == 'none')
