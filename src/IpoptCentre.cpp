@@ -14,6 +14,7 @@
 #include <IpTSymLinearSolver.hpp>
 #include <IpoptConfig.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -27,24 +28,28 @@ namespace {
 
 	/// The programme. With x = x₀ + diag(D)·u and slacks in units of their own values at x₀, slack_i = S_i·σ_i:
 	///
-	///     minimise −Σ log σ_i   over u, σ      subject to   Σ_k (a_ik D_k/S_i) u_k + σ_i = 1,   σ_i ≥ 0.
+	///     minimise −Σ log σ_i   over u, σ      subject to   Σ_k (a_ik D_k/S_i) u_k + σ_i = b_i,   σ_i ≥ 0.
 	///
-	/// It starts at u = 0, σ = 1, where the constraints hold exactly, and every number in it is about one if x₀ is about in
-	/// the middle of the overlap and D_k about half its width along axis k, however thin the overlap is.
+	/// It starts at u = 0, σ = 1. Inside, all b_i are one and the constraints hold exactly, and every number in it is about
+	/// one if x₀ is about in the middle of the overlap and D_k about half its width along axis k, however thin the overlap
+	/// is. Outside, b_i is slack_i/S_i, down to −1: that slacks are unknowns of their own lets Ipopt start there, too.
 	/// Unknowns: u (`dimension`), then σ (one a plane).
 	class CentreProgramme : public TNLP {
 	public:
-		/// Slacks at x₀ = x; false if x is not strictly inside.
-		bool start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x);
+		/// Slacks at x₀ = x.
+		void start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x);
 
-		/// Moves x₀ along one axis after the other to the middle of the chord, across the overlap's thin axis last.
+		/// Whether x₀ is strictly inside.
+		bool inside() const;
+
+		/// Moves x₀, inside, along one axis after the other to the middle of the chord, across the overlap's thin axis last.
 		void moveToMiddle();
 
 		/// Makes half the chords' lengths the axes' units, and writes the programme's coefficients.
 		void scale();
 
 		/// Moves x₀ to the solution. Gives how far that was, in the overlap's local norm at the old x₀: √Σ (a_i·step/S_i)²;
-		/// padOffset or more if there is none, or outside.
+		/// negative if there is none.
 		Real moveToSolution();
 
 		const Real* point() const { return point_; }
@@ -66,19 +71,20 @@ namespace {
 		struct Chord {
 			Real ahead, back;
 		};
-		Chord chord(int k) const;
+		Chord chord(const std::vector<Real>& slacks, int k) const;
 
 		Real plane(int i, int k) const { return normal_[std::size_t(i) * dimension_ + k]; }
 
 		int                 dimension_ = 0, planes_ = 0;
 		Real                point_[3]  = {}; ///< x₀
 		Real                unit_[3]   = {}; ///< D
-		std::vector<Real>   normal_, slack_; ///< a, S
+		std::vector<Real>   normal_, slack_; ///< a; d − a·x₀
+		std::vector<Real>   slackUnit_;      ///< S
 		std::vector<double> coefficient_;    ///< a_ik D_k/S_i
 		std::vector<double> solution_;       ///< u, σ
 	};
 
-	bool CentreProgramme::start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x)
+	void CentreProgramme::start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x)
 	{
 		dimension_ = dimension;
 		normal_.clear();
@@ -92,20 +98,23 @@ namespace {
 				normal_.push_back(normal[k][i]);
 				slack -= normal[k][i] * x[k];
 			}
-			if (!(slack > 0)) return false;
 			slack_.push_back(slack);
 		}
 		planes_ = int(slack_.size());
-		return true;
 	}
 
-	CentreProgramme::Chord CentreProgramme::chord(int k) const
+	bool CentreProgramme::inside() const
+	{
+		return std::all_of(slack_.begin(), slack_.end(), [](const Real& slack) { return slack > 0; });
+	}
+
+	CentreProgramme::Chord CentreProgramme::chord(const std::vector<Real>& slacks, int k) const
 	{
 		Chord chord { padOffset, padOffset };
 		for (int i = 0; i < planes_; ++i) {
 			const Real rate = plane(i, k);
-			if (rate > 0 && slack_[i] < chord.ahead * rate) chord.ahead = slack_[i] / rate;
-			if (rate < 0 && slack_[i] < -chord.back * rate) chord.back = slack_[i] / -rate;
+			if (rate > 0 && slacks[i] < chord.ahead * rate) chord.ahead = slacks[i] / rate;
+			if (rate < 0 && slacks[i] < -chord.back * rate) chord.back = slacks[i] / -rate;
 		}
 		return chord;
 	}
@@ -113,7 +122,7 @@ namespace {
 	void CentreProgramme::moveToMiddle()
 	{
 		for (int k = 0; k < dimension_; ++k) {
-			const Chord c    = chord(k);
+			const Chord c    = chord(slack_, k);
 			const Real  move = (c.ahead - c.back) / 2;
 			point_[k] += move;
 			for (int i = 0; i < planes_; ++i)
@@ -124,20 +133,32 @@ namespace {
 	void CentreProgramme::scale()
 	{
 		solution_.clear();
+		// at a plane that passes through x₀: the length nearest to nothing that there is
+		Real smallest = padOffset;
+		for (const Real& slack : slack_)
+			if (slack != 0) smallest = std::min<Real>(smallest, slack < 0 ? -slack : slack);
+		slackUnit_.clear();
+		for (const Real& slack : slack_)
+			slackUnit_.push_back(std::max<Real>(smallest, slack < 0 ? -slack : slack));
 		for (int k = 0; k < dimension_; ++k) {
-			const Chord c = chord(k);
+			const Chord c = chord(slackUnit_, k);
 			unit_[k]      = (c.ahead + c.back) / 2;
 		}
+		// from outside the way may be long against the slacks: no coefficient above one
+		if (!inside())
+			for (int i = 0; i < planes_; ++i)
+				for (int k = 0; k < dimension_; ++k)
+					slackUnit_[i] = std::max<Real>(slackUnit_[i], (plane(i, k) < 0 ? -plane(i, k) : plane(i, k)) * unit_[k]);
 		coefficient_.resize(normal_.size());
 		for (int i = 0; i < planes_; ++i)
 			for (int k = 0; k < dimension_; ++k)
-				coefficient_[std::size_t(i) * dimension_ + k] = double(plane(i, k) * unit_[k] / slack_[i]);
+				coefficient_[std::size_t(i) * dimension_ + k] = double(plane(i, k) * unit_[k] / slackUnit_[i]);
 	}
 
 	Real CentreProgramme::moveToSolution()
 	{
 		using std::sqrt;
-		if (solution_.empty()) return padOffset; // Ipopt ended in an error
+		if (solution_.empty()) return -1; // Ipopt ended in an error
 		Real step[3], sum = 0;
 		for (int k = 0; k < dimension_; ++k) {
 			step[k] = unit_[k] * solution_[k];
@@ -148,9 +169,9 @@ namespace {
 			Real approach = 0;
 			for (int k = 0; k < dimension_; ++k)
 				approach += plane(i, k) * step[k];
-			const Real relative = approach / slack_[i];
+			const Real relative = approach / slackUnit_[i];
 			slack_[i] -= approach;
-			sum += slack_[i] > 0 ? relative * relative : Real(padOffset);
+			sum += relative * relative;
 		}
 		return sqrt(sum);
 	}
@@ -172,8 +193,8 @@ namespace {
 			lower[j] = j < dimension_ ? -infinite : 0;
 			upper[j] = infinite;
 		}
-		std::fill(constraintLower, constraintLower + m, 1.);
-		std::fill(constraintUpper, constraintUpper + m, 1.);
+		for (Index i = 0; i < m; ++i)
+			constraintLower[i] = constraintUpper[i] = double(slack_[i] / slackUnit_[i]);
 		return true;
 	}
 
@@ -294,9 +315,10 @@ namespace {
 
 	IpoptOutcome IpoptRunner::solve(int dimension, int count, const Real* const* normal, const Real* offset, Real* x, int& iterations)
 	{
-		if (!IsValid(application_) || !programme_->start(dimension, count, normal, offset, x)) return IpoptOutcome::Failed;
+		if (!IsValid(application_)) return IpoptOutcome::Failed;
 		linear_->setDimension(dimension);
-		programme_->moveToMiddle();
+		programme_->start(dimension, count, normal, offset, x);
+		if (programme_->inside()) programme_->moveToMiddle();
 		// A round ends where Ipopt's tolerance, rounding or the limit of iterations ends it. Each starts from the last one's
 		// point with a scaling of its own, until one finds nothing to do: then its numbers were about one.
 		for (int round = 0; round < tolerance::ipoptRounds; ++round) {
@@ -304,8 +326,9 @@ namespace {
 			const ApplicationReturnStatus status = optimise();
 			if (IsValid(application_->Statistics())) iterations += application_->Statistics()->IterationCount();
 			const Real moved = programme_->moveToSolution();
-			if (!(moved < Real(padOffset))) return IpoptOutcome::Failed;
-			if (status == Solve_Succeeded && moved <= tolerance::ipoptMove) {
+			const bool inside = programme_->inside();
+			if (!(moved >= 0) || (!inside && status != Maximum_Iterations_Exceeded)) return IpoptOutcome::Failed;
+			if (inside && status == Solve_Succeeded && moved <= tolerance::ipoptMove) {
 				for (int k = 0; k < dimension; ++k)
 					x[k] = programme_->point()[k];
 				return IpoptOutcome::Converged;

@@ -17,7 +17,7 @@ const char* ipoptVersion();
 
 /// argmax Σ log(d_i − a_i·x) over `count` planes a_i·x ≤ d_i with component arrays normal[k] and offsets d; neutral planes
 /// (see padOffset) are left out. The frame is turned to the contact normal (last axis).
-/// `x`: strictly inside; replaced by the centre if Converged, else left alone. Adds to `iterations`.
+/// `x`: inside, or near it; replaced by the centre if Converged, else left alone (as where there is no inside). Adds to `iterations`.
 /// May be called by any number of threads at once. Nothing is thrown or printed. Works in double whatever Real is.
 __attribute__((cold)) IpoptOutcome ipoptCentre(int dimension, int count, const Real* const* normal, const Real* offset, Real* x, int& iterations);
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Inputs on which Newton gives up on the analytic centre, and a search for more.
+#include "IpoptCentre.hpp"
+#include "PrecisePair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+ContactStatus rescued() { return ipoptVersion() ? ContactStatus::CentreByIpopt : ContactStatus::IpoptNotAvailable; }
+
+// Found by the search: rectangles with near copies of their planes, the second turned by 1e-14 against the first, overlap
+// 1e-14 of the size. The linear programme takes one of two normals that agree to rounding (tolerance::singularBasis) and its
+// point violates the other by more than the overlap's thickness: Newton has no inside to start from, although there is one.
+TEST(NewtonGivesUp, WhereTheLinearProgrammeSeesOneOfTwoTwinPlanes)
+{
+	HalfSpaces set;
+	set.dimension           = 2;
+	const double rows[][3] = {
+		{ 0x1p+0, 0x0p+0, 0x1p+0 },
+		{ -0x1p+0, -0x0p+0, 0x1p+0 },
+		{ 0x0p+0, 0x1p+0, 0x1.2e6554ca8f367p-12 },
+		{ -0x0p+0, -0x1p+0, 0x1.2e6554ca8f367p-12 },
+		{ 0x1.4d34253f5baeap-13, 0x1.ffffff9393d31p-1, 0x1.2e6554df31a9cp-12 },
+		{ -0x1.2dcf7dea11565p-49, 0x1p+0, 0x1.2e6554ca8ed39p-12 },
+		{ -0x1.f5359246f1924p-46, 0x1p+0, 0x1.2e6554ca8f362p-12 },
+	};
+	for (const auto& row : rows) {
+		set.normals.push_back(Vector3(row[0], row[1], 0));
+		set.offsets.push_back(row[2]);
+	}
+	Pair pair;
+	pair.shape[0] = pair.shape[1] = ConvexShape::shared(set, 0x1.e3d554774aec2p-16);
+	const double cosine[] = { 0x1.e6b47fe7d3f79p-1, 0x1.e6b47fe7d3fabp-1 }, sine[] = { 0x1.3de1ac96f06bdp-2, 0x1.3de1ac96f0586p-2 };
+	for (int body = 0; body < 2; ++body)
+		pair.rotation[body] << cosine[body], sine[body], 0, -sine[body], cosine[body], 0, 0, 0, 1;
+	pair.centre2 = Vector3(0x1.0cff9c6288125p-11, 0x1.cc88688ec37d9p-12, 0);
+
+	const PrecisePair exact(pair);
+	for (bool across : { false, true }) {
+		ContactSettings settings;
+		settings.geometryAcrossGap = across;
+		const ContactResult result = query(pair, settings);
+		ASSERT_TRUE(result.inContact);
+		EXPECT_EQ(result.status, rescued()) << statusName(result.status);
+		EXPECT_NEAR(result.normal.norm(), 1, 1e-14);
+		EXPECT_TRUE(std::isfinite(result.depth));
+		// the rescued point is inside all planes, by exact arithmetic; the linear programme's is not
+		EXPECT_EQ(exact.violation(precise(result.point)) < 0, ipoptVersion() != nullptr);
+	}
+}
+
+// POLYTOPE_SEARCH=n in the environment: n pairs, forty queries each while they move by parts of their overlap.
+TEST(NewtonGivesUp, Search)
+{
+	const char* asked = std::getenv("POLYTOPE_SEARCH");
+	const long  pairs = asked ? std::atol(asked) : 400;
+	long        contacts = 0, gaveUp = 0, byIpopt = 0;
+	for (long trial = 0; trial < pairs; ++trial) {
+		std::mt19937_64 random(900 + trial);
+		Pair            pair = nearlyParallelPair(random, 2 + trial % 2);
+		PairMemory      memory;
+		for (int step = 0; step < 40; ++step) {
+			ContactSettings settings;
+			settings.geometryAcrossGap = step % 2;
+			if (step % 8 == 7) memory = PairMemory();
+			const ContactResult result = query(pair, settings, &memory);
+			contacts += result.inContact;
+			const bool rescue = result.status == ContactStatus::CentreByIpopt;
+			if (rescue || result.status == ContactStatus::CentreNotConverged || result.status == ContactStatus::IpoptNotAvailable) {
+				++gaveUp;
+				byIpopt += rescue;
+				std::cout << "pair " << trial << ", step " << step << ": " << statusName(result.status) << ", s* " << result.infeasibility << "\n";
+			}
+			pair.centre2 += std::abs(result.infeasibility) * decades(random, -4, Real(0.7)) * randomDirection(random, pair.dimension());
+		}
+	}
+	std::cout << pairs << " pairs, " << 40 * pairs << " queries, " << contacts << " contacts: Newton gave up on " << gaveUp << ", Ipopt found " << byIpopt
+	          << " of these\n";
+	EXPECT_GT(contacts, 10 * pairs);
+}
+
+} // namespace
