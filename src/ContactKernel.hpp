@@ -254,6 +254,12 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 	return status;
 }
 
+} // namespace polytope
+
+#include "ConservativeContact.hpp"
+
+namespace polytope {
+
 template <class R, int D> POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {
 	for (int k = 0; k <= D; ++k) {
@@ -413,6 +419,11 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 			dual[k] = turned[k];
 			x[k]    = 0;
 		}
+	}
+	if (settings.contactModel == ContactModel::Conservative) {
+		conservativeContact<R, D, W>(in, settings, planes, f, x, basis.infeasibility, memory, workspace, out);
+		if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
+		return;
 	}
 	// a separated pair gets the point, normal and section it would have if both bodies were grown until they just overlap
 	R grown = 0;
