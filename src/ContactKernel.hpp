@@ -339,7 +339,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 {
 	const long         started   = settings.timed ? nanoseconds() : 0;
 	ContactFrame<R, D> f         = contactFrame<R, D>(in);
-	const R            tolerance = settings.tolerance * f.size;
+	const bool         paper     = settings.contactModel == ContactModel::Paper; // the conservative contact begins where Φ = 0
+	const R            tolerance = paper ? settings.tolerance * f.size : R(0);
 	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
 	// no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
 	const R larger = in.shape[1 - f.home]->boundingRadius();

@@ -20,7 +20,7 @@ enum class ContactPoint : int {
 
 enum class ContactModel : int {
 	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along an averaged normal
-	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own, the settings for the paper's are not read
+	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, tolerance and normalWeight are not read
 };
 
 struct ContactSettings {

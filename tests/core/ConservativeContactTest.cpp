@@ -515,6 +515,23 @@ TEST(ConservativeContactOf, DeepOverlapAndCoincidentBodiesHaveAnEnergyAndNoForce
 	}
 }
 
+TEST(ConservativeContactOf, ThePaperModelsSettingsAreNotRead)
+{
+	std::mt19937_64 random(31003);
+	for (int trial = 0; trial < 200; ++trial) {
+		const Pair      pair     = regularPair(6, 8, decades(random, -3, -1), random);
+		ContactSettings settings = conservative();
+		settings.tolerance       = 0.3;
+		settings.contactPoint    = ContactPoint::ChebyshevCentre;
+		settings.normalWeight[0] = 0;
+		const auto result = query(pair, conservative()), other = query(pair, settings);
+		EXPECT_EQ(other.inContact, result.inContact);
+		EXPECT_EQ(other.depth, result.depth);
+		EXPECT_EQ(other.normal, result.normal);
+		EXPECT_EQ(other.point, result.point);
+	}
+}
+
 TEST(ConservativeContactOf, ABarrierThatIsNoLengthIsAFailureAndNoException)
 {
 	std::mt19937_64 random(31002);
