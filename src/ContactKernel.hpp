@@ -165,6 +165,12 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 	return status;
 }
 
+} // namespace polytope
+
+#include "ConservativeContact.hpp"
+
+namespace polytope {
+
 template <class R, int D> POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {
 	for (int k = 0; k <= D; ++k) {
@@ -196,7 +202,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 {
 	const long         started   = settings.timed ? nanoseconds() : 0;
 	ContactFrame<R, D> f         = contactFrame<R, D>(in);
-	const R            tolerance = settings.tolerance * f.size;
+	const bool         paper     = settings.contactModel == ContactModel::Paper; // the conservative contact begins where Φ = 0
+	const R            tolerance = paper ? settings.tolerance * f.size : R(0);
 	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
 	// no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
 	const R larger = in.shape[1 - f.home]->boundingRadius();
@@ -278,6 +285,11 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 			x[k]    = 0;
 		}
 	}
+	if (settings.contactModel == ContactModel::Conservative) {
+		conservativeContact<R, D, W>(in, settings, planes, f, x, basis.infeasibility, memory, workspace, out);
+		if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
+		return;
+	}
 	// a separated pair gets the point, normal and section it would have if both bodies were grown until they just overlap
 	R grown = 0;
 	if (!touching) {
@@ -290,7 +302,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
 	if (lp == LpStatus::PivotLimit) outcome = ContactStatus::LpNotConverged;
 	else if (settings.contactPoint == ContactPoint::AnalyticCentre) {
-		R start[D], target[D];
+		const R deep = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
+		R       start[D], target[D];
 		for (int k = 0; k < D; ++k)
 			start[k] = x[k];
 		if (settings.warmStart && memory.hasPoint) {
@@ -300,10 +313,9 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 			for (int k = 0; k < D; ++k)
 				target[k] = (carried[0][k] + carried[1][k]) / 2;
 		} else
-			simplexCentre<R, D>(basis, x, target);
+			simplexCentre<R, D>(basis, deep, x, target);
 		moveInside<R, D, W>(planes, start, target);
 		// what is left of the way to the centre moves the depth by at most that part of itself
-		const R            deep   = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
 		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
 		const CentreStatus centre = settings.solver == CentreSolver::Newton
 		        ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)

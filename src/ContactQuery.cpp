@@ -2,6 +2,7 @@
 #include "ContactQuery.hpp"
 
 #include "ContactKernel.hpp"
+#include "PairOrder.hpp"
 
 #include <type_traits>
 
@@ -76,9 +77,19 @@ void contactQuery(
         ContactWorkspace&      workspace,
         ContactResult&         result)
 {
+	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
+	result              = ContactResult();
+	if (settings.contactModel == ContactModel::Conservative && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
+		const Vector3   centre1 = -centre2;
+		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
+		exchangeBodies(memory);
+		kernel(in, settings, memory, workspace, result);
+		exchangeBodies(memory);
+		exchangeBodies(result, centre2);
+		return;
+	}
 	const PairInput in { { &shape1, &shape2 }, { &rotation1, &rotation2 }, &centre2 };
-	result = ContactResult();
-	(shape1.dimension() == 2 ? kernels.flat : kernels.solid)(in, settings, memory, workspace, result);
+	kernel(in, settings, memory, workspace, result);
 }
 
 const char* instructionSet() { return kernels.name; }

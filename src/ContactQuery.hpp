@@ -24,7 +24,15 @@ enum class CentreSolver : int {
 	Ipopt,      ///< IpoptCentre.hpp for every contact: a hundred to a thousand times slower, independent of Newton
 };
 
+enum class ContactModel : int {
+	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along an averaged normal
+	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, tolerance and normalWeight are not read
+};
+
 struct ContactSettings {
+	ContactModel contactModel = ContactModel::Paper;
+	/// The conservative contact's μ over the smaller body's inscribed radius.
+	Real         barrier      = tolerance::barrier;
 	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
 	CentreSolver solver       = CentreSolver::Newton;
 	/// Contact when s* < −tolerance × the smaller body's circumradius.
@@ -50,6 +58,7 @@ struct PairMemory {
 	bool                   hasPoint = false;
 	std::array<int, 4>     basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
+	Real                   level = 0; ///< last s of the conservative contact's minimiser; any value is safe
 };
 
 struct ContactResult {
@@ -59,10 +68,13 @@ struct ContactResult {
 	Real          infeasibility  = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
 	Vector3       point          = Vector3::Zero(); ///< world axes, from body 1's centre
 	Vector3       normal         = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
-	Real          depth          = 0;               ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces
-	Vector3       dualDirection  = Vector3::Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free
+	Real          depth          = 0;               ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
+	Vector3       dualDirection  = Vector3::Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
 	Real          area           = 0;               ///< contact section (times thickness in 2-D)
 	Vector3       sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
+	Real          barrierValue     = 0; ///< conservative: Φ [m], ≥ s*; contact where it is negative
+	Real          energy           = 0; ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
+	Real          rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	bool          dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
 	int           simplexPivots    = 0;
 	int           newtonIterations = 0;

@@ -261,14 +261,14 @@ POLYTOPE_INLINE bool moveBasis(const PairPlanes<R, D>& planes, const Rotation<R,
 }
 
 /// Analytic centre of the optimal basis' planes alone, a good guess of that of all: there λ_k slack_k is the same for all
-/// k, and Σ λ_k slack_k = −s at any point. Where a weight is nothing the plane does not bound the guess.
-template <class R, int D> POLYTOPE_INLINE void simplexCentre(const LpBasis<R, D>& basis, const R* x, R* centre)
+/// k, and Σ λ_k slack_k = −s at any point. Where a weight is nothing the plane does not bound the guess. `deep`: −s.
+template <class R, int D> POLYTOPE_INLINE void simplexCentre(const LpBasis<R, D>& basis, R deep, const R* x, R* centre)
 {
 	for (int j = 0; j < D; ++j)
 		centre[j] = x[j];
 	for (int k = 0; k <= D; ++k) {
 		const R share = maxOf<R>(basis.weight[k], R(tolerance::leastShare)) * (D + 1);
-		const R back  = -basis.infeasibility * (1 - 1 / share); // a_k·(centre − x)
+		const R back  = deep * (1 - 1 / share); // a_k·(centre − x)
 		for (int j = 0; j < D; ++j)
 			centre[j] += basis.inverse[j][k] * back;
 	}

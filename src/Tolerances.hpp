@@ -101,6 +101,18 @@ constexpr int    ipoptIterations = 15;
 constexpr Real ipoptMove   = 1e-9;
 constexpr int  ipoptRounds = 20;
 
+/// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
+constexpr Real barrier = 3e-3;
+
+/// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
+constexpr Real barrierStep = 0.95;
+
+/// × μ: by how much the barrier's start is above the linear programme's s (√2: where two opposite faces have it).
+constexpr Real barrierRoom = 1.4;
+
+/// × μ: a carried start may be this much above it.
+constexpr Real barrierDetour = 20;
+
 /// A carried starting point may go at most this fraction of the way from the LP's point to the nearest plane.
 constexpr Real interiorStep = 0.9;
 

@@ -54,7 +54,7 @@ void expectNoneAfterTheLargest(ContactSettings settings, int dimension)
 		int contacts = 0;
 		for (std::size_t i = 0; i < pairs.size(); ++i) {
 			contactQuery(*pairs[i].shape[0], pairs[i].rotation[0], *pairs[i].shape[1], pairs[i].rotation[1], pairs[i].centre2, settings, memories[i], workspace, result);
-			contacts += result.inContact;
+			contacts += result.hasGeometry;
 		}
 		return contacts;
 	};
@@ -81,6 +81,16 @@ TEST(Allocation, NoneInTheContactPathAfterWarmUp)
 					settings.geometryAcrossGap = across;
 					expectNoneAfterTheLargest(settings, dimension);
 				}
+}
+
+TEST(Allocation, NoneInTheConservativeContactAfterWarmUp)
+{
+	for (int dimension = 2; dimension <= 3; ++dimension) {
+		ContactSettings settings;
+		settings.contactModel = ContactModel::Conservative;
+		settings.section = settings.geometryAcrossGap = true;
+		expectNoneAfterTheLargest(settings, dimension);
+	}
 }
 
 } // namespace

@@ -25,6 +25,24 @@ template <int D> void twoLanes(const PairInput& in, const ContactSettings& setti
 	contactKernel<Real, D, 2>(in, settings, memory, workspace, out);
 }
 
+/// The conservative contact of the same pair as query() gives, from another kernel.
+void expectSameValue(const Pair& pair, const Kernel kernel)
+{
+	ContactWorkspace workspace;
+	PairMemory       memory;
+	ContactResult    other;
+	ContactSettings  settings;
+	settings.contactModel      = ContactModel::Conservative;
+	settings.geometryAcrossGap = true;
+	const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
+	const ContactResult result = query(pair, settings);
+	kernel(in, settings, memory, workspace, other);
+	EXPECT_NEAR(other.barrierValue, result.barrierValue, 1e-10 * settings.barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
+	const Vector3 f = result.depth * result.normal, g = other.depth * other.normal;
+	const Real    loose = 1e-7 + 100 * tolerance::rounding * pair.reach() / (settings.barrier * pair.inscribedRadius());
+	EXPECT_LE((f - g).norm(), loose * std::abs(result.barrierValue) + 32 * tolerance::rounding * pair.reach());
+}
+
 /// Of the same pair as query() gives, from another kernel.
 void expectSameFrom(const Kernel* kernels)
 {
@@ -41,6 +59,7 @@ void expectSameFrom(const Kernel* kernels)
 			const ContactResult result = query(pair);
 			kernels[dimension - 2](in, {}, memory, workspace, other);
 			ASSERT_EQ(result.inContact, other.inContact);
+			expectSameValue(pair, kernels[dimension - 2]);
 			if (!result.inContact) continue;
 			++contacts;
 			const PrecisePair exact(pair);

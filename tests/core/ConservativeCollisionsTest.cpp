@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Two free bodies collide without damping or friction: what the conservative contact leaves of the energy's error is the
+// integrator's, and falls with the square of the time step.
+#include "PairSamples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+/// The shape about its centroid, axes along its principal axes.
+std::shared_ptr<const ConvexShape> balanced(const HalfSpaces& set)
+{
+	const MassProperties mass = massProperties(polyhedron(set, 1));
+	const Matrix3        axes = principalAxes(mass.inertia, set.dimension).rotation;
+	return ConvexShape::shared(moved(set, axes.transpose(), -axes.transpose() * mass.centroid), 0);
+}
+
+struct Body {
+	std::shared_ptr<const ConvexShape> shape;
+	Real                               mass;
+	Vector3                            inertia;
+	Vector3                            position, velocity;
+	Quaternion                         orientation;
+	Vector3                            spin; ///< angular momentum, body axes
+
+	Real kineticEnergy() const { return mass * velocity.squaredNorm() / 2 + spin.cwiseProduct(spin.cwiseQuotient(inertia)).sum() / 2; }
+
+	/// Free flight. Rotation about one principal axis after the other, symmetrically: symplectic, of second order, for any
+	/// inertia (Dullweber, Leimkuhler & McLachlan 1997, J. Chem. Phys. 107:5840).
+	void drift(Real time)
+	{
+		position += time * velocity;
+		const int  axes[]  = { 0, 1, 2, 1, 0 };
+		const Real parts[] = { 0.5, 0.5, 1, 0.5, 0.5 };
+		for (int k = 0; k < 5; ++k) {
+			const Quaternion turn(Eigen::AngleAxis<Real>(parts[k] * time * spin[axes[k]] / inertia[axes[k]], Vector3::Unit(axes[k])));
+			spin        = turn.conjugate() * spin;
+			orientation = (orientation * turn).normalized();
+		}
+	}
+
+	void kick(const Vector3& force, const Vector3& at, Real time)
+	{
+		velocity += time / mass * force;
+		spin += time * (orientation.conjugate() * (at - position).cross(force));
+	}
+};
+
+struct Collision {
+	Body body[2];
+	Real stiffness, duration;
+};
+
+Collision randomCollision(std::mt19937_64& random)
+{
+	Collision collision;
+	const int faces[] = { 4, 6, 8, 12, 20 };
+	for (Body& body : collision.body) {
+		HalfSpaces set = random() % 2 ? regularSolid(faces[random() % 5], 1) : randomPlanes(5 + int(random() % 16), random);
+		set            = stretched(set, Vector3(1, uniform(random, Real(0.5), 1), uniform(random, Real(0.3), 1)));
+		body.shape     = balanced(set);
+		body.mass      = body.shape->mass().volume;
+		body.inertia   = body.shape->mass().inertia.diagonal();
+		body.orientation = Quaternion(randomRotation(random));
+		body.position = body.velocity = Vector3::Zero();
+		body.spin                     = uniform(random, 0, 1) * body.inertia.cwiseProduct(randomDirection(random));
+	}
+	// just apart, towards each other at unit speed
+	Pair pair;
+	for (int k = 0; k < 2; ++k) {
+		pair.shape[k]    = collision.body[k].shape;
+		pair.rotation[k] = collision.body[k].orientation.toRotationMatrix();
+	}
+	const Vector3 direction = randomDirection(random);
+	const Real    inner     = pair.inscribedRadius();
+	moveTo(pair, direction, Real(0.005) * inner);
+	collision.body[1].position = pair.centre2;
+	collision.body[1].velocity = -direction;
+	// an overlap of about 2 % of the smaller inscribed radius
+	const Real mass      = 1 / (1 / collision.body[0].mass + 1 / collision.body[1].mass);
+	collision.stiffness  = mass / std::pow(Real(0.02) * inner, 2);
+	collision.duration   = 8 * Real(M_PI) * std::sqrt(mass / collision.stiffness);
+	return collision;
+}
+
+struct Outcome {
+	Real energyError; ///< over the initial energy
+	Real momentumError;
+	bool over; ///< no contact at the end
+};
+
+Outcome run(Collision collision, const ContactSettings& settings, int steps)
+{
+	Body&         a = collision.body[0];
+	Body&         b = collision.body[1];
+	PairMemory    memory;
+	ContactResult result;
+	const auto    contact = [&] {
+		Pair pair;
+		pair.shape[0]    = a.shape;
+		pair.shape[1]    = b.shape;
+		pair.rotation[0] = a.orientation.toRotationMatrix();
+		pair.rotation[1] = b.orientation.toRotationMatrix();
+		pair.centre2     = b.position - a.position;
+		result           = query(pair, settings, &memory);
+	};
+	const auto kick = [&](Real time) {
+		if (!result.inContact) return;
+		const Vector3 force = collision.stiffness * result.depth * result.normal, at = a.position + result.point;
+		b.kick(force, at, time);
+		a.kick(-force, at, time);
+	};
+	const auto energy  = [&] { return a.kineticEnergy() + b.kineticEnergy() + collision.stiffness * result.energy; };
+	const auto angular = [&] {
+		Vector3 sum = Vector3::Zero();
+		for (const Body& body : collision.body)
+			sum += body.mass * body.position.cross(body.velocity) + body.orientation * body.spin;
+		return sum;
+	};
+	contact();
+	const Real    before = energy(), step = collision.duration / steps;
+	const Vector3 momentum = angular();
+	for (int k = 0; k < steps; ++k) {
+		kick(step / 2);
+		a.drift(step);
+		b.drift(step);
+		contact();
+		kick(step / 2);
+	}
+	return { std::abs(energy() - before) / before, (angular() - momentum).norm() / (a.mass + b.mass), !result.inContact };
+}
+
+struct Errors {
+	Real median, rootMeanSquare, largest, momentum;
+};
+
+Errors errors(const std::vector<Collision>& collisions, const ContactSettings& settings, int steps)
+{
+	std::vector<Real> all;
+	Errors            sum { 0, 0, 0, 0 };
+	for (const Collision& collision : collisions) {
+		const Outcome outcome = run(collision, settings, steps);
+		sum.momentum          = std::max(sum.momentum, outcome.momentumError);
+		if (!outcome.over && settings.contactModel == ContactModel::Paper) continue; // it has no energy to count
+		all.push_back(outcome.energyError);
+		sum.rootMeanSquare += outcome.energyError * outcome.energyError;
+	}
+	std::sort(all.begin(), all.end());
+	sum.rootMeanSquare = std::sqrt(sum.rootMeanSquare / Real(all.size()));
+	sum.median         = all[all.size() / 2];
+	sum.largest        = all.back();
+	return sum;
+}
+
+TEST(ConservativeCollisions, EnergyErrorFallsWithTheSquareOfTheTimeStep)
+{
+	std::mt19937_64        random(600);
+	std::vector<Collision> collisions;
+	for (int k = 0; k < 100; ++k)
+		collisions.push_back(randomCollision(random));
+	ContactSettings paper, conservative;
+	conservative.contactModel = ContactModel::Conservative;
+	std::vector<Errors> all;
+	for (int steps : { 2000, 4000, 8000 }) {
+		all.push_back(errors(collisions, conservative, steps));
+		const Errors other = errors(collisions, paper, steps);
+		std::printf("%d steps: energy error, median / root mean square / largest: conservative %.2e / %.2e / %.2e, paper %.2e / %.2e / %.2e\n", steps, double(all.back().median), double(all.back().rootMeanSquare),
+			double(all.back().largest), double(other.median), double(other.rootMeanSquare), double(other.largest));
+		EXPECT_LT(all.back().momentum, 1e-11);
+		EXPECT_GT(other.median, 100 * all.back().median);
+	}
+	for (std::size_t k = 1; k < all.size(); ++k) {
+		EXPECT_GT(all[k - 1].median / all[k].median, 3.5);
+		EXPECT_GT(all[k - 1].rootMeanSquare / all[k].rootMeanSquare, 3.5);
+		EXPECT_GT(all[k - 1].largest / all[k].largest, 3.5);
+	}
+}
+
+/// A unit cube that stands on a wall, rocking by a tilt far below what would shift its contact point to an edge.
+struct Rocking {
+	Body    cube;
+	Real    stiffness, weight;
+	Real    frequency; ///< predicted, rad per time: √(force × rocking arm / moment of inertia)
+	Vector3 force = Vector3::Zero(), at = Vector3::Zero();
+
+	Rocking()
+	{
+		cube.shape       = ConvexShape::shared(cuboid(0.5, 0.5, 0.5), 0);
+		cube.mass        = 1;
+		cube.inertia     = cube.shape->mass().inertia.diagonal();
+		cube.velocity    = cube.spin = Vector3::Zero();
+		cube.orientation = Quaternion::Identity();
+		stiffness        = 1e6;
+		weight           = 1000;
+		// at rest on the wall
+		Real low = 0.4, high = 0.5;
+		for (int halving = 0; halving < 60; ++halving) {
+			cube.position = Vector3(0, 0, (low + high) / 2);
+			(stiffness * contact().depth > weight ? low : high) = (low + high) / 2;
+		}
+		frequency        = std::sqrt(weight * contact().rockingArm / cube.inertia.y());
+		cube.orientation = Quaternion(Eigen::AngleAxis<Real>(1e-8, Vector3::UnitY()));
+		contact();
+	}
+	ContactResult contact()
+	{
+		Pair pair;
+		pair.shape[0]    = ConvexShape::halfSpace(Vector3::UnitZ(), 3);
+		pair.shape[1]    = cube.shape;
+		pair.rotation[1] = cube.orientation.toRotationMatrix();
+		pair.centre2     = cube.position;
+		ContactSettings settings;
+		settings.contactModel      = ContactModel::Conservative;
+		const ContactResult result = query(pair, settings);
+		force                      = result.inContact ? Vector3(stiffness * result.depth * result.normal) : Vector3(Vector3::Zero());
+		at                         = result.point;
+		return result;
+	}
+	void step(Real time)
+	{
+		const auto kick = [&] {
+			cube.kick(force, at, time / 2);
+			cube.velocity.z() -= weight / cube.mass * time / 2;
+		};
+		kick();
+		cube.drift(time);
+		contact();
+		kick();
+	}
+	Real tilt() const { return 2 * cube.orientation.y(); }
+};
+
+TEST(ConservativeCollisions, RockingFrequencyIsThatOfTheRockingArm)
+{
+	Rocking    rocking;
+	const Real step = 2 * Real(M_PI) / rocking.frequency / 1000;
+	Real       time = 0;
+	while (rocking.tilt() > 0 && time < 10 / rocking.frequency) {
+		rocking.step(step);
+		time += step;
+	}
+	EXPECT_NEAR(time * rocking.frequency, Real(M_PI) / 2, 0.01);
+	// face on face, length 1: 0.306 √(k/m) √(depth × length)/μ
+	const Real mu = tolerance::barrier / 2, depth = rocking.weight / rocking.stiffness;
+	EXPECT_NEAR(rocking.frequency / (std::sqrt(rocking.stiffness) * std::sqrt(depth) / mu), std::sqrt(Real(6) / 64), 0.01);
+}
+
+TEST(ConservativeCollisions, StepsBelowTwoOverTheRockingFrequencyAreStable)
+{
+	for (Real part : { 0.95, 1.05 }) {
+		Rocking rocking;
+		Real    most = 0;
+		for (int k = 0; k < 200; ++k) {
+			rocking.step(part * 2 / rocking.frequency);
+			most = std::max(most, std::abs(rocking.tilt()));
+		}
+		std::printf("step of %.2f of 2/frequency: largest tilt %.1e of 1e-8 at the start\n", double(part), double(most));
+		EXPECT_EQ(most < 1e-7, part < 1);
+	}
+}
+
+} // namespace
