@@ -4,6 +4,8 @@
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
+#include <src/IpoptCentre.hpp>
+
 #include "RockJoint.hpp"
 
 namespace yade {
@@ -140,10 +142,12 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(
 	count.dismissed += result.dismissed;
 	count.simplexPivots += result.simplexPivots;
 	count.newtonIterations += result.newtonIterations;
+	count.ipoptSolves += result.ipoptSolved;
+	count.ipoptIterations += result.ipoptIterations;
 	if (timing) {
 		count.lpNanoseconds += result.lpNanoseconds;
 		count.centreNanoseconds += result.centreNanoseconds;
-		count.timedPairs += result.newtonIterations > 0;
+		count.timedPairs += result.newtonIterations > 0 || result.ipoptSolved;
 	}
 
 	const bool wasReal = c->isReal();
@@ -172,7 +176,7 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 		contactPoint    = goodContactPoint_;
 		tolerance       = goodTolerance_;
 		newtonTolerance = goodNewtonTolerance_;
-		solver          = "newton";
+		solver          = goodSolver_;
 		throw std::invalid_argument(message);
 	};
 	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
@@ -182,12 +186,19 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 		settings_.contactPoint = polytope::ContactPoint::Centroid;
 	else
 		refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
-	if (solver != "newton") refuse("solver: must be 'newton' in this build, not '" + solver + "'");
+	if (solver == "newton") settings_.solver = polytope::CentreSolver::Newton;
+	else if (solver != "ipopt")
+		refuse("solver: must be 'newton' or 'ipopt', not '" + solver + "'");
+	else if (!polytope::ipoptVersion())
+		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with -DPOLYTOPE_IPOPT=ON");
+	else
+		settings_.solver = polytope::CentreSolver::Ipopt;
 	if (!(tolerance >= 0 && tolerance < 1)) refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
 	if (!(newtonTolerance > 0 && newtonTolerance < 1)) refuse("newtonTolerance: must be above 0 and below 1");
 	settings_.tolerance       = tolerance;
 	settings_.newtonTolerance = newtonTolerance;
 	goodContactPoint_         = contactPoint;
+	goodSolver_               = solver;
 	goodTolerance_            = tolerance;
 	goodNewtonTolerance_      = newtonTolerance;
 }
@@ -201,6 +212,8 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 		sum.dismissed += one.dismissed;
 		sum.simplexPivots += one.simplexPivots;
 		sum.newtonIterations += one.newtonIterations;
+		sum.ipoptSolves += one.ipoptSolves;
+		sum.ipoptIterations += one.ipoptIterations;
 		sum.lpNanoseconds += one.lpNanoseconds;
 		sum.centreNanoseconds += one.centreNanoseconds;
 		sum.timedPairs += one.timedPairs;
@@ -217,7 +230,11 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	all["dismissed"]        = sum.dismissed;
 	all["simplexPivots"]    = sum.simplexPivots;
 	all["newtonIterations"] = sum.newtonIterations;
-	all["fallbacks"]        = of(ContactStatus::CentreNotConverged) + of(ContactStatus::LpNotConverged) + of(ContactStatus::NoDirection);
+	all["ipoptSolves"]      = sum.ipoptSolves;
+	all["ipoptIterations"]  = sum.ipoptIterations;
+	all["rescued"]          = of(ContactStatus::CentreByIpopt);
+	all["fallbacks"]        = of(ContactStatus::CentreNotConverged) + of(ContactStatus::IpoptNotAvailable) + of(ContactStatus::LpNotConverged)
+	        + of(ContactStatus::NoDirection);
 	all["failures"]         = of(ContactStatus::Failed);
 	all["statuses"]         = statuses;
 	if (timing) {

@@ -35,7 +35,7 @@ public:
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		, /*ctor*/ createIndex();
 		, /*py*/
-		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear programme's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreNotConverged*, *lpNotConverged* (the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear programme's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);
@@ -47,7 +47,7 @@ Real normalWeightOfFirst(const Body* body1, const Body* body2);
 
 /// Counters of one thread, on cache lines of its own.
 struct alignas(64) ContactCounters {
-	long pairs = 0, contacts = 0, dismissed = 0, simplexPivots = 0, newtonIterations = 0;
+	long pairs = 0, contacts = 0, dismissed = 0, simplexPivots = 0, newtonIterations = 0, ipoptSolves = 0, ipoptIterations = 0;
 	long statuses[polytope::contactStatusCount] = {};
 	long lpNanoseconds = 0, centreNanoseconds = 0, timedPairs = 0;
 };
@@ -87,7 +87,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear programme's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
-		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre; *newton* is the only one so far."))
+		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it gives up on a contact, Ipopt takes over if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
 		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]."))
@@ -95,7 +95,7 @@ public:
 		((bool, timing, false, , "Measure the time of the linear programme and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *fallbacks* (contacts that use the linear programme's point, and coincident bodies without a direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts on which Newton gave up and whose point Ipopt found), *fallbacks* (contacts that use the linear programme's point, and coincident bodies without a direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on
@@ -141,7 +141,7 @@ protected:
 private:
 	polytope::ContactSettings              settings_;
 	std::vector<ContactCounters>           counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	std::string                            goodContactPoint_ = "analyticCentre";
+	std::string                            goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
 	Real                                   goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);

@@ -11,6 +11,7 @@
 
 #include <core/Body.hpp>
 
+#include <src/IpoptCentre.hpp>
 #include <src/RegularSolids.hpp>
 
 #include <boost/python.hpp>
@@ -28,6 +29,7 @@ py::dict buildInfo()
 	result["yadeVersion"]    = info::yadeVersion;
 	result["yadeFeatures"]   = py::str(info::yadeFeatures).split();
 	result["instructionSet"] = polytope::instructionSet();
+	result["ipopt"]          = polytope::ipoptVersion() ? py::object(polytope::ipoptVersion()) : py::object();
 	return result;
 }
 
@@ -89,7 +91,8 @@ Contact contact(
         const boost::shared_ptr<yade::Body>& body2,
         const std::string&                   contactPoint,
         yade::Real                           tolerance,
-        yade::Real                           newtonTolerance)
+        yade::Real                           newtonTolerance,
+        const std::string&                   solver)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
@@ -99,6 +102,7 @@ Contact contact(
 	functor.contactPoint    = contactPoint;
 	functor.tolerance       = tolerance;
 	functor.newtonTolerance = newtonTolerance;
+	functor.solver          = solver;
 	functor.callPostLoad();
 	polytope::ContactSettings settings = functor.settings();
 	settings.section                   = true;
@@ -128,7 +132,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	using yade::Vector3r;
 
 	py::docstring_options options(true, true, false);
-	py::def("buildInfo", &buildInfo, "Versions of the plug-in and of the YADE it was compiled for, as a dictionary.");
+	py::def("buildInfo", &buildInfo, "Versions of the plug-in, of the YADE it was compiled for and of Ipopt (None where the build has none), as a dictionary.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")), "Normals and offsets of the convex hull of points.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
@@ -155,6 +159,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	                &field<Vector3r, &ContactResult::dualDirection>,
 	                "Σ over b1's planes of λ_i a_i, λ the linear programme's dual: moved by |s*|/|dualDirection| along it, b2 is free of b1.")
 	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
+	        .add_property("ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear programme.");
 	py::def(
 	        "contact",
@@ -163,12 +168,13 @@ BOOST_PYTHON_MODULE(_polytope)
 	         py::arg("b2"),
 	         py::arg("contactPoint")    = "analyticCentre",
 	         py::arg("tolerance")       = Real(polytope::tolerance::contact),
-	         py::arg("newtonTolerance") = Real(polytope::tolerance::newton)),
+	         py::arg("newtonTolerance") = Real(polytope::tolerance::newton),
+	         py::arg("solver")          = "newton"),
 	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, newtonIterations, "
-	        "simplexPivots\n"
-	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, tolerances out of range");
+	        "ipoptIterations, simplexPivots\n"
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint or solver, solver 'ipopt' in a build without, tolerances out of range");
 }
