@@ -3,6 +3,7 @@
 
 #include "AnalyticCentre.hpp"
 #include "BarrierValue.hpp"
+#include "ContactFrame.hpp"
 #include "ContactQuery.hpp"
 #include "ContactSection.hpp"
 #include "SimplexLp.hpp"

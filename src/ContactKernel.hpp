@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AnalyticCentre.hpp"
+#include "ConservativeContact.hpp"
 #include "ContactFrame.hpp"
 #include "ContactQuery.hpp"
 #include "InnerPotential.hpp"
@@ -164,12 +165,6 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 		n[k] /= length;
 	return status;
 }
-
-} // namespace polytope
-
-#include "ConservativeContact.hpp"
-
-namespace polytope {
 
 template <class R, int D> POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {

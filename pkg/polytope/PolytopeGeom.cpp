@@ -20,6 +20,7 @@ polytope::PairMemory PolytopeGeom::memory() const
 	memory.hasBasis = basis[4];
 	memory.hasPoint = basis[5];
 	memory.point    = { point1, point2 };
+	memory.level    = level;
 	return memory;
 }
 
@@ -28,6 +29,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	basis << memory.basis[0], memory.basis[1], memory.basis[2], memory.basis[3], memory.hasBasis, memory.hasPoint;
 	point1 = memory.point[0];
 	point2 = memory.point[1];
+	level  = memory.level;
 }
 
 namespace {
@@ -154,7 +156,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
-	geom.contactArea     = result.area;
+	geom.contactArea  = result.area;
+	geom.barrierValue = result.barrierValue;
+	geom.rockingArm   = result.rockingArm;
+	geom.energyPerStiffness = settings_.contactModel == polytope::ContactModel::Conservative ? result.energy : Real(-1);
 	const Vector3r point = origin1 + result.point;
 	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();
 	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal, /*avoidGranularRatcheting*/ false);
@@ -173,12 +178,20 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c
 void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
 {
 	const auto refuse = [&](const std::string& message) {
+		contactModel    = goodContactModel_;
+		barrier         = goodBarrier_;
 		contactPoint    = goodContactPoint_;
 		tolerance       = goodTolerance_;
 		newtonTolerance = goodNewtonTolerance_;
 		solver          = goodSolver_;
 		throw std::invalid_argument(message);
 	};
+	if (contactModel == "paper") settings_.contactModel = polytope::ContactModel::Paper;
+	else if (contactModel == "conservative")
+		settings_.contactModel = polytope::ContactModel::Conservative;
+	else
+		refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
+	if (!(barrier > 0 && barrier < 1)) refuse("barrier: must be above 0 and below 1 (a fraction of the smaller body's inscribed radius)");
 	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
 	else if (contactPoint == "chebyshevCentre")
 		settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
@@ -197,6 +210,9 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	if (!(newtonTolerance > 0 && newtonTolerance < 1)) refuse("newtonTolerance: must be above 0 and below 1");
 	settings_.tolerance       = tolerance;
 	settings_.newtonTolerance = newtonTolerance;
+	settings_.barrier         = barrier;
+	goodContactModel_         = contactModel;
+	goodBarrier_              = barrier;
 	goodContactPoint_         = contactPoint;
 	goodSolver_               = solver;
 	goodTolerance_            = tolerance;

@@ -29,6 +29,10 @@ public:
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's law uses :yref:`contactArea<PolytopeGeom.contactArea>`; set when the contact's physics are made."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the contact normal, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
+		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear programme with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
+		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
+		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, for the next step's start"))
 		((int, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
 		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear programme's last basis (2 × plane + body), whether it is known, and whether the points are"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, for the next step's start"))
@@ -86,6 +90,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
+		((string, contactModel, "paper", Attr::triggerPostLoad, "*paper*: stiffness times chord along the averaged normal of the inner potential particles [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear programme with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
+		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Corners act as if rounded by 3 to 7 times this length; face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear programme's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
 		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it gives up on a contact, Ipopt takes over if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
@@ -141,7 +147,8 @@ protected:
 private:
 	polytope::ContactSettings              settings_;
 	std::vector<ContactCounters>           counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	std::string                            goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
+	std::string                            goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
+	Real                                   goodBarrier_ = polytope::tolerance::barrier;
 	Real                                   goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);

@@ -92,7 +92,9 @@ Contact contact(
         const std::string&                   contactPoint,
         yade::Real                           tolerance,
         yade::Real                           newtonTolerance,
-        const std::string&                   solver)
+        const std::string&                   solver,
+        const std::string&                   contactModel,
+        yade::Real                           barrier)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
@@ -103,6 +105,8 @@ Contact contact(
 	functor.tolerance       = tolerance;
 	functor.newtonTolerance = newtonTolerance;
 	functor.solver          = solver;
+	functor.contactModel    = contactModel;
+	functor.barrier         = barrier;
 	functor.callPostLoad();
 	polytope::ContactSettings settings = functor.settings();
 	settings.section                   = true;
@@ -151,6 +155,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "they just overlap.")
 	        .add_property("normal", &field<Vector3r, &ContactResult::normal>, "Unit contact normal from b1 to b2 (Eqs 13-17).")
 	        .add_property("depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
+	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>, "Conservative model: elastic energy over the normal stiffness [m²].")
+	        .add_property("rockingArm", &field<Real, &ContactResult::rockingArm>, "Conservative model: way of the contact point per tilt [m/rad].")
 	        .add_property("area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
 	        .add_property(
 	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; }, "Centroid of the contact section, world coordinates [m].")
@@ -169,12 +175,14 @@ BOOST_PYTHON_MODULE(_polytope)
 	         py::arg("contactPoint")    = "analyticCentre",
 	         py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	         py::arg("newtonTolerance") = Real(polytope::tolerance::newton),
-	         py::arg("solver")          = "newton"),
+	         py::arg("solver")          = "newton",
+	         py::arg("contactModel")    = "paper",
+	         py::arg("barrier")         = Real(polytope::tolerance::barrier)),
 	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, newtonIterations, "
 	        "ipoptIterations, simplexPivots\n"
-	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint or solver, solver 'ipopt' in a build without, tolerances out of range");
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, solver 'ipopt' in a build without, tolerances or barrier out of range");
 }

@@ -72,12 +72,9 @@ Real RockJointPhys::shearStrength(Real normal) const
 	return strength > 0 ? strength : Real(0);
 }
 
-Real RockJointPhys::storedEnergy(Real normal, const Vector3r& shear) const
+Real RockJointPhys::storedEnergy(Real normalEnergy, const Vector3r& shear) const
 {
-	Real energy = 0;
-	if (kn > 0) energy += normal * normal / kn;
-	if (ks > 0) energy += shear.squaredNorm() / ks;
-	return energy / 2;
+	return normalEnergy + (ks > 0 ? shear.squaredNorm() / (2 * ks) : Real(0));
 }
 
 namespace {

@@ -67,7 +67,7 @@ public:
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
 	/// ½ fₙ²/kₙ + ½ |fₛ|²/kₛ of the given elastic parts [J].
-	Real storedEnergy(Real normal, const Vector3r& shear) const;
+	Real storedEnergy(Real normalEnergy, const Vector3r& shear) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RockJointPhys, FrictPhys,

@@ -39,6 +39,13 @@ namespace {
 		return b > 0 ? c / (b + root) : (root - b) / a;
 	}
 
+	/// What the normal spring holds; a conservative contact's geometry knows the energy its force is the gradient of.
+	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
+	{
+		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0) return phys.kn * geom.energyPerStiffness;
+		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
+	}
+
 } // namespace
 
 /// Both bodies as the contact sees them in this step.
@@ -154,7 +161,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = -(last.shearViscous + shearViscous).dot(geom.shearIncrement()) / 2;
-		work.stored         = phys.storedEnergy(elasticNormal, shear);
+		work.stored         = phys.storedEnergy(normalEnergy(geom, phys, elasticNormal), shear);
 		book(pair, phys, last, work);
 	}
 	return true;
