@@ -11,7 +11,8 @@ from yade._polytope import buildInfo, contact
 
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
 from .pictures import picture
+from .timeStep import stableTimeStep
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'picture', 'polygon', 'regular']
+__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'picture', 'polygon', 'regular', 'stableTimeStep']

@@ -11,6 +11,8 @@ set -euo pipefail
 build=$project/build
 yadeLibrary=$(echo /usr/lib/*/yade-double)
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
+# a second clone of the project finds what the first one compiled
+export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
 export YADE_PREFIX=$build/overlay
 export PYTHONPATH=$yadeLibrary/py
 # YADE is built with MPI, which refuses to run as root unless told
