@@ -39,6 +39,10 @@ def heap():
 		O.bodies.append(polytope.regular((4, 6, 8, 12)[k % 4], .5, (.7 * (k % 2), .6 * (k // 2 % 2), .6 + .7 * k), Quaternion((1, k, 2), k)))
 	O.dt = 6e-4
 
+def conservativeHeap():
+	heap()
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
+
 def state():
 	out = []
 	for b in O.bodies:
@@ -85,7 +89,8 @@ def testEnergiesAreResumed(tmp_path):
 	assert resumed == uninterrupted
 
 
-def testHeapIsResumed(tmp_path):
-	uninterrupted, resumed = runs('heap', 3000, 500, tmp_path / 'scene.xml')
+@pytest.mark.parametrize('scene', ['heap', 'conservativeHeap'])
+def testHeapIsResumed(scene, tmp_path):
+	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
 	assert len(uninterrupted) >= 13 * 16 + 10 * 9  # ten contacts or more
 	assert resumed == uninterrupted

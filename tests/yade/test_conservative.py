@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""contactModel='conservative' in YADE: refusals, energy under YADE's own integrator, friction, rest, periodic cells.
+
+The core's tests compare force and torque with the energy's derivative; here the law, the integrator and the scene are the subject.
+"""
+from math import atan, cos, sqrt
+
+import numpy as np
+import pytest
+from yade import O, Ig2_Polytope_Polytope_PolytopeGeom, Quaternion, Vector3, utils
+from yade import polytope
+
+from scenes import blockOnFloor, contact, density, gravity, joint, loop
+
+stiffness = 1e6
+conservative = {'contactModel': 'conservative'}
+
+
+@pytest.fixture(autouse=True)
+def emptyScene():
+	O.reset()
+
+
+@pytest.mark.parametrize(
+        'attribute, value, good', [('contactModel', 'potential', 'conservative'), ('barrier', 0., 3e-3), ('barrier', -1., 3e-3), ('barrier', float('nan'), 3e-3)]
+)
+def testRefusals(attribute, value, good):
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')
+	with pytest.raises(ValueError, match=attribute):
+		setattr(functor, attribute, value)
+	assert getattr(functor, attribute) == pytest.approx(good, rel=0) if attribute == 'barrier' else getattr(functor, attribute) == good
+
+
+def testOnePairKnowsItsEnergy():
+	joint()
+	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .99), (.5, .5, .5))
+	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='conservative')
+	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap, but for 0.02 μ
+	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=1e-3)
+	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-12)
+	assert other.rockingArm > 1000 * paper.depth and paper.rockingArm == 0
+
+
+# ------------------------------------------------------------------------------------------------------------- collisions
+
+
+def kineticEnergy(body):
+	"""From the angular momentum, which YADE's integrator keeps: its angular velocity is half a step old."""
+	state = body.state
+	spin = state.ori.conjugate() * state.angMom
+	return state.mass * state.vel.dot(state.vel) / 2 + sum(spin[k]**2 / state.inertia[k] for k in range(3)) / 2
+
+
+def collide(seed, step, model):
+	"""Two unequal boxes meet without friction and damping. Returns the relative error of the kinetic energy after they have parted."""
+	random = np.random.default_rng(seed)
+	O.reset()
+	joint(normalStiffness=stiffness, shearStiffness=0, frictionAngle=0)
+	loop(ig2={'contactModel': model})
+	half = [(.5, .35, .25), (.3, .45, .4)]
+	bodies = []
+	for k in range(2):
+		axis, angle = random.standard_normal(3), random.uniform(0, 3)
+		bodies.append(polytope.cuboid((0, 0, 2. * k), half[k], Quaternion(tuple(axis), angle), cornerRadius=0.05))
+	O.bodies.append(bodies)
+	direction = Vector3(tuple(random.standard_normal(3))).normalized()
+	bodies[1].state.pos = bodies[0].state.pos + direction * 1.5
+	bodies[1].state.vel = -direction * 0.5 + Vector3(tuple(random.uniform(-.1, .1, 3)))
+	for body in bodies:
+		body.state.angMom = Vector3(tuple(random.uniform(-5, 5, 3)))
+		body.state.angVel = body.state.ori * Vector3(*[(body.state.ori.conjugate() * body.state.angMom)[k] / body.state.inertia[k] for k in range(3)])
+	before = sum(map(kineticEnergy, bodies))
+	O.dt = step * sqrt(density * 0.2 / stiffness)
+	touched = False
+	for _ in range(int(3.5 / O.dt)):
+		O.step()
+		touched = touched or any(i.isReal for i in O.interactions)
+	assert touched and not any(i.isReal for i in O.interactions)
+	return sum(map(kineticEnergy, bodies)) / before - 1
+
+
+meetings = (3, 5, 8, 11, 17)
+
+
+def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep():
+	coarse, fine = (np.array([collide(seed, step, 'conservative') for seed in meetings]) for step in (0.04, 0.02))
+	paper = np.array([collide(seed, 0.02, 'paper') for seed in meetings])
+	print('conservative', coarse, fine, 'paper', paper)
+	rms = lambda errors: sqrt(np.mean(errors**2))
+	assert rms(fine) < rms(coarse) / 3.5
+	assert rms(paper) > 10 * rms(fine)
+
+
+def testAngularAndLinearMomentumAreKept():
+	collide(3, 0.04, 'conservative')
+	bodies = list(O.bodies)
+	total = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in bodies), Vector3.Zero)
+	O.run(50, wait=True)
+	after = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in bodies), Vector3.Zero)
+	assert (after - total).norm() < 1e-10 * total.norm()
+
+
+# ------------------------------------------------------------------------------------------------------- rest and friction
+
+
+def testFrictionOnAnInclineGivesTheExactAcceleration():
+	slope, friction = 0.7, 0.5
+	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=atan(friction))
+	tilt = atan(slope)
+	loop(normalDamping=0.3, gravity=(gravity * slope * cos(tilt), 0, -gravity * cos(tilt)), ig2=conservative)
+	floor, block = blockOnFloor(1e-3)
+	O.dt = polytope.stableTimeStep(0.1, default=1e-4)
+	O.run(int(0.3 / O.dt), wait=True)
+	start, began = block.state.vel[0], O.time
+	O.run(int(0.5 / O.dt), wait=True)
+	acceleration = (block.state.vel[0] - start) / (O.time - began) / gravity
+	assert acceleration == pytest.approx((slope - friction) * cos(tilt), rel=5e-3)
+
+
+def testTowerOfTenStands():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), ig2=conservative)
+	blockOnFloor(0)
+	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
+	O.dt = 2e-4
+	for _ in range(40):
+		O.run(250, wait=True)
+		O.dt = min(2e-4, polytope.stableTimeStep(0.2, default=2e-4))
+	weight = O.bodies[1].state.mass * gravity
+	for k in range(1, 11):
+		state = O.bodies[k].state
+		assert state.pos[2] == pytest.approx(k - .5, abs=11 * 11 * weight / 1e7) and state.vel.norm() < 1e-4
+	assert contact(O.bodies[0], O.bodies[1]).phys.normalForce[2] == pytest.approx(10 * weight, rel=1e-3)
+
+
+def testUndampedHeapKeepsItsEnergyBudget():
+	"""Frictionless, undamped solids in a box: what the springs, gravity and motion hold stays what it was."""
+	drift = {}
+	for model in ('conservative', 'paper'):
+		O.reset()
+		joint(normalStiffness=stiffness, shearStiffness=0, frictionAngle=0)
+		loop(gravity=(0, 0, -gravity), ig2={'contactModel': model})
+		wall = {'fixed': True, 'cornerRadius': 0.05}
+		O.bodies.append(polytope.cuboid((0, 0, -.5), (3, 3, .5), **wall))
+		O.bodies.append([polytope.cuboid((s * 1.5, 0, 2), (.5, 3, 2), **wall) for s in (-1, 1)])
+		O.bodies.append([polytope.cuboid((0, s * 1.5, 2), (1, .5, 2), **wall) for s in (-1, 1)])
+		free = [polytope.regular((4, 6, 8, 12)[k % 4], .3, (-.45 + .9 * (k % 2), -.45 + .9 * (k // 2 % 2), .5 + .6 * (k // 4)), Quaternion((1, k, 2), k)) for k in range(8)]
+		O.bodies.append(free)
+		O.trackEnergy = True
+		O.dt = 0.01 * sqrt(free[0].state.mass / stiffness)
+
+		def energy():
+			height = sum(b.state.mass * gravity * b.state.pos[2] for b in free)
+			return sum(map(kineticEnergy, free)) + height + dict(O.energy.items()).get('elastPotential', 0)
+
+		start = energy()
+		O.run(int(1.2 / O.dt), wait=True)
+		drift[model] = energy() / start - 1
+	print(drift)
+	assert abs(drift['conservative']) < 2e-3
+	assert abs(drift['paper']) > 5 * abs(drift['conservative'])
+
+
+# ------------------------------------------------------------------------------------------------------------ surroundings
+
+
+def testAcrossAPeriodicBoundary():
+	depths = []
+	for shift in (0, 1):
+		O.reset()
+		joint(normalStiffness=stiffness)
+		loop(ig2=conservative)
+		O.periodic = True
+		O.cell.setBox(4, 4, 4)
+		turn = Quaternion((1, 2, 3), 0.7)
+		one = polytope.cuboid((3.6 if shift else 1.6, 2, 2), (.5, .5, .5), turn)
+		two = polytope.cuboid((0.55 if shift else 2.55, 2.1, 2.05), (.5, .5, .5), fixed=True)
+		O.bodies.append([one, two])
+		O.dt = 1e-6
+		O.step()
+		found = contact(one, two)
+		depths.append((found.geom.penetrationDepth, *found.phys.normalForce))
+	assert depths[0] == pytest.approx(depths[1], rel=1e-9)
+
+
+@pytest.mark.parametrize('other', ['wall', 'box'])
+def testMixedPairsShareTheModel(other):
+	joint(normalStiffness=1e7)
+	loop(ig2=conservative)
+	from yade import Bo1_Box_Aabb, Bo1_Polytope_Aabb, Bo1_Wall_Aabb, Ig2_Box_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom
+	O.engines[1].boundDispatcher.functors = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb()]
+	functor = {'wall': Ig2_Wall_Polytope_PolytopeGeom, 'box': Ig2_Box_Polytope_PolytopeGeom}[other](contactModel='conservative')
+	O.engines[2].geomDispatcher.functors = [functor]
+	O.bodies.append(utils.wall(0, 2) if other == 'wall' else utils.box((0, 0, -1), (5, 5, 1), fixed=True))
+	block = polytope.cuboid((0, 0, .499), (.5, .5, .5))
+	O.bodies.append(block)
+	O.dt = 1e-6
+	O.step()
+	geom = contact(O.bodies[0], block).geom
+	assert geom.energyPerStiffness > 0 and abs(geom.normal[2]) == pytest.approx(1) and geom.penetrationDepth == pytest.approx(1e-3, rel=0.1)
+
+
+def testStableTimeStepKnowsRocking():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	loop(gravity=(0, 0, -gravity), ig2=conservative)
+	floor, block = blockOnFloor(1e-3)
+	with pytest.raises(ValueError, match='default'):
+		polytope.stableTimeStep()
+	with pytest.raises(ValueError, match='fraction'):
+		polytope.stableTimeStep(3)
+	O.dt = 1e-6
+	O.step()
+	found = contact(floor, block)
+	rocking = found.phys.normalForce.norm() * found.geom.rockingArm
+	expected = 1 / sqrt((rocking + 2e7 * found.geom.refR2**2) / min(block.state.inertia))
+	assert polytope.stableTimeStep(1) == pytest.approx(expected, rel=1e-9)
