@@ -51,10 +51,19 @@ class MotionRecord:
 	def finish(self):
 		rows = np.array(self._rows)
 		del self._rows
-		widths = {
-		        'time': 1, 'position': 3, 'orientation': 4, 'velocityBefore': 3, 'spinBefore': 3, 'velocityAfter': 3, 'spinAfter': 3,
-		        'contactForce': 3, 'torque': 3, 'point': 3, 'normal': 3, 'depth': 1, **dict.fromkeys(_booked, 1)
-		}  # yapf: disable
+		vectors = (
+			'position',
+			'orientation',
+			'velocityBefore',
+			'spinBefore',
+			'velocityAfter',
+			'spinAfter',
+			'contactForce',
+			'torque',
+			'point',
+			'normal',
+		)
+		widths = {**dict.fromkeys(('time', *vectors, 'depth', *_booked), 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
 		start = 0
 		for name, width in widths.items():
 			setattr(self, name, rows[:, start] if width == 1 else rows[:, start : start + width])
@@ -123,8 +132,15 @@ class MotionRecord:
 		"""What the contact's friction and dampers have taken up to time n [J]."""
 		return self.plastDissip + self.normDampDissip + self.shearDampDissip
 
+	def approach(self):
+		"""Way the bodies have come towards each other along the normal, at the contact point, up to time n [m]; nothing without contact."""
+		velocity, spin = (self.velocityBefore + self.velocityAfter) / 2, (self.spinBefore + self.spinAfter) / 2
+		outward = self.normal if self.partner < self.body.id else -self.normal  # from the partner to the body; YADE's body 1 is the elder
+		speed = np.sum(outward * (velocity + np.cross(spin, self.point - self.position)), axis=1)
+		return -np.cumsum(np.nan_to_num(speed)) * self.timeStep
+
 	def balance(self):
-		"""Energy, all losses, and what the contact law books as nonconservative, less their sum at the start [J]: zero if the books are right."""
+		"""Energy, all losses, and what the contact law books as nonconservative, less their sum at the start [J]: zero if all is booked."""
 		total = self.energy() + self.contactLoss() + self.nonconservative + self.dampingLoss()
 		return total - total[0]
 

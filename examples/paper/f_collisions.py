@@ -59,8 +59,11 @@ def options():
 	given.names = list(labels) if given.collision == 'both' else [given.collision]
 	given.reference = isReference(parser, given, besides=('collision', 'names'))
 	with refusing(parser, '--geometry'):
-		blocks = [readBlocks(given.geometry, name)[1] for name in given.names]
-	lightest = given.density * min(8 * math.prod(block.halfLengths) for block in blocks)
+		blocks = [readBlocks(given.geometry, name) for name in given.names]
+	narrowest = min(min(block.halfLengths) for pair in blocks for block in pair)
+	if given.corner_radius >= narrowest:
+		parser.error(f'--corner-radius: must be below the least half-length, {narrowest:g} m')
+	lightest = given.density * min(8 * math.prod(free.halfLengths) for _, free in blocks)
 	longest = 0.1 * math.sqrt(lightest / given.normal_stiffness)
 	if given.time_step > longest:
 		parser.error(f'--time-step: a contact would pass in too few steps; at most 0.1 sqrt(mass / normal stiffness), {longest:.2g} s here')

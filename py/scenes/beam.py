@@ -1,14 +1,25 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulation B of the paper: two half-beams between two abutments are pushed down at midspan until they snap through (2-D)."""
+
 import dataclasses
 import math
 
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, MatchMaker, NewtonIntegrator, O,
-        Quaternion, RockJointMat, Vector3
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InsertionSortCollider,
+	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	MatchMaker,
+	NewtonIntegrator,
+	O,
+	Quaternion,
+	RockJointMat,
+	Vector3,
 )
 
 from ..bodies import polygon
@@ -89,8 +100,16 @@ class ThreeHingedBeam:
 
 	def __post_init__(self):
 		positive = (
-		        'length', 'height', 'abutmentHeight', 'abutmentLength', 'abutmentStiffness', 'midspanStiffness', 'cornerRadius', 'density',
-		        'shearStiffnessRatio', 'timeStepFraction'
+			'length',
+			'height',
+			'abutmentHeight',
+			'abutmentLength',
+			'abutmentStiffness',
+			'midspanStiffness',
+			'cornerRadius',
+			'density',
+			'shearStiffnessRatio',
+			'timeStepFraction',
 		)
 		for name in positive:
 			if not 0 < getattr(self, name) < math.inf:
@@ -120,28 +139,27 @@ class ThreeHingedBeam:
 		look = {'cornerRadius': self.cornerRadius}
 		rigid = {'material': abutment, 'fixed': True, 'color': (0.86, 0.86, 0.84), **look}
 		self.abutmentIds = [
-		        O.bodies.append(polygon(_rectangle(*sorted((side * near, side * far)), bottom, top), **rigid)) for side in (-1, 1)
+			O.bodies.append(polygon(_rectangle(*sorted((side * near, side * far)), bottom, top), **rigid)) for side in (-1, 1)
 		]
 		self.beamIds = [
-		        O.bodies.append(
-		                polygon(_rectangle(*sorted((0, side * self.length)), 0, self.height), material=beam, color=color, **look)
-		        ) for side, color in ((-1, (0.16, 0.42, 0.58)), (1, (0.35, 0.60, 0.72)))
+			O.bodies.append(polygon(_rectangle(*sorted((0, side * self.length)), 0, self.height), material=beam, color=color, **look))
+			for side, color in ((-1, (0.16, 0.42, 0.58)), (1, (0.35, 0.60, 0.72)))
 		]
 		O.engines = [
-		        ForceResetter(),
-		        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
-		        InteractionLoop(
-		                [Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, solver=self.solver)],
-		                [
-		                        Ip2_RockJointMat_RockJointMat_RockJointPhys(
-		                                stiffnessPerArea=False,
-		                                kn=MatchMaker(matches=pairs),
-		                                ks=MatchMaker(matches=tuple((a, b, self.shearStiffnessRatio * k) for a, b, k in pairs))
-		                        )
-		                ],
-		                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()],
-		        ),
-		        NewtonIntegrator(damping=self.damping, gravity=(0, 0, 0)),
+			ForceResetter(),
+			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
+			InteractionLoop(
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, solver=self.solver)],
+				[
+					Ip2_RockJointMat_RockJointMat_RockJointPhys(
+						stiffnessPerArea=False,
+						kn=MatchMaker(matches=pairs),
+						ks=MatchMaker(matches=tuple((a, b, self.shearStiffnessRatio * k) for a, b, k in pairs)),
+					)
+				],
+				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()],
+			),
+			NewtonIntegrator(damping=self.damping, gravity=(0, 0, 0)),
 		]
 		O.dt = self.timeStepFraction * math.sqrt(self.mass / self.abutmentStiffness)
 		return self
@@ -201,10 +219,7 @@ class ThreeHingedBeam:
 		"""The largest load of all imposed rotations, as `balance` reads it."""
 		alignment = math.atan(self.height / self.length)
 		found = minimize_scalar(
-		        lambda rotation: -self.balance(rotation).load,
-		        bounds=(1e-2 * alignment, alignment),
-		        method='bounded',
-		        options={'xatol': 1e-8}
+			lambda rotation: -self.balance(rotation).load, bounds=(1e-2 * alignment, alignment), method='bounded', options={'xatol': 1e-8}
 		)
 		return self.balance(found.x)
 
@@ -312,17 +327,17 @@ class ThreeHingedBeam:
 		normal = abutment.geom.normal
 		toUpperCorner = O.bodies[k].state.ori * Vector3(self.length / 2, self.height / 2, 0)
 		return BeamReading(
-		        rotation=self.rotation,
-		        load=moment / (self.length / 2),
-		        loadTrueArm=moment / (center[0] - hinge[0]),
-		        thrust=(abutment.phys.normalForce + abutment.phys.shearForce)[0],
-		        thrustMidspan=(midspan.phys.normalForce + midspan.phys.shearForce)[0],
-		        lever=(midspan.geom.contactPoint - hinge)[1],
-		        stored=sum(share * c.phys.normalForce.squaredNorm() / (2 * c.phys.kn) for c, share in ((abutment, 1), (midspan, 0.5))),
-		        tilt=math.atan2(normal[1], normal[0]),
-		        drop=self.height - (center + toUpperCorner)[1],
-		        rise=(center - toUpperCorner)[1],
-		        shearRatio=abutment.phys.shearForce.norm() / abutment.phys.normalForce.norm(),
+			rotation=self.rotation,
+			load=moment / (self.length / 2),
+			loadTrueArm=moment / (center[0] - hinge[0]),
+			thrust=(abutment.phys.normalForce + abutment.phys.shearForce)[0],
+			thrustMidspan=(midspan.phys.normalForce + midspan.phys.shearForce)[0],
+			lever=(midspan.geom.contactPoint - hinge)[1],
+			stored=sum(share * c.phys.normalForce.squaredNorm() / (2 * c.phys.kn) for c, share in ((abutment, 1), (midspan, 0.5))),
+			tilt=math.atan2(normal[1], normal[0]),
+			drop=self.height - (center + toUpperCorner)[1],
+			rise=(center - toUpperCorner)[1],
+			shearRatio=abutment.phys.shearForce.norm() / abutment.phys.normalForce.norm(),
 		)
 
 

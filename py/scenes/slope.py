@@ -53,8 +53,9 @@ def readSlope(path):
 
 @dataclasses.dataclass
 class SlumpingSlope:
-	"""Polygons of unit thickness, a fixed base and back (simulation E of Boon et al. 2012, Fig. 11). `SlumpingSlope(**readSlope(path)).build()`.
+	"""Polygons of unit thickness, a fixed base and back (simulation E of Boon et al. 2012, Fig. 11).
 
+	Make it with `SlumpingSlope(**readSlope(path)).build()`.
 	The paper gives no sizes and no parameters; those here are our choice. The polygons are true 2-D bodies: nothing is out of
 	the plane, and there are no contacts at the sides.
 	"""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The study of simulation F, one block that falls onto another: types of contact, jumps, budgets of momentum and energy, and their report."""
+"""The study of simulation F, one block that falls onto another: contact types, jumps, budgets of momentum and energy, their report."""
 
 import math
 
@@ -108,8 +108,10 @@ class CollisionRun:
 		return [Rise(self.record, begin, end) for begin, end in stretches if energy[end] - energy[begin] >= noticeable]
 
 	def rest(self):
-		"""(height of the centre [m], energy [J], body axis that points down, its cosine with the vertical) at rest on a level floor, the face
-		that is down at the end flat on it; height and energy from the closed form."""
+		"""(height of the centre [m], energy [J], body axis that points down, its cosine with the vertical).
+
+		Height and energy by the closed form: at rest on a level floor, with the face that is down at the end flat on it.
+		"""
 		w, x, y, z = self.record.orientation[-1]
 		vertical = np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])  # in the body's frame
 		axis = int(np.abs(vertical).argmax())
@@ -136,6 +138,7 @@ class Rise:
 		self.taken = change(record.contactLoss()) + change(record.dampingLoss())
 		self.unexplained = self.total - self.given + self.taken
 		self.depth = 1e3 * float(record.depth[begin]), 1e3 * float(record.depth[end])
+		self.approach = 1e3 * change(record.approach())
 
 	@property
 	def cause(self):
@@ -155,12 +158,13 @@ class Rise:
 		'unexplained',
 		'depth before [mm]',
 		'after [mm]',
+		'approach along the normal [mm]',
 		'cause',
 	)
 
 	def row(self):
 		energies = self.total, self.motion, self.elastic, self.given, self.taken, self.unexplained
-		return [*self.time, self.types, *energies, *self.depth, self.cause]
+		return [*self.time, self.types, *energies, *self.depth, self.approach, self.cause]
 
 
 class CollisionReport:
@@ -191,11 +195,12 @@ class CollisionReport:
 	def introduction(self):
 		given = self.given
 		self.findings.text(
-			f'Blocks of {given.density:g} kg/m³; at the contact kₙ = {given.normal_stiffness:g} N/m, kₛ = {given.shear_stiffness:g} N/m, friction coefficient '
-			f'{given.friction:g}, {given.contact_damping:g} of critical damping; YADE damping {given.damping:g}, time step {given.time_step:g} s. Contact types '
-			'are named by the faces of each block within the corner radius of the contact point (yade.polytope.contactTypes). '
-			"YADE's damping takes a fraction of every component of the resultant of contact force and gravity, in free flight too; the budgets "
-			'count it, and a run without it satisfies Δ(m v) = ∫F dt + m g t with the contact force alone.'
+			f'Blocks of {given.density:g} kg/m³; at the contact kₙ = {given.normal_stiffness:g} N/m, kₛ = {given.shear_stiffness:g} N/m, '
+			f'friction coefficient {given.friction:g}, {given.contact_damping:g} of critical damping; YADE damping {given.damping:g}, '
+			f'time step {given.time_step:g} s. Contact types are named by the faces of each block within the corner radius of the '
+			"contact point (yade.polytope.contactTypes). YADE's damping takes a fraction of every component of the resultant of contact "
+			'force and gravity, in free flight too; the budgets count it, and a run without it satisfies Δ(m v) = ∫F dt + m g t with '
+			'the contact force alone.'
 		)
 
 	def _ifReference(self, accept):
@@ -324,7 +329,9 @@ class CollisionReport:
 	def jumps(self, run):
 		names = {'jump of the contact point': 'mm', 'turn of the normal': '°', 'change of the contact force': 'kN'}
 		for (name, unit), values in zip(names.items(), run.jumps(), strict=True):
-			self.findings.row(f'{run.label}: largest {name} in a step', _largest(values), unit)
+			self.findings.row(
+				f'{run.label}: largest {name} in a step', _largest(values), unit, note='where an edge or a face lands, within few steps'
+			)
 
 	def failures(self, runs):
 		self.findings.row('failed contact queries', sum(run.failures for run in runs), '', theory=0, accept=(0, 0))
@@ -339,7 +346,8 @@ class CollisionReport:
 				rows.append([run.label, run.record.time[begin], before, after, *near, *there])
 		self.findings.table(
 			'transitions',
-			f'Every change of contact type, with the largest changes in a step within {aroundTransition} steps of it, and in the very step.',
+			f'Every change of contact type, with the largest changes in a step within {aroundTransition} steps of it, and in the very '
+			'step.',
 			['collision', 'time [s]', 'from', 'to', 'point [mm]', 'normal [°]', 'force [kN]']
 			+ ['in the step: point [mm]', 'in the step: normal [°]', 'in the step: force [kN]'],
 			rows,
@@ -378,7 +386,8 @@ class CollisionReport:
 			)
 		self.findings.table(
 			'settings',
-			f'Other settings. Rises of energy are those in {sampleSteps} steps as given; the last columns are the largest changes in one step.',
+			f'Other settings. Rises of energy are those in {sampleSteps} steps as given; the last columns are the largest changes in '
+			'one step.',
 			[
 				'collision',
 				'setting',
@@ -407,13 +416,15 @@ def _explanation(run, rises):
 	stretch = slice(most.begin, most.end + 1)
 	spring = 1e-3 * run.scene.normalStiffness * np.nanmax(record.depth[stretch])
 	force = 1e-3 * np.linalg.norm(record.contactForce[stretch], axis=1).max()
+	way = f'come {most.approach:.3g} mm closer' if most.approach > 0 else f'part by {-most.approach:.3g} mm'
 	return (
 		f'{run.label}: kinetic + potential + elastic energy rises in {len(rises)} stretch{"es" if len(rises) > 1 else ""}, by '
-		f'{sum(rise.total for rise in rises):.4g} J together. The largest rise, {most.total:.4g} J from {most.time[0]:.4f} to {most.time[1]:.4f} s '
-		f'({most.types}): the depth goes from {most.depth[0]:.3g} to {most.depth[1]:.3g} mm, elastic energy changes by {most.elastic:+.4g} J, kinetic + '
-		f'potential by {most.motion:+.4g} J. The term "nonconservative" gives {most.given:.4g} J, dampers and friction take {most.taken:.4g} J of it; '
-		f"{most.unexplained:+.1e} J are left unexplained. The spring's force alone would be up to {spring:.4g} kN; with the dashpot's at most "
-		f'{force:.3g} kN act. Cause: the force kₙ δ n is not the gradient of the stored energy ½ kₙ δ². The chord δ along the averaged normal grows by '
-		'more than the blocks approach each other along it, as the contact point moves and the normal turns; the spring then holds energy that '
-		'nobody put in, and the dashpot takes what it gives back.'
+		f'{sum(rise.total for rise in rises):.4g} J together. The largest rise, {most.total:.4g} J from {most.time[0]:.4f} to '
+		f'{most.time[1]:.4f} s ({most.types}): the depth goes from {most.depth[0]:.4g} to {most.depth[1]:.4g} mm, while the blocks {way} '
+		f'along the normal at the contact point. Elastic energy changes by {most.elastic:+.4g} J, kinetic + potential by '
+		f'{most.motion:+.4g} J. The term "nonconservative" gives {most.given:.4g} J, dampers and friction take {most.taken:.4g} J; '
+		f"{most.unexplained:+.1e} J are left unexplained. The spring's force alone would be up to {spring:.4g} kN; with the dashpot's at "
+		f'most {force:.3g} kN act. Cause: the force kₙ δ n is not the gradient of the stored energy ½ kₙ δ². The chord δ along the '
+		'averaged normal grows by more than the blocks approach each other along it, as the contact point moves and the normal turns; '
+		'the spring then holds energy that nobody put in, and the dashpot takes what it gives back.'
 	)

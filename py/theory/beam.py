@@ -4,6 +4,7 @@
 By symmetry one half-beam is enough: a rectangle L₁ × L₂ turned by θ between the abutment's face and the plane of symmetry, L₁ apart.
 It touches them with its lower outer and its upper inner corner. All forces on faces are horizontal, and both thrusts are equal.
 """
+
 import dataclasses
 import math
 
@@ -57,10 +58,10 @@ class _Beam:
 	def peak(self, trueArm=False):
 		"""Largest load and its rotation, (N, rad)."""
 		found = minimize_scalar(
-		        lambda rotation: -self.load(rotation, trueArm),
-		        bounds=(1e-3 * self.alignment, self.alignment),
-		        method='bounded',
-		        options={'xatol': 1e-9}
+			lambda rotation: -self.load(rotation, trueArm),
+			bounds=(1e-3 * self.alignment, self.alignment),
+			method='bounded',
+			options={'xatol': 1e-9},
 		)
 		return float(-found.fun), float(found.x)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Limit analysis of blocks in the plane (simulation E of Boon et al. 2012): the friction angle at which no equilibrium is left, and how they then move.
+"""Limit analysis of blocks in the plane (simulation E of Boon et al. 2012): the friction angle without equilibrium, and its mechanism.
 
 Static theorem for rigid blocks with rough joints that take no tension (Livesley 1978, Int. J. Numer. Methods Eng. 12:1853-1871): the
 blocks stand if forces can be found at both ends of every joint that balance all weights with N ≥ 0 and |T| ≤ N tan φ. That is a linear
@@ -34,7 +34,7 @@ class LimitState:
 	angle: float
 	"""Critical friction angle [rad]; 0 if the blocks stand without friction."""
 	velocities: np.ndarray
-	"""(free blocks, 3): velocity of the centroid (x, y) and angular velocity (counter-clockwise) of the mechanism, scaled such that the fastest
+	"""(free blocks, 3): velocity of the centroid (x, y) and angular velocity (counter-clockwise) of the mechanism, such that the fastest
 	corner of all blocks has 1 [m/s, rad/s]; zeros if there is none."""
 
 

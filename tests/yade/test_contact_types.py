@@ -5,11 +5,9 @@ from math import atan, pi, sqrt
 
 import numpy as np
 import pytest
-from yade import O, Quaternion, Vector3
-from yade import polytope
-from yade.polytope.contactTypes import ContactTypes, types2d, types3d
-
 from scenes import contact, joint, loop
+from yade import O, Quaternion, Vector3, polytope
+from yade.polytope.contactTypes import ContactTypes, types2d, types3d
 
 overlap = 0.005
 cornerRadius = 0.05

@@ -14,8 +14,10 @@ import pytest
 from yade import O
 from yade.polytope.findings import Findings
 from yade.polytope.report import stateHash
-from yade.polytope.scenes import FallingPolyhedra
-from yade.polytope.solverTimes import StateSample, hasSolver
+from yade.polytope.scenes import FallingPolyhedra, solids
+from yade.polytope.studies.contactCostReport import curves
+from yade.polytope.studies.fallingPolyhedraReport import FallingPolyhedraReport
+from yade.polytope.studies.solverTimes import StateSample, hasSolver
 
 path = pathlib.Path(__file__).resolve().parents[2] / 'examples' / 'paper' / 'a_falling_polyhedra.py'
 specification = importlib.util.spec_from_file_location('fallingPolyhedra', path)
@@ -50,7 +52,7 @@ def testAllFiveSettleWithoutFailure(quick):
 	assert rows['contact queries without an answer']['ours'] == 0
 	assert rows['kinetic energy / (N m g L), step 4000: largest of the solids']['good']
 	assert rows['deepest overlap / L, end: largest of the solids']['good']
-	assert [row['solid'] for row in read(quick / 'settled.csv')] == 6 * list(script.solidNames)
+	assert [row['solid'] for row in read(quick / 'settled.csv')] == 6 * list(solids)
 	for result in json.loads((quick / 'results.json').read_text()):
 		assert result['inside'] == 200 and result['failures'] == 0 == result['cold']['failures']
 		assert result['energyEnd'] < 1e-2
@@ -59,7 +61,7 @@ def testAllFiveSettleWithoutFailure(quick):
 def testFigure6IsRedrawn(quick):
 	rows = read(quick / 'fig6.csv')
 	assert [int(row['N']) for row in rows] == [8, 12, 16, 24, 40]
-	names = [label for _, label, *_ in script.curves if 'Ipopt' not in label or hasSolver('ipopt')]
+	names = [label for label in curves.values() if 'Ipopt' not in label or hasSolver('ipopt')]
 	assert list(rows[0])[2:] == names
 	for row in rows:
 		assert all(1e-3 < float(row[name]) < 1e5 for name in names), 'µs'
@@ -113,7 +115,7 @@ def testParametersReachTheScene(tmp_path):
 def made(**changes):
 	"""Results of 8 seeds that hold: contacts and heights scatter about the reference's extremes."""
 	results = []
-	for name, contacts, height in zip(script.solidNames, (469, 373, 400, 420, 430), (1.23, 1.10, 1.08, 1.06, 1.04), strict=True):
+	for name, contacts, height in zip(solids, (469, 373, 400, 420, 430), (1.23, 1.10, 1.08, 1.06, 1.04), strict=True):
 		for seed in range(1, 9):
 			results.append(
 			        {
@@ -130,8 +132,8 @@ def made(**changes):
 
 def judged(tmp_path, results):
 	findings = Findings('A', '', tmp_path)
-	solid = {name: [r for r in results if r['shape'] == name] for name in script.solidNames}
-	script.settled(findings, results, solid, types.SimpleNamespace(number=200, steps=7000, seed=1, seeds=8, no_pictures=True), True)
+	given = types.SimpleNamespace(number=200, steps=7000, seed=1, seeds=8, no_pictures=True, reference=True)
+	script.comesToRest(FallingPolyhedraReport(findings, given, results, script.expected))
 	return [row['quantity'] for row in findings.content['rows'] if row['good'] is False]
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulation B: the quick variant holds what must hold; geometry, stiffness and contact point are taken from the options."""
+
 import csv
 import math
 
@@ -7,7 +8,8 @@ import pytest
 from paperScripts import results, run, runHere
 from yade import O
 from yade.polytope.scenes import ThreeHingedBeam
-from yade.polytope.solverTimes import hasSolver
+from yade.polytope.studies.beamLimits import BeamLimits
+from yade.polytope.studies.solverTimes import hasSolver
 from yade.polytope.theory import beam as theory
 
 script = 'b_three_hinged_beam'
@@ -100,24 +102,44 @@ def testAWrongClosedFormIsFound(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-        'options', [
-                ('--length', '0'),
-                ('--rotations', '5', '20'),
-                ('--rotations', '5', '4'),
-                ('--abutment-height', '0.9'),
-                ('--normal-weight', '0.4'),
-                ('--corner-radius', '0.01'),
-                ('--friction-angle', '20'),
-                ('--damping', '1'),
-                ('--time-step-fraction', '0.6'),
-                ('--contact-point', 'middle'),
-                ('--points', '2'),
-        ]
-)  # yapf: disable
+	'options',
+	[
+		('--length', '0'),
+		('--rotations', '5', '20'),
+		('--rotations', '5', '4'),
+		('--abutment-height', '0.9'),
+		('--normal-weight', '0.4'),
+		('--corner-radius', '0.01'),
+		('--friction-angle', '20'),
+		('--damping', '1'),
+		('--time-step-fraction', '0.6'),
+		('--contact-point', 'middle'),
+		('--points', '2'),
+		('--points', '0'),
+		('--drive-steps', '0'),
+		('--corner-radius', '0.3', '--abutment-length', '0.5'),
+		('--solver', 'simplex'),
+	],
+)
 def testNonsenseIsRefused(tmp_path, monkeypatch, capsys, options):
 	with pytest.raises(SystemExit) as end:
 		runHere(script, tmp_path, monkeypatch, *options)
 	assert end.value.code == 2 and options[0] in capsys.readouterr().err
+
+
+def testLimitsOfThePapersBeam():
+	limits = BeamLimits(theory.BeamBetweenWalls())
+	first, last = limits.rotations
+	assert first == 0.25 and last == pytest.approx(15) and limits.overlap < 0.1
+	assert limits.cornerRadius(1) == 0.1 and limits.frictionAngle() == 45
+	assert limits.isAppendixA(3, 1, 0.1) and limits.isAppendixA(1.2, 1, 0.1)
+	assert not limits.isAppendixA(1.1, 1, 0.1) and not limits.isAppendixA(3, 0.9, 0.1)
+
+
+def testThinAbutments(tmp_path, monkeypatch):
+	"""Corner radii of the study of normals stay below half of the abutments' length."""
+	assert runHere(script, tmp_path, monkeypatch, *short, '--abutment-length', '0.3') == 0
+	assert {row[2] for row in table(tmp_path, 'normals')} == {'0.1'}
 
 
 def testBuilder():

@@ -2,37 +2,23 @@
 """Simulation F of the paper: the script's quick variant holds its tolerances, and its budgets notice an error."""
 
 import json
-import os
-import pathlib
-import subprocess
-import sys
 
 import numpy as np
 import pytest
+from paperScripts import folder, results, run, runHere
 from yade import O
 from yade.polytope.motionRecord import MotionRecord
 from yade.polytope.scenes import Block, Collision, readBlocks
 
-paper = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper'
-geometry = paper / 'geometry/f_collisions.json'
-
-
-def script(folder, *options):
-	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
-	command = [sys.executable, paper / 'f_collisions.py', '--quick', '--no-pictures', '--output', 'out', *options]
-	return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
-
-
-def rowsOf(folder):
-	content = json.loads((folder / 'out/findings.json').read_text())
-	return content['good'], {row['quantity']: row for row in content['rows']}
+name, quick = 'f_collisions', ('--quick', '--no-pictures')
+geometry = folder / 'geometry/f_collisions.json'
 
 
 def testQuickVariantHoldsEveryTolerance(tmp_path):
-	done = script(tmp_path)
+	done = run(name, tmp_path, *quick)
 	assert done.returncode == 0, done.stdout + done.stderr
-	good, rows = rowsOf(tmp_path)
-	assert good
+	content, rows = results(tmp_path)
+	assert content['good']
 	assert rows['F1: height at rest']['ours'] == pytest.approx(0.499804, abs=1e-5)
 	assert rows['F1: lies on its face −z']['ours'] == 1
 	assert rows['F1: place of rest, distance from (0.472, 0.518)']['ours'] < 0.1
@@ -43,10 +29,8 @@ def testQuickVariantHoldsEveryTolerance(tmp_path):
 			assert rows[f'{label}: momentum budget{words}']['ours'] < 1e-6
 			assert rows[f'{label}: energy in free flight{words}']['ours'] < 1e-9
 			assert rows[f'{label}: energy balance{words}']['ours'] < 1e-6
-	assert {path.name for path in (tmp_path / 'out').iterdir()} >= {
-	        'transitions.csv', 'energy_rises.csv', 'F1_overview.png', 'F1_jumps.png', 'F1_transitions.png', 'F2_overview.png', 'F2_jumps.png',
-	        'F2_transitions.png'
-	}  # yapf: disable
+	plots = {f'{label}_{plot}.png' for label in ('F1', 'F2') for plot in ('overview', 'jumps', 'transitions')}
+	assert {path.name for path in (tmp_path / 'out').iterdir()} >= {'transitions.csv', 'energy_rises.csv', *plots}
 	types = [line.split(',')[3] for line in (tmp_path / 'out/transitions.csv').read_text().splitlines() if line.startswith('F2')]
 	assert types[:2] == ['edge-edge', 'edge-face'] and types[-1] == 'none'
 
@@ -57,8 +41,10 @@ def testOtherSettingsKeepTheBudgets(tmp_path):
 	blocks['vertexFace']['fixed']['position'] = [10, 20, 29.5]
 	blocks['vertexFace']['free'] = {'halfLengths': [0.5, 0.4, 0.3], 'position': [10, 20, 30.72], 'orientation': [0.9, 0.3, -0.3, 0.1]}
 	(tmp_path / 'other.json').write_text(json.dumps(blocks))
-	done = script(
+	done = run(
+		name,
 		tmp_path,
+		*quick,
 		'--collision',
 		'vertexFace',
 		'--geometry',
@@ -74,7 +60,7 @@ def testOtherSettingsKeepTheBudgets(tmp_path):
 		'--density',
 		'2600',
 	)
-	good, rows = rowsOf(tmp_path)
+	content, rows = results(tmp_path)
 	print(done.stdout, done.stderr)
 	assert rows['F1: momentum budget']['ours'] < 1e-6
 	assert rows['F1: energy in free flight, YADE damping 0']['ours'] < 1e-9
@@ -87,11 +73,20 @@ def testOtherSettingsKeepTheBudgets(tmp_path):
 
 @pytest.mark.parametrize(
 	'option, value',
-	[('--damping', '1'), ('--density', '0'), ('--time-step', '1'), ('--friction', 'nan'), ('--contact-point', 'x'), ('--geometry', 'none')],
+	[
+		('--damping', '1'),
+		('--density', '0'),
+		('--time-step', '1'),
+		('--friction', 'nan'),
+		('--contact-point', 'x'),
+		('--geometry', 'none'),
+		('--corner-radius', '0.5'),
+	],
 )
-def testRefusesNonsense(tmp_path, option, value):
-	done = script(tmp_path, option, value)
-	assert done.returncode == 2 and option in done.stderr
+def testRefusesNonsense(tmp_path, monkeypatch, capsys, option, value):
+	with pytest.raises(SystemExit) as stop:
+		runHere(name, tmp_path, monkeypatch, *quick, option, value)
+	assert stop.value.code == 2 and option in capsys.readouterr().err
 
 
 def testGeometryFileIsChecked(tmp_path):
@@ -134,3 +129,16 @@ def testEnergyOfTurningBlockIsRight():
 	mass = 2000 * 8 * 0.5 * 0.4 * 0.3
 	assert record.kineticEnergy()[0] == pytest.approx(mass * (14 / 2 + (0.5**2 + 0.4**2) / 3 * 4 / 2), rel=1e-9)
 	assert O.iter == 1 and np.all(record.type == 'none')
+
+
+def testApproachIsTheDepthsGrowthWhereTheBlockFallsFlat():
+	"""With a face flat on the floor depth, normal and point belong together; the order of the bodies does not matter."""
+	scene = Collision(Block((1, 1, 0.5), (0, 0, -0.5)), Block(position=(0, 0, 0.5005)), contactDamping=0).build()
+	record = MotionRecord(scene.body, scene.contact, scene.integrator)
+	for _ in range(400):
+		record.step()
+	record.finish()
+	touching = np.flatnonzero(np.isfinite(record.depth))
+	begin, end = touching[0], touching[record.depth[touching].argmax()]
+	assert set(record.type[touching]) == {'face-face'}
+	assert record.approach()[end] - record.approach()[begin] == pytest.approx(record.depth[end] - record.depth[begin], rel=0.01)

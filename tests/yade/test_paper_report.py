@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 
 import pytest
+from yade.polytope.studies.paperRuns import sourceHash
 
 path = pathlib.Path(__file__).resolve().parents[2] / 'examples' / 'paper' / 'report.py'
 specification = importlib.util.spec_from_file_location('paperReport', path)
@@ -67,7 +68,7 @@ class Project:
 def project(tmp_path, monkeypatch):
 	monkeypatch.setattr(report, 'scripts', tmp_path)
 	monkeypatch.setattr(report, 'simulations', {'X': ('x_script', 'First', ('--extra', '8')), 'Y': ('y_script', 'Second', ())})
-	monkeypatch.setattr(report, 'sourceHash', lambda: 'one')
+	monkeypatch.setattr(report, 'sourceHash', lambda *_: 'one')
 	made = Project(tmp_path)
 	made.write('X')
 	made.write('Y')
@@ -131,7 +132,7 @@ def testCompleteRunsAreNotRunAgain(project, monkeypatch):
 	assert project.runs('X') == ['--extra 8', '--quick'], 'other options'
 	assert project.run('--quick', '--fresh') == 0
 	assert len(project.runs('X')) == 3
-	monkeypatch.setattr(report, 'sourceHash', lambda: 'another')
+	monkeypatch.setattr(report, 'sourceHash', lambda *_: 'another')
 	assert project.run('--quick') == 0
 	assert len(project.runs('X')) == 4, 'other source'
 	(project.output / 'x_script' / 'findings.json').write_text('{"letter"')
@@ -159,19 +160,24 @@ def testLongTablesAreCut(project):
 	assert '<td class="number">299.5</td>' in project.html and '300.5' not in project.html
 
 
-def testSourceHashSeesAnyFile(tmp_path, monkeypatch):
+def testSourceHashSeesAnyFile(tmp_path):
 	for name in ('src/a.cpp', 'examples/paper/geometry/g.json'):
 		(tmp_path / name).parent.mkdir(parents=True)
 		(tmp_path / name).write_text('one')
-	monkeypatch.setattr(report, 'here', tmp_path / 'examples' / 'paper')
-	hashes = [report.sourceHash()]
+	hashes = [sourceHash(tmp_path)]
 	for name in ('src/a.cpp', 'examples/paper/geometry/g.json', 'src/new.hpp'):
 		(tmp_path / name).write_text('two')
-		hashes.append(report.sourceHash())
+		hashes.append(sourceHash(tmp_path))
 	assert len(set(hashes)) == 4
 	(tmp_path / 'src' / '__pycache__').mkdir()
 	(tmp_path / 'src' / '__pycache__' / 'a.pyc').write_text('compiled')
-	assert report.sourceHash() == hashes[-1]
+	assert sourceHash(tmp_path) == hashes[-1]
+	assert sourceHash(tmp_path, [pathlib.Path('src/a.cpp')]) != hashes[-1]
+
+
+def testTheReportsOwnFilesAreThere():
+	"""Those that sourceHash() leaves out."""
+	assert report.ofTheReport and all((path.parents[2] / name).is_file() for name in report.ofTheReport)
 
 
 def testTheSixSimulationsAreKnown():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The closed form of the three-hinged beam against hand values, its own geometry and energy; the two-block model against its limits."""
+
 import math
 
 import numpy as np
@@ -25,7 +26,7 @@ def testAppendixA():
 def testTrueArm():
 	load, rotation = beam.peak(trueArm=True)
 	assert load == pytest.approx(36634, abs=0.5) and math.degrees(rotation) == pytest.approx(6.713, abs=5e-4)
-	depth, = {round(delta, 12) for delta in beam.penetrations(rotation)}
+	(depth,) = {round(delta, 12) for delta in beam.penetrations(rotation)}
 	assert load == pytest.approx(beam.load(rotation) * 0.069 / (0.069 + depth / 3), rel=1e-9)
 
 

@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures of simulation B: the load-rotation curves (Fig. 8 of the paper), the beam and its overlaps, and the abutments' size."""
+
 import math
 
-import matplotlib
-
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from yade import O
 
-__all__ = ['colors', 'drawBeam', 'names', 'plotCurves', 'plotSizes', 'solverNames']
+from .beam import contactPointNames, solverNames
 
-names = {'centroid': 'centroid', 'analyticCentre': 'analytic centre', 'chebyshevCentre': 'Chebyshev centre'}
-solverNames = {'newton': 'Newton', 'ipopt': 'Ipopt'}
+__all__ = ['drawBeam', 'plotCurves', 'plotSizes']
+
 colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a'}
 ipoptColor = '#3a8f6b'
 
@@ -26,23 +24,22 @@ def plotCurves(path, closed, curves, pushes, last):
 	:param dict pushes: contact point → BeamReadings at rest under imposed load
 	:param float last: rotation at which the closed form's curve ends [rad]
 	"""
-	figure, plot = plt.subplots(figsize=(8.5, 5.6), dpi=150)
+	figure = Figure(figsize=(8.5, 5.6), dpi=150)
+	plot = figure.subplots()
 	fine, end = np.linspace(0, last, 400), math.degrees(closed.alignment)
 	plot.plot(np.degrees(fine), closed.load(fine) / 1e3, color='black', lw=1.2, label='closed form (Appendix A)')
 	plot.plot(np.degrees(fine), closed.load(fine, trueArm=True) / 1e3, color='0.5', lw=1, ls='--', label='closed form, true arm')
 	for (point, solver), curve in curves.items():
-		label = names[point] + (f', {solverNames[solver]}' if point == 'analyticCentre' else '') + ', rotation imposed'
-		look = {'marker': 's', 'ms': 7, 'mfc': 'none', 'ls': '', 'color': ipoptColor} if solver == 'ipopt' else {
-		        'marker': 'o',
-		        'ms': 3.5,
-		        'lw': 1,
-		        'ls': '' if point == 'centroid' else '-',
-		        'color': colors[point]
-		}
-		plot.plot(*_line(curve.readings[::max(1, len(curve.readings) // 30)]), label=label, **look)
+		label = contactPointNames[point] + (f', {solverNames[solver]}' if point == 'analyticCentre' else '') + ', rotation imposed'
+		look = (
+			{'marker': 's', 'ms': 7, 'mfc': 'none', 'ls': '', 'color': ipoptColor}
+			if solver == 'ipopt'
+			else {'marker': 'o', 'ms': 3.5, 'lw': 1, 'ls': '' if point == 'centroid' else '-', 'color': colors[point]}
+		)
+		plot.plot(*_line(curve.readings[:: max(1, len(curve.readings) // 30)]), label=label, **look)
 	for point, readings in pushes.items():
-		plot.plot(*_line(readings), 'x', ms=7, color=colors[point], label=f'{names[point]}, load imposed')
-		(rotation, ), (load, ) = _line(readings[-1:])
+		plot.plot(*_line(readings), 'x', ms=7, color=colors[point], label=f'{contactPointNames[point]}, load imposed')
+		(rotation,), (load,) = _line(readings[-1:])
 		arrow = {'arrowstyle': '->', 'color': colors[point], 'lw': 1.2}
 		plot.annotate('', (rotation + 2.2, load), (rotation + 0.3, load), arrowprops=arrow)
 	plot.axvline(end, color='0.3', ls=':', lw=1.4)
@@ -58,19 +55,20 @@ def plotCurves(path, closed, curves, pushes, last):
 	_save(figure, path)
 
 
-def plotSizes(path, closed, sizes, unit):
+def plotSizes(path, closed, sizes):
 	"""Peak load against the abutments' height.
 
-	:param sizes: as BeamStudy.abutments() yields
-	:param float unit: height of the beam, for the axis [m]
+	:param closed: BeamBetweenWalls
+	:param list sizes: AbutmentSizes
 	"""
-	figure, plot = plt.subplots(figsize=(7, 4.4), dpi=150)
-	for length, style in zip(sorted({size[1] for size in sizes}), ('o-', 's--', '^:'), strict=False):
-		chosen = [size for size in sizes if size[1] == length]
-		heights = [size[0] / unit for size in chosen]
+	figure = Figure(figsize=(7, 4.4), dpi=150)
+	plot = figure.subplots()
+	for length, style in zip(sorted({size.length for size in sizes}), ('o-', 's--', '^:'), strict=False):
+		chosen = [size for size in sizes if size.length == length]
+		heights = [size.height for size in chosen]
 		look = {'mfc': 'none', 'lw': 1.2}
-		label = f'of {length / unit:g} block height{"s" if length != unit else ""} in length'
-		beams, walls = [peak.load / 1e3 for _, _, peak, *_ in chosen], [wall[0] / 1e3 for *_, wall in chosen]
+		label = f'of {length:g} block height{"s" if length != 1 else ""} in length'
+		beams, walls = [size.peak.load / 1e3 for size in chosen], [size.wall[0] / 1e3 for size in chosen]
 		plot.plot(heights, beams, style, color=colors['analyticCentre'], label=f'two half-beams, abutments {label}', **look)
 		plot.plot(heights, walls, style, color='0.55', label=f'one half-beam between two blocks {label}', **look)
 	plot.axhline(closed.peak()[0] / 1e3, color='black', lw=1.2, label='closed form (Appendix A), centroid')
@@ -89,7 +87,8 @@ def drawBeam(path, study, contactPoints, first, last):
 	:param first, last: rotations before and after [rad]
 	"""
 	panels = [['a', 'a'], ['b', 'b'], ['c', 'c'], ['d', 'e']]
-	figure, plots = plt.subplot_mosaic(panels, figsize=(8, 10.5), dpi=150, height_ratios=[1, 1, 1, 1.6])
+	figure = Figure(figsize=(8, 10.5), dpi=150)
+	plots = figure.subplot_mosaic(panels, height_ratios=[1, 1, 1, 1.6])
 	scene = study.scene(contactPoint=contactPoints[-1])
 	peak = scene.peak().rotation
 	reach, height = scene.length + 0.6 * scene.abutmentLength, scene.height
@@ -100,7 +99,7 @@ def drawBeam(path, study, contactPoints, first, last):
 		plot.plot([hinge[0], middle[0], -hinge[0]], [hinge[1], middle[1], hinge[1]], 'o-', color=colors[contactPoints[-1]], ms=3, lw=1)
 		plot.set(xlim=(-reach, reach), ylim=(-0.85 * height, 1.4 * height), aspect='equal')
 		forces = f'load {reading.load / 1e3:.2f} kN, thrust {reading.thrust / 1e3:.1f} kN'
-		plot.set_title(f'{names[contactPoints[-1]]}, {math.degrees(rotation):.2f}°: {forces}', fontsize=9)
+		plot.set_title(f'{contactPointNames[contactPoints[-1]]}, {math.degrees(rotation):.2f}°: {forces}', fontsize=9)
 		plot.axis('off')
 	window = 2.2e3 * study.appendixA.shortening(peak)
 	for name, k, title in (('d', 0, 'at the abutment'), ('e', 1, 'at midspan')):
@@ -110,7 +109,7 @@ def drawBeam(path, study, contactPoints, first, last):
 			scene.balance(peak)
 			geometry = scene.contacts()[k].geom
 			center = [1e3 * geometry.contactPoint[axis] for axis in (0, 1)]
-			label = f'{names[point]}, chord {1e3 * geometry.penetrationDepth:.3f} mm'
+			label = f'{contactPointNames[point]}, chord {1e3 * geometry.penetrationDepth:.3f} mm'
 			plot.plot(*([x] for x in center), 'o', color=colors[point], ms=6, label=label)
 		_drawBodies(plot, scene, scale=1e3, alpha=0.45)
 		plot.set(xlabel='x (mm)', ylabel='y (mm)')
@@ -135,4 +134,3 @@ def _drawBodies(plot, scene, scale=1, alpha=1.0):
 def _save(figure, path):
 	figure.tight_layout()
 	figure.savefig(path)
-	plt.close(figure)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a linear programme and a contact point cost with other settings of the contact functor than those of the run."""
+
 import collections
 import itertools
 
@@ -58,16 +59,16 @@ class StateSample:
 				total[seconds] += min(one[seconds] for one in stats)
 			states += 1
 		return {
-		        'states': states,
-		        'pairs': total['pairs'],
-		        'contacts': total['contacts'],
-		        'pivotsPerPair': _mean(total['simplexPivots'], total['pairs']),
-		        'newtonPerContact': _mean(total['newtonIterations'], total['contacts']),
-		        'ipoptPerContact': _mean(total['ipoptIterations'], total['contacts']),
-		        'fallbacks': total['fallbacks'],
-		        'failures': total['failures'],
-		        'lpMicroseconds': 1e6 * _mean(total['lpSeconds'], total['pairs']),
-		        'centreMicroseconds': 1e6 * _mean(total['centreSeconds'], total['timedPairs']),
+			'states': states,
+			'pairs': total['pairs'],
+			'contacts': total['contacts'],
+			'pivotsPerPair': _mean(total['simplexPivots'], total['pairs']),
+			'newtonPerContact': _mean(total['newtonIterations'], total['contacts']),
+			'ipoptPerContact': _mean(total['ipoptIterations'], total['contacts']),
+			'fallbacks': total['fallbacks'],
+			'failures': total['failures'],
+			'lpMicroseconds': 1e6 * _mean(total['lpSeconds'], total['pairs']),
+			'centreMicroseconds': 1e6 * _mean(total['centreSeconds'], total['timedPairs']),
 		}
 
 	@staticmethod
