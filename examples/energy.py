@@ -20,7 +20,7 @@ from yade.utils import kineticEnergy
 
 def energies(model, steps, samples=200):
 	"""Times [s] and total energies over that at the start, of one run."""
-	scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), frictionAngle=0, contactDamping=0, damping=0, stiffnessRatio=0, timeStepFraction=0.05).build()
+	scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.05).build()
 	scene.geometryFunctor.contactModel = model
 	O.trackEnergy = True
 	times, values = [], []

@@ -66,7 +66,8 @@ POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R*
 	return horizontalMin<R, W>(smallest) > 0;
 }
 
-/// Newton direction by Cholesky, eliminating the last axis (the contact normal, the large one) first.
+/// Newton direction: by cofactors or, where their digits would cancel, by Cholesky, eliminating the last axis (the contact
+/// normal, the large one) first.
 /// Returns false if the Hessian is skewed, or not positive definite to rounding.
 template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const R (&h)[D][D], BarrierStep<R, D>& step)
 {
@@ -74,24 +75,38 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 	const R kept = R(tolerance::cancellation);
 	step.skewed  = false;
 	if constexpr (D == 3) {
-		// by cofactors: one division where an elimination waits for three, one after another. What elimination in the order
-		// z, y, x would leave of the diagonal: yy / zz of y, det / yy of x.
 		const R zz  = h[2][2];
 		const R xx_ = h[1][1] * zz - h[2][1] * h[2][1];
 		const R xy_ = h[2][0] * h[2][1] - h[1][0] * zz;
 		const R xz_ = h[1][0] * h[2][1] - h[2][0] * h[1][1];
-		const R yy_ = h[0][0] * zz - h[2][0] * h[2][0];
-		const R yz_ = h[1][0] * h[2][0] - h[0][0] * h[2][1];
-		const R zz_ = h[0][0] * h[1][1] - h[1][0] * h[1][0];
 		const R det = h[0][0] * xx_ + h[1][0] * xy_ + h[2][0] * xz_;
-		if (!(zz > 0)) return false;
-		step.skewed = !(xx_ > kept * h[1][1] * zz) || !(det > kept * h[0][0] * xx_);
-		if (step.skewed) return false;
-		const R scale     = R(-1) / det;
-		step.direction[0] = (xx_ * g[0] + xy_ * g[1] + xz_ * g[2]) * scale;
-		step.direction[1] = (xy_ * g[0] + yy_ * g[1] + yz_ * g[2]) * scale;
-		step.direction[2] = (xz_ * g[0] + yz_ * g[1] + zz_ * g[2]) * scale;
-		step.decrement    = sqrt(-dot<R, D>(step.direction, g));
+		if (det > R(tolerance::wellScaled) * (h[0][0] * h[1][1] * zz)) {
+			// by cofactors: one division, where an elimination waits for three, one after another
+			const R yy_       = h[0][0] * zz - h[2][0] * h[2][0];
+			const R yz_       = h[1][0] * h[2][0] - h[0][0] * h[2][1];
+			const R zz_       = h[0][0] * h[1][1] - h[1][0] * h[1][0];
+			const R scale     = R(-1) / det;
+			step.direction[0] = (xx_ * g[0] + xy_ * g[1] + xz_ * g[2]) * scale;
+			step.direction[1] = (xy_ * g[0] + yy_ * g[1] + yz_ * g[2]) * scale;
+			step.direction[2] = (xz_ * g[0] + yz_ * g[1] + zz_ * g[2]) * scale;
+			step.decrement    = sqrt(-dot<R, D>(step.direction, g));
+		} else {
+			// LDLᵀ in the order z, y, x
+			if (!(zz > 0)) return false;
+			const R lzy = h[2][1] / zz, lzx = h[2][0] / zz;
+			const R dy = h[1][1] - lzy * h[2][1];
+			const R yx = h[1][0] - lzy * h[2][0];
+			const R lyx = yx / dy;
+			const R dx  = h[0][0] - lzx * h[2][0] - lyx * yx;
+			step.skewed = !(dy > kept * h[1][1]) || !(dx > kept * h[0][0]);
+			if (step.skewed) return false;
+			const R bz = -g[2], by = -g[1] - lzy * bz, bx = -g[0] - lzx * bz - lyx * by;
+			const R sz = bz / zz, sy = by / dy, sx = bx / dx;
+			step.direction[0] = sx;
+			step.direction[1] = sy - lyx * sx;
+			step.direction[2] = sz - lzy * step.direction[1] - lzx * sx;
+			step.decrement    = sqrt(bz * sz + by * sy + bx * sx);
+		}
 	} else {
 		const R dy = h[1][1];
 		if (!(dy > 0)) return false;

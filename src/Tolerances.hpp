@@ -67,6 +67,10 @@ constexpr Real newton = 1e-10;
 /// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
 constexpr Real depth = 2e-14;
 
+/// Determinant over the diagonal's product from which on a 3×3 Hessian may be inverted by cofactors, which lose the digits
+/// of both eliminations together.
+constexpr Real wellScaled = 1e-2;
+
 /// Part of a diagonal element of the Hessian that elimination must leave. Below the square root of rounding the centre
 /// loses more than a relative 1e-12 of the overlap's size along that axis.
 constexpr Real cancellation = 1e-8;

@@ -37,7 +37,7 @@ def testOnePairKnowsItsEnergy():
 	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='conservative')
 	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap, but for 0.02 μ
 	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=1e-3)
-	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-12)
+	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-4)  # not exact: off the middle, side faces have weights too
 	assert other.rockingArm > 1000 * paper.depth and paper.rockingArm == 0
 
 
@@ -45,19 +45,19 @@ def testOnePairKnowsItsEnergy():
 
 
 def kineticEnergy(body):
-	"""From the angular momentum, which YADE's integrator keeps: its angular velocity is half a step old."""
+	"""From the angular momentum, where YADE's integrator keeps it (unequal moments): its angular velocity is half a step old."""
 	state = body.state
-	spin = state.ori.conjugate() * state.angMom
-	return state.mass * state.vel.dot(state.vel) / 2 + sum(spin[k]**2 / state.inertia[k] for k in range(3)) / 2
+	momentum = state.ori.conjugate() * state.angMom if body.aspherical else state.inertia[0] * state.angVel
+	return state.mass * state.vel.dot(state.vel) / 2 + sum(momentum[k]**2 / state.inertia[k] for k in range(3)) / 2
 
 
-def collide(seed, step, model):
-	"""Two unequal boxes meet without friction and damping. Returns the relative error of the kinetic energy after they have parted."""
+def collide(seed, step, model, cubes=False):
+	"""Two unequal boxes (or cubes) meet without friction and damping. Returns the relative error of the kinetic energy after they have parted."""
 	random = np.random.default_rng(seed)
 	O.reset()
-	joint(normalStiffness=stiffness, shearStiffness=0, frictionAngle=0)
+	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0)
 	loop(ig2={'contactModel': model})
-	half = [(.5, .35, .25), (.3, .45, .4)]
+	half = [(.4, .4, .4), (.3, .3, .3)] if cubes else [(.5, .35, .25), (.3, .45, .4)]
 	bodies = []
 	for k in range(2):
 		axis, angle = random.standard_normal(3), random.uniform(0, 3)
@@ -67,8 +67,9 @@ def collide(seed, step, model):
 	bodies[1].state.pos = bodies[0].state.pos + direction * 1.5
 	bodies[1].state.vel = -direction * 0.5 + Vector3(tuple(random.uniform(-.1, .1, 3)))
 	for body in bodies:
-		body.state.angMom = Vector3(tuple(random.uniform(-5, 5, 3)))
-		body.state.angVel = body.state.ori * Vector3(*[(body.state.ori.conjugate() * body.state.angMom)[k] / body.state.inertia[k] for k in range(3)])
+		spin = Vector3(tuple(random.uniform(-.2, .2, 3)))
+		body.state.angVel = body.state.ori * spin
+		body.state.angMom = body.state.ori * Vector3(*[body.state.inertia[k] * spin[k] for k in range(3)])
 	before = sum(map(kineticEnergy, bodies))
 	O.dt = step * sqrt(density * 0.2 / stiffness)
 	touched = False
@@ -79,25 +80,42 @@ def collide(seed, step, model):
 	return sum(map(kineticEnergy, bodies)) / before - 1
 
 
-meetings = (3, 5, 8, 11, 17)
+meetings = range(1, 11)
 
 
-def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep():
-	coarse, fine = (np.array([collide(seed, step, 'conservative') for seed in meetings]) for step in (0.04, 0.02))
-	paper = np.array([collide(seed, 0.02, 'paper') for seed in meetings])
+@pytest.mark.parametrize('cubes', [False, True])
+def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
+	"""Boxes turn by YADE's integrator for unequal moments, which for itself keeps energy to 1e-11 in free flight."""
+	coarse, fine = (np.array([collide(seed, step, 'conservative', cubes) for seed in meetings]) for step in (0.02, 0.01))
+	paper = np.array([collide(seed, 0.02, 'paper', cubes) for seed in meetings])
 	print('conservative', coarse, fine, 'paper', paper)
-	rms = lambda errors: sqrt(np.mean(errors**2))
+
+	def rms(errors):
+		return sqrt(np.mean(errors**2))
+
 	assert rms(fine) < rms(coarse) / 3.5
-	assert rms(paper) > 10 * rms(fine)
+	assert rms(fine) < 1e-4
+	assert rms(paper) > 10 * rms(coarse)
 
 
-def testAngularAndLinearMomentumAreKept():
-	collide(3, 0.04, 'conservative')
-	bodies = list(O.bodies)
-	total = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in bodies), Vector3.Zero)
-	O.run(50, wait=True)
-	after = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in bodies), Vector3.Zero)
-	assert (after - total).norm() < 1e-10 * total.norm()
+def testAngularMomentumIsKept():
+	"""Of cubes: YADE's integrator for unequal moments itself loses 1e-6 of it in fifty steps of free flight."""
+
+	def total():
+		return sum((b.state.inertia[0] * b.state.angVel + b.state.mass * b.state.pos.cross(b.state.vel) for b in O.bodies), Vector3.Zero)
+
+	collide(3, 0.02, 'conservative', cubes=True)
+	after = total()
+	O.resetTime()
+	for body in O.bodies:  # back through the collision, which is reversible
+		body.state.vel *= -1
+		body.state.angVel *= -1
+	contacts = 0
+	for _ in range(int(3.5 / O.dt)):
+		O.step()
+		contacts += any(i.isReal for i in O.interactions)
+	assert contacts > 0
+	assert (total() + after).norm() < 1e-11 * after.norm()
 
 
 # ------------------------------------------------------------------------------------------------------- rest and friction
@@ -118,19 +136,21 @@ def testFrictionOnAnInclineGivesTheExactAcceleration():
 
 
 def testTowerOfTenStands():
-	joint(normalStiffness=1e7, shearStiffness=1e7)
-	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), ig2=conservative)
+	joint(normalStiffness=1e8, shearStiffness=1e8)
+	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=conservative)
 	blockOnFloor(0)
 	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
-	O.dt = 2e-4
-	for _ in range(40):
-		O.run(250, wait=True)
-		O.dt = min(2e-4, polytope.stableTimeStep(0.2, default=2e-4))
-	weight = O.bodies[1].state.mass * gravity
+	O.dt = 1e-4
+	while O.time < 3:
+		O.run(500, wait=True)
+		O.dt = min(1e-4, polytope.stableTimeStep(0.2, default=1e-4))
+	overlap = O.bodies[1].state.mass * gravity / 1e8  # of one block's weight
+	rounding = 0.1 * 3e-3 * 0.5  # μ: the force between faces begins at 0.02 μ, a little more where they are shifted
 	for k in range(1, 11):
 		state = O.bodies[k].state
-		assert state.pos[2] == pytest.approx(k - .5, abs=11 * 11 * weight / 1e7) and state.vel.norm() < 1e-4
-	assert contact(O.bodies[0], O.bodies[1]).phys.normalForce[2] == pytest.approx(10 * weight, rel=1e-3)
+		sunk = overlap * sum(10 - below for below in range(k))
+		assert state.pos[2] == pytest.approx(k - .5 - sunk, abs=k * rounding)
+		assert state.vel.norm() < 1e-6 and state.angVel.norm() < 1e-6
 
 
 def testUndampedHeapKeepsItsEnergyBudget():
@@ -138,7 +158,7 @@ def testUndampedHeapKeepsItsEnergyBudget():
 	drift = {}
 	for model in ('conservative', 'paper'):
 		O.reset()
-		joint(normalStiffness=stiffness, shearStiffness=0, frictionAngle=0)
+		joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0)
 		loop(gravity=(0, 0, -gravity), ig2={'contactModel': model})
 		wall = {'fixed': True, 'cornerRadius': 0.05}
 		O.bodies.append(polytope.cuboid((0, 0, -.5), (3, 3, .5), **wall))
