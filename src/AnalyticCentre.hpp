@@ -74,22 +74,24 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 	const R kept = R(tolerance::cancellation);
 	step.skewed  = false;
 	if constexpr (D == 3) {
-		// LDLᵀ in the order z, y, x
-		const R dz = h[2][2];
-		if (!(dz > 0)) return false;
-		const R lzy = h[2][1] / dz, lzx = h[2][0] / dz;
-		const R dy = h[1][1] - lzy * h[2][1];
-		const R yx = h[1][0] - lzy * h[2][0];
-		const R lyx = yx / dy;
-		const R dx  = h[0][0] - lzx * h[2][0] - lyx * yx;
-		step.skewed = !(dy > kept * h[1][1]) || !(dx > kept * h[0][0]);
+		// by cofactors: one division where an elimination waits for three, one after another. What elimination in the order
+		// z, y, x would leave of the diagonal: yy / zz of y, det / yy of x.
+		const R zz  = h[2][2];
+		const R xx_ = h[1][1] * zz - h[2][1] * h[2][1];
+		const R xy_ = h[2][0] * h[2][1] - h[1][0] * zz;
+		const R xz_ = h[1][0] * h[2][1] - h[2][0] * h[1][1];
+		const R yy_ = h[0][0] * zz - h[2][0] * h[2][0];
+		const R yz_ = h[1][0] * h[2][0] - h[0][0] * h[2][1];
+		const R zz_ = h[0][0] * h[1][1] - h[1][0] * h[1][0];
+		const R det = h[0][0] * xx_ + h[1][0] * xy_ + h[2][0] * xz_;
+		if (!(zz > 0)) return false;
+		step.skewed = !(xx_ > kept * h[1][1] * zz) || !(det > kept * h[0][0] * xx_);
 		if (step.skewed) return false;
-		const R bz = -g[2], by = -g[1] - lzy * bz, bx = -g[0] - lzx * bz - lyx * by;
-		const R sz = bz / dz, sy = by / dy, sx = bx / dx;
-		step.direction[0] = sx;
-		step.direction[1] = sy - lyx * sx;
-		step.direction[2] = sz - lzy * step.direction[1] - lzx * sx;
-		step.decrement    = sqrt(bz * sz + by * sy + bx * sx);
+		const R scale     = R(-1) / det;
+		step.direction[0] = (xx_ * g[0] + xy_ * g[1] + xz_ * g[2]) * scale;
+		step.direction[1] = (xy_ * g[0] + yy_ * g[1] + yz_ * g[2]) * scale;
+		step.direction[2] = (xz_ * g[0] + yz_ * g[1] + zz_ * g[2]) * scale;
+		step.decrement    = sqrt(-dot<R, D>(step.direction, g));
 	} else {
 		const R dy = h[1][1];
 		if (!(dy > 0)) return false;
@@ -161,6 +163,9 @@ template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R
 	const R pole  = -horizontalMin<R, W>(-largest);
 	const R slope = -step.decrement * step.decrement;
 	if (!(pole > 0)) return 1;
+	// towards a plane: the minimum of a bound from above, φ(t) ≤ φ(0) + φ'(0) (t + t/p + log(1 − t p)/p²), p the pole's rate.
+	// Away from all near planes p is small, and the minimum may be many steps away: then it is looked for
+	if (pole > R(tolerance::nearPole)) return 1 / (1 + pole);
 	const R tMax = 1 / pole;
 	R       low = 0, high = tMax;
 	R       t = tMax + 1 / (slope - pole);

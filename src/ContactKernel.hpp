@@ -80,14 +80,17 @@ template <class R, int D> POLYTOPE_INLINE void homePlane(const PairInput& in, co
 template <class R, int D>
 POLYTOPE_INLINE bool startFrom(const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
 {
-	R a[D + 1][D], d[D + 1];
-	for (int k = 0; k <= D; ++k)
-		homePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a[k], d[k]);
-	if (!solveBasis<R, D>(a, d, basis)) return false;
+	R          normals[D + 1][D];
+	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
+		homePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a, d);
+		for (int j = 0; j < D; ++j)
+			normals[k][j] = a[j];
+	};
+	if (!solveBasis<R, D>(plane, basis)) return false;
 	for (int j = 0; j < D; ++j) {
 		dual[j] = 0;
 		for (int k = 0; k <= D; ++k)
-			if ((codes[k] & 1) == 0) dual[j] += basis.weight[k] * a[k][j];
+			dual[j] += R((codes[k] & 1) == 0) * basis.weight[k] * normals[k][j];
 	}
 	return true;
 }
@@ -98,7 +101,7 @@ template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R,
 	for (int j = 0; j < D; ++j) {
 		dual[j] = 0;
 		for (int k = 0; k <= D; ++k)
-			if (basis.plane[k] < planes.first) dual[j] += basis.weight[k] * planes.normal[j][basis.plane[k]];
+			dual[j] += R(basis.plane[k] < planes.first) * basis.weight[k] * planes.normal[j][basis.plane[k]];
 	}
 }
 
@@ -374,14 +377,14 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	R                origin[D];
 	for (int k = 0; k < D; ++k)
 		origin[k] = basis.point[k] / away;
-	aim<R, D>(f, dual, origin);
+	const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
 	placePair<R, D, W>(in, f, planes);
 	for (int k = 0; k <= D; ++k)
 		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
 
 	// 3. LP
 	LpStatus lp = LpStatus::PivotLimit;
-	if (solveBasis<R, D>(planes, basis)) {
+	if (moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis)) {
 		const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
 		lp              = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
 		rememberBasis<R, D>(planes, basis, memory, out);
@@ -404,7 +407,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	R x[D];
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
-	if (out.simplexPivots > 0 || !warm) {
+	// (where the overlap is thick, the frame of the first basis does: its digits are enough)
+	if (out.simplexPivots > 0 && !(basis.infeasibility < -R(tolerance::thin) * f.size)) {
 		const Rotation<R, D> turn = aim<R, D>(f, dual, x);
 		placePair<R, D, W>(in, f, planes);
 		R turned[D];
@@ -426,17 +430,18 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
 	if (lp == LpStatus::PivotLimit) outcome = ContactStatus::LpNotConverged;
 	else if (settings.contactPoint == ContactPoint::AnalyticCentre) {
-		R start[D];
+		R start[D], target[D];
 		for (int k = 0; k < D; ++k)
 			start[k] = x[k];
 		if (settings.warmStart && memory.hasPoint) {
-			R carried[2][D], middle[D];
+			R carried[2][D];
 			for (int body = 0; body < 2; ++body)
 				fromBody<R, D>(f, body, memory.point[body], carried[body]);
 			for (int k = 0; k < D; ++k)
-				middle[k] = (carried[0][k] + carried[1][k]) / 2;
-			moveInside<R, D, W>(planes, start, middle);
-		}
+				target[k] = (carried[0][k] + carried[1][k]) / 2;
+		} else
+			simplexCentre<R, D>(basis, x, target);
+		moveInside<R, D, W>(planes, start, target);
 		// what is left of the way to the centre moves the depth by at most that part of itself
 		const R            deep   = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
 		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);

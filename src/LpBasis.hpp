@@ -17,12 +17,12 @@
 namespace polytope {
 
 template <class R, int D> struct LpBasis {
-	int plane[D + 1];       ///< rows of PairPlanes
-	R   inverse[D + 1][D + 1]; ///< rows r_k of the inverse of the matrix with columns (a_k; 1)
-	R   weight[D + 1];      ///< λ_k, sum 1
-	R   noise[D + 1];       ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
-	R   point[D];           ///< x of the basis: its planes have equal violation
-	R   infeasibility = 0;  ///< s of the basis, ≤ s*
+	int plane[D + 1];     ///< rows of PairPlanes
+	R   inverse[D + 1][4]; ///< [j][k]: component j of row k of the inverse of the matrix with columns (a_k; 1)
+	R   weight[4];        ///< λ_k, sum 1
+	R   noise[4];         ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
+	R   point[D];         ///< x of the basis: its planes have equal violation
+	R   infeasibility = 0; ///< s of the basis, ≤ s*
 };
 
 /// Inverse, noise, weights and point of the basis from D differences of normals: of planes order[1] … order[D] to plane
@@ -60,32 +60,33 @@ solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&or
 	for (int k = 0; k < D; ++k)
 		lengths *= dot<R, D>(e[k], e[k]);
 	if (!(det * det > leastVolume * leastVolume * lengths)) return R(padOffset);
-	const R reciprocal = 1 / det;
-	R *     root = basis.inverse[order[0]], *before = basis.inverse[order[D - 1]];
+	const R   reciprocal = 1 / det;
+	const int root = order[0], before = order[D - 1];
 	for (int j = 0; j < D; ++j) {
-		root[j]        = 0;
-		basis.point[j] = 0;
+		basis.inverse[j][root] = 0;
+		basis.point[j]         = 0;
 	}
-	root[D] = 1;
+	basis.inverse[D][root] = 1;
 	for (int k = 0; k < D; ++k) {
-		R* row = basis.inverse[order[k + 1]];
-		row[D] = 0;
+		const int own         = order[k + 1];
+		basis.inverse[D][own] = 0;
 		for (int j = 0; j < D; ++j) {
-			row[j] = c[k][j] * reciprocal;
-			row[D] -= row[j] * a[order[0]][j];
+			const R component     = c[k][j] * reciprocal;
+			basis.inverse[j][own] = component;
+			basis.inverse[D][own] -= component * a[root][j];
 			// z = (x; −s) solves (a_k; 1)·z = d_k. Differences keep s exact when the planes agree.
-			basis.point[j] += row[j] * difference[k];
+			basis.point[j] += component * difference[k];
 		}
-		R* upper = chained && k == D - 1 ? before : root;
+		const int upper = chained && k == D - 1 ? before : root;
 		for (int j = 0; j <= D; ++j)
-			upper[j] -= row[j];
+			basis.inverse[j][upper] -= basis.inverse[j][own];
 	}
 	R longest = 0;
 	for (int k = 0; k <= D; ++k) {
 		R length = 0;
 		for (int j = 0; j <= D; ++j)
-			length += std::abs(basis.inverse[k][j]);
-		basis.weight[k] = basis.inverse[k][D];
+			length += std::abs(basis.inverse[j][k]);
+		basis.weight[k] = basis.inverse[D][k];
 		basis.noise[k]  = R(tolerance::rounding) * length;
 		longest         = maxOf<R>(longest, basis.noise[k]);
 	}
@@ -119,11 +120,11 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 			wrong = maxOf<R>(wrong, std::abs(dual[j]) * size);
 		if (wrong <= R(tolerance::refined) * size) break;
 		for (int k = 0; k <= D; ++k) {
-			minusS += basis.inverse[k][D] * primal[k];
+			minusS += basis.inverse[D][k] * primal[k];
 			for (int j = 0; j < D; ++j)
-				basis.point[j] += basis.inverse[k][j] * primal[k];
+				basis.point[j] += basis.inverse[j][k] * primal[k];
 			for (int j = 0; j <= D; ++j)
-				basis.weight[k] += basis.inverse[k][j] * dual[j];
+				basis.weight[k] += basis.inverse[j][k] * dual[j];
 		}
 	}
 }
@@ -163,15 +164,66 @@ __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const
 	return true;
 }
 
-/// Solves the basis of the planes (a_k, d_k), k = 0…D: inverse, weights, point, s. False if singular (normals that,
-/// with the row of ones, are linearly dependent to rounding).
-template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+/// solveFromDifferences() in 3-D with the planes in order, all rows at once: lane k is row k. a[j]: component j of the four
+/// normals. Also s.
+template <class R> POLYTOPE_INLINE R solveRows(const typename Lanes<R, 4>::Type (&a)[3], const typename Lanes<R, 4>::Type& d, LpBasis<R, 3>& basis)
 {
-	int order[D + 1];
+	using V = typename Lanes<R, 4>::Type;
+	V e[3], c[3], row[4]; // lane 0, the root's, is zero until its row is the others' rest
+	for (int j = 0; j < 3; ++j)
+		e[j] = a[j] - broadcast<R, 4>(a[j][0]);
+	const V difference = d - broadcast<R, 4>(d[0]);
+	for (int j = 0; j < 3; ++j) {
+		const V &u = e[(j + 1) % 3], &v = e[(j + 2) % 3];
+		c[j] = shuffled<R, 0, 2, 3, 1>(u) * shuffled<R, 0, 3, 1, 2>(v) - shuffled<R, 0, 2, 3, 1>(v) * shuffled<R, 0, 3, 1, 2>(u);
+	}
+	const V volume = e[0] * c[0] + e[1] * c[1] + e[2] * c[2];
+	const V length = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+	const R det    = volume[1];
+	if (!(det * det > R(tolerance::smallVolume) * R(tolerance::smallVolume) * (length[1] * length[2] * length[3]))) return R(padOffset);
+	const V reciprocal = broadcast<R, 4>(1 / det);
+	row[3]             = broadcast<R, 4>(0);
+	for (int j = 0; j < 3; ++j) {
+		row[j] = c[j] * reciprocal;
+		row[3] -= row[j] * broadcast<R, 4>(a[j][0]);
+	}
+	const V products[4] = { row[0] * difference, row[1] * difference, row[2] * difference, row[3] * difference };
+	R       sums[4], rest[4];
+	horizontalSums<R, 4>(products, sums);
+	horizontalSums<R, 4>(row, rest);
+	V longest = broadcast<R, 4>(0);
+	for (int j = 0; j < 4; ++j) {
+		row[j][0] = R(j == 3) - rest[j];
+		longest += absolute(row[j]);
+		store<R, 4>(basis.inverse[j], row[j]);
+	}
+	for (int j = 0; j < 3; ++j)
+		basis.point[j] = sums[j];
+	// from the weights, which sum to one
+	basis.infeasibility = -(d[0] + sums[3]);
+	longest *= broadcast<R, 4>(R(tolerance::rounding));
+	store<R, 4>(basis.weight, row[3]);
+	store<R, 4>(basis.noise, longest);
+	return -horizontalMin<R, 4>(-longest);
+}
+
+/// Solves the basis of D + 1 planes, plane(k, a, d) being the k-th: inverse, weights, point, s. False if singular (normals
+/// that, with the row of ones, are linearly dependent to rounding).
+template <class R, int D, class Plane> POLYTOPE_INLINE bool solveBasis(const Plane& plane, LpBasis<R, D>& basis)
+{
+	R a[D + 1][D], d[D + 1];
 	for (int k = 0; k <= D; ++k)
-		order[k] = k;
-	const R noise = solveFromDifferences<R, D>(a, d, order, false, R(tolerance::smallVolume), basis);
-	if (!(noise <= R(tolerance::refinedBasis)) && !solveNearlyParallel<R, D>(a, d, basis)) return false;
+		plane(k, a[k], d[k]);
+	if constexpr (D == 3) {
+		const typename Lanes<R, 4>::Type normals[3]
+		        = { four<R>(a[0][0], a[1][0], a[2][0], a[3][0]), four<R>(a[0][1], a[1][1], a[2][1], a[3][1]), four<R>(a[0][2], a[1][2], a[2][2], a[3][2]) };
+		if (solveRows<R>(normals, four<R>(d[0], d[1], d[2], d[3]), basis) <= R(tolerance::refinedBasis)) return true;
+		if (!solveNearlyParallel<R, D>(a, d, basis)) return false;
+	} else {
+		const int order[3] = { 0, 1, 2 };
+		const R   noise    = solveFromDifferences<R, D>(a, d, order, false, R(tolerance::smallVolume), basis);
+		if (!(noise <= R(tolerance::refinedBasis)) && !solveNearlyParallel<R, D>(a, d, basis)) return false;
+	}
 	// from the weights, not from z: their residual Σ λ a multiplies a point of the overlap, z's one multiplies x, which may be far
 	basis.infeasibility = 0;
 	for (int k = 0; k <= D; ++k)
@@ -181,10 +233,45 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const R (&a)[D + 1][D]
 
 template <class R, int D> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
 {
-	R a[D + 1][D], d[D + 1];
-	for (int k = 0; k <= D; ++k)
-		planes.plane(basis.plane[k], a[k], d[k]);
-	return solveBasis<R, D>(a, d, basis);
+	return solveBasis<R, D>([&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA { planes.plane(basis.plane[k], a, d); }, basis);
+}
+
+/// The solved basis in the planes' frame, of which it knows the frame it was solved in: `turn` and `origin` lead from there.
+/// Turned with it while its s is below `thin`; solved afresh where the overlap is so thin that rounding in the first frame
+/// would show.
+template <class R, int D>
+POLYTOPE_INLINE bool moveBasis(const PairPlanes<R, D>& planes, const Rotation<R, D>& turn, const R* origin, R thin, LpBasis<R, D>& basis)
+{
+	if (!(basis.infeasibility < thin)) return solveBasis<R, D>(planes, basis);
+	R moved[D];
+	for (int j = 0; j < D; ++j)
+		moved[j] = basis.point[j] - origin[j];
+	rotate<R, D>(turn, moved, basis.point);
+	basis.infeasibility = 0;
+	for (int k = 0; k <= D; ++k) {
+		R row[D], turned[D];
+		for (int j = 0; j < D; ++j)
+			row[j] = basis.inverse[j][k];
+		rotate<R, D>(turn, row, turned);
+		for (int j = 0; j < D; ++j)
+			basis.inverse[j][k] = turned[j];
+		basis.infeasibility -= basis.weight[k] * planes.offset[basis.plane[k]];
+	}
+	return true;
+}
+
+/// Analytic centre of the optimal basis' planes alone, a good guess of that of all: there λ_k slack_k is the same for all
+/// k, and Σ λ_k slack_k = −s at any point. Where a weight is nothing the plane does not bound the guess.
+template <class R, int D> POLYTOPE_INLINE void simplexCentre(const LpBasis<R, D>& basis, const R* x, R* centre)
+{
+	for (int j = 0; j < D; ++j)
+		centre[j] = x[j];
+	for (int k = 0; k <= D; ++k) {
+		const R share = maxOf<R>(basis.weight[k], R(tolerance::leastShare)) * (D + 1);
+		const R back  = -basis.infeasibility * (1 - 1 / share); // a_k·(centre − x)
+		for (int j = 0; j < D; ++j)
+			centre[j] += basis.inverse[j][k] * back;
+	}
 }
 
 template <class R, int D> POLYTOPE_INLINE bool dualFeasible(const LpBasis<R, D>& basis)

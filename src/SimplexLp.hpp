@@ -25,19 +25,20 @@ template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlan
 	V X[D];
 	for (int k = 0; k < D; ++k)
 		X[k] = broadcast<R, W>(x[k]);
-	V best = broadcast<R, W>(R(padOffset));
+	// the indices go along as numbers: to look for the smallest afterwards costs a branch that is always mispredicted
+	V best = broadcast<R, W>(R(padOffset)), where = broadcast<R, W>(0), index = firstIndices<R, W>();
 	for (int i = 0; i < planes.total; i += W) {
 		V slack = load<R, W>(planes.offset + i);
 		for (int k = 0; k < D; ++k)
 			slack -= load<R, W>(planes.normal[k] + i) * X[k];
 		store<R, W>(planes.slack + i, slack);
-		best = minOf(best, slack);
+		where = slack < best ? index : where;
+		best  = minOf(best, slack);
+		index += R(W);
 	}
 	smallestSlack = horizontalMin<R, W>(best);
-	int q         = 0;
-	while (q < planes.total && !(planes.slack[q] <= smallestSlack))
-		++q;
-	return q;
+	const V least = broadcast<R, W>(smallestSlack), none = broadcast<R, W>(R(planes.total));
+	return int(horizontalMin<R, W>(V(best <= least ? where : none)));
 }
 
 /// The row that leaves for entering column w: the smallest λ_k/w_k over w_k > 0. Among near-ties (Harris' test: each λ
@@ -45,14 +46,21 @@ template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlan
 /// plane index.
 template <class R, int D> POLYTOPE_INLINE int leavingRow(const LpBasis<R, D>& basis, const R (&w)[D + 1], bool bland)
 {
+	// selections, no branches: their outcome is as good as random
 	R limit = R(padOffset);
-	for (int k = 0; k <= D; ++k)
-		if (w[k] > R(tolerance::noise) * basis.noise[k])
-			limit = minOf<R>(limit, (maxOf<R>(basis.weight[k], 0) + (bland ? R(0) : R(tolerance::noise) * basis.noise[k])) / w[k]);
-	int leaving = -1;
 	for (int k = 0; k <= D; ++k) {
-		if (!(w[k] > R(tolerance::noise) * basis.noise[k]) || maxOf<R>(basis.weight[k], 0) > limit * w[k]) continue;
-		if (leaving < 0 || (bland ? basis.plane[k] < basis.plane[leaving] : w[k] * basis.noise[leaving] > w[leaving] * basis.noise[k])) leaving = k;
+		const R allowed = bland ? R(0) : R(tolerance::noise) * basis.noise[k];
+		const R ratio   = (maxOf<R>(basis.weight[k], 0) + allowed) / w[k];
+		limit           = w[k] > R(tolerance::noise) * basis.noise[k] ? minOf<R>(limit, ratio) : limit;
+	}
+	int leaving = -1;
+	R   best    = 0;
+	for (int k = 0; k <= D; ++k) {
+		const bool may  = (w[k] > R(tolerance::noise) * basis.noise[k]) & (maxOf<R>(basis.weight[k], 0) <= limit * w[k]);
+		const R    rank = bland ? R(-basis.plane[k]) : w[k] / basis.noise[k];
+		const bool take = may & ((leaving < 0) | (rank > best));
+		leaving         = take ? k : leaving;
+		best            = take ? rank : best;
 	}
 	return leaving;
 }
@@ -84,13 +92,12 @@ template <class R, int D> POLYTOPE_INLINE bool primalStep(const PairPlanes<R, D>
 	for (int k = 0; k <= D; ++k)
 		if (basis.weight[k] < -R(tolerance::noise) * basis.noise[k] && (leaving < 0 || basis.weight[k] < basis.weight[leaving])) leaving = k;
 	if (leaving < 0) return false;
-	const R* row   = basis.inverse[leaving];
 	R        limit = R(padOffset);
 	entering       = -1;
 	for (int i = 0; i < planes.total; ++i) {
-		R rate = row[D];
+		R rate = basis.inverse[D][leaving];
 		for (int j = 0; j < D; ++j)
-			rate += row[j] * planes.normal[j][i];
+			rate += basis.inverse[j][leaving] * planes.normal[j][i];
 		// basic, not met, or a twin of a basic plane
 		bool basic = false;
 		for (int k = 0; k <= D; ++k)
@@ -112,46 +119,58 @@ template <class R, int D, int W>
 POLYTOPE_INLINE LpStatus
 solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissAbove, R reach, int pivotLimit, int& pivots)
 {
-	int  stalled = 0;
-	bool bland   = false;
+	int            stalled = 0;
+	bool           bland   = false;
+	LpBasis<R, D>  spare;
+	LpBasis<R, D>* now  = &basis;
+	LpBasis<R, D>* next = &spare;
+	const auto     end  = [&](LpStatus status) {
+                if (now != &basis) basis = *now;
+                return status;
+	};
 	for (;;) {
-		if (lowerBound<R, D>(basis, reach) > dismissAbove) return LpStatus::Separated;
+		if (lowerBound<R, D>(*now, reach) > dismissAbove) return end(LpStatus::Separated);
 		R   smallest;
-		int q = mostViolated<R, D, W>(planes, basis.point, smallest);
+		int q = mostViolated<R, D, W>(planes, now->point, smallest);
 		// by how much the basis' own planes miss s is what rounding makes of the others
 		R rounding = R(tolerance::violation) * size;
 		for (int k = 0; k <= D; ++k)
-			rounding = maxOf<R>(rounding, 2 * std::abs(planes.slack[basis.plane[k]] + basis.infeasibility));
-		const R    bound = -basis.infeasibility - rounding;
+			rounding = maxOf<R>(rounding, 2 * std::abs(planes.slack[now->plane[k]] + now->infeasibility));
+		const R    bound = -now->infeasibility - rounding;
 		const bool met   = !(smallest < bound);
 		if (!met && bland) q = firstViolated<R, D>(planes, bound);
 		int leaving = -1;
-		if (met && !primalStep<R, D>(planes, basis, leaving, q)) return LpStatus::Optimal;
-		if (pivots >= pivotLimit || q < 0) return LpStatus::PivotLimit;
+		if (met && !primalStep<R, D>(planes, *now, leaving, q)) return end(LpStatus::Optimal);
+		if (pivots >= pivotLimit || q < 0) return end(LpStatus::PivotLimit);
 
-		R w[D + 1];
-		for (int k = 0; k <= D && !met; ++k) {
-			w[k] = basis.inverse[k][D];
-			for (int j = 0; j < D; ++j)
-				w[k] += basis.inverse[k][j] * planes.normal[j][q];
+		R w[D + 1] = {};
+		if (!met) {
+			for (int k = 0; k <= D; ++k) {
+				w[k] = now->inverse[D][k];
+				for (int j = 0; j < D; ++j)
+					w[k] += now->inverse[j][k] * planes.normal[j][q];
+			}
+			leaving = leavingRow<R, D>(*now, w, bland);
 		}
-		if (!met) leaving = leavingRow<R, D>(basis, w, bland);
-		if (leaving < 0) return LpStatus::PivotLimit; // Σ w = 1, so only rounding can bring us here
-		LpBasis<R, D> next  = basis;
-		next.plane[leaving] = q;
+		if (leaving < 0) return end(LpStatus::PivotLimit); // Σ w = 1, so only rounding can bring us here
+		for (int k = 0; k <= D; ++k)
+			next->plane[k] = now->plane[k];
+		next->plane[leaving] = q;
 		++pivots;
-		if (!solveBasis<R, D>(planes, next)) {
-			if (met) return LpStatus::PivotLimit;
-			if (-planes.slack[q] - basis.infeasibility <= R(tolerance::twinViolation) * size) return LpStatus::Optimal;
-			next                                     = basis;
-			next.plane[steadiestRow<R, D>(basis, w)] = q;
-			if (!solveBasis<R, D>(planes, next)) return LpStatus::PivotLimit;
+		if (!solveBasis<R, D>(planes, *next)) {
+			if (met) return end(LpStatus::PivotLimit);
+			if (-planes.slack[q] - now->infeasibility <= R(tolerance::twinViolation) * size) return end(LpStatus::Optimal);
+			next->plane[leaving]                        = now->plane[leaving];
+			next->plane[steadiestRow<R, D>(*now, w)] = q;
+			if (!solveBasis<R, D>(planes, *next)) return end(LpStatus::PivotLimit);
 		}
 		if (!met) {
-			stalled = next.infeasibility > basis.infeasibility ? 0 : stalled + 1;
+			stalled = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
 			bland   = stalled > tolerance::stalledPivots;
 		}
-		basis = next;
+		LpBasis<R, D>* const old = now;
+		now                      = next;
+		next                     = old;
 	}
 }
 

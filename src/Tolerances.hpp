@@ -52,6 +52,13 @@ constexpr int stalledPivots = 12;
 constexpr int pivotsPerPlane = 40;
 constexpr int pivotsAtLeast  = 200;
 
+/// × size: an overlap whose inscribed ball is smaller is thin. In a frame not made for it the Hessian loses 1/thin² of its
+/// digits and its planes 1/thin, so it gets one of its own; a thicker one does without.
+constexpr Real thin = 1e-3;
+
+/// Weight of a basis plane from which on it bounds the first guess of the analytic centre.
+constexpr Real leastShare = 1e-3;
+
 /// Default of `newtonTolerance`: the analytic centre is accepted when the step that follows is predicted shorter than
 /// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
 constexpr Real newton = 1e-10;
@@ -76,6 +83,9 @@ constexpr Real fullStep = 0.25;
 constexpr Real stagnation = 0.1;
 
 constexpr int newtonIterations = 100;
+
+/// A step that would use up more than this part of the nearest plane's slack needs no line search.
+constexpr Real nearPole = 0.5;
 
 /// Line search stops when the slope has fallen to this fraction of its start: a crude search suffices, the next
 /// Hessian is worth more.
