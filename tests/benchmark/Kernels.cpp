@@ -46,37 +46,35 @@ namespace {
 		{
 			int    wrong = 0;
 			double pivots = 0, iterations = 0;
-			for (std::size_t i = 0; i < set->pairs.size(); ++i) {
+			for (std::size_t i = 0; i < set->pairs().size(); ++i) {
 				if (!warm) memory[i] = PairMemory();
-				else {
-					query(set->pairs[i], memory[i]);
-					query(set->moved[i], memory[i]);
-				}
-				query(set->pairs[i], memory[i]);
+				else
+					for (std::size_t k = set->steps.size(); k-- > 1;)
+						query(set->steps[k][i], memory[i]);
+				query(set->pairs()[i], memory[i]);
 				pivots += result.simplexPivots;
 				iterations += result.newtonIterations;
 				wrong += result.inContact != set->touching || result.status == ContactStatus::Failed;
 				if (!result.inContact) continue;
 				// the linear programme's own way out frees the pair
-				Pair       free  = set->pairs[i];
+				Pair       free  = set->pairs()[i];
 				const Real apart = -result.infeasibility / result.dualDirection.squaredNorm();
 				free.centre2 += (1 + Real(1e-9)) * apart * result.dualDirection;
 				wrong += samples::infeasibility(free) < -1e-9 * free.size();
 			}
 			state.counters["wrong"]      = wrong;
-			state.counters["pivots"]     = pivots / double(set->pairs.size());
-			state.counters["iterations"] = iterations / double(set->pairs.size());
+			state.counters["pivots"]     = pivots / double(set->pairs().size());
+			state.counters["iterations"] = iterations / double(set->pairs().size());
 		}
 
 		void run(benchmark::State& state)
 		{
-			memory.assign(set->pairs.size(), PairMemory());
+			memory.assign(set->pairs().size(), PairMemory());
 			check(state);
-			bool         odd  = false;
-			const double size = double(set->pairs.size());
+			std::size_t  step = 0;
+			const double size = double(set->pairs().size());
 			for (auto _ : state) {
-				odd               = !odd;
-				const auto& pairs = warm && odd ? set->moved : set->pairs;
+				const auto& pairs = warm ? set->walk(++step) : set->pairs();
 				for (std::size_t i = 0; i < pairs.size(); ++i) {
 					if (!warm) {
 						PairMemory fresh;
@@ -106,16 +104,15 @@ namespace {
 	{
 		Ours ours { &set, {}, warm, {}, {}, {} };
 		ours.settings.contactPoint = ContactPoint::ChebyshevCentre;
-		ours.memory.assign(set.pairs.size(), PairMemory());
+		ours.memory.assign(set.pairs().size(), PairMemory());
 		ours.check(state);
 		ours.settings.timed = true;
-		bool         odd    = false;
-		double       clock  = clockCost();
+		std::size_t step    = 0;
+		double      clock   = clockCost();
 		for (int i = 0; i < 20; ++i)
 			clock = std::min(clock, clockCost());
 		for (auto _ : state) {
-			odd               = !odd;
-			const auto& pairs = warm && odd ? set.moved : set.pairs;
+			const auto& pairs = warm ? set.walk(++step) : set.pairs();
 			double      total = 0, count = 0;
 			for (std::size_t i = 0; i < pairs.size(); ++i) {
 				if (!warm) ours.memory[i] = PairMemory();
@@ -128,7 +125,7 @@ namespace {
 			state.SetIterationTime(1e-9 * double(pairs.size()) * std::max(total, 1.0) / std::max(count, 1.0));
 		}
 		state.counters["pair"]
-		        = benchmark::Counter(double(set.pairs.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+		        = benchmark::Counter(double(set.pairs().size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 
 	// ----------------------------------------------------------------------------------------------------------- floor
@@ -153,9 +150,9 @@ namespace {
 			std::vector<Real>   numbers;
 			PairPlanes<Real, 3> planes;
 		};
-		std::vector<Rows> all(set.pairs.size());
+		std::vector<Rows> all(set.pairs().size());
 		for (std::size_t i = 0; i < all.size(); ++i) {
-			const Pair& pair   = set.pairs[i];
+			const Pair& pair   = set.pairs()[i];
 			auto&       planes = all[i].planes;
 			planes.first       = pair.shape[0]->paddedCount();
 			planes.total       = planes.first + pair.shape[1]->paddedCount();
@@ -253,7 +250,7 @@ namespace {
 		std::vector<std::pair<const ConvexShape*, int>> known;
 		std::vector<PlainPair>                          pairs;
 		int                                             wrong = 0;
-		for (const Pair& pair : set.pairs) {
+		for (const Pair& pair : set.pairs()) {
 			pairs.push_back(plain(pair, *library, known));
 			const PlainPair&   p      = pairs.back();
 			const peer::Answer answer = library->query(p.body[0], p.pose[0], p.body[1], p.pose[1]);
@@ -324,7 +321,7 @@ namespace {
 int main(int argc, char** argv)
 {
 	const char* count = std::getenv("POLYTOPE_BENCHMARK_PAIRS");
-	const auto  sets  = polytope::benchmarks::pairSets(count ? std::atoi(count) : 1000);
+	const auto  sets  = polytope::benchmarks::pairSets(count ? std::atoi(count) : 1000, std::getenv("POLYTOPE_BENCHMARK_HEAP"));
 	polytope::benchmarks::registerAll(sets);
 	benchmark::AddCustomContext("instruction set", polytope::instructionSet());
 	benchmark::Initialize(&argc, argv);

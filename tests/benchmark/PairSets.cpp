@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PairSets.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
 namespace polytope::benchmarks {
 
 namespace {
@@ -99,21 +105,59 @@ namespace {
 
 } // namespace
 
-std::vector<NamedSet> pairSets(int count)
+/// Contacts of a heap from the file that heap.py writes: faces and circumradius of both, rotation of both (row by row),
+/// from centre 1 to centre 2.
+std::vector<Pair> heapPairs(const char* path)
 {
+	std::ifstream                          file(path);
+	std::map<std::pair<int, Real>, Shape>  shapes;
+	std::vector<Pair>                      pairs;
+	std::string                            line;
+	while (std::getline(file, line)) {
+		std::replace(line.begin(), line.end(), ',', ' ');
+		std::istringstream numbers(line);
+		Pair               pair;
+		for (auto& shape : pair.shape) {
+			Real faces, circumradius;
+			numbers >> faces >> circumradius;
+			Shape& known = shapes[{ int(faces), circumradius }];
+			if (!known) known = solid(int(faces), circumradius);
+			shape = known;
+		}
+		for (Matrix3& rotation : pair.rotation)
+			for (int i = 0; i < 9; ++i)
+				numbers >> rotation(i / 3, i % 3);
+		for (int k = 0; k < 3; ++k)
+			numbers >> pair.centre2[k];
+		if (!numbers) throw std::runtime_error(std::string(path) + ": not a row of 25 numbers: " + line);
+		pairs.push_back(pair);
+	}
+	if (pairs.empty()) throw std::runtime_error(std::string(path) + ": no contacts");
+	return pairs;
+}
+
+std::vector<NamedSet> pairSets(int count, const char* heap)
+{
+	constexpr std::size_t stepCount = 6;
 	std::vector<NamedSet> sets;
 	const auto            add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make) {
                 const std::uint64_t seed = sets.size() + 1;
                 sets.push_back({ name, touching, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
+                                        if (!made->steps.empty()) return *made;
                                         Random random(seed);
                                         made->name     = name;
                                         made->touching = touching;
-                                        while (int(made->pairs.size()) < count) {
-                                                const Pair pair = make(random), moved = afterStep(pair, random);
-                                                // a thin pair may be parted by the step: then it is none of a contact that lasts
-                                                if ((samples::infeasibility(pair) < 0) != touching || (samples::infeasibility(moved) < 0) != touching) continue;
-                                                made->pairs.push_back(pair);
-                                                made->moved.push_back(moved);
+                                        made->steps.resize(stepCount);
+                                        for (int trial = 0; int(made->pairs().size()) < count; ++trial) {
+                                                if (trial > 1000 * count) throw std::runtime_error(name + ": hardly a pair lasts");
+                                                std::vector<Pair> steps { make(random) };
+                                                while (steps.size() < stepCount)
+                                                        steps.push_back(afterStep(steps.back(), random));
+                                                // a thin pair may be parted by the steps: then it is none of a contact that lasts
+                                                const auto other = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
+                                                if (std::any_of(steps.begin(), steps.end(), other)) continue;
+                                                for (std::size_t k = 0; k < stepCount; ++k)
+                                                        made->steps[k].push_back(steps[k]);
                                         }
                                         return *made;
                                 } });
@@ -140,6 +184,8 @@ std::vector<NamedSet> pairSets(int count)
 	add("sizes 1:100", true, [](Random& random) { return randomlyTurned(solid(6, 100), solid(6), touch, random); });
 	add("slivers", true, ofKind(sliver, 7, Real(-0.1)));
 	add("redundant planes", true, ofKind(withRedundantPlanes, 8, touch));
+	if (heap)
+		add("settled heap", true, [pairs = heapPairs(heap), next = std::size_t(0)](Random&) mutable { return pairs[next++ % pairs.size()]; });
 	return sets;
 }
 

@@ -75,7 +75,8 @@ def writeCsv(path, rows):
 
 
 def kernelGroup(run):
-	found, context = kernels.run(run.programs, run.core, run.quick, run.output)
+	heap = run.scenes.contactsOfHeap(run.output / 'heap-contacts.csv')
+	found, context = kernels.run(run.programs, run.core, run.quick, run.output, heap)
 	run.results['kernels'] = {
 	        'context': context,
 	        'measurements': [dict(dataclasses.asdict(one), median=one.median, spread=one.spread) for one in found.values()],

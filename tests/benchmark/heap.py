@@ -14,6 +14,7 @@ import time
 import numpy as np
 from yade import Body, InsertionSortCollider, InteractionLoop, ForceResetter, NewtonIntegrator, O, Quaternion, Vector3, utils
 from yade.polytope.scenes import FallingPolyhedra
+from yade.polytope.scenes.falling import circumradiusOfUnitVolume
 
 
 @dataclasses.dataclass
@@ -188,15 +189,20 @@ def loadState(path):
 
 
 def writePairs(path, scene):
-	"""Real contacts of the particles: number of faces, size and pose of both, in the order of PairSets.cpp."""
+	"""Real contacts of the particles for PairSets.cpp: faces and circumradius of both, rotation of both, from centre to centre."""
 	particles = set(scene.particleIds)
 	rows = []
 	for contact in O.interactions:
 		if not contact.isReal or contact.id1 not in particles or contact.id2 not in particles:
 			continue
 		one, two = O.bodies[contact.id1].state, O.bodies[contact.id2].state
-		numbers = [len(O.bodies[contact.id1].shape.normals), len(O.bodies[contact.id2].shape.normals)]
-		rows.append(numbers + list(np.array(one.ori.toRotationMatrix()).ravel()) + list(np.array(two.ori.toRotationMatrix()).ravel()) + list(two.pos - one.pos))
+		row = []
+		for number in (contact.id1, contact.id2):
+			faces = len(O.bodies[number].shape.normals)
+			row += [faces, circumradiusOfUnitVolume(faces) * scene.size]
+		for state in (one, two):
+			row += [x for line in state.ori.toRotationMatrix() for x in line]
+		rows.append(row + list(two.pos - one.pos))
 	np.savetxt(path, rows, fmt='%.17g', delimiter=',')
 
 

@@ -32,8 +32,9 @@ class Measurement:
 		return (high - low) / 2 / self.median
 
 
-def run(folder, core, quick, output):
-	"""All kernels on one core, repeated in random order. Returns {(method, set): Measurement} and the program's context."""
+def run(folder, core, quick, output, heap):
+	"""All kernels on one core, repeated in random order. Returns {(method, set): Measurement} and the program's
+	context. *heap*: file with a heap's contacts."""
 	pairs, repetitions = (200, 5) if quick else (1000, 9)
 	raw = pathlib.Path(output) / 'kernels.json'
 	command = [
@@ -44,7 +45,7 @@ def run(folder, core, quick, output):
 	]
 	log = pathlib.Path(output) / 'kernels.log'
 	with open(log, 'w') as file:
-		result = subprocess.run(command, env=dict(os.environ, POLYTOPE_BENCHMARK_PAIRS=str(pairs)), stdout=file, stderr=subprocess.STDOUT)
+		result = subprocess.run(command, env=dict(os.environ, POLYTOPE_BENCHMARK_PAIRS=str(pairs), POLYTOPE_BENCHMARK_HEAP=str(heap)), stdout=file, stderr=subprocess.STDOUT)
 	if result.returncode:
 		raise RuntimeError(f'polytope_benchmark ended with {result.returncode}; see {log}')
 	with open(raw) as file:

@@ -93,6 +93,11 @@ class Scenes:
 					found[name][method] = self.peer(method, settle=20, load=state, **heap)
 		return found
 
+	def contactsOfHeap(self, path):
+		"""Writes the contacts of a settled heap of all five solids, for the kernels."""
+		self.run(faces=list(solids.values()), number=300, columns=7, settle=4000, steps=10, pairs=str(path))
+		return path
+
 	def settledCubes(self):
 		"""Settled cubes, and YADE's spheres of the same volume: {method: result}."""
 		number, columns = (1000, 12) if self.quick else (10000, 30)

@@ -101,8 +101,8 @@ TEST(Counters, HullsOfFiftyFaces)
 	});
 }
 
-/// A cube that lies on another one: what a settled heap and a wall are made of. Many bases are optimal, and a step of 1e-4
-/// turns one into another: the warm start helps little here.
+/// A cube that lies on another one: what a settled heap and a wall are made of. The faces are parallel: many bases
+/// are optimal, and the first step, which tilts them by 1e-4, makes another one so.
 TEST(Counters, StackedCubes)
 {
 	expectWithin({ "stacked cubes", { 2.4, 5.3, 4, 8 }, { 2.3, 4.6, 6, 8 } }, [](std::mt19937_64& random) {
