@@ -9,9 +9,10 @@ set -euo pipefail
 root=$1
 shift
 
-place() { # mounts the machine's $1 at its place in the root
-	if [ -d "$1" ]; then mkdir -p "$root$1"; else mkdir -p "$root$(dirname "$1")" && touch "$root$1"; fi
-	mount --rbind "$1" "$root$1"
+place() { # mounts the machine's $1 at its place in the root, or at $2
+	local at=$root${2:-$1}
+	if [ -d "$1" ]; then mkdir -p "$at"; else mkdir -p "$(dirname "$at")" && touch "$at"; fi
+	mount --rbind "$1" "$at"
 }
 
 for folder in /* /var/tmp /run/user; do
@@ -22,6 +23,8 @@ for folder in /* /var/tmp /run/user; do
 done
 for folder in /proc /sys /dev; do place "$folder"; done
 place /etc/hosts
+# the machine's way out: names and certificates
+for file in /etc/resolv.conf /etc/ssl/certs/ca-certificates.crt; do [ ! -e "$file" ] || place "$(readlink -f "$file")" "$file"; done
 
 # what belongs to the machine's own programs would mislead those in here
 unset LD_LIBRARY_PATH LD_PRELOAD PYTHONPATH PYTHONHOME VIRTUAL_ENV

@@ -65,6 +65,7 @@ case $command in
 	test) build && runTests "$@" ;;
 	yade) build && exec yade "$@" ;;
 	python) build && exec python3 "$@" ;;
+	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
 	shell) build && exec bash "$@" ;;
 	format) format "$@" ;;
 	*) fail "inside.sh: no command $command" ;;

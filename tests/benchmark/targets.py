@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The table: where we want to be, and where we are."""
+import dataclasses
+import math
+
+import scenes
+from scenes import median, solids
+
+
+@dataclasses.dataclass
+class Row:
+	"""One target. *ratio* is what the target bounds; *ours* and *peer* are what it is made of, with units."""
+
+	measure: str
+	target: str
+	ours: str
+	peer: str
+	ratio: float
+	met: bool
+
+
+def atMost(measure, bound, against, ours, peer, form='{:.3f} µs'):
+	ratio = ours / peer
+	return Row(measure, f'≤ {bound} × {against}', form.format(ours), form.format(peer), ratio, ratio <= bound)
+
+
+def atLeast(measure, bound, against, ours, peer, form='{:.3f} µs'):
+	ratio = peer / ours
+	return Row(measure, f'≥ {bound} × faster than {against}', form.format(ours), form.format(peer), ratio, ratio >= bound)
+
+
+def below(measure, bound, ours):
+	return Row(measure, f'< {bound} µs here', f'{ours:.3f} µs', '', math.nan, ours < bound)
+
+
+def kernelRows(kernels):
+	"""Rows of the kernels; those of a peer that is not there are left out."""
+	rows = []
+
+	def time(method, name):
+		found = kernels.get((method, name))
+		return found.median if found else None
+
+	def compare(kind, measure, bound, method, peer, name):
+		ours, other = time(method, name), time(peer, name)
+		if ours and other:
+			wrong = kernels[peer, name].wrong
+			rows.append(kind(f'{measure}, {name}', bound, peer + (f' ({wrong} wrong)' if wrong else ''), ours, other))
+
+	for name in solids:
+		compare(atMost, 'touching, cold', 1.0, 'ours cold', 'libccd MPR', name)
+	for name in solids:
+		compare(atMost, 'touching, cold', 0.5, 'ours cold', 'coal GJK+EPA', name)
+	for name in solids:
+		compare(atMost, 'touching, warm', 0.4, 'ours warm', 'libccd MPR', name)
+	rows.append(below('touching, warm, cube', 0.2, time('ours warm', 'cube')))
+	for name in solids:
+		compare(atMost, 'separated, warm', 0.1, 'ours warm', 'coal GJK+EPA', f'{name} apart')
+	rows.append(below('separated, warm, slowest solid', 0.03, max(time('ours warm', f'{name} apart') for name in solids)))
+	for name in ('hull 50', 'hull 200'):
+		compare(atMost, 'cold', 0.5, 'ours cold', 'coal GJK+EPA', name)
+	each = {planes: time('ours cold', f'hull {planes}') / (2 * planes) for planes in (20, 200)}
+	rows.append(atMost('cost per plane, 200 faces, cold', 1.0, 'that at 20', each[200], each[20], '{:.4f} µs'))
+	for name in solids:
+		compare(atLeast, 'LP alone, cold', 100, 'ours, LP alone cold', 'CLP, as YADE calls it', name)
+	for name in solids:
+		compare(atLeast, 'LP alone, cold', 5, 'ours, LP alone cold', 'CLP, one model reused', name)
+	for name in (*solids, 'hull 50', 'hull 200'):
+		compare(atMost, 'whole cold query', 25, 'ours cold', 'one pass', name)
+	return rows
+
+
+def sceneRows(found):
+	rows = []
+	for name, methods in found.items():
+		for method, bound in (('potentialBlock', 100), ('polyhedra', 60)):
+			if methods.get(method):
+				ours, peer = (1e6 * median(methods[key]['perPair']) for key in ('ours', method))
+				rows.append(atLeast(f'InteractionLoop per pair, 200 falling, {name}', bound, scenes.peers[method], ours, peer))
+	return rows
+
+
+def settledRows(found):
+	ours, spheres = (1e6 * median(found[key]['perContact']) for key in ('ours', 'spheres'))
+	number = found['ours']['request']['number']
+	return [atMost(f'InteractionLoop per contact, settled heap of {number} cubes', 4, "YADE's spheres", ours, spheres)]
+
+
+def growthRows(found, memory):
+	numbers = sorted(found)
+	first = numbers[0]
+	cost = {number: 1e6 * median(found[number]['perBody']) for number in numbers}
+	rows = [atMost(f'time per body and step, {number} bodies', 1.3, f'that of {first}', cost[number], cost[first]) for number in numbers[1:]]
+	if memory.get('ours') and memory.get('polyhedra'):
+		for measure, bytesOf in (('body', scenes.memoryPerBody), ('contact', scenes.memoryPerContact)):
+			ours, peer = (bytesOf(memory[key]) for key in ('ours', 'polyhedra'))
+			rows.append(atMost(f'memory per {measure}, 2000 cubes', 0.333, 'Polyhedra', ours, peer, '{:.0f} B'))
+	return rows
+
+
+def threadRows(found):
+	one, two = (1e6 * median([row['loop'] / row['pairs'] for row in found[threads]['rows']]) for threads in (1, 2))
+	return [atLeast(f"InteractionLoop per pair, threads 1 → 2, {found[1]['request']['number']} cubes", 1.8, 'one thread', two, one)]

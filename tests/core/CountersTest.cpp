@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// What a query does, counted: regressions of speed are caught by counters, not by clocks. The bounds are what was measured
+// when they were set, with some room for another compiler's rounding; a change that needs more has to say why.
+#include "PairSamples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+/// Of a set of pairs: means, then the largest.
+struct Counts {
+	double meanPivots = 0, meanIterations = 0;
+	int    mostPivots = 0, mostIterations = 0;
+};
+
+struct Bounds {
+	const char* name;
+	Counts      cold, warm;
+};
+
+/// Moved by 1e-4 of the size and turned by 1e-4: a step of DEM.
+Pair afterStep(Pair pair, std::mt19937_64& random)
+{
+	pair.centre2 += Real(1e-4) * pair.size() * randomDirection(random);
+	pair.rotation[1] = Eigen::AngleAxis<Real>(Real(1e-4), randomDirection(random)).toRotationMatrix() * pair.rotation[1];
+	return pair;
+}
+
+/// Pairs from `make`; warm: each pair's query after one of the same pair a step before.
+template <class Make> void expectWithin(const Bounds& bounds, Make make, ContactSettings settings = {})
+{
+	const int       count = 300;
+	std::mt19937_64 random(20260);
+	Counts          cold, warm;
+	const auto      add = [](Counts& counts, const ContactResult& result) {
+                counts.meanPivots += double(result.simplexPivots) / count;
+                counts.meanIterations += double(result.newtonIterations) / count;
+                counts.mostPivots     = std::max(counts.mostPivots, result.simplexPivots);
+                counts.mostIterations = std::max(counts.mostIterations, result.newtonIterations);
+	};
+	for (int i = 0; i < count; ++i) {
+		const Pair pair = make(random);
+		PairMemory memory;
+		add(cold, query(pair, settings, &memory));
+		add(warm, query(afterStep(pair, random), settings, &memory));
+	}
+	const auto expect = [&](const char* start, const Counts& found, const Counts& bound) {
+		std::printf(
+		        "%-18s %s: pivots %.2f (most %d), Newton iterations %.2f (most %d)\n", bounds.name, start, found.meanPivots, found.mostPivots,
+		        found.meanIterations, found.mostIterations);
+		EXPECT_LE(found.meanPivots, bound.meanPivots) << bounds.name << ", " << start;
+		EXPECT_LE(found.mostPivots, bound.mostPivots) << bounds.name << ", " << start;
+		EXPECT_LE(found.meanIterations, bound.meanIterations) << bounds.name << ", " << start;
+		EXPECT_LE(found.mostIterations, bound.mostIterations) << bounds.name << ", " << start;
+	};
+	expect("cold", cold, bounds.cold);
+	expect("warm", warm, bounds.warm);
+}
+
+constexpr Real touching = Real(0.005); // of the inscribed radius
+
+TEST(Counters, RegularSolids)
+{
+	const std::pair<int, Bounds> solids[] = {
+		{ 4, { "tetrahedron", { 2.3, 3.5, 4, 6 }, { 0.05, 3.2, 1, 4 } } },
+		{ 6, { "cube", { 3.1, 3.8, 6, 7 }, { 0.05, 3.2, 1, 4 } } },
+		{ 8, { "octahedron", { 3.4, 5.0, 7, 9 }, { 0.05, 3.2, 1, 4 } } },
+		{ 12, { "dodecahedron", { 4.5, 4.2, 8, 8 }, { 0.05, 3.2, 1, 4 } } },
+		{ 20, { "icosahedron", { 5.1, 5.7, 9, 10 }, { 0.05, 3.2, 1, 4 } } },
+	};
+	for (const auto& [faces, bounds] : solids)
+		expectWithin(bounds, [faces = faces](std::mt19937_64& random) { return regularPair(faces, faces, touching, random); });
+}
+
+/// Hulls of 50 faces, all of which touch a ball: none is redundant.
+TEST(Counters, HullsOfFiftyFaces)
+{
+	std::mt19937_64 own(50);
+	Shapes          shapes;
+	for (int i = 0; i < 20; ++i) {
+		HalfSpaces set = randomPlanes(50, own);
+		for (Real& offset : set.offsets)
+			offset = 1;
+		shapes.push_back(ConvexShape::shared(set, Real(0.1)));
+	}
+	expectWithin({ "hull 50", { 7, 5.5, 14, 9 }, { 0.05, 3.2, 1, 5 } }, [&](std::mt19937_64& random) {
+		Pair pair;
+		for (int body = 0; body < 2; ++body) {
+			pair.shape[body]    = shapes[random() % shapes.size()];
+			pair.rotation[body] = randomRotation(random);
+		}
+		moveTo(pair, randomDirection(random), -touching * pair.inscribedRadius());
+		return pair;
+	});
+}
+
+/// A cube that lies on another one: what a settled heap and a wall are made of. The faces are parallel: many bases
+/// are optimal, and the first step, which tilts them by 1e-4, makes another one so.
+TEST(Counters, StackedCubes)
+{
+	expectWithin({ "stacked cubes", { 2.4, 5.3, 4, 8 }, { 2.3, 4.6, 6, 8 } }, [](std::mt19937_64& random) {
+		Pair pair;
+		pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+		pair.rotation[1]              = Eigen::AngleAxis<Real>(uniform(random, 0, 1), Vector3::UnitZ()).toRotationMatrix();
+		pair.centre2                  = Vector3(uniform(random, -1, 1), uniform(random, -1, 1), 2 - touching * 2);
+		return turned(pair, randomRotation(random));
+	});
+}
+
+/// Separated pairs: nearly all are dismissed by the last step's basis, without a pivot.
+TEST(Counters, SeparatedPairsAreDismissedAtOnce)
+{
+	const int count = 300;
+	for (const int faces : { 4, 6, 8, 12, 20 }) {
+		std::mt19937_64 random(77);
+		int             dismissed = 0, pivots = 0;
+		for (int i = 0; i < count; ++i) {
+			const Pair pair = regularPair(faces, faces, Real(-0.05), random);
+			PairMemory memory;
+			ASSERT_FALSE(query(pair, {}, &memory).inContact);
+			const ContactResult result = query(afterStep(pair, random), {}, &memory);
+			ASSERT_FALSE(result.inContact);
+			dismissed += result.dismissed;
+			pivots += result.simplexPivots;
+		}
+		std::printf("%d faces: %d of %d dismissed, %d pivots\n", faces, dismissed, count, pivots);
+		// an optimum with a weight of nearly zero may lose its basis to a step
+		EXPECT_GE(dismissed, count - 3) << faces;
+		EXPECT_LE(pivots, 10) << faces;
+	}
+}
+
+/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions> queries 20 pairs
+/// so often, cold.
+TEST(Counters, DISABLED_Queries)
+{
+	const char* text = std::getenv("POLYTOPE_COUNTED");
+	ASSERT_NE(text, nullptr);
+	int faces = 0, repetitions = 0;
+	ASSERT_EQ(std::sscanf(text, "%d,%d", &faces, &repetitions), 2);
+	std::printf("instruction set: %s\n", instructionSet());
+	std::mt19937_64   random(1);
+	std::vector<Pair> pairs;
+	for (int i = 0; i < 20; ++i)
+		pairs.push_back(regularPair(faces, faces, touching, random));
+	Real sum = 0;
+	for (int i = 0; i < repetitions; ++i)
+		for (const Pair& pair : pairs)
+			sum += query(pair).depth;
+	EXPECT_GT(sum, repetitions ? 0 : -1);
+}
+
+} // namespace

@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bound on the machine instructions of one cold query, counted by callgrind: the same on a busy machine.
+
+Usage: instructions.py POLYTOPE_CORE_TESTS. Exit code 77 (skipped) where there is no valgrind, or no AVX2 in it.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+bounds = {4: 4200, 6: 5300, 12: 6700, 20: 9000}
+"""Faces of the regular solids: instructions a touching pair, measured and a tenth more."""
+
+pairs = 20
+few, many = 5, 55
+
+
+def run(program, faces, repetitions):
+	"""Instructions of the whole process, and what it printed."""
+	command = [
+	        'valgrind', '--tool=callgrind', '--callgrind-out-file=/dev/null', program, '--gtest_also_run_disabled_tests', '--gtest_filter=Counters.DISABLED_Queries'
+	]
+	result = subprocess.run(command, env=dict(os.environ, POLYTOPE_COUNTED=f'{faces},{repetitions}'), capture_output=True, text=True)
+	if result.returncode:
+		sys.exit(f'{" ".join(command)} ended with {result.returncode}:\n{result.stdout}\n{result.stderr}')
+	return int(re.search(r'Collected\s*:\s*(\d+)', result.stderr).group(1)), result.stdout
+
+
+def main():
+	if not shutil.which('valgrind'):
+		print('no valgrind')
+		return 77
+	failed = False
+	for faces, bound in bounds.items():
+		(first, printed), (second, _) = run(sys.argv[1], faces, few), run(sys.argv[1], faces, many)
+		if 'instruction set: AVX2' not in printed:
+			print('the bounds are for AVX2')
+			return 77
+		each = (second - first) / ((many - few) * pairs)
+		print(f'{faces} faces: {each:.0f} instructions a query, bound {bound}', flush=True)
+		failed |= each > bound
+	return failed
+
+
+if __name__ == '__main__':
+	sys.exit(main())

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# shellcheck shell=bash disable=SC2154
+#
+# `./run bench`: builds the comparators in a folder of their own, so that the ordinary build stays as it is, and measures.
+# Part of inside.sh.
+
+# coal comes from PyPI; without it the benchmark goes on.
+coalPrefix() {
+	local venv=$cache/bench-venv
+	if [ ! -e "$venv/complete" ]; then
+		rm -rf "$venv"
+		(step "fetching coal from PyPI" "The benchmark goes on without it." \
+			bash -c 'python3 -m venv "$0" && "$0/bin/pip" install --disable-pip-version-check coal && touch "$0/complete"' "$venv") >&2 || return 0
+	fi
+	echo "$venv"/lib/python3*/site-packages/cmeel.prefix
+}
+
+benchmark() {
+	local programs=$build/bench coal
+	case " $* " in *" --help "* | *" -h "*) exec python3 "$project/tests/benchmark/bench.py" --programs "$programs" --help ;; esac
+	coal=$(coalPrefix)
+	(
+		flock 9
+		step "configuring the benchmark" "tools/packages.txt lists what is needed." \
+			cmake -S "$project" -B "$programs" -G Ninja -DPOLYTOPE_BENCHMARK=ON -DPOLYTOPE_TESTS=OFF -DPOLYTOPE_YADE=ON \
+			-DYADE_SOURCE_DIR="$yadeSource" -DPOLYTOPE_COAL_PREFIX="$coal"
+		step "building the benchmark" "All messages of the compiler are in the log." ninja -C "$programs" polytope_benchmark
+		# one that cannot be built is named in the results
+		case " $* " in
+			*" --only kernels "* | *" --only=kernels "* | *" --only threads "* | *" --only=threads "*) ;;
+			*) (step "building YADE's PotentialBlock and Polyhedra" "The benchmark goes on without." ninja -k 0 -C "$programs" yadePeers) || true ;;
+		esac
+	) 9>"$cache/build.lock"
+	exec python3 "$project/tests/benchmark/bench.py" --programs "$programs/tests/benchmark" "$@"
+}
