@@ -298,6 +298,7 @@ namespace {
 					add(std::string("ours, LP alone ") + (warm ? "warm" : "cold"), set, [warm](benchmark::State& state, const PairSet& set) {
 						runLp(state, set, warm);
 					})->UseManualTime();
+			if (set.flat) continue;
 			add("one pass", set, runPass);
 			const struct {
 				const char *name, *library, *factory;

@@ -98,8 +98,9 @@ namespace {
 	{
 		Pair       next  = pair;
 		const Real small = Real(1e-4);
-		next.centre2 += small * pair.size() * samples::randomDirection(random);
-		next.rotation[1] = Eigen::AngleAxis<Real>(small, samples::randomDirection(random)).toRotationMatrix() * next.rotation[1];
+		const Vector3 axis = pair.dimension() == 2 ? Vector3(Vector3::UnitZ()) : samples::randomDirection(random);
+		next.centre2 += small * pair.size() * samples::randomDirection(random, pair.dimension());
+		next.rotation[1] = Eigen::AngleAxis<Real>(small, axis).toRotationMatrix() * next.rotation[1];
 		return next;
 	}
 
@@ -140,9 +141,9 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 {
 	constexpr std::size_t stepCount = 6;
 	std::vector<NamedSet> sets;
-	const auto            add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make) {
+	const auto            add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make, bool flat = false) {
                 const std::uint64_t seed = sets.size() + 1;
-                sets.push_back({ name, touching, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
+                sets.push_back({ name, touching, flat, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
                                         if (!made->steps.empty()) return *made;
                                         Random random(seed);
                                         made->name     = name;
@@ -184,6 +185,15 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 	add("sizes 1:100", true, [](Random& random) { return randomlyTurned(solid(6, 100), solid(6), touch, random); });
 	add("slivers", true, ofKind(sliver, 7, Real(-0.1)));
 	add("redundant planes", true, ofKind(withRedundantPlanes, 8, touch));
+	add("squares, 2-D", true, [shape = ConvexShape::shared(samples::rectangle(1, 1), Real(0.1))](Random& random) {
+		Pair pair;
+		for (int body = 0; body < 2; ++body) {
+			pair.shape[body]    = shape;
+			pair.rotation[body] = samples::randomRotation(random, 2);
+		}
+		samples::moveTo(pair, samples::randomDirection(random, 2), touch * pair.inscribedRadius());
+		return pair;
+	}, true);
 	if (heap)
 		add("settled heap", true, [pairs = heapPairs(heap), next = std::size_t(0)](Random&) mutable { return pairs[next++ % pairs.size()]; });
 	return sets;
