@@ -11,8 +11,8 @@
 namespace polytope::benchmarks {
 
 struct PairSet {
-	std::string                name;
-	bool                       touching; ///< of all pairs
+	std::string name;
+	bool        touching; ///< of all pairs
 	/// The pairs, then the same after each of some steps of DEM: moved by 1e-4 of the size, turned by 1e-4, in any direction.
 	/// To and fro between two poses would not do: where many bases are optimal, one is found that serves both.
 	std::vector<std::vector<samples::Pair>> steps;
