@@ -41,8 +41,7 @@ void centre(const void* object, ccd_vec3_t* out)
 
 class CcdPeer : public peer::Peer {
 public:
-	explicit CcdPeer(bool portal)
-	        : portal_(portal)
+	explicit CcdPeer(bool portal) : portal_(portal)
 	{
 		CCD_INIT(&settings_);
 		settings_.support1 = settings_.support2 = support;

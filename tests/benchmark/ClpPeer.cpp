@@ -11,10 +11,7 @@ namespace {
 
 class ClpPeer : public peer::Peer {
 public:
-	explicit ClpPeer(bool reused)
-	        : reused_(reused)
-	{
-	}
+	explicit ClpPeer(bool reused) : reused_(reused) { }
 	const char* name() const override { return reused_ ? "CLP, one model reused" : "CLP, as YADE calls it"; }
 	int         add(const peer::Body& body) override
 	{
@@ -62,7 +59,7 @@ private:
 					out[j] += pose.rotation[3 * j + k] * planes[4 * i + std::size_t(k)];
 				d += out[j] * pose.centre[j];
 			}
-			out[3]                         = -1;
+			out[3]                          = -1;
 			offsets_[std::size_t(from) + i] = d;
 		}
 	}

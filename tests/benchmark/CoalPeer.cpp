@@ -30,7 +30,8 @@ public:
 	peer::Answer query(int body1, const peer::Pose& pose1, int body2, const peer::Pose& pose2) override
 	{
 		result_.clear();
-		coal::collide(bodies_[std::size_t(body1)].get(), transform(pose1), bodies_[std::size_t(body2)].get(), transform(pose2), request_, result_);
+		coal::collide(bodies_[std::size_t(body1)].get(), transform(pose1), bodies_[std::size_t(body2)].get(), transform(pose2),
+		        request_, result_);
 		if (!result_.isCollision()) return { false, false, 0, { 0, 0, 0 } };
 		const auto& contact = result_.getContact(0);
 		return { true, true, -contact.penetration_depth, { contact.normal[0], contact.normal[1], contact.normal[2] } };
@@ -39,13 +40,12 @@ public:
 private:
 	static coal::Transform3s transform(const peer::Pose& pose)
 	{
-		return coal::Transform3s(
-		        coal::Matrix3s(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.rotation)),
+		return coal::Transform3s(coal::Matrix3s(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.rotation)),
 		        coal::Vec3s(pose.centre[0], pose.centre[1], pose.centre[2]));
 	}
 	std::vector<std::unique_ptr<coal::Convex<coal::Triangle>>> bodies_;
-	coal::CollisionRequest                                          request_ { coal::CONTACT, 1 };
-	coal::CollisionResult                                           result_;
+	coal::CollisionRequest                                     request_ { coal::CONTACT, 1 };
+	coal::CollisionResult                                      result_;
 };
 
 } // namespace

@@ -27,7 +27,8 @@ public:
 		fcl::CollisionRequestd request(1, true);
 		request.gjk_solver_type = fcl::GST_LIBCCD;
 		fcl::CollisionResultd result;
-		fcl::collide(bodies_[std::size_t(body1)].get(), transform(pose1), bodies_[std::size_t(body2)].get(), transform(pose2), request, result);
+		fcl::collide(bodies_[std::size_t(body1)].get(), transform(pose1), bodies_[std::size_t(body2)].get(), transform(pose2),
+		        request, result);
 		if (!result.isCollision()) return { false, false, 0, { 0, 0, 0 } };
 		const auto& contact = result.getContact(0);
 		return { true, true, contact.penetration_depth, { contact.normal[0], contact.normal[1], contact.normal[2] } };

@@ -38,13 +38,14 @@ namespace {
 
 		void query(const Pair& pair, PairMemory& own)
 		{
-			contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, own, workspace, result);
+			contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, own,
+			        workspace, result);
 		}
 
 		/// Wrong answers, pivots and iterations per pair of one pass.
 		void check(benchmark::State& state)
 		{
-			int    wrong = 0;
+			int    wrong  = 0;
 			double pivots = 0, iterations = 0;
 			for (std::size_t i = 0; i < set->pairs().size(); ++i) {
 				if (!warm) memory[i] = PairMemory();
@@ -79,12 +80,12 @@ namespace {
 					if (!warm) {
 						PairMemory fresh;
 						query(pairs[i], fresh);
-					} else
-						query(pairs[i], memory[i]);
+					} else query(pairs[i], memory[i]);
 					benchmark::DoNotOptimize(result.depth);
 				}
 			}
-			state.counters["pair"] = benchmark::Counter(size, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+			state.counters["pair"]
+			        = benchmark::Counter(size, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 		}
 	};
 
@@ -124,19 +125,19 @@ namespace {
 			}
 			state.SetIterationTime(1e-9 * double(pairs.size()) * std::max(total, 1.0) / std::max(count, 1.0));
 		}
-		state.counters["pair"]
-		        = benchmark::Counter(double(set.pairs().size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+		state.counters["pair"] = benchmark::Counter(
+		        double(set.pairs().size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 
 	// ----------------------------------------------------------------------------------------------------------- floor
 
 	/// One pass over all planes of both bodies at one point, all in one frame already: what no method on planes can go below.
-#define POLYTOPE_PASS(NAME, TARGET, WIDTH)                                                                                                                \
-	__attribute__((target(TARGET))) Real NAME(const PairPlanes<Real, 3>& planes, const Real* x)                                                        \
-	{                                                                                                                                                      \
-		Real smallest;                                                                                                                                 \
-		mostViolated<Real, 3, WIDTH>(planes, x, smallest);                                                                                             \
-		return smallest;                                                                                                                               \
+#define POLYTOPE_PASS(NAME, TARGET, WIDTH)                                                                                                 \
+	__attribute__((target(TARGET))) Real NAME(const PairPlanes<Real, 3>& planes, const Real* x)                                        \
+	{                                                                                                                                  \
+		Real smallest;                                                                                                             \
+		mostViolated<Real, 3, WIDTH>(planes, x, smallest);                                                                         \
+		return smallest;                                                                                                           \
 	}
 	POLYTOPE_PASS(passV4, "arch=x86-64-v4", 4)
 	POLYTOPE_PASS(passV3, "arch=x86-64-v3", 4)
@@ -174,7 +175,8 @@ namespace {
 			for (const Rows& rows : all)
 				benchmark::DoNotOptimize(pass(rows.planes, x));
 		state.counters["wrong"] = 0;
-		state.counters["pair"]  = benchmark::Counter(double(all.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+		state.counters["pair"]  = benchmark::Counter(
+                        double(all.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 
 	// ----------------------------------------------------------------------------------------------------------- peers
@@ -197,8 +199,8 @@ namespace {
 				const Vector3& n = shape.planes().normals[i];
 				planes.insert(planes.end(), { n[0], n[1], n[2], shape.planes().offsets[i] });
 			}
-			body = { int(vertices.size() / 3), vertices.data(), int(shape.polyhedron().faces.size()), int(faces.size()), faces.data(),
-				     int(planes.size() / 4), planes.data(), shape.boundingRadius() };
+			body = { int(vertices.size() / 3), vertices.data(), int(shape.polyhedron().faces.size()), int(faces.size()),
+				faces.data(), int(planes.size() / 4), planes.data(), shape.boundingRadius() };
 		}
 	};
 
@@ -268,25 +270,29 @@ namespace {
 			for (const PlainPair& p : pairs)
 				benchmark::DoNotOptimize(library->query(p.body[0], p.pose[0], p.body[1], p.pose[1]));
 		state.counters["wrong"] = wrong;
-		state.counters["pair"]  = benchmark::Counter(double(pairs.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+		state.counters["pair"]  = benchmark::Counter(
+                        double(pairs.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 	}
 
 	void registerAll(const std::vector<NamedSet>& sets)
 	{
-		const auto add = [](const std::string& method, const NamedSet& set, const std::function<void(benchmark::State&, const PairSet&)>& run) {
-			return benchmark::RegisterBenchmark((method + "/" + set.name).c_str(), [=](benchmark::State& state) { run(state, set.get()); })
-			        ->Unit(benchmark::kMicrosecond);
+		const auto add = [](const std::string& method, const NamedSet& set,
+		                         const std::function<void(benchmark::State&, const PairSet&)>& run) {
+			return benchmark::RegisterBenchmark((method + "/" + set.name).c_str(), [=](benchmark::State& state) {
+				run(state, set.get());
+			})->Unit(benchmark::kMicrosecond);
 		};
-		const std::pair<ContactPoint, const char*> points[]
-		        = { { ContactPoint::AnalyticCentre, "ours" }, { ContactPoint::ChebyshevCentre, "ours, Chebyshev centre" }, { ContactPoint::Centroid, "ours, centroid" } };
+		const std::pair<ContactPoint, const char*> points[] = { { ContactPoint::AnalyticCentre, "ours" },
+			{ ContactPoint::ChebyshevCentre, "ours, Chebyshev centre" }, { ContactPoint::Centroid, "ours, centroid" } };
 		for (const NamedSet& set : sets) {
 			for (const auto& [point, name] : points)
 				for (const bool warm : { false, true })
-					add(std::string(name) + (warm ? " warm" : " cold"), set, [point = point, warm](benchmark::State& state, const PairSet& set) {
-						Ours ours { &set, {}, warm, {}, {}, {} };
-						ours.settings.contactPoint = point;
-						ours.run(state);
-					});
+					add(std::string(name) + (warm ? " warm" : " cold"), set,
+					        [point = point, warm](benchmark::State& state, const PairSet& set) {
+						        Ours ours { &set, {}, warm, {}, {}, {} };
+						        ours.settings.contactPoint = point;
+						        ours.run(state);
+					        });
 			add("ours with area warm", set, [](benchmark::State& state, const PairSet& set) {
 				Ours ours { &set, {}, true, {}, {}, {} };
 				ours.settings.section = true;
@@ -295,9 +301,10 @@ namespace {
 			// a pair that its first basis dismisses has no linear programme to time
 			if (set.touching)
 				for (const bool warm : { false, true })
-					add(std::string("ours, LP alone ") + (warm ? "warm" : "cold"), set, [warm](benchmark::State& state, const PairSet& set) {
-						runLp(state, set, warm);
-					})->UseManualTime();
+					add(std::string("ours, LP alone ") + (warm ? "warm" : "cold"), set,
+					        [warm](benchmark::State& state, const PairSet& set) { runLp(state, set, warm); })
+					        ->UseManualTime();
+			if (set.flat) continue;
 			add("one pass", set, runPass);
 			const struct {
 				const char *name, *library, *factory;
@@ -311,7 +318,9 @@ namespace {
 			};
 			for (const auto& peer : peers)
 				if (!peerFile(peer.library).empty())
-					add(peer.name, set, [peer](benchmark::State& state, const PairSet& set) { runPeer(state, set, peer.library, peer.factory); });
+					add(peer.name, set, [peer](benchmark::State& state, const PairSet& set) {
+						runPeer(state, set, peer.library, peer.factory);
+					});
 		}
 	}
 

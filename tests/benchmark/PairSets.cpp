@@ -57,7 +57,8 @@ namespace {
 		pair.shape[0] = pair.shape[1] = solid(6);
 		pair.rotation[1]              = Eigen::AngleAxis<Real>(samples::uniform(random, 0, 1), Vector3::UnitZ()).toRotationMatrix();
 		const Real half               = pair.inscribedRadius();
-		pair.centre2 = Vector3(samples::uniform(random, -half, half), samples::uniform(random, -half, half), 2 * half * (1 + touch));
+		pair.centre2
+		        = Vector3(samples::uniform(random, -half, half), samples::uniform(random, -half, half), 2 * half * (1 + touch));
 		return inSomeFrame(pair, random);
 	}
 
@@ -66,12 +67,14 @@ namespace {
 	{
 		Pair pair;
 		pair.shape[0] = pair.shape[1] = solid(6);
-		const auto about              = [](Real angle, const Vector3& axis) { return Eigen::AngleAxis<Real>(angle, axis).toRotationMatrix(); };
-		const Real quarter            = Real(M_PI) / 4;
-		pair.rotation[0]              = about(quarter, Vector3::UnitX());
-		pair.rotation[1]              = about(quarter, Vector3::UnitY()) * about(samples::uniform(random, Real(-0.3), Real(0.3)), Vector3::UnitX());
-		const Real half               = pair.inscribedRadius();
-		Vector3    direction(samples::uniform(random, -half, half) / 4, samples::uniform(random, -half, half) / 4, 2 * std::sqrt(Real(2)) * half);
+		const auto about   = [](Real angle, const Vector3& axis) { return Eigen::AngleAxis<Real>(angle, axis).toRotationMatrix(); };
+		const Real quarter = Real(M_PI) / 4;
+		pair.rotation[0]   = about(quarter, Vector3::UnitX());
+		pair.rotation[1]
+		        = about(quarter, Vector3::UnitY()) * about(samples::uniform(random, Real(-0.3), Real(0.3)), Vector3::UnitX());
+		const Real half = pair.inscribedRadius();
+		Vector3    direction(samples::uniform(random, -half, half) / 4, samples::uniform(random, -half, half) / 4,
+		           2 * std::sqrt(Real(2)) * half);
 		samples::moveTo(pair, direction.normalized(), touch * half);
 		return inSomeFrame(pair, random);
 	}
@@ -80,7 +83,8 @@ namespace {
 	{
 		const Real aspect = samples::decades(random, -3, -1);
 		return ConvexShape::shared(
-		        samples::stretched(samples::randomPlanes(12, random), Vector3(1, random() % 2 ? 1 : aspect, aspect)), Real(0.05) * aspect);
+		        samples::stretched(samples::randomPlanes(12, random), Vector3(1, random() % 2 ? 1 : aspect, aspect)),
+		        Real(0.05) * aspect);
 	}
 
 	Shape withRedundantPlanes(Random& random)
@@ -96,10 +100,11 @@ namespace {
 	/// What a step of DEM does to a pair, less than would part it: along the contact as much as across it.
 	Pair afterStep(const Pair& pair, Random& random)
 	{
-		Pair       next  = pair;
-		const Real small = Real(1e-4);
-		next.centre2 += small * pair.size() * samples::randomDirection(random);
-		next.rotation[1] = Eigen::AngleAxis<Real>(small, samples::randomDirection(random)).toRotationMatrix() * next.rotation[1];
+		Pair          next  = pair;
+		const Real    small = Real(1e-4);
+		const Vector3 axis  = pair.dimension() == 2 ? Vector3(Vector3::UnitZ()) : samples::randomDirection(random);
+		next.centre2 += small * pair.size() * samples::randomDirection(random, pair.dimension());
+		next.rotation[1] = Eigen::AngleAxis<Real>(small, axis).toRotationMatrix() * next.rotation[1];
 		return next;
 	}
 
@@ -109,10 +114,10 @@ namespace {
 /// from centre 1 to centre 2.
 std::vector<Pair> heapPairs(const char* path)
 {
-	std::ifstream                          file(path);
-	std::map<std::pair<int, Real>, Shape>  shapes;
-	std::vector<Pair>                      pairs;
-	std::string                            line;
+	std::ifstream                         file(path);
+	std::map<std::pair<int, Real>, Shape> shapes;
+	std::vector<Pair>                     pairs;
+	std::string                           line;
 	while (std::getline(file, line)) {
 		std::replace(line.begin(), line.end(), ',', ' ');
 		std::istringstream numbers(line);
@@ -140,27 +145,28 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 {
 	constexpr std::size_t stepCount = 6;
 	std::vector<NamedSet> sets;
-	const auto            add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make) {
-                const std::uint64_t seed = sets.size() + 1;
-                sets.push_back({ name, touching, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
-                                        if (!made->steps.empty()) return *made;
-                                        Random random(seed);
-                                        made->name     = name;
-                                        made->touching = touching;
-                                        made->steps.resize(stepCount);
-                                        for (int trial = 0; int(made->pairs().size()) < count; ++trial) {
-                                                if (trial > 1000 * count) throw std::runtime_error(name + ": hardly a pair lasts");
-                                                std::vector<Pair> steps { make(random) };
-                                                while (steps.size() < stepCount)
-                                                        steps.push_back(afterStep(steps.back(), random));
-                                                // a thin pair may be parted by the steps: then it is none of a contact that lasts
-                                                const auto other = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
-                                                if (std::any_of(steps.begin(), steps.end(), other)) continue;
-                                                for (std::size_t k = 0; k < stepCount; ++k)
-                                                        made->steps[k].push_back(steps[k]);
-                                        }
-                                        return *made;
-                                } });
+	const auto add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make, bool flat = false) {
+		const std::uint64_t seed = sets.size() + 1;
+		sets.push_back({ name, touching, flat, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
+			                if (!made->steps.empty()) return *made;
+			                Random random(seed);
+			                made->name     = name;
+			                made->touching = touching;
+			                made->steps.resize(stepCount);
+			                for (int trial = 0; int(made->pairs().size()) < count; ++trial) {
+				                if (trial > 1000 * count) throw std::runtime_error(name + ": hardly a pair lasts");
+				                std::vector<Pair> steps { make(random) };
+				                while (steps.size() < stepCount)
+					                steps.push_back(afterStep(steps.back(), random));
+				                // a thin pair may be parted by the steps: then it is none of a contact that lasts
+				                const auto other
+				                        = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
+				                if (std::any_of(steps.begin(), steps.end(), other)) continue;
+				                for (std::size_t k = 0; k < stepCount; ++k)
+					                made->steps[k].push_back(steps[k]);
+			                }
+			                return *made;
+		                } });
 	};
 	// twenty bodies of a kind, of which each pair takes two
 	const auto ofKind = [](const std::function<Shape(Random&)>& make, std::uint64_t seed, Real target) {
@@ -172,11 +178,13 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 			return randomlyTurned(one, two, target, random);
 		};
 	};
-	const std::pair<const char*, int> solids[] = { { "tetrahedron", 4 }, { "cube", 6 }, { "octahedron", 8 }, { "dodecahedron", 12 }, { "icosahedron", 20 } };
+	const std::pair<const char*, int> solids[]
+	        = { { "tetrahedron", 4 }, { "cube", 6 }, { "octahedron", 8 }, { "dodecahedron", 12 }, { "icosahedron", 20 } };
 	for (const auto& [name, faces] : solids)
 		add(name, true, [faces = faces](Random& random) { return randomlyTurned(solid(faces), solid(faces), touch, random); });
 	for (const auto& [name, faces] : solids)
-		add(std::string(name) + " apart", false, [faces = faces](Random& random) { return randomlyTurned(solid(faces), solid(faces), gap, random); });
+		add(std::string(name) + " apart", false,
+		        [faces = faces](Random& random) { return randomlyTurned(solid(faces), solid(faces), gap, random); });
 	for (const int faces : { 20, 50, 100, 200 })
 		add("hull " + std::to_string(faces), true, ofKind([faces](Random& random) { return hull(faces, random); }, 1000, touch));
 	add("stacked cubes", true, stacked);
@@ -184,8 +192,21 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 	add("sizes 1:100", true, [](Random& random) { return randomlyTurned(solid(6, 100), solid(6), touch, random); });
 	add("slivers", true, ofKind(sliver, 7, Real(-0.1)));
 	add("redundant planes", true, ofKind(withRedundantPlanes, 8, touch));
+	add(
+	        "squares, 2-D", true,
+	        [shape = ConvexShape::shared(samples::rectangle(1, 1), Real(0.1))](Random& random) {
+		        Pair pair;
+		        for (int body = 0; body < 2; ++body) {
+			        pair.shape[body]    = shape;
+			        pair.rotation[body] = samples::randomRotation(random, 2);
+		        }
+		        samples::moveTo(pair, samples::randomDirection(random, 2), touch * pair.inscribedRadius());
+		        return pair;
+	        },
+	        true);
 	if (heap)
-		add("settled heap", true, [pairs = heapPairs(heap), next = std::size_t(0)](Random&) mutable { return pairs[next++ % pairs.size()]; });
+		add("settled heap", true,
+		        [pairs = heapPairs(heap), next = std::size_t(0)](Random&) mutable { return pairs[next++ % pairs.size()]; });
 	return sets;
 }
 

@@ -11,8 +11,8 @@
 namespace polytope::benchmarks {
 
 struct PairSet {
-	std::string                name;
-	bool                       touching; ///< of all pairs
+	std::string name;
+	bool        touching; ///< of all pairs
 	/// The pairs, then the same after each of some steps of DEM: moved by 1e-4 of the size, turned by 1e-4, in any direction.
 	/// To and fro between two poses would not do: where many bases are optimal, one is found that serves both.
 	std::vector<std::vector<samples::Pair>> steps;
@@ -31,11 +31,13 @@ struct PairSet {
 struct NamedSet {
 	std::string                     name;
 	bool                            touching;
+	bool                            flat; ///< polygons: ours alone
 	std::function<const PairSet&()> get;
 };
 
 /// Sets of `count` pairs: the five solids touching (s* = −0.005 of the inscribed radius) and apart (+0.05), hulls of 20, 50,
-/// 100 and 200 faces, slivers, stacked faces, edges across edges, sizes 1:100, cubes with redundant planes,
+/// 100 and 200 faces, slivers, stacked faces, edges across edges, sizes 1:100, cubes with redundant planes, squares
+/// in two dimensions,
 /// and the contacts in the file `heap` (may be null), written by heap.py.
 std::vector<NamedSet> pairSets(int count, const char* heap);
 

@@ -32,10 +32,10 @@ struct Answer {
 
 class Peer {
 public:
-	virtual ~Peer() = default;
+	virtual ~Peer()                  = default;
 	virtual const char* name() const = 0;
 	/// The library's own form of a body, made once; the index is its number.
-	virtual int    add(const Body& body)                                                 = 0;
+	virtual int    add(const Body& body)                                             = 0;
 	virtual Answer query(int body1, const Pose& pose1, int body2, const Pose& pose2) = 0;
 };
 

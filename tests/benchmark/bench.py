@@ -209,7 +209,7 @@ def main():
 	        run.output / 'heaps.csv', [
 	                {
 	                        **{key: value for key, value in one['request'].items() if key not in ('save', 'load', 'pairs')}, 'threads': one['threads'],
-	                        **row, 'bodies': one['bodies'],
+	                        **row, 'bodies': one['bodies'], 'largestSpeed': one['largestSpeed'],
 	                        'bytesPerBody': scenes.memoryPerBody(one),
 	                        'bytesPerContact': scenes.memoryPerContact(one)
 	                } for one in run.results['heaps'] for row in one['rows']

@@ -91,8 +91,8 @@ def potentialBlockLoop(scene):
 	shear = scene.stiffnessRatio * normal
 	return PotentialBlock2AABB(), InteractionLoop(
 	        [Ig2_PB_PB_ScGeom()],
-	        [Ip2_FrictMat_FrictMat_KnKsPBPhys(kn_i=normal, ks_i=shear, Knormal=normal, Kshear=shear)],
-	        [Law2_SCG_KnKsPBPhys_KnKsPBLaw()],
+	        [Ip2_FrictMat_FrictMat_KnKsPBPhys(kn_i=normal, ks_i=shear, Knormal=normal, Kshear=shear, viscousDamping=scene.contactDamping)],
+	        [Law2_SCG_KnKsPBPhys_KnKsPBLaw(allowViscousAttraction=False)],
 	)
 
 
@@ -154,7 +154,9 @@ def replaceBySpheres(scene):
 	        Bo1_Sphere_Aabb, Bo1_Wall_Aabb, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
 	        Law2_ScGeom_FrictPhys_CundallStrack
 	)
-	places = [tuple(body.state.pos) for body in scene.particles()]
+	# aside by a little: exactly above each other they would stay so
+	aside = np.random.default_rng(scene.seed).uniform(-0.1, 0.1, (scene.number, 2)) * scene.size
+	places = [(body.state.pos[0] + x, body.state.pos[1] + y, body.state.pos[2]) for body, (x, y) in zip(scene.particles(), aside, strict=True)]
 	step = O.dt
 	O.reset()
 	radius = scene.size * (3 / (4 * np.pi))**(1 / 3)
@@ -269,14 +271,16 @@ def main(request):
 	rows = measure(scene, request)
 	if request.pairs:
 		writePairs(request.pairs, scene)
-	speed = max((body.state.vel.norm() for body in O.bodies), default=0)
+	speed = np.max([body.state.vel.norm() for body in O.bodies])
+	if not np.isfinite(speed):
+		sys.exit(f'{request.method}: bodies have left with velocities that are no numbers')
 	return {
 	        'request': dataclasses.asdict(request),
 	        'rows': rows,
 	        'bodies': len(O.bodies),
 	        'threads': O.numThreads,
 	        'settleSeconds': settled,
-	        'largestSpeed': speed,
+	        'largestSpeed': float(speed),
 	        'emptyBytes': empty,
 	        'bodiesBytes': bodies,
 	        'endBytes': residentMemory(),

@@ -5,7 +5,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
-from scenes import median, solids
+from scenes import median, peers, solids
 
 planesOf = {**{name: 2 * faces for name, faces in solids.items()}, **{f'hull {n}': 2 * n for n in (20, 50, 100, 200)}}
 """Planes of both bodies together."""
@@ -111,12 +111,14 @@ def growth(found, path):
 
 
 def heaps(found, path):
-	methods = {'ours': '#c2410c', 'ours, with area': '#f59e0b', 'polyhedra': '#0f766e', 'potentialBlock': '#1d4ed8'}
-	figure, axes = plt.subplots(figsize=(8, 4.5))
-	for shift, (method, color) in enumerate(methods.items()):
+	colors = {'ours': '#c2410c', 'ours, with area': '#f59e0b', 'polyhedra': '#0f766e', 'potentialBlock': '#1d4ed8'}
+	figure, axes = plt.subplots(figsize=(9, 4.5))
+	for shift, (method, color) in enumerate(colors.items()):
 		at = [(x, 1e6 * median(row[method]['perPair'])) for x, row in enumerate(found.values()) if row.get(method)]
-		axes.bar([x + 0.2 * (shift - 1.5) for x, _ in at], [y for _, y in at], width=0.19, color=color, label=method)
+		if at:
+			axes.bar([x + 0.2 * (shift - 1.5) for x, _ in at], [y for _, y in at], width=0.19, color=color, label=peers.get(method, method))
 	axes.set(yscale='log', ylabel='InteractionLoop, µs a candidate pair', xticks=range(len(found)), xticklabels=list(found), title='200 falling solids')
+	axes.set_ylim(bottom=0.05)
 	axes.grid(True, axis='y', which='both', alpha=0.25)
-	axes.legend()
+	axes.legend(loc='upper left', bbox_to_anchor=(1.01, 1))
 	save(figure, path)

@@ -100,8 +100,8 @@ class Scenes:
 
 	def settledCubes(self):
 		"""Settled cubes, and YADE's spheres of the same volume: {method: result}."""
-		number, columns = (1000, 12) if self.quick else (10000, 30)
-		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 3000 if self.quick else 6000, 'steps': self.steps}
+		number, columns = (500, 9) if self.quick else (10000, 30)
+		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
 	def growth(self):

@@ -52,9 +52,8 @@ template <class Make> void expectWithin(const Bounds& bounds, Make make, Contact
 		add(warm, query(afterStep(pair, random), settings, &memory));
 	}
 	const auto expect = [&](const char* start, const Counts& found, const Counts& bound) {
-		std::printf(
-		        "%-18s %s: pivots %.2f (most %d), Newton iterations %.2f (most %d)\n", bounds.name, start, found.meanPivots, found.mostPivots,
-		        found.meanIterations, found.mostIterations);
+		std::printf("%-18s %s: pivots %.2f (most %d), Newton iterations %.2f (most %d)\n", bounds.name, start, found.meanPivots,
+		        found.mostPivots, found.meanIterations, found.mostIterations);
 		EXPECT_LE(found.meanPivots, bound.meanPivots) << bounds.name << ", " << start;
 		EXPECT_LE(found.mostPivots, bound.mostPivots) << bounds.name << ", " << start;
 		EXPECT_LE(found.meanIterations, bound.meanIterations) << bounds.name << ", " << start;
