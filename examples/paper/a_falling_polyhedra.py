@@ -107,7 +107,7 @@ def options():
 def comesToRest(report):
 	report.inside()
 	report.answered(paperFailures)
-	report.largest('energyHalf')
+	report.largest('energyHalf', chance=True)
 	report.largest('energyEnd', chance=True)  # one body that topples late
 	report.largest('deepestOverlap', chance=True)  # one hard impact
 	report.largest('overlap')

@@ -141,7 +141,7 @@ def testTowerOfTenStands():
 	blockOnFloor(0)
 	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
 	O.dt = 1e-4
-	while O.time < 3:
+	while O.time < 5:
 		O.run(500, wait=True)
 		O.dt = min(1e-4, polytope.stableTimeStep(0.2, default=1e-4))
 	overlap = O.bodies[1].state.mass * gravity / 1e8  # of one block's weight
