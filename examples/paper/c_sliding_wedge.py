@@ -21,7 +21,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four 
 
 from tqdm import tqdm
 from yade.polytope.findings import Findings
-from yade.polytope.scenes import BlockGeometry
+from yade.polytope.scenes import BlockGeometry, WedgeScene
 from yade.polytope.studies.options import positive, refusing, shown
 from yade.polytope.studies.script import conclude
 from yade.polytope.studies.slidingWedge import SlidingWedgeCase, SlidingWedgeReport, limitEquilibrium, plotLockedShear
@@ -61,6 +61,7 @@ def options():
 	with refusing(parser, '--geometry'):
 		given.blocks = BlockGeometry.read(given.geometry)
 		given.theory = limitEquilibrium(given.blocks)
+		WedgeScene(given.blocks).build()  # refuses what is no block
 	return given
 
 
@@ -123,12 +124,12 @@ def main():
 
 	report = SlidingWedgeReport(findings, given, base, cases)
 	others = f'Asserted for the reference geometry and settings; other shapes and paths: {wideBand[0]}° … {wideBand[1]}°'
-	report.criticalAngle(paperAngle, expected, tolerance, f'3DEC {angleOf3dec}°. {others}')
+	report.criticalAngle(paperAngle, expected, tolerance, f'3DEC {angleOf3dec}°. {others}' if given.reference else '')
 	report.limitEquilibrium(paperTheory, closedForm, lowestAngle)
 	report.lockedShear(margin=0.02)
 	report.backEdge(mostEdgeForce)
 	report.independence(mustNotCount, tolerance)
-	independent = f'an independent program of the paper\'s algorithm gave {angleWithEdge}'
+	independent = f'an independent program of the paper\'s algorithm gave {angleWithEdge}' if given.reference else ''
 	report.stiffBackEdge('critical angle with a back edge of 1e7 N/m', stiffEdge, independent)
 	report.failedQueries()
 	report.settings()

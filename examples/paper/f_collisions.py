@@ -93,7 +93,11 @@ def figures(findings, given, run):
 	plotJumps(folder / f'{label}_jumps.png', run)
 	findings.figure(f'{label}_jumps.png', f'{label}: change of contact point, normal and contact force from one step to the next.')
 	if plotTransitions(folder / f'{label}_transitions.png', run):
-		findings.figure(f'{label}_transitions.png', f'{label}: the first change of each kind between contact types, step by step.')
+		caption = (
+			f'{label}: the first change of each kind between contact types, step by step. Where the shear force goes to and fro from step '
+			'to step, the contact alternates between sticking, where the shear damper acts, and sliding, where it does not.'
+		)
+		findings.figure(f'{label}_transitions.png', caption)
 
 
 def main():

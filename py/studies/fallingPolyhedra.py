@@ -133,7 +133,7 @@ class FallingRun:
 		cold = self.sample.times(warmStart=False)
 		results = {'cold': cold, 'lpColdMicroseconds': cold['lpMicroseconds'], 'centreColdMicroseconds': cold['centreMicroseconds']}
 		if given.ipopt_every and given.contact_point == 'analyticCentre' and hasSolver('ipopt'):
-			ipopt = self.sample.times(every=given.ipopt_every, passes=1, solver='ipopt', warmStart=False)
+			ipopt = self.sample.times(every=given.ipopt_every, passes=3, solver='ipopt', warmStart=False)
 			results.update(ipopt=ipopt, ipoptMicroseconds=ipopt['centreMicroseconds'])
 		return results
 

@@ -123,22 +123,25 @@ class SlidingWedgeReport(WedgeReport):
 		"""Limit equilibrium with the shear measured, which must lie within the bracket found, widened by *margin*; and why it differs."""
 		base, findings = self.base, self.findings
 		must = self.ofReference((base.failed - margin, base.stable + margin))
-		note = 'explains the whole difference if it is the critical angle above'
+		within = base.failed - margin <= base.withShear() <= base.stable + margin
+		note = 'the critical angle above, so it explains the whole difference' if within else 'not the critical angle above: no whole explanation'
 		findings.row('limit equilibrium with the locked-in shear measured', base.withShear(), '°', accept=must, note=note)
 		settled, last = base.settled, base.atFailure
 		lowest, *_ = self.theory.lowerBound()
+		reactions, measured = sum(self.theory.reactions()), sum(last['normal'])
+		change = 'raises' if measured > reactions else 'changes'
 		findings.text(
-			'Why a DEM may fall below limit equilibrium. '
+			'Why a DEM need not fail at limit equilibrium. '
 			'Limit equilibrium takes all shear forces parallel to the line of sliding; '
-			f'then R_A + R_B = {sum(self.theory.reactions()):.4f} W. '
+			f'then R_A + R_B = {reactions:.4f} W. '
 			'A wedge that settles elastically goes straight down, so its joints also take shear across that line: '
 			f'T_A = {settled["transverse"][0]:+.4f} W and T_B = {settled["transverse"][1]:+.4f} W at the start. '
 			'Slip changes that on the way down, but not to zero: in the last stable state it is '
 			f'T_A = {last["transverse"][0]:+.4f} W and T_B = {last["transverse"][1]:+.4f} W. '
-			'Such shear uses a little strength, and where it pulls the block down between its planes '
-			f'it raises the normal forces (R_A + R_B = {sum(last["normal"]):.4f} W), which is more. '
-			f'Limit equilibrium with these T gives {base.withShear():.3f}° instead of {self.limit:.3f}°: the whole difference. '
-			f'No history can bring it below {math.degrees(lowest):.2f}° (static theorem).'
+			f'Such shear uses a little strength, and it {change} the normal forces (R_A + R_B = {measured:.4f} W). '
+			f'Limit equilibrium with these T gives {base.withShear():.3f}° instead of {self.limit:.3f}°'
+			+ (': the whole difference. ' if within else f', which is not the whole difference to the {base.critical:.3f}° found. ')
+			+ f'No history can bring it below {math.degrees(lowest):.2f}° (static theorem).'
 		)
 
 	def independence(self, labels, tolerance):
