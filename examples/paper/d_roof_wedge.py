@@ -20,9 +20,9 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four 
 
 from tqdm import tqdm
 from yade.polytope.findings import Findings
-from yade.polytope.scenes import BlockGeometry
+from yade.polytope.scenes import BlockGeometry, RoofWedge
 from yade.polytope.studies.options import positive, refusing, shown
-from yade.polytope.studies.roofWedge import RoofWedgeCase, RoofWedgeReport, frontView, isThreefold, plotStressShare, touchingCases
+from yade.polytope.studies.roofWedge import RoofWedgeCase, RoofWedgeReport, areEvenlySpread, frontView, plotStressShare, touchingCases
 from yade.polytope.studies.script import conclude
 from yade.polytope.studies.wedges import parseWedge, plotReduction, wedgeParser
 
@@ -52,6 +52,7 @@ def options():
 		given.blocks = BlockGeometry.read(given.geometry)
 		if not given.blocks.faceBlocks or given.blocks.edgeBlocks:
 			raise ValueError('each block around the wedge must share just one plane with it')
+		RoofWedge(given.blocks).build()  # refuses what is no block
 	return given
 
 
@@ -97,7 +98,7 @@ def bothWays(given, progress):
 
 def draw(given, case):
 	case.drawFailure(given.output, fall, **frontView(case, fall))
-	plotReduction(given.output / 'reduction.png', case, case.closedForm if isThreefold(given.blocks) else None, 'roof wedge')
+	plotReduction(given.output / 'reduction.png', case, case.closedForm if areEvenlySpread(case.scene.joints) else None, 'roof wedge')
 
 
 def search(given):
@@ -107,7 +108,8 @@ def search(given):
 		both = bothWays(given, progress)
 		cases = [RoofWedgeCase(given, label, 1, progress, **changes) for label, changes in varied.items()]
 		touching = []
-		if isThreefold(given.blocks):
+		joints = both[0].scene.joints
+		if len(joints) == 3 and areEvenlySpread(joints):
 			shares = quickSideShares if given.quick else sideShares
 			touching = touchingCases(given, both[0], paperPressed if given.reference else None, shares, progress)
 	return both, cases, touching

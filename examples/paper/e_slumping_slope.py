@@ -13,6 +13,7 @@ Ends with 1 if the angle, the mode or the analysis is not as expected, or a cont
 	./run python examples/paper/e_slumping_slope.py --geometry other.json --corner-radius 0.01 --steps 1 0.2 --output other
 
 A geometry file has corners of polygons: {"free": [[[x, y], …], …], "fixed": […], "params": {"delta": dip [°], "s": bedding spacing [m]}}.
+The toe must be on the left, and the face look to the left.
 """
 
 import math

@@ -24,31 +24,63 @@ from ..bodies import polygon
 __all__ = ['SlumpingSlope', 'readSlope']
 
 layerColors = [(0.78, 0.31, 0.16), (0.93, 0.64, 0.29), (0.93, 0.86, 0.66), (0.55, 0.76, 0.75), (0.35, 0.60, 0.72), (0.16, 0.42, 0.58)]
+dipTolerance = math.radians(5)
+"""Between the dip that a file states and the edges that have it."""
 
 
 def readSlope(path):
 	"""A slope's polygons from a JSON file {free: [[[x, y], …], …], fixed: […], params: {delta, s}}, as arguments of SlumpingSlope.
 
-	*params* may be left out: all blocks then count as one layer.
+	The toe is on the left, and the face looks to the left. *params* may be left out: all blocks then count as one layer.
 
 	:returns: dictionary {free, fixed, dip, spacing}
-	:raises ValueError: naming what the file lacks
+	:raises ValueError: naming the file and what is wrong in it
 	"""
 	with open(path) as file:
-		content = json.load(file)
+		try:
+			content = json.load(file)
+		except ValueError as error:
+			raise ValueError(f'{path}: this is not JSON: {error}') from error
 	for name in ('free', 'fixed'):
 		if not isinstance(content, dict) or not content.get(name):
 			raise ValueError(f'{path}: there are no polygons named {name!r}')
+		if not isinstance(content[name], list):
+			raise ValueError(f'{path}: {name!r} must be a list of polygons')
 		for k, corners in enumerate(content[name]):
-			if len(corners) < 3 or any(len(point) != 2 for point in corners):
+			if not isinstance(corners, list) or len(corners) < 3 or not all(map(_isPoint, corners)):
 				raise ValueError(f'{path}: {name}[{k}] must be a list of three or more points [x, y]')
 	params = content.get('params', {})
-	return {
-		'free': content['free'],
-		'fixed': content['fixed'],
-		'dip': math.radians(params['delta']) if 'delta' in params else None,
-		'spacing': params.get('s'),
-	}
+	if not isinstance(params, dict):
+		raise ValueError(f"{path}: 'params' must be an object {{delta, s}}")
+	dip, spacing = params.get('delta'), params.get('s')
+	if dip is not None and not (_isNumber(dip) and 0 < dip <= 90):
+		raise ValueError(f"{path}: params' delta, the dip of face and bedding [°], must be a number above 0 and up to 90, not {dip!r}")
+	if spacing is not None and not (_isNumber(spacing) and spacing > 0):
+		raise ValueError(f"{path}: params' s, the spacing of the bedding [m], must be a positive number, not {spacing!r}")
+	if dip is not None and not _hasEdgeThatRises(content['free'], math.radians(dip)):
+		raise ValueError(
+			f"{path}: no edge of a free block rises to the right at params' delta, {dip:g}°, within {math.degrees(dipTolerance):g}°: "
+			'the toe must be on the left, with the face to the left (mirror x if it is the other way round)'
+		)
+	return {'free': content['free'], 'fixed': content['fixed'], 'dip': None if dip is None else math.radians(dip), 'spacing': spacing}
+
+
+def _isNumber(value):
+	return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _isPoint(value):
+	return isinstance(value, list) and len(value) == 2 and all(map(_isNumber, value))
+
+
+def _hasEdgeThatRises(polygons, dip):
+	for corners in polygons:
+		edges = np.roll(corners, -1, axis=0) - corners
+		across = np.abs(edges @ np.array([math.sin(dip), -math.cos(dip)]))
+		lengths = np.hypot(*edges.T)
+		if np.any((lengths > 0) & (across <= math.sin(dipTolerance) * lengths)):
+			return True
+	return False
 
 
 @dataclasses.dataclass
@@ -64,7 +96,7 @@ class SlumpingSlope:
 	"""Corners of the blocks that can move [m]."""
 	fixed: list
 	dip: float = None
-	"""Of the face and the bedding [rad], for telling layers apart; face through the origin."""
+	"""Of the face and the bedding [rad], for telling layers apart; the face looks to the left."""
 	spacing: float = None
 	"""Of the bedding [m]."""
 	density: float = 2500
@@ -120,12 +152,14 @@ class SlumpingSlope:
 		return self
 
 	def layers(self):
-		"""Layer of each free block, 0 the outermost: by its centre's distance from the face; zeros if dip or spacing are not known."""
+		"""Layer of each free block, 0 the outermost: by its centre's depth below the outermost corner; zeros if dip or spacing are not known."""
 		if self.dip is None or not self.spacing:
 			return [0] * len(self.free)
-		centres = np.array([np.mean(corners, axis=0) for corners in self.free])
-		depth = centres @ np.array([math.sin(self.dip), -math.cos(self.dip)])
-		return np.floor(depth / self.spacing).astype(int).tolist()
+		inward = np.array([math.sin(self.dip), -math.cos(self.dip)])
+		depths = [np.array(corners) @ inward for corners in self.free]
+		face = min(depth.min() for depth in depths)
+		layers = np.floor([(depth.mean() - face) / self.spacing for depth in depths]).astype(int)
+		return (layers - layers.min()).tolist()
 
 	def bodies(self):
 		"""The free blocks, in the order of *free*."""

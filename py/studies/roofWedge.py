@@ -22,17 +22,24 @@ from ..theory.wedges import (
 )
 from .wedges import WedgeCase, WedgeReport
 
-__all__ = ['RoofWedgeCase', 'RoofWedgeReport', 'frontView', 'isThreefold', 'plotStressShare', 'touchingCases']
+__all__ = ['RoofWedgeCase', 'RoofWedgeReport', 'areEvenlySpread', 'frontView', 'plotStressShare', 'touchingCases']
 
 jointForcesSet, boundaryStress = 1, 2
 """The two ways of stress, see RoofWedge."""
 runColor, paperColor = '#1d4e79', '#c8451b'
 
 
-def isThreefold(blocks):
-	"""Whether the closed forms hold for a BlockGeometry: three joints of the same dip and area around the vertical."""
-	normals = np.array([blocks.jointNormal(name) for name in blocks.faceBlocks])
-	return len(normals) == 3 and np.ptp(normals[:, 2]) < 1e-6 and np.abs(normals[:, :2].sum(axis=0)).max() < 1e-6
+fractions = {2: 'half', 3: 'a third', 4: 'a quarter'}
+"""One over a number of joints, in words."""
+
+
+def areEvenlySpread(joints):
+	"""Whether the closed forms hold for a wedge's joints: they have the same dip and area and lie evenly around the vertical."""
+	normals, areas = np.array([joint.normal for joint in joints]), np.array([joint.area for joint in joints])
+	azimuths = np.sort(np.arctan2(normals[:, 1], normals[:, 0]))
+	turns = np.diff(azimuths, append=azimuths[0] + 2 * math.pi)
+	same = np.ptp(normals[:, 2]) < 1e-6 and np.ptp(areas) < 1e-6 * areas.max()
+	return len(joints) > 1 and bool(same and np.ptp(turns) < 1e-6)
 
 
 class RoofWedgeCase(WedgeCase):
@@ -77,6 +84,11 @@ class RoofWedgeCase(WedgeCase):
 	@property
 	def stiffnessRatio(self):
 		return self.scene.shearStiffness / self.scene.normalStiffness
+
+	@property
+	def byFace(self):
+		"""Whether stiffnesses go by area, as the closed form of σ_eff/σ_h has it."""
+		return self.scene.stiffnessTimes == 'face'
 
 	@property
 	def shareFormula(self):
@@ -128,13 +140,14 @@ class RoofWedgeReport(WedgeReport):
 	:param list ways: cases that differ in the way of stress, and in gravity; the first is the base
 	:param list cases: each with another setting
 	:param list touching: of touchingCases()
-	:param float tolerance: of critical angles against closed forms
+	:param float tolerance: of critical angles against closed forms, where half the last friction step is not more
 	"""
 
 	def __init__(self, findings, given, ways, cases, touching, tolerance):
 		super().__init__(findings, given, ways[0], cases)
-		self.ways, self.touching, self.tolerance = ways, touching, tolerance
-		self.symmetric = isThreefold(given.blocks)
+		self.ways, self.touching = ways, touching
+		self.tolerance = max(tolerance, given.steps[-1] / 2)
+		self.symmetric = areEvenlySpread(self.base.scene.joints)
 
 	def must(self, value, half):
 		"""Where the closed forms hold."""
@@ -157,7 +170,7 @@ class RoofWedgeReport(WedgeReport):
 				case.closedForm if self.symmetric else None,
 				self.must(case.closedForm, self.tolerance),
 				f'middle of a step of {case.stable - case.failed:.3f}°'
-				+ ('; the paper\'s blocks touch each other, see below' if case.way == boundaryStress else ''),
+				+ ('; the paper\'s blocks touch each other, see below' if self.touching and case.way == boundaryStress else ''),
 			)
 			self.findings.row(
 				f'the same against {alpha} + atan(W/ΣH), {case.label}',
@@ -191,18 +204,25 @@ class RoofWedgeReport(WedgeReport):
 		:param known: (value, half the range) of the angle it would give for the reference
 		"""
 		base = self.base
+		number = len(base.scene.joints)
 		normal, _ = jointForces(self.given.horizontal_stress, base.area, base.inclination)
-		wrong = math.degrees(roofWedgeConstantNormal(base.scene.weight, 3 * normal, base.inclination))
+		wrong = math.degrees(roofWedgeConstantNormal(base.scene.weight, number * normal, base.inclination))
 		value, half = known
 		accept = self.ofReference((value - half, value + half))
 		self.findings.row('a constant normal force would give, wrongly', wrong, '°', theory=self.ofReference(value), accept=accept)
-		self.findings.text(
-			'Why φ = α + atan(W/ΣH). '
-			'At the end each joint\'s force has a horizontal part, a third of ΣH, and lifts a third of W; '
-			'it is inclined to the joint\'s normal by α plus the angle of lift. '
+		if not self.symmetric:
+			return
+		part = fractions.get(number, f'1/{number}')
+		equal = (
 			'With kn = ks the settlement under W opens the joints by as much horizontal force as their shear adds, '
 			'so ΣH stays what the stress made it. '
-			f'A constant normal force, without that opening, would give {wrong:.3f}°.'
+		)
+		self.findings.text(
+			'Why φ = α + atan(W/ΣH). '
+			f'At the end each joint\'s force has a horizontal part, {part} of ΣH, and lifts {part} of W; '
+			'it is inclined to the joint\'s normal by α plus the angle of lift. '
+			+ (equal if base.stiffnessRatio == 1 else 'The settlement under W opens the joints. ')
+			+ f'A constant normal force, without that opening, would give {wrong:.3f}°.'
 		)
 
 	def closure(self):
@@ -215,10 +235,11 @@ class RoofWedgeReport(WedgeReport):
 			self.findings.row('way 2: closure of the joints', 1e3 * max(case.closures), 'mm', theory=closed, accept=accept)
 
 	def independence(self, labels):
-		"""Changes of the critical angle that must be small."""
+		"""Changes of the critical angle that must be small: two angles that agree may still be found one friction step apart."""
+		half = max(self.tolerance, (1 + 1e-6) * self.given.steps[-1])
 		for label in labels:
 			change = self.case(label).critical - self.base.critical
-			accept = self.must(0, self.tolerance)
+			accept = self.must(0, half)
 			self.findings.row(f'change of the critical angle: {label}', change, '°', theory=0, accept=accept)
 
 	def touchingBlocks(self, paper, tolerance):
@@ -229,16 +250,18 @@ class RoofWedgeReport(WedgeReport):
 		"""
 		alpha = f'{math.degrees(self.base.inclination):.4g}°'
 		for case in self.touching:
-			share, accept = case.shareFormula, self.must(case.shareFormula, tolerance)
+			share = case.shareFormula if case.byFace else None
+			accept = self.must(case.shareFormula, tolerance)
 			self.findings.row(f'blocks that touch: σ_eff/σ_h, {case.label}', case.stressShare, '-', theory=share, accept=accept)
+			agree = self.must(case.fromForce, self.tolerance)
 			self.findings.row(
 				f'blocks that touch: critical angle, {case.label}',
 				case.critical,
 				'°',
 				self.ofReference(paper) if 'needs' in case.label else None,
-				case.closedForm,
-				self.must(case.fromForce, self.tolerance),
-				f'A_v = {case.scene.sideArea:.4f} m²; must agree with {alpha} + atan(W/ΣH) = {case.fromForce:.3f}°',
+				case.closedForm if case.byFace else None,
+				agree,
+				f'A_v = {case.scene.sideArea:.4f} m²; {"must agree with " if agree else ""}{alpha} + atan(W/ΣH) = {case.fromForce:.3f}°',
 			)
 
 	def failedQueries(self):
@@ -285,7 +308,7 @@ class RoofWedgeReport(WedgeReport):
 				f'{1e3 * max(case.closures):.4f}',
 				f'{case.horizontal:.1f}',
 				f'{case.stressShare:.5f}',
-				f'{case.shareFormula:.5f}',
+				f'{case.shareFormula:.5f}' if case.byFace else '',
 				f'{case.stable:.3f}',
 				f'{case.failed:.3f}',
 				f'{case.fromForce:.3f}',
@@ -326,7 +349,8 @@ def plotStressShare(path, touching, paper):
 	angles = [math.degrees(roofWedgeFrictionAngle(case.scene.weight, force, inclination)) for force in forces]
 	figure = Figure(figsize=(7, 4.6), layout='constrained')
 	axes = figure.subplots()
-	axes.plot(ratios, angles, color='0.3', linewidth=1.2, label='closed form: (A + 2A_v)/(A + 3A_v) of the stress')
+	if case.byFace:
+		axes.plot(ratios, angles, color='0.3', linewidth=1.2, label='closed form: (A + 2A_v)/(A + 3A_v) of the stress')
 	runs = [c.scene.sideArea / area for c in touching], [c.critical for c in touching]
 	axes.plot(*runs, 'o', color=runColor, label='runs with boundary stress')
 	axes.axhline(paper, color=paperColor, linestyle='--', linewidth=1, label=f'the paper with boundary stress, {paper}°')

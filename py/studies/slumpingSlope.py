@@ -177,6 +177,8 @@ class SlopeReport:
 	def __init__(self, findings, given, layers):
 		self.findings, self.given, self.layers = findings, given, layers
 		self.outer = np.array(layers) == 0
+		heights = np.array([np.mean(corners, axis=0)[1] for corners in given.slope['free']])
+		self.outerFromBelow = np.array(sorted(np.flatnonzero(self.outer), key=lambda k: heights[k]))
 
 	def _ifReference(self, value):
 		return value if self.given.reference else None
@@ -192,6 +194,10 @@ class SlopeReport:
 			f'{given.stable_speed:g} m/s at three looks in turn, and has failed when one has moved by more than '
 			f'{given.failed_distance:g} m since the slope had settled: such a slope arrests itself again and again after smaller motions.'
 		)
+		if self.outer.all():
+			known = given.slope['dip'] is not None and given.slope['spacing']
+			why = 'there is one layer only' if known else "the geometry's params do not state the dip and the spacing of the bedding"
+			self.findings.text(f'All blocks count as outer, as {why}. So there are no rows on inner blocks.')
 
 	def limitAnalysis(self):
 		"""Rows of the static theorem; keeps its LimitState in *limit*.
@@ -217,14 +223,15 @@ class SlopeReport:
 			note='0: there is no translational mechanism even without friction',
 		)
 		moving = np.abs(self.limit.velocities).max(axis=1) > 1e-6
-		self.findings.row(
-			'mechanism: inner blocks that move',
-			int(np.count_nonzero(moving & ~self.outer)),
-			'',
-			theory=self._ifReference(0),
-			accept=self._ifReference((0, 0)),
-		)
-		spins = self.limit.velocities[self.outer, 2]
+		if not self.outer.all():
+			self.findings.row(
+				'mechanism: inner blocks that move',
+				int(np.count_nonzero(moving & ~self.outer)),
+				'',
+				theory=self._ifReference(0),
+				accept=self._ifReference((0, 0)),
+			)
+		spins = self.limit.velocities[self.outerFromBelow, 2]
 		together = 0
 		while together < len(spins) and abs(spins[together] - spins[0]) < 1e-6 * abs(spins[0]):
 			together += 1
@@ -254,25 +261,26 @@ class SlopeReport:
 	def mode(self, failure):
 		"""How the blocks have moved when the slope has failed."""
 		turned, moved = failure.rotation[failure.failed], failure.displacement[failure.failed]
-		lower = np.flatnonzero(self.outer)[: self.limitTogether]
+		lower = self.outerFromBelow[: self.limitTogether]
 		self.findings.row(
 			f'least backward rotation of the lowest {len(lower)} outer blocks at failure',
 			-turned[lower].max(),
 			'°',
 			accept=self._ifReference((1e-3, 90)),
 			note='clockwise, the face being on the left; of all outer blocks from below: '
-			+ ', '.join(f'{-turn:.3f}' for turn in turned[self.outer]),
+			+ ', '.join(f'{-turn:.3f}' for turn in turned[self.outerFromBelow]),
 		)
 		self.findings.row(
 			'their largest difference', float(np.ptp(turned[lower])), '°', note='0 if they turn as one, as in the limit analysis'
 		)
-		self.findings.row('largest rotation of an inner block at failure', float(np.abs(turned[~self.outer]).max(initial=0)), '°')
-		self.findings.row(
-			'largest motion of an inner block at failure',
-			float(moved[~self.outer].max(initial=0)),
-			'm',
-			accept=self._ifReference((0, self.mostInnerMotion)),
-		)
+		if not self.outer.all():
+			self.findings.row('largest rotation of an inner block at failure', float(np.abs(turned[~self.outer]).max()), '°')
+			self.findings.row(
+				'largest motion of an inner block at failure',
+				float(moved[~self.outer].max()),
+				'm',
+				accept=self._ifReference((0, self.mostInnerMotion)),
+			)
 		motion = failure.motion[failure.failed]
 		self.findings.row(
 			'likeness of motion and mechanism of the limit analysis',

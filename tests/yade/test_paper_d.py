@@ -95,6 +95,58 @@ def testAnotherWedge(tmp_path, monkeypatch):
 	assert row['theory'] == pytest.approx(expected) and row['ours'] == pytest.approx(expected, abs=0.02)
 
 
+def testCoarseLastStepIsAllowedFor(tmp_path, monkeypatch):
+	assert runHere(script, tmp_path, monkeypatch, '--steps', '1', '0.1', '--quick', '--no-pictures') == 0
+	row = results(tmp_path)[1]['critical friction angle, way 1, joint forces set']
+	assert row['good'] and row['accept'] == [pytest.approx(row['theory'] + sign * 0.05) for sign in (-1, 1)]
+
+
+def testFourJoints(tmp_path, monkeypatch):
+	"""Of dip 65°, to the four quarters."""
+	dip, blocks = radians(65), {}
+	horizontal = [np.array([np.cos(a), np.sin(a), 0]) for a in pi / 2 * np.arange(4)]
+	outward = [np.sin(dip) * away + (0, 0, np.cos(dip)) for away in horizontal]
+	blocks['wedge'] = {'planes': [[*n, n[2]] for n in outward] + [[0, 0, -1, 0]]}
+	for k, (n, away) in enumerate(zip(outward, horizontal, strict=True)):
+		sides = [np.array([-away[1], away[0], 0]) * sign - away for sign in (1, -1)]
+		rows = [[*-n, -n[2]], [*away, 2.5], [0, 0, 1, 2], [0, 0, -1, 0]] + [[*side, -0.01] for side in sides]
+		blocks[f'rock {k}'] = {'planes': [[float(x) for x in row] for row in rows]}
+	(tmp_path / 'four.json').write_text(json.dumps(blocks))
+	assert runHere(script, tmp_path, monkeypatch, '--geometry', f'{tmp_path}/four.json', '--quick', '--no-pictures') == 0
+	content, rows = results(tmp_path)
+	half = 1 / np.tan(dip)
+	weight, area = 4 * half**2 / 3 * 2000 * 10, half / np.sin(dip)
+	expected = 25 + degrees(atan(weight / (4 * area * np.sin(dip) * 5e4)))
+	for way in ('way 1, joint forces set', 'way 2, boundary stress'):
+		row = rows[f'critical friction angle, {way}']
+		assert row['good'] and row['theory'] == pytest.approx(expected) and row['ours'] == pytest.approx(expected, abs=0.02)
+		assert 'see below' not in row['note']
+	normal = 4 * 5e4 * area * np.sin(dip) ** 2
+	wrong = degrees(atan((weight / normal + np.cos(dip)) / np.sin(dip)))
+	assert rows['a constant normal force would give, wrongly']['ours'] == pytest.approx(wrong)
+	assert 'a quarter of ΣH' in str(content) and not any('blocks that touch' in name for name in rows)
+
+
+def testClosedFormsByAreaAreNotShownWhereStiffnessDoesNotGoByIt(tmp_path, monkeypatch):
+	options = '--stiffness-times contact --shear-stiffness 5e6 --quick --no-pictures'
+	assert runHere(script, tmp_path, monkeypatch, *options.split()) == 0
+	content, rows = results(tmp_path)
+	touching = [row for name, row in rows.items() if 'blocks that touch' in name]
+	assert touching and all(row['theory'] is None for row in touching)
+	assert 'With kn = ks' not in str(content)
+
+
+def testUnboundedWedgeIsRefused(tmp_path, monkeypatch, capsys):
+	blocks = json.loads(geometryFile.read_text())
+	wedge = next(block for name, block in blocks.items() if 'wedge' in name)
+	wedge['planes'] = [plane for plane in wedge['planes'] if plane[2] > -0.99]
+	(tmp_path / 'open.json').write_text(json.dumps(blocks))
+	with pytest.raises(SystemExit) as ended:
+		runHere(script, tmp_path, monkeypatch, '--geometry', f'{tmp_path}/open.json')
+	error = capsys.readouterr().err
+	assert ended.value.code == 2 and '--geometry: block' in error and not (tmp_path / 'out').exists()
+
+
 bad = [
 	(('--horizontal-stress', '0'), '--horizontal-stress'),
 	(('--start', '0'), '--start'),

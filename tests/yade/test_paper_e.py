@@ -4,14 +4,27 @@
 import csv
 import json
 import math
+from types import SimpleNamespace
 
 import pytest
 from paperScripts import folder, results, run, runHere
 from yade import O
+from yade.polytope.findings import Findings
 from yade.polytope.scenes import SlumpingSlope, readSlope
+from yade.polytope.studies.slumpingSlope import SlopeReport
 
 name, quick = 'e_slumping_slope', ('--quick', '--no-pictures')
 geometry = folder / 'geometry/e_slope.json'
+
+
+def changed(where, move, **changes):
+	"""The reference geometry with its corners moved, in a file."""
+	content = json.loads(geometry.read_text())
+	for key in ('free', 'fixed'):
+		content[key] = [[move(*corner) for corner in corners] for corners in content[key]]
+	path = where / 'changed.json'
+	path.write_text(json.dumps({**content, **changes}))
+	return path
 
 
 def testQuickVariantHoldsEveryTolerance(tmp_path):
@@ -104,10 +117,55 @@ def testGeometryFileIsChecked(tmp_path):
 		('{"free": []}', 'free'),
 		('{"free": [[[0, 0], [1, 0], [0, 1]]]}', 'fixed'),
 		('{"free": [[[0, 0], [1, 0]]], "fixed": [1]}', 'three'),
+		('{"free": [[[0, 0], [1, "x"], [0, 1]]], "fixed": [1]}', 'three'),
+		('{"free": [1, 2', 'not JSON'),
 	):
 		path.write_text(content)
-		with pytest.raises(ValueError, match=word):
+		with pytest.raises(ValueError, match=word) as refusal:
 			readSlope(path)
+		assert str(path) in str(refusal.value)
+
+
+@pytest.mark.parametrize('params', [{'delta': 'x'}, {'delta': 0}, {'delta': True}, {'delta': 50, 's': '1'}, {'s': -1}, [50, 1]])
+def testParamsAreChecked(tmp_path, params):
+	path = changed(tmp_path, lambda x, y: [x, y], params=params)
+	with pytest.raises(ValueError, match='params') as refusal:
+		readSlope(path)
+	assert str(path) in str(refusal.value)
+
+
+def testMirroredSlopeIsRefused(tmp_path, monkeypatch, capsys):
+	path = changed(tmp_path, lambda x, y: [-x, y])
+	with pytest.raises(SystemExit) as stop:
+		runHere(name, tmp_path, monkeypatch, *quick, '--geometry', str(path))
+	said = capsys.readouterr().err
+	assert stop.value.code == 2 and str(path) in said and 'toe must be on the left' in said
+
+
+@pytest.mark.parametrize('shift', [(100, -50), (-300, 20)])
+def testLayersDoNotDependOnTheOrigin(tmp_path, shift):
+	slope = SlumpingSlope(**readSlope(changed(tmp_path, lambda x, y: [x + shift[0], y + shift[1]])))
+	assert slope.layers() == [k // 7 for k in range(28)]
+
+
+def testThinSpacingLeavesAnOutermostLayer():
+	assert min(SlumpingSlope(**{**readSlope(geometry), 'spacing': 0.3}).layers()) == 0
+
+
+def testReportKnowsOuterBlocksFromBelow(tmp_path):
+	"""In whatever order the file has them; without params there are no rows on inner blocks."""
+	slope = readSlope(geometry)
+	slope['free'] = slope['free'][::-1]
+	for params, others in (({}, 1), ({'dip': None}, 0)):
+		given = SimpleNamespace(slope={**slope, **params}, reference=False)
+		findings = Findings('E', 'test', tmp_path, {})
+		report = SlopeReport(findings, given, SlumpingSlope(**given.slope).layers())
+		report.limitAnalysis()
+		rows = {row['quantity']: row['ours'] for row in findings.content['rows']}
+		assert sum('inner' in quantity for quantity in rows) == others
+		if others:
+			assert report.outerFromBelow.tolist() == list(range(27, 20, -1))
+			assert rows['mechanism: lowest outer blocks that turn as one'] == 5
 
 
 def testBuilderMakesLayersOfPolygons():
