@@ -152,7 +152,7 @@ class SlumpingSlope:
 		return self
 
 	def layers(self):
-		"""Layer of each free block, 0 the outermost: by its centre's depth below the outermost corner; zeros if dip or spacing are not known."""
+		"""Layer of each free block, 0 the outermost: by its centre below the outermost corner; zeros if dip or spacing is unknown."""
 		if self.dip is None or not self.spacing:
 			return [0] * len(self.free)
 		inward = np.array([math.sin(self.dip), -math.cos(self.dip)])

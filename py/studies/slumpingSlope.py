@@ -176,6 +176,7 @@ class SlopeReport:
 
 	def __init__(self, findings, given, layers):
 		self.findings, self.given, self.layers = findings, given, layers
+		self.layersKnown = given.slope['dip'] is not None and bool(given.slope['spacing'])
 		self.outer = np.array(layers) == 0
 		heights = np.array([np.mean(corners, axis=0)[1] for corners in given.slope['free']])
 		self.outerFromBelow = np.array(sorted(np.flatnonzero(self.outer), key=lambda k: heights[k]))
@@ -194,10 +195,13 @@ class SlopeReport:
 			f'{given.stable_speed:g} m/s at three looks in turn, and has failed when one has moved by more than '
 			f'{given.failed_distance:g} m since the slope had settled: such a slope arrests itself again and again after smaller motions.'
 		)
-		if self.outer.all():
-			known = given.slope['dip'] is not None and given.slope['spacing']
-			why = 'there is one layer only' if known else "the geometry's params do not state the dip and the spacing of the bedding"
-			self.findings.text(f'All blocks count as outer, as {why}. So there are no rows on inner blocks.')
+		if not self.layersKnown:
+			self.findings.text(
+				"The geometry's params do not state the dip and the spacing of the bedding. So outer and inner blocks cannot be told "
+				'apart: there are no rows on either, and all blocks have the colour of the outer layer.'
+			)
+		elif self.outer.all():
+			self.findings.text('There is one layer only. So there are no rows on inner blocks.')
 
 	def limitAnalysis(self):
 		"""Rows of the static theorem; keeps its LimitState in *limit*.
@@ -231,20 +235,21 @@ class SlopeReport:
 				theory=self._ifReference(0),
 				accept=self._ifReference((0, 0)),
 			)
-		spins = self.limit.velocities[self.outerFromBelow, 2]
-		together = 0
-		while together < len(spins) and abs(spins[together] - spins[0]) < 1e-6 * abs(spins[0]):
-			together += 1
-		over = ', '.join(f'{spin / spins[0]:.3f}' for spin in spins) if spins[0] else 'none'
-		backward = 'clockwise, that is backward' if (spins <= 0).all() else 'not all of them clockwise'
-		self.findings.row(
-			'mechanism: lowest outer blocks that turn as one',
-			together,
-			'',
-			theory=self._ifReference(self.limitTogether),
-			accept=self._ifReference((self.limitTogether, self.limitTogether)),
-			note=f'spins of the outer layer over the lowest one, from below: {over}; {backward}',
-		)
+		if self.layersKnown:
+			spins = self.limit.velocities[self.outerFromBelow, 2]
+			together = 0
+			while together < len(spins) and abs(spins[together] - spins[0]) < 1e-6 * abs(spins[0]):
+				together += 1
+			over = ', '.join(f'{spin / spins[0]:.3f}' for spin in spins) if spins[0] else 'none'
+			backward = 'clockwise, that is backward' if (spins <= 0).all() else 'not all of them clockwise'
+			self.findings.row(
+				'mechanism: lowest outer blocks that turn as one',
+				together,
+				'',
+				theory=self._ifReference(self.limitTogether),
+				accept=self._ifReference((self.limitTogether, self.limitTogether)),
+				note=f'spins of the outer layer over the lowest one, from below: {over}; {backward}',
+			)
 
 	def criticalAngle(self, run):
 		result = run.result
@@ -261,18 +266,19 @@ class SlopeReport:
 	def mode(self, failure):
 		"""How the blocks have moved when the slope has failed."""
 		turned, moved = failure.rotation[failure.failed], failure.displacement[failure.failed]
-		lower = self.outerFromBelow[: self.limitTogether]
-		self.findings.row(
-			f'least backward rotation of the lowest {len(lower)} outer blocks at failure',
-			-turned[lower].max(),
-			'°',
-			accept=self._ifReference((1e-3, 90)),
-			note='clockwise, the face being on the left; of all outer blocks from below: '
-			+ ', '.join(f'{-turn:.3f}' for turn in turned[self.outerFromBelow]),
-		)
-		self.findings.row(
-			'their largest difference', float(np.ptp(turned[lower])), '°', note='0 if they turn as one, as in the limit analysis'
-		)
+		if self.layersKnown:
+			lower = self.outerFromBelow[: self.limitTogether]
+			self.findings.row(
+				f'least backward rotation of the lowest {len(lower)} outer blocks at failure',
+				-turned[lower].max(),
+				'°',
+				accept=self._ifReference((1e-3, 90)),
+				note='clockwise, the face being on the left; of all outer blocks from below: '
+				+ ', '.join(f'{-turn:.3f}' for turn in turned[self.outerFromBelow]),
+			)
+			self.findings.row(
+				'their largest difference', float(np.ptp(turned[lower])), '°', note='0 if they turn as one, as in the limit analysis'
+			)
 		if not self.outer.all():
 			self.findings.row('largest rotation of an inner block at failure', float(np.abs(turned[~self.outer]).max()), '°')
 			self.findings.row(

@@ -153,7 +153,7 @@ def testThinSpacingLeavesAnOutermostLayer():
 
 
 def testReportKnowsOuterBlocksFromBelow(tmp_path):
-	"""In whatever order the file has them; without params there are no rows on inner blocks."""
+	"""In whatever order the file has them; without params there are no rows on outer and inner blocks."""
 	slope = readSlope(geometry)
 	slope['free'] = slope['free'][::-1]
 	for params, others in (({}, 1), ({'dip': None}, 0)):
@@ -163,6 +163,7 @@ def testReportKnowsOuterBlocksFromBelow(tmp_path):
 		report.limitAnalysis()
 		rows = {row['quantity']: row['ours'] for row in findings.content['rows']}
 		assert sum('inner' in quantity for quantity in rows) == others
+		assert ('mechanism: lowest outer blocks that turn as one' in rows) == bool(others)
 		if others:
 			assert report.outerFromBelow.tolist() == list(range(27, 20, -1))
 			assert rows['mechanism: lowest outer blocks that turn as one'] == 5
