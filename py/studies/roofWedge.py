@@ -236,7 +236,7 @@ class RoofWedgeReport(WedgeReport):
 
 	def independence(self, labels):
 		"""Changes of the critical angle that must be small: two angles that agree may still be found one friction step apart."""
-		half = max(self.tolerance, (1 + 1e-6) * self.given.steps[-1])
+		half = max(self.tolerance, (1 + 1e-9) * self.given.steps[-1])
 		for label in labels:
 			change = self.case(label).critical - self.base.critical
 			accept = self.must(0, half)
