@@ -29,11 +29,7 @@ POLYTOPE_INLINE void startBarrier(
 	const R room = R(tolerance::barrierRoom) * mu;
 	R       smallest;
 	if (warm) {
-		R carried[2][D];
-		for (int body = 0; body < 2; ++body)
-			fromBody<R, D>(f, body, memory.point[body], carried[body]);
-		for (int k = 0; k < D; ++k)
-			start.x[k] = (carried[0][k] + carried[1][k]) / 2;
+		carriedPoint<R, D>(f, memory.point, start.x);
 		mostViolated<R, D, W>(planes, start.x, smallest);
 		start.level = maxOf<R>(R(memory.level), room / 4 - smallest);
 		if (start.level < s + R(tolerance::barrierDetour) * mu) return;
@@ -88,10 +84,7 @@ POLYTOPE_INLINE void conservativeContact(
 		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
 		turnPlanes<R, D, W>(turn, planes);
 		turnFrame(f, turn);
-		R old[D];
-		for (int k = 0; k < D; ++k)
-			old[k] = point.x[k];
-		rotate<R, D>(turn, old, point.x);
+		turnVector<R, D>(turn, point.x);
 		weights = BarrierWeights::Stepped; // as they were before the turn
 	}
 	out.decrement = point.change;

@@ -4,6 +4,7 @@
 #include "PairPlanes.hpp"
 #include "Tolerances.hpp"
 
+#include <array>
 #include <cmath>
 
 /// The frame one query computes in, and the ways between it, the bodies' own frames and world axes.
@@ -179,6 +180,25 @@ template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput&
 		placePlanes<R, D, W>(
 		        *in.shape[body], home ? f.axes : turn, home ? nowhere : centre, home ? f.origin : origin, planes, planes.begin(body), planes.end(body));
 	}
+}
+
+/// A point that both bodies carry along, in the planes' frame: half-way between where each has taken it. `own`: in each body's frame.
+template <class R, int D> POLYTOPE_INLINE void carriedPoint(const ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, R* out)
+{
+	R carried[2][D];
+	for (int body = 0; body < 2; ++body)
+		fromBody<R, D>(f, body, own[body], carried[body]);
+	for (int k = 0; k < D; ++k)
+		out[k] = (carried[0][k] + carried[1][k]) / 2;
+}
+
+/// v ← T·v
+template <class R, int D> POLYTOPE_INLINE void turnVector(const Rotation<R, D>& turn, R* v)
+{
+	R old[D];
+	for (int k = 0; k < D; ++k)
+		old[k] = v[k];
+	rotate<R, D>(turn, old, v);
 }
 
 } // namespace polytope

@@ -96,13 +96,9 @@ newtonCentre(PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept
 		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
 		turnPlanes<R, D, W>(turn, planes);
 		turnFrame<R, D>(f, turn);
-		R* const turned[] = { start, x, dual };
-		for (R* v : turned) {
-			R old[D];
-			for (int k = 0; k < D; ++k)
-				old[k] = v[k];
-			rotate<R, D>(turn, old, v);
-		}
+		turnVector<R, D>(turn, start);
+		turnVector<R, D>(turn, x);
+		turnVector<R, D>(turn, dual);
 	}
 }
 
@@ -301,13 +297,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		R       start[D], target[D];
 		for (int k = 0; k < D; ++k)
 			start[k] = x[k];
-		if (settings.warmStart && memory.hasPoint) {
-			R carried[2][D];
-			for (int body = 0; body < 2; ++body)
-				fromBody<R, D>(f, body, memory.point[body], carried[body]);
-			for (int k = 0; k < D; ++k)
-				target[k] = (carried[0][k] + carried[1][k]) / 2;
-		} else
+		if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
+		else
 			simplexCentre<R, D>(basis, deep, x, target);
 		moveInside<R, D, W>(planes, start, target);
 		// what is left of the way to the centre moves the depth by at most that part of itself

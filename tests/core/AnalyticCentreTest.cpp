@@ -207,20 +207,8 @@ TEST(AnalyticCentre, OverlapsThinAcrossSeveralAxes)
 {
 	std::mt19937_64 random(22);
 	Accuracy        accuracy;
-	for (int trial = 0; trial < 1500; ++trial) {
-		Pair pair;
-		pair.shape[0] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
-		if (trial % 3 == 0) {
-			const Real thin = decades(random, -7, -1);
-			pair.shape[1]   = ConvexShape::shared(cuboid(1, thin, trial % 2 ? thin * decades(random, -1, 0) : Real(0.5)), 0);
-			pair.centre2    = Real(0.3) * randomDirection(random);
-		} else {
-			pair.shape[1] = pair.shape[0];
-			pair.centre2  = Vector3(uniform(random, -1, 1), 2 - decades(random, -11, -1), 2 - decades(random, -11, -1));
-			if (trial % 3 == 2) pair.centre2[0] = 2 - decades(random, -11, -1);
-		}
-		accuracy.add(turned(pair, randomRotation(random)));
-	}
+	for (int trial = 0; trial < 1500; ++trial)
+		accuracy.add(thinPair(trial, random));
 	EXPECT_LE(accuracy.worst, 8);
 	EXPECT_GT(accuracy.checked, 1400);
 }

@@ -102,20 +102,8 @@ TEST(IpoptCentre, OverlapsThinAcrossSeveralAxes)
 	NEEDS_IPOPT();
 	std::mt19937_64 random(802);
 	Agreement       agreement;
-	for (int trial = 0; trial < 600; ++trial) {
-		Pair pair;
-		pair.shape[0] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
-		if (trial % 3 == 0) {
-			const Real thin = decades(random, -7, -1);
-			pair.shape[1]   = ConvexShape::shared(cuboid(1, thin, trial % 2 ? thin * decades(random, -1, 0) : Real(0.5)), 0);
-			pair.centre2    = Real(0.3) * randomDirection(random);
-		} else {
-			pair.shape[1] = pair.shape[0];
-			pair.centre2  = Vector3(uniform(random, -1, 1), 2 - decades(random, -11, -1), 2 - decades(random, -11, -1));
-			if (trial % 3 == 2) pair.centre2[0] = 2 - decades(random, -11, -1);
-		}
-		agreement.add(turned(pair, randomRotation(random)));
-	}
+	for (int trial = 0; trial < 600; ++trial)
+		agreement.add(thinPair(trial, random));
 	agreement.expectWithin(1e-8);
 	EXPECT_GT(agreement.checked, 500);
 }

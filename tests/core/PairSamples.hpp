@@ -280,4 +280,22 @@ inline Pair regularPair(int faces1, int faces2, Real relativeDepth, std::mt19937
 	return pair;
 }
 
+/// Overlaps thin across two or three axes, by `trial` in turn: a plate or needle inside a block, blocks that meet along an edge,
+/// at a corner.
+inline Pair thinPair(int trial, std::mt19937_64& random)
+{
+	Pair pair;
+	pair.shape[0] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	if (trial % 3 == 0) {
+		const Real thin = decades(random, -7, -1);
+		pair.shape[1]   = ConvexShape::shared(cuboid(1, thin, trial % 2 ? thin * decades(random, -1, 0) : Real(0.5)), 0);
+		pair.centre2    = Real(0.3) * randomDirection(random);
+	} else {
+		pair.shape[1] = pair.shape[0];
+		pair.centre2  = Vector3(uniform(random, -1, 1), 2 - decades(random, -11, -1), 2 - decades(random, -11, -1));
+		if (trial % 3 == 2) pair.centre2[0] = 2 - decades(random, -11, -1);
+	}
+	return turned(pair, randomRotation(random));
+}
+
 } // namespace polytope::samples

@@ -8,6 +8,8 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper'
 
 
@@ -30,6 +32,13 @@ def runHere(name, where, monkeypatch, *options):
 	specification.loader.exec_module(script)
 	monkeypatch.setattr(sys, 'argv', [str(folder / f'{name}.py'), '--output', str(where / 'out'), *options])
 	return script.main()
+
+
+def expectRefusal(name, where, monkeypatch, capsys, options, message):
+	"""The script ends with 2, says *message*, and has written nothing."""
+	with pytest.raises(SystemExit) as ended:
+		runHere(name, where, monkeypatch, *options)
+	assert ended.value.code == 2 and message in capsys.readouterr().err and not (where / 'out').exists()
 
 
 def results(where):

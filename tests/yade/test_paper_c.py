@@ -7,7 +7,7 @@ from math import degrees, radians, tan
 
 import numpy as np
 import pytest
-from paperScripts import folder, results, run, runHere
+from paperScripts import expectRefusal, folder, results, run, runHere
 from scenes import blockOnFloor, contact, joint, loop
 from yade import MatchMaker, O, polytope
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
@@ -115,9 +115,7 @@ bad = [
 
 @pytest.mark.parametrize('options,name', bad)
 def testBadOptionsAreRefused(tmp_path, monkeypatch, capsys, options, name):
-	with pytest.raises(SystemExit) as ended:
-		runHere(script, tmp_path, monkeypatch, *options)
-	assert ended.value.code == 2 and name in capsys.readouterr().err and not (tmp_path / 'out').exists()
+	expectRefusal(script, tmp_path, monkeypatch, capsys, options, name)
 
 
 # ------------------------------------------------------------------------------------------------ geometry

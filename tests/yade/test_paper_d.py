@@ -6,7 +6,7 @@ from math import atan, cos, degrees, pi, radians
 
 import numpy as np
 import pytest
-from paperScripts import folder, results, run, runHere
+from paperScripts import expectRefusal, folder, results, run, runHere
 from yade import O
 from yade.polytope.scenes import BlockGeometry, RoofWedge, touchingRoofBlocks
 from yade.polytope.theory.wedges import stressShare
@@ -141,10 +141,7 @@ def testUnboundedWedgeIsRefused(tmp_path, monkeypatch, capsys):
 	wedge = next(block for name, block in blocks.items() if 'wedge' in name)
 	wedge['planes'] = [plane for plane in wedge['planes'] if plane[2] > -0.99]
 	(tmp_path / 'open.json').write_text(json.dumps(blocks))
-	with pytest.raises(SystemExit) as ended:
-		runHere(script, tmp_path, monkeypatch, '--geometry', f'{tmp_path}/open.json')
-	error = capsys.readouterr().err
-	assert ended.value.code == 2 and '--geometry: block' in error and not (tmp_path / 'out').exists()
+	expectRefusal(script, tmp_path, monkeypatch, capsys, ['--geometry', f'{tmp_path}/open.json'], '--geometry: block')
 
 
 bad = [
@@ -160,9 +157,7 @@ bad = [
 
 @pytest.mark.parametrize('options,name', bad)
 def testBadOptionsAreRefused(tmp_path, monkeypatch, capsys, options, name):
-	with pytest.raises(SystemExit) as ended:
-		runHere(script, tmp_path, monkeypatch, *options)
-	assert ended.value.code == 2 and name in capsys.readouterr().err and not (tmp_path / 'out').exists()
+	expectRefusal(script, tmp_path, monkeypatch, capsys, options, name)
 
 
 # ------------------------------------------------------------------------------------------------ the two ways
