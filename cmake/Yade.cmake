@@ -7,7 +7,7 @@
 # crashes without a word from compiler or linker. So the macros are derived from the features the binary reports, by the
 # rules of YADE's own CMakeLists.txt, and what is not understood is refused.
 #
-# Sets YADE_FOUND, YADE_VERSION, YADE_FEATURES, YADE_LIBRARY_DIR (…/yade-double), YADE_DEFINITIONS; the function
+# Sets YADE_FOUND, YADE_VERSION, YADE_FEATURES, YADE_LIBRARY_DIR (…/yade-double), YADE_REAL_BIT, YADE_DEFINITIONS; the function
 # polytope_use_yade(<target>) gives a target all it needs. cmake/YadeFeatures.cmake has the rules.
 
 include(YadeFeatures)
@@ -51,7 +51,7 @@ execute_process(
 if(NOT yade_config_result EQUAL 0)
 	message(FATAL_ERROR "Cannot read ${YADE_LIBRARY_DIR}/py/yade/config.py:\n${yade_config_error}")
 endif()
-foreach(name VERSION FEATURES REAL_BIT REAL_DEC LIBRARY_PATH MPMATH)
+foreach(name VERSION FEATURES REAL_BIT REAL_DEC REAL_NAME LIBRARY_PATH MPMATH)
 	string(REGEX MATCH "(^|\n)${name}=([^\n]*)" line "${yade_config}")
 	set(YADE_${name} "${CMAKE_MATCH_2}")
 endforeach()

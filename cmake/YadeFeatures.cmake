@@ -68,9 +68,12 @@ function(yade_definitions features definitions_variable options_variable)
 		endif()
 	endforeach()
 
-	# Real. The features do not say whether RealHP<N> is there; for double, mpmath is used exactly when it is.
-	if(NOT YADE_REAL_BIT EQUAL 64)
-		message(FATAL_ERROR "This YADE computes with ${YADE_REAL_BIT} bits; the plug-in is built for double (64).")
+	# Real. The features do not say whether RealHP<N> is there; for double, mpmath is used exactly when it is, and the others
+	# cannot do without mpmath.
+	if(YADE_REAL_NAME MATCHES "^PrecisionMpfr")
+		list(APPEND definitions YADE_REAL_MPFR)
+	elseif(NOT YADE_REAL_NAME MATCHES "^Precision(Double|LongDouble|Float128)$")
+		message(FATAL_ERROR "This YADE computes with ${YADE_REAL_NAME}; the plug-in can be built for double, long double, float128 and MPFR.")
 	endif()
 	list(APPEND definitions YADE_REAL_BIT=${YADE_REAL_BIT} YADE_REAL_DEC=${YADE_REAL_DEC})
 	if(NOT YADE_MPMATH)

@@ -35,11 +35,25 @@ if("QT5" IN_LIST YADE_FEATURES)
 	list(APPEND yade_libraries Qt5::Core Qt5::Gui Qt5::Widgets Qt5::Xml Qt5::OpenGL OpenGL::GL OpenGL::GLU "${GLUT_LIBRARY}")
 endif()
 
+# the quadruple precision of g++, part of the compiler
+if(YADE_REAL_BIT EQUAL 128)
+	list(APPEND yade_libraries quadmath)
+endif()
+
 # The libraries of YADE that have the classes we derive from, in an order in which they can be loaded.
 set(YADE_PLUGIN_LIBRARIES libyade.so libpkg_common.so libpkg_dem.so)
 foreach(library IN LISTS YADE_PLUGIN_LIBRARIES)
 	list(APPEND yade_libraries "${YADE_LIBRARY_DIR}/${library}")
 endforeach()
+
+# YADE's Real for a target without YADE's classes: all that includes src/Real.hpp.
+function(polytope_use_yade_real target)
+	target_compile_definitions(${target} PUBLIC ${YADE_DEFINITIONS} "POLYTOPE_REAL=yade::Real" "POLYTOPE_REAL_HEADER=<lib/high-precision/Real.hpp>")
+	target_include_directories(${target} SYSTEM PUBLIC "${YADE_SOURCE_DIR}")
+	target_link_libraries(${target} PUBLIC Boost::headers Python3::Module $<$<EQUAL:${YADE_REAL_BIT},128>:quadmath>)
+	# YADE's own; float128's literals are no standard C++
+	set_target_properties(${target} PROPERTIES CXX_EXTENSIONS ON)
+endfunction()
 
 function(polytope_use_yade target)
 	target_compile_definitions(${target} PRIVATE ${YADE_DEFINITIONS})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# Makes the folder OVERLAY/yade-double anew: links to all of YADE_LIBRARY_DIR, and to the plug-in where an installation
+# Makes the folder OVERLAY/yade-<precision> anew: links to all of YADE_LIBRARY_DIR, and to the plug-in where an installation
 # would have it. Called by the target `overlay`.
 get_filename_component(name "${YADE_LIBRARY_DIR}" NAME)
 set(folder "${OVERLAY}/${name}")

@@ -23,6 +23,8 @@ from yade import utils
 
 from yade import _polytope
 
+from .precision import real
+
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
 
 defaultCornerFraction = 0.1
@@ -188,19 +190,19 @@ def _body(
 def _number(value, name):
 	if not isinstance(value, numbers.Real):
 		raise ValueError(f'{name}: must be a number, got {value!r}')
-	return float(value)
+	return real(value)
 
 
 def _numbers(values, name):
 	try:
-		return [float(v) for v in values]
+		return [real(v) for v in values]
 	except (TypeError, ValueError):
 		raise ValueError(f'{name}: must be a sequence of numbers') from None
 
 
 def _vectors(rows, name, length):
 	try:
-		vectors = [[float(x) for x in row] for row in rows]
+		vectors = [[real(x) for x in row] for row in rows]
 	except (TypeError, ValueError):
 		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
 	if any(len(v) != length for v in vectors):
@@ -210,7 +212,7 @@ def _vectors(rows, name, length):
 
 def _vector(value, name):
 	try:
-		vector = Vector3(*[float(x) for x in value])
+		vector = Vector3(*[real(x) for x in value])
 	except Exception:  # whatever is no sequence of three numbers
 		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
 	if not all(abs(x) < float('inf') for x in vector):

@@ -194,7 +194,7 @@ template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R
 			sum += rate / (R(1) - time * rate);
 		}
 		const R derivative = horizontalSum<R, W>(sum);
-		if (std::abs(derivative) <= R(tolerance::lineSearchSlope) * -slope) break;
+		if (abs(derivative) <= R(tolerance::lineSearchSlope) * -slope) break;
 		(derivative < 0 ? low : high) = t;
 		const R rest = derivative - 1 / (tMax - t);
 		t            = rest < 0 ? tMax + 1 / rest : (low + high) / 2;

@@ -24,17 +24,38 @@ namespace {
 	using Kernel
 	        = std::conditional_t<isDouble, CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<CGAL::Gmpq>>;
 
-	/// A template only so that the branch not taken is not compiled.
+	/// Templates only so that the branch not taken is not compiled.
 	template <class Value> Number toNumber(Value value)
 	{
 		if constexpr (isDouble) {
 			return value;
 		} else {
+			using std::frexp;
+			int    exponent = 0;
+			Value  rest     = frexp(value, &exponent); // of size one: no part of it is beyond a double's range
 			Number sum(0);
-			while (value != 0) {
-				const double part = static_cast<double>(value);
+			while (rest != 0) {
+				const double part = double(rest);
 				sum += Number(part);
-				value -= Value(part);
+				rest -= Value(part);
+			}
+			const Number scale(CGAL::Gmpz(1) << long(exponent < 0 ? -exponent : exponent));
+			return exponent < 0 ? Number(sum / scale) : Number(sum * scale);
+		}
+	}
+
+	/// Of a quotient, with all digits of Real.
+	template <class Quotient> Real toReal(const Quotient& quotient)
+	{
+		if constexpr (isDouble) {
+			return CGAL::to_double(quotient);
+		} else {
+			Number rest = quotient.numerator() / quotient.denominator();
+			Real   sum  = 0;
+			for (int bits = -2 * 52; bits < std::numeric_limits<Real>::digits && rest != Number(0); bits += 52) {
+				const double part = CGAL::to_double(rest);
+				sum += part;
+				rest -= Number(part);
 			}
 			return sum;
 		}
@@ -63,8 +84,8 @@ DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& 
 	DeepPoint  result;
 	auto       value = solution.variable_values_begin();
 	for (int k = 0; k < 3; ++k, ++value)
-		result.point[k] = Real(CGAL::to_double(*value));
-	result.depth = Real(CGAL::to_double(*value));
+		result.point[k] = toReal(*value);
+	result.depth = toReal(*value);
 	return result;
 }
 

@@ -20,8 +20,8 @@ template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>
 {
 	R difference = 0;
 	for (int k = 0; k < D; ++k)
-		difference += std::abs(planes.normal[k][i] - planes.normal[k][j]);
-	return difference <= R(tolerance::violation) && std::abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
+		difference += abs(planes.normal[k][i] - planes.normal[k][j]);
+	return difference <= R(tolerance::violation) && abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
 }
 
 /// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half

@@ -42,11 +42,11 @@ namespace {
 		// a regular simplex (tetrahedron, triangle): Σ a = 0, so λ = 1/(D+1) is feasible
 		LpBasis<Real, D> basis;
 		const Real       corner[4][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
-		const Real       half = Real(1) / 2, root3 = std::sqrt(Real(3)) / 2;
+		const Real       half = Real(1) / 2, root3 = sqrt(Real(3)) / 2;
 		const Real       fan[3][2] = { { 0, 1 }, { -root3, -half }, { root3, -half } };
 		for (int c = 0; c <= D; ++c) {
 			for (int k = 0; k < D; ++k)
-				planes.normal[k][padded + c] = D == 3 ? corner[c][k] / std::sqrt(Real(3)) : fan[c][k];
+				planes.normal[k][padded + c] = D == 3 ? corner[c][k] / sqrt(Real(3)) : fan[c][k];
 			planes.offset[padded + c] = reach;
 			basis.plane[c]            = padded + c;
 		}
@@ -73,15 +73,15 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	fillArrays();
 	const int D = dimension();
 	for (const Vector3& v : polyhedron_.vertices)
-		boundingRadius_ = std::max(boundingRadius_, D == 2 ? v.head<2>().norm() : v.norm());
+		boundingRadius_ = std::max(boundingRadius_, Real(D == 2 ? v.head<2>().norm() : v.norm()));
 	// artificial planes must lie outside every ball that touches the set's planes
 	Real reach = boundingRadius_;
-	for (Real d : planes_.offsets)
-		reach = std::max(reach, std::abs(d));
+	for (const Real& d : planes_.offsets)
+		reach = std::max(reach, Real(abs(d)));
 	reach *= 16;
 	inscribedRadius_ = D == 3 ? inscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_)
 	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
-	if (!std::isfinite(double(cornerRadius)) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
+	if (!isfinite(cornerRadius) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
 		throw std::invalid_argument(
 		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius " + text(inscribedRadius_)
 		        + " m; got " + text(cornerRadius));

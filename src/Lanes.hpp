@@ -20,7 +20,8 @@ namespace polytope {
 constexpr int padWidth = 4;
 
 /// Offset of a neutral plane 0·x ≤ padOffset: never violated, weight 1/slack negligible against any plane of any scene.
-constexpr double padOffset = 1e60;
+/// (Where the precision has more than 60 digits, its weight has to be smaller than those.)
+constexpr double padOffset = std::numeric_limits<Real>::digits > 150 ? 1e300 : 1e60;
 
 /// Four numbers of a type that has no vectors: what the linear programme's four rows are in long double.
 template <class R> struct Plain4 {
@@ -53,18 +54,22 @@ template <class R, int W> constexpr bool isVector = !std::is_same_v<typename Lan
 template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type load(const R* p)
 {
 	if constexpr (W == 1) return *p;
-	else {
+	else if constexpr (isVector<R, W>) {
 		typename Lanes<R, W>::Type v;
 		std::memcpy(&v, p, sizeof v);
 		return v;
-	}
+	} else
+		return { { p[0], p[1], p[2], p[3] } };
 }
 
 template <class R, int W> POLYTOPE_INLINE void store(R* p, const typename Lanes<R, W>::Type& v)
 {
 	if constexpr (W == 1) *p = v;
-	else
+	else if constexpr (isVector<R, W>)
 		std::memcpy(p, &v, sizeof v);
+	else
+		for (int k = 0; k < W; ++k)
+			p[k] = v[k];
 }
 
 template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type broadcast(const R& x)
@@ -149,7 +154,7 @@ template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffl
 		return { { v[a], v[b], v[c], v[d] } };
 }
 
-template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), std::abs(v[3]) } }; }
+template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { abs(v[0]), abs(v[1]), abs(v[2]), abs(v[3]) } }; }
 template <class V> POLYTOPE_INLINE V         absolute(const V& v) { return v < 0 ? -v : v; }
 
 } // namespace polytope

@@ -85,7 +85,7 @@ solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&or
 	for (int k = 0; k <= D; ++k) {
 		R length = 0;
 		for (int j = 0; j <= D; ++j)
-			length += std::abs(basis.inverse[j][k]);
+			length += abs(basis.inverse[j][k]);
 		basis.weight[k] = basis.inverse[D][k];
 		basis.noise[k]  = R(tolerance::rounding) * length;
 		longest         = maxOf<R>(longest, basis.noise[k]);
@@ -107,17 +107,17 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 			dual[j] = 0;
 			for (int k = 0; k <= D; ++k)
 				dual[j] -= basis.weight[k] * a[k][j];
-			size = maxOf<R>(size, std::abs(basis.point[j]));
+			size = maxOf<R>(size, abs(basis.point[j]));
 		}
 		dual[D] = 1;
 		for (int k = 0; k <= D; ++k) {
 			dual[D] -= basis.weight[k];
 			primal[k] = d[k] - dot<R, D>(a[k], basis.point) - minusS;
-			size      = maxOf<R>(size, std::abs(d[k]));
-			wrong     = maxOf<R>(wrong, std::abs(primal[k]));
+			size      = maxOf<R>(size, abs(d[k]));
+			wrong     = maxOf<R>(wrong, abs(primal[k]));
 		}
 		for (int j = 0; j <= D; ++j)
-			wrong = maxOf<R>(wrong, std::abs(dual[j]) * size);
+			wrong = maxOf<R>(wrong, abs(dual[j]) * size);
 		if (wrong <= R(tolerance::refined) * size) break;
 		for (int k = 0; k <= D; ++k) {
 			minusS += basis.inverse[D][k] * primal[k];

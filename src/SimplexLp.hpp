@@ -135,7 +135,7 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
 		// by how much the basis' own planes miss s is what rounding makes of the others
 		R rounding = R(tolerance::violation) * size;
 		for (int k = 0; k <= D; ++k)
-			rounding = maxOf<R>(rounding, 2 * std::abs(planes.slack[now->plane[k]] + now->infeasibility));
+			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
 		const R    bound = -now->infeasibility - rounding;
 		const bool met   = !(smallest < bound);
 		if (!met && bland) q = firstViolated<R, D>(planes, bound);

@@ -7,9 +7,25 @@
 
 /// Every threshold of the contact path: meaning, scale, reason. Lengths are relative to the pair's size, the
 /// smaller of the two bodies' circumradii; weights and decrements are pure numbers. (Shape construction has its own in ConstructionTolerances.hpp.)
+///
+/// In wider arithmetic than double a threshold that rounding sets is finer by as much as rounding is; one that says what is
+/// modelled (barrier, gapSkin) or which of two ways is shorter stays, so that all precisions answer the same question.
 namespace polytope::tolerance {
 
-constexpr Real rounding = std::numeric_limits<Real>::epsilon();
+/// Within this namespace: thresholds need no digits, only their exponent, and a double has one for every precision of YADE's.
+using Real = double;
+
+/// 2 to this power.
+constexpr Real powerOfTwo(int exponent) { return exponent < 0 ? powerOfTwo(exponent + 1) / 2 : exponent > 0 ? powerOfTwo(exponent - 1) * 2 : 1; }
+
+/// Significant bits of polytope::Real.
+constexpr int digits = std::numeric_limits<polytope::Real>::digits;
+
+/// Distance from 1 to the next number.
+constexpr Real rounding = powerOfTwo(1 - digits);
+
+/// Rounding over double's: one in double.
+constexpr Real finer = rounding / std::numeric_limits<double>::epsilon();
 
 /// Default of `tolerance` (× size): a pair touches when s* < −tolerance. A plane moved into the contact frame is rounded
 /// by about 4 × rounding × size; below ten times that the sign of s* is not decided by the input.
@@ -43,7 +59,7 @@ constexpr Real twinViolation = 1024 * rounding;
 /// this. Each refinement gains two digits at the least.
 constexpr Real refinedBasis = 64 * rounding;
 constexpr Real refined      = 4 * rounding;
-constexpr int  refinements  = 8;
+constexpr int  refinements  = 8 * digits / 53;
 
 /// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
 constexpr int stalledPivots = 12;
@@ -61,11 +77,11 @@ constexpr Real leastShare = 1e-3;
 
 /// Default of `newtonTolerance`: the analytic centre is accepted when the step that follows is predicted shorter than
 /// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
-constexpr Real newton = 1e-10;
+constexpr Real newton = 1e-10 * finer;
 
 /// × size: how far the depth may be off for a centre not yet reached. The remaining step, in the local norm, is kept
 /// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
-constexpr Real depth = 2e-14;
+constexpr Real depth = 2e-14 * finer;
 
 /// Determinant over the diagonal's product from which on a 3×3 Hessian may be inverted by cofactors, which lose the digits
 /// of both eliminations together.
@@ -73,7 +89,7 @@ constexpr Real wellScaled = 1e-2;
 
 /// Part of a diagonal element of the Hessian that elimination must leave. Below the square root of rounding the centre
 /// loses more than a relative 1e-12 of the overlap's size along that axis.
-constexpr Real cancellation = 1e-8;
+constexpr Real cancellation = 1e-8 * powerOfTwo((53 - digits) / 2);
 
 /// Times the axes are turned to the overlap's own before the centre is given up.
 constexpr int turns = 2;
@@ -96,7 +112,7 @@ constexpr Real nearPole = 0.5;
 constexpr Real lineSearchSlope = 0.1;
 constexpr int  lineSearchSteps = 30;
 
-/// Ipopt's `tol`, on numbers that are about one (see IpoptCentre.cpp).
+/// Ipopt's `tol` (it knows doubles only), on numbers that are about one (see IpoptCentre.cpp).
 constexpr double ipopt           = 1e-12;
 constexpr int    ipoptIterations = 15;
 

@@ -2,48 +2,84 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
 # inside.sh COMMAND ARGS…: what `run` does where YADE is: configure, build, and run things with the plug-in.
-# Needs from `run`: project, cache, logs, yadeSource, buildKey.
+# Needs from `run`: project, cache, logs, yadeSource, buildKey; YADE_POLYTOPE_PRECISION may be set.
 # shellcheck disable=SC2154
 set -euo pipefail
 # shellcheck source=tools/messages.sh
 . "$project/tools/messages.sh"
 
-build=$project/build
-yadeLibrary=$(echo /usr/lib/*/yade-double)
+build=$project/build # of double; those of the other precisions are in it
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
 # a second clone of the project finds what the first one compiled
 export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
-export YADE_PREFIX=$build/overlay
-export PYTHONPATH=$yadeLibrary/py
+export YADE_PREFIX=$build/overlay # of all precisions
 # YADE is built with MPI, which refuses to run as root unless told
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
-# The build folder belongs to one YADE and one place: with another one it is made anew.
-configure() {
-	[ -e "$build/build.ninja" ] && [ "$(cat "$build/key" 2>/dev/null)" = "$buildKey" ] && return
-	rm -rf "$build"
-	mkdir -p "$build"
-	step "configuring" "tools/packages.txt lists what is needed." \
-		cmake -S "$project" -B "$build" -G Ninja -DPOLYTOPE_YADE=ON -DYADE_SOURCE_DIR="$yadeSource"
-	echo "$buildKey" >"$build/key"
+# From here on Python, pytest and `yadeProgram` are those of this precision of YADE (double, longdouble, float128, mpfr150).
+usePrecision() { # PRECISION
+	local library
+	library=$(echo /usr/lib/*/"yade-$1")
+	[ -e "$library/py/yade" ] ||
+		fail "no YADE of the precision '$1' is installed here." "Debian's package yade has double, longdouble, float128 and mpfr150."
+	precision=$1
+	export PYTHONPATH=$library/py
+	yadeProgram=yade
+	[ "$precision" = double ] || yadeProgram=yade-$precision
 }
 
-build() {
+# The build folder belongs to one YADE and one place: with another one it is made anew.
+configure() { # FOLDER PRECISION
+	local options=()
+	[ -e "$1/build.ninja" ] && [ "$(cat "$1/key" 2>/dev/null)" = "$buildKey" ] && return
+	# the core's own tests are about double
+	[ "$2" = double ] || options=(-DPOLYTOPE_TESTS=OFF)
+	rm -rf "$1"
+	mkdir -p "$1"
+	step "configuring" "tools/packages.txt lists what is needed." \
+		cmake -S "$project" -B "$1" -G Ninja -DPOLYTOPE_YADE=ON -DPOLYTOPE_PRECISION="$2" -DPOLYTOPE_OVERLAY="$build/overlay" \
+		-DYADE_SOURCE_DIR="$yadeSource" "${options[@]}"
+	echo "$buildKey" >"$1/key"
+}
+
+# Builds one precision, whichever is in use.
+buildPrecision() { # PRECISION TARGETS…
+	local folder=$build name=$1 of=
+	shift
+	[ "$name" = double ] || { folder=$build/$name && of=" for $name"; }
 	(
 		flock 9 # two calls at a time build one after the other
-		configure
-		step "building" "All messages of the compiler are in the log." ninja -C "$build" "$@"
+		configure "$folder" "$name"
+		step "building$of" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
 	) 9>"$cache/build.lock"
 }
 
-# Tests of the core, then of the plug-in; both run whatever the first says.
+build() { buildPrecision "$precision" "$@"; }
+
+# Tests of the core (in double alone), then of the plug-in; both run whatever the first says.
 runTests() {
 	local result=0
-	echo
-	ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || result=1
+	if [ "$precision" = double ]; then
+		echo
+		ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || result=1
+	fi
 	echo
 	# `pytest` as a program: `python3 -m pytest` would put the project's folder first, and its py/ hides the module `py`
 	(cd "$project" && pytest tests/yade "$@") || result=1
+	return $result
+}
+
+# All tests in double, then in long double those that tests/yade/conftest.py names for wider precisions.
+testAll() {
+	local result=0
+	build
+	runTests "$@" || result=1
+	[ -e /usr/lib/*/yade-longdouble ] || { echo "long double: not tested, this YADE has none" && return $result; }
+	usePrecision longdouble
+	build
+	echo
+	echo "long double:"
+	(cd "$project" && pytest tests/yade "$@") || [ $? -eq 5 ] || result=1 # 5: these arguments select none of them
 	return $result
 }
 
@@ -60,10 +96,11 @@ format() {
 
 command=$1
 shift
+usePrecision "${YADE_POLYTOPE_PRECISION:-double}"
 case $command in
 	build) build "$@" ;;
-	test) build && runTests "$@" ;;
-	yade) build && exec yade "$@" ;;
+	test) if [ -n "${YADE_POLYTOPE_PRECISION:-}" ]; then build && runTests "$@"; else testAll "$@"; fi ;;
+	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
 	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
 	shell) build && exec bash "$@" ;;

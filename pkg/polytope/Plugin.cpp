@@ -6,7 +6,7 @@
 // another YADE than it was compiled for, that one would end the process (an undefined symbol makes YADE abort) or corrupt
 // its objects. This library needs nothing of YADE's C++ side, so it can be loaded anywhere. It
 //
-//   1. compares version, features and Boost of the running YADE with those compiled against,
+//   1. compares version, precision, features and Boost of the running YADE with those compiled against,
 //   2. loads YADE's own libraries first (the order in which YADE finds its libraries is the file system's), then
 //      _polytope.so, whose classes register themselves, and has it compare the layout of classes (LayoutCheck.hpp),
 //   3. adds the folder polytope-py to yade.__path__: `from yade import polytope` finds the package there, and
@@ -70,6 +70,8 @@ std::string differenceFromBuild()
 	using namespace polytope::buildInfo;
 	const std::string version = yadeConfig("version");
 	if (version != yadeVersion) return "it was compiled for YADE " + std::string(yadeVersion) + ", and this is YADE " + version;
+	const std::string real = yadeConfig("highPrecisionName");
+	if (real != realName) return "it was compiled for a YADE with numbers of the kind " + std::string(realName) + ", and this one has " + real;
 	const std::string features = yadeConfig("features");
 	if (features != yadeFeatures)
 		return "it was compiled for a YADE with the features\n\t" + std::string(yadeFeatures) + "\nand this one has\n\t" + features;

@@ -26,6 +26,8 @@ py::dict buildInfo()
 	py::dict result;
 	result["version"]        = info::version;
 	result["precision"]      = info::precision;
+	result["bits"]           = int(std::numeric_limits<yade::Real>::digits);
+	result["digits"]         = int(std::numeric_limits<yade::Real>::digits10);
 	result["yadeVersion"]    = info::yadeVersion;
 	result["yadeFeatures"]   = py::str(info::yadeFeatures).split();
 	result["instructionSet"] = polytope::instructionSet();
@@ -136,7 +138,10 @@ BOOST_PYTHON_MODULE(_polytope)
 	using yade::Vector3r;
 
 	py::docstring_options options(true, true, false);
-	py::def("buildInfo", &buildInfo, "Versions of the plug-in, of the YADE it was compiled for and of Ipopt (None where the build has none), as a dictionary.");
+	py::def("buildInfo", &buildInfo, 
+	        "Versions of the plug-in, of the YADE it was compiled for and of Ipopt (None where the build has none; it computes in double whatever "
+	        "the precision), and *precision*, the numbers' kind (double, longdouble, float128, mpfr150), with its significant *bits* and decimal "
+	        "*digits*, as a dictionary.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")), "Normals and offsets of the convex hull of points.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");

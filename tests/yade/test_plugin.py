@@ -12,7 +12,7 @@ def testCompiledForThisYade():
 	info = polytope.buildInfo()
 	assert info['yadeVersion'] == yade.config.version
 	assert info['yadeFeatures'] == yade.config.features
-	assert info['precision'] == 'double'
+	assert yade.config.libDir.endswith('yade-' + info['precision'])
 
 
 def yadeWithout(missing, folder, script):
