@@ -23,7 +23,7 @@ from yade import utils
 
 from yade import _polytope
 
-from .precision import real
+from .precision import isNumber, real
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
 
@@ -117,7 +117,7 @@ def fromMesh(path, scale=1.0, **body):
 	"""
 	if not os.path.exists(path):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
-	if not isinstance(scale, numbers.Real) or not 0 < scale < float('inf'):
+	if not isNumber(scale) or not 0 < scale < float('inf'):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
 	import trimesh
 	try:
@@ -188,7 +188,7 @@ def _body(
 
 
 def _number(value, name):
-	if not isinstance(value, numbers.Real):
+	if not isNumber(value):
 		raise ValueError(f'{name}: must be a number, got {value!r}')
 	return real(value)
 

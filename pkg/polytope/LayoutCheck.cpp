@@ -56,6 +56,9 @@ namespace {
 
 	void compareAll()
 	{
+#if YADE_REAL_BIT > 64
+		boost::python::import("yade._minieigenHP"); // Real's converters; for double Python has its own
+#endif
 		check<Scene>("Scene", member("dt", &Scene::dt), member("iter", &Scene::iter), member("subStep", &Scene::subStep),
 		        member("time", &Scene::time), member("stopAtTime", &Scene::stopAtTime), member("isPeriodic", &Scene::isPeriodic),
 		        member("selectedBody", &Scene::selectedBody));

@@ -10,8 +10,7 @@ import scenes
 
 
 def collision():
-	"""Two bodies of several faces meet out of line, conservatively, and part again, spinning: 3 N-th of an e-fold of chaos at most."""
-	O.materials.clear()
+	"""Two bodies of several faces meet out of line, conservatively, and part again, spinning."""
 	scenes.joint(normalStiffness=1e6, shearStiffness=0, frictionAngle=0)
 	scenes.loop(ig2=dict(contactModel='conservative'))
 	O.bodies.append([
@@ -25,7 +24,6 @@ def collision():
 
 def blockOnFloor():
 	"""A block, dropped a little askew, on a floor with friction and dampers."""
-	O.materials.clear()
 	scenes.joint(normalStiffness=1e6, shearStiffness=1e6)
 	scenes.loop(gravity=(0, 0, -scenes.gravity), normalDamping=0.25, shearDamping=0.25)
 	O.bodies.append([
