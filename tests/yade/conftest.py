@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every test starts from an empty scene; scenes.py is importable from all of them."""
+import numbers
 import os
 import sys
 
@@ -16,6 +17,7 @@ widePrecision = (
         'test_rock_joint test_save_load test_threads test_vtk test_ipopt'
 ).split()
 if polytope.buildInfo()['precision'] != 'double':
+	numbers.Real.register(yade.minieigenHP.Real)  # pytest.approx asks
 	here = os.path.dirname(os.path.abspath(__file__))
 	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
 

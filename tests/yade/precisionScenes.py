@@ -11,7 +11,7 @@ import scenes
 
 def collision():
 	"""Two bodies of several faces meet out of line, conservatively, and part again, spinning."""
-	scenes.joint(normalStiffness=1e6, shearStiffness=0, frictionAngle=0)
+	scenes.joint(normalStiffness=1e6, shearStiffness=1e6, frictionAngle=0)
 	scenes.loop(ig2=dict(contactModel='conservative'))
 	O.bodies.append([
 	        polytope.regular(8, 1, (0, 0, 0), Quaternion((1, 2, 3), 0.5)),
