@@ -74,11 +74,11 @@ runTests() {
 testAll() {
 	local result=0
 	build
+	if hasPrecision longdouble; then buildPrecision longdouble; fi # now: tests in double look at it, too
 	runTests "$@" || result=1
 	echo
 	if hasPrecision longdouble; then
 		usePrecision longdouble
-		build
 		echo "long double:"
 		(cd "$project" && pytest tests/yade "$@") || [ $? -eq 5 ] || result=1 # 5: these arguments select none of them
 	else
