@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The studies of collisionEnergy.py with YADE's own PotentialBlock or Polyhedra, in a process of their own, whose YADE has the peer.
+
+`./run bench` builds the peers (tests/benchmark/YadePeers.cmake); shapes and laws are those of tests/benchmark/heap.py.
+Usage: collisionEnergyPeer.py '{"method": "polyhedra", "study": "collisions", …}'; the last line printed is RESULT and JSON.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+benchmark = pathlib.Path(__file__).resolve().parents[1] / 'benchmark'
+sys.path.insert(0, str(benchmark))
+
+names = {'potentialBlock': 'PotentialBlock', 'polyhedra': 'Polyhedra'}
+
+
+class PeerFailed(Exception):
+	"""Says why there is no result."""
+
+
+def measure(method, study, timeLimit, **request):
+	"""Result of Collisions.run() or Bounces.run() with the peer's shapes and law.
+
+	:param str method: 'potentialBlock' or 'polyhedra'
+	:param str study: 'collisions' (request: number, seed, steps, overlap, duration) or 'bounces' (number, steps, seconds)
+	:raises PeerFailed: if it is not built, or gives no result within *timeLimit* [s]
+	"""
+	from scenes import SceneFailed, Scenes
+
+	# ./run bench builds in a folder beside the overlay that this YADE was loaded from
+	plugins = pathlib.Path(os.environ['YADE_PREFIX']).parent / 'bench/tests/benchmark'
+	try:
+		overlay = Scenes(plugins, core=None, quick=True, results=[], note=None).overlay(method)
+	except SceneFailed:
+		raise PeerFailed('not built (./run bench builds it)') from None
+	command = [sys.executable, __file__, json.dumps({'method': method, 'study': study, **request})]
+	environment = {**os.environ, 'OMP_NUM_THREADS': '1', 'YADE_PREFIX': str(overlay)}
+	try:
+		done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=timeLimit)
+	except subprocess.TimeoutExpired:
+		raise PeerFailed(f'no result after {timeLimit} s') from None
+	lines = [line for line in done.stdout.splitlines() if line.startswith('RESULT ')]
+	if done.returncode or not lines:
+		raise PeerFailed(f'ended with {done.returncode}')
+	return json.loads(lines[-1][len('RESULT ') :])
+
+
+def main(arguments):
+	import heap
+	from yade.polytope.studies.collisionEnergy import Bounces, Collisions, Contact, meetings
+
+	request = json.loads(arguments[0])
+	convert, loop = {
+		'potentialBlock': (heap.toPotentialBlock, heap.potentialBlockLoop),
+		'polyhedra': (heap.toPolyhedra, heap.polyhedraLoop),
+	}[request['method']]
+	number, steps = request['number'], request['steps']
+	if request['study'] == 'collisions':
+		scene = Collisions(meetings(number, request['seed']), Contact(), steps, request['overlap'], request['duration']).build()
+		settings = {}
+	else:
+		scene = Bounces(Contact(), steps, number).build()
+		settings = {'seconds': request['seconds']}
+	heap.replaceByPeer(scene, convert, loop)
+	print('RESULT', json.dumps(scene.run(**settings)), flush=True)
+	os._exit(0)  # not all of the peers end well
+
+
+if __name__ == '__main__':
+	main(sys.argv[1:])
