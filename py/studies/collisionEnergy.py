@@ -39,7 +39,7 @@ from yade._polytope import contact
 from ..bodies import cuboid, regular
 from ..scenes.falling import circumradiusOfUnitVolume, solids
 
-__all__ = ['Bounces', 'Collisions', 'Contact', 'Meeting', 'freeFlight', 'meetings', 'noticeable', 'spread']
+__all__ = ['Bounces', 'Collisions', 'Contact', 'Meeting', 'freeFlight', 'lastEnergies', 'meetings', 'noticeable', 'spread']
 
 noticeable = 1e-6
 """Gains of energy below this part of the start's are not counted as such."""
@@ -283,7 +283,7 @@ class Bounces(_Scene):
 
 	def run(self, seconds=40.0, samples=100):
 		"""Returns a dictionary of lists: time [s]; energy: of each cube at each time, over that at the start, both above lying still and
-		flat on the floor (samples within an impact lack what the contact holds); drift: way of each cube across the floor [m]."""
+		flat on the floor (NaN within an impact, where the contact holds some); drift: way of each cube across the floor [m]."""
 		start = self._energies()
 		times, energies = [0.0], [(start / start).tolist()]
 		for _ in range(samples):
@@ -299,7 +299,15 @@ class Bounces(_Scene):
 		states = [O.bodies[cube].state for cube in self.cubes]
 		late = Vector3(0, 0, -self.gravity * self.timeStep / 2) if O.iter else Vector3.Zero
 		turning = [s.inertia[0] * s.angVel.squaredNorm() / 2 for s in states]
-		return np.array(turning) + [s.mass * ((s.vel + late).squaredNorm() / 2 + self.gravity * (s.pos[2] - 0.5)) for s in states]
+		energies = np.array(turning) + [s.mass * ((s.vel + late).squaredNorm() / 2 + self.gravity * (s.pos[2] - 0.5)) for s in states]
+		return np.where([O.iter and O.forces.f(cube) != Vector3.Zero for cube in self.cubes], np.nan, energies)
+
+
+def lastEnergies(found):
+	"""Each cube's last energy outside an impact, of what Bounces.run() returned."""
+	energies = np.array(found['energy'])
+	last = len(energies) - 1 - np.argmax(np.isfinite(energies[::-1]), axis=0)
+	return energies[last, np.arange(energies.shape[1])]
 
 
 def spread(found):

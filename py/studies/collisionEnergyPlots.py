@@ -19,7 +19,7 @@ styles = {
 
 def plotSteps(path, found):
 	"""Median and largest error over the number of steps: found is {name: {steps: spread}}."""
-	figure = Figure(figsize=(11, 5))
+	figure = Figure(figsize=(11, 5.4))
 	for axis, key, title in zip(figure.subplots(1, 2, sharey=True), ('median', 'largest'), ('median', 'largest'), strict=True):
 		for name, bySteps in found.items():
 			color, line = styles[name]
@@ -30,9 +30,9 @@ def plotSteps(path, found):
 		ticks = sorted({steps for bySteps in found.values() for steps in bySteps})
 		axis.set_xticks(ticks, [str(tick) for tick in ticks])
 		axis.minorticks_off()
-		if key == 'median':
-			axis.legend(frameon=False, fontsize=9, loc='lower left')
-	_save(figure, path)
+	figure.legend(*figure.axes[0].get_legend_handles_labels(), loc='lower center', ncol=4, frameon=False)
+	figure.tight_layout(rect=(0, 0.12, 1, 1))
+	figure.savefig(path, dpi=110)
 
 
 def plotCorners(path, found):
@@ -75,13 +75,18 @@ def plotBounces(path, found):
 	columns = 3
 	rows = -(-len(found) // columns)
 	figure = Figure(figsize=(13, 3.4 * rows))
-	axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
+	axes = figure.subplots(rows, columns, sharey=True, squeeze=False).flat
+	ticks = (0.2, 0.5, 1, 2, 5, 10)
 	for axis, (name, result) in zip(axes, found.items(), strict=False):
 		color, _ = styles[name]
 		energy = np.array(result['energy'])
-		axis.plot(result['time'], np.where(energy > 0.02, energy, np.nan), color=color, lw=0.8, alpha=0.8)
-		axis.axhline(1, color='#222222', lw=0.8)
+		for one in energy.T:
+			free = np.isfinite(one)
+			axis.plot(np.array(result['time'])[free], one[free], color=color, lw=0.9, alpha=0.8)
+		axis.axhline(1, color='#222222', lw=0.6)
 		axis.set_yscale('log')
+		axis.set_yticks(ticks, [f'{tick:g}' for tick in ticks])
+		axis.minorticks_off()
 		axis.set_title(f'{name} ({energy.shape[1]})')
 		axis.grid(alpha=0.3, which='both', lw=0.5)
 		axis.set_xlabel('time [s]')

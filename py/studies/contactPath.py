@@ -95,8 +95,9 @@ def _above(x, y):
 	return np.array([x, y, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
-def _vertexDown(world):
-	return _onto((-1, -1, -1), -np.array(world))
+def _vertexDown(world, twist):
+	"""A vertex of the moving cube points against *world*, its edges turned by *twist* about that."""
+	return _turn(np.array(world) / np.linalg.norm(world), twist) * _onto((-1, -1, -1), -np.array(world))
 
 
 def _everyway(t):
@@ -111,9 +112,9 @@ paths = {
 	'slide over an edge to the next face': lambda t: (_around(0.5 * math.pi * t, 0.13), Quaternion.Identity, deep),
 	'tilt, face to edge': lambda t: (_above(0.2, 0.13), _turn((0, 1, 0), 0.5 * (t - 0.1)), deep),
 	'roll, edge to vertex': lambda t: (_above(0.2, 0.13), _turn((1, 0, 0), 0.5 * (t - 0.1)) * _turn((0, 1, 0), 0.5), deep),
-	'vertex over an edge to the next face': lambda t: (_around(0.35 + 0.9 * t, 0.13), _vertexDown((1, 0.3, 1.1)), deep),
+	'vertex over an edge to the next face': lambda t: (_around(0.35 + 0.9 * t, 0.13), _vertexDown((1, 0.3, 1.1), 0.7), deep),
 	'edge across an edge and past its end': lambda t: (_around(0.75, 1.6 * t), _turn((1, 0, 1), 0.9) * _turn((0, 1, 0), 0.6), deep),
-	'vertex over a vertex': lambda t: (_around(0.6 + 0.4 * t, 0.65 + 0.1 * t), _vertexDown((1, 1.02, 1.01)), deep),
+	'vertex over a vertex': lambda t: (_around(0.6 + 0.4 * t, 0.65 + 0.1 * t), _vertexDown((1, 1.1, 1.05), 0.9), deep),
 	'edge pressed deeper than the corner radius': lambda t: (_above(0.2, 0.13), _turn((0.1, 1, 0), 0.6), 0.001 + 0.08 * t),
 	'round the body, turning': lambda t: (*_everyway(t), deep),
 }
@@ -312,8 +313,8 @@ def zoom(found, name, places=6, depth=halvings):
 
 
 def forceUnit(answers):
-	"""Mean force, as force over stiffness."""
-	return np.linalg.norm(answers[:, 2], axis=1).mean()
+	"""Mean force, as force over stiffness; the overlap of faces where there is none at all."""
+	return np.linalg.norm(answers[:, 2], axis=1).mean() or 2 * deep
 
 
 def warmAnswers(found, name):

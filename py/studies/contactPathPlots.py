@@ -19,7 +19,7 @@ colors = {
 	'analytic centre, corner radius 0': '#f2a541',
 	'conservative': '#1d4e79',
 }
-lines = {'centroid': '--'}
+lines = {'centroid': '--', 'analytic centre, corner radius 0': ':'}
 labels = {'point': 'way of the contact point\n[edges]', 'normal': "normal's angle to its\nfirst [°]", 'force': 'force over the\nmean force'}
 
 

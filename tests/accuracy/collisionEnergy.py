@@ -20,12 +20,12 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; the s
 import numpy as np
 from tqdm import tqdm
 from yade.polytope.findings import Findings
-from yade.polytope.studies.collisionEnergy import Bounces, Collisions, Contact, freeFlight, meetings, spread
+from yade.polytope.studies.collisionEnergy import Bounces, Collisions, Contact, freeFlight, lastEnergies, meetings, spread
 from yade.polytope.studies.collisionEnergyPlots import plotBounces, plotCorners, plotDamping, plotSteps
 from yade.polytope.studies.options import count, paperParser, shown
 from yade.polytope.studies.script import conclude
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / 'peers'))
 from collisionEnergyPeer import PeerFailed, measure, names
 
 paper, sharp, perArea = "paper's model", "paper's model, corner radius 0", "paper's model, stiffness per area"
@@ -202,7 +202,7 @@ class Study:
 	def bounces(self):
 		seconds, number = (8, 8) if self.quick else (40, 16)
 		steps = 25 if self.quick else 50
-		found, fine = {}, {}
+		found = {}
 		for name, how in tqdm(ours.items(), desc='bounces', disable=None):
 			found[name] = Bounces(how, steps, number).build().run(seconds)
 		for method in names:
@@ -211,9 +211,8 @@ class Study:
 				found[f"YADE's {names[method]}"] = result
 		rows = []
 		for name, result in found.items():
-			left = np.array(result['energy'])[-1]
-			rows.append([name, result['time'][-1], len(left), *np.quantile(left, (0, 0.5, 1)), np.max(result['energy']), max(result['drift'])])
-			fine[name] = np.median(left)
+			left = lastEnergies(result)
+			rows.append([name, result['time'][-1], len(left), *np.quantile(left, (0, 0.5, 1)), np.nanmax(result['energy']), max(result['drift'])])
 		self.findings.table(
 			'bounces',
 			f'Cubes that fall 1 m onto a floor, turned at random, and bounce there without friction and damping ({steps} steps in half a period, PotentialBlock '
@@ -234,7 +233,7 @@ class Study:
 		self.findings.row(f'{conservative}: largest way across a level floor without friction', byName[conservative][7], 'm', theory=0, accept=(0, 1e-6))
 		self.findings.row(
 			f'{conservative}: median of |energy at the end over the start − 1|',
-			float(np.median(np.abs(np.array(found[conservative]['energy'])[-1] - 1))),
+			float(np.median(np.abs(lastEnergies(found[conservative]) - 1))),
 			theory=0,
 			accept=(0, 0.05),
 		)

@@ -11,7 +11,7 @@ import pathlib
 import subprocess
 import sys
 
-benchmark = pathlib.Path(__file__).resolve().parents[1] / 'benchmark'
+benchmark = pathlib.Path(__file__).resolve().parents[2] / 'benchmark'
 sys.path.insert(0, str(benchmark))
 
 names = {'potentialBlock': 'PotentialBlock', 'polyhedra': 'Polyhedra'}
