@@ -12,53 +12,19 @@ import dataclasses
 import math
 
 import numpy as np
-from yade import (
-	Bo1_Polytope_Aabb,
-	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
-	ForceResetter,
-	FrictMat,
-	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Sphere_ScGeom,
-	Ig2_Wall_Sphere_ScGeom,
-	InsertionSortCollider,
-	InteractionLoop,
-	Ip2_FrictMat_FrictMat_FrictPhys,
-	Ip2_RockJointMat_RockJointMat_RockJointPhys,
-	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
-	Law2_ScGeom_FrictPhys_CundallStrack,
-	NewtonIntegrator,
-	O,
-	Quaternion,
-	RockJointMat,
-	Vector3,
-	utils,
-)
+from yade import O, Quaternion, Vector3, utils
 from yade._polytope import contact
 
 from ..bodies import cuboid, regular
 from ..scenes.falling import circumradiusOfUnitVolume, solids
+from .collisionEnergyScene import EnergyScene
 
-__all__ = ['Bounces', 'Collisions', 'Contact', 'Meeting', 'freeFlight', 'lastEnergies', 'meetings', 'noticeable', 'spread']
+__all__ = ['Bounces', 'Collisions', 'Meeting', 'lastEnergies', 'meetings', 'noticeable', 'spread']
 
 noticeable = 1e-6
 """Gains of energy below this part of the start's are not counted as such."""
 
 inscribedRadiusOfCube = 0.5
-
-
-@dataclasses.dataclass(frozen=True)
-class Contact:
-	"""How bodies touch."""
-
-	model: str = 'paper'
-	"""'paper', 'conservative', 'perArea' (the paper's, with a stiffness per contact area) or 'spheres' (YADE's own)."""
-	corner: float = 0.1
-	"""Corner radius over the inscribed radius, of the paper's model."""
-	contactDamping: float = 0
-	"""Of the contact's normal, fraction of critical."""
-	damping: float = 0
-	"""YADE's own: NewtonIntegrator.damping."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -102,56 +68,7 @@ def _tuples(array):
 	return tuple(map(_tuples, array)) if array.ndim else float(array)
 
 
-class _Scene:
-	"""What both studies share: materials, engines, and what an exchange of the shapes for YADE's own wants to know.
-
-	:ivar float half: half a period of the contact, π √(m/k): the time of a central impact [s]
-	"""
-
-	size, density, frictionAngle, stiffnessRatio, verletFraction = 1.0, 1.0, 0.0, 1.0, 0.0
-
-	def _begin(self, how, stiffness, reducedMass, steps):
-		O.reset()
-		self.how, self.normalStiffness, self.damping, self.contactDamping = how, stiffness, how.damping, how.contactDamping
-		self.half = math.pi * math.sqrt(reducedMass / stiffness)
-		self.timeStep = self.half / steps
-		if how.model == 'spheres':
-			# Ip2_FrictMat_FrictMat_FrictPhys: kn = 2 E1 R1 E2 R2 / (E1 R1 + E2 R2)
-			O.materials.append(FrictMat(density=self.density, young=stiffness / self.radius, poisson=1, frictionAngle=0))
-			return
-		# per area: as on a tenth of a cube's face
-		stiffness *= 10 if how.model == 'perArea' else 1
-		O.materials.append(RockJointMat(density=self.density, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0))
-
-	def _engines(self):
-		if self.how.model == 'spheres':
-			bounds = [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]
-			self.interactionLoop = InteractionLoop(
-				[Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
-				[Ip2_FrictMat_FrictMat_FrictPhys()],
-				[Law2_ScGeom_FrictPhys_CundallStrack()],
-			)
-		else:
-			bounds = [Bo1_Polytope_Aabb()]
-			self.interactionLoop = InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative' if self.how.model == 'conservative' else 'paper')],
-				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.how.model == 'perArea')],
-				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping)],
-			)
-		O.engines = [
-			ForceResetter(),
-			InsertionSortCollider(bounds, verletDist=0),  # pairs are looked for in each step
-			self.interactionLoop,
-			NewtonIntegrator(damping=self.damping, gravity=(0, 0, -self.gravity)),
-		]
-		O.dt = self.timeStep
-
-	def _rounded(self, body):
-		body.shape.cornerRadius = self.how.corner * body.shape.inscribedRadius
-		return body
-
-
-class Collisions(_Scene):
+class Collisions(EnergyScene):
 	"""All meetings in one scene.
 
 	:param meetings: sequence of Meeting
@@ -170,7 +87,7 @@ class Collisions(_Scene):
 
 	def __init__(self, meetings, how, steps, overlap=0.02, duration=40):
 		self.meetings, self.overlap, self.duration = meetings, overlap, duration
-		self._begin(how, 0.5 / (overlap * inscribedRadiusOfCube) ** 2, 0.5, steps)
+		self.begin(how, 0.5 / (overlap * inscribedRadiusOfCube) ** 2, 0.5, steps)
 
 	def build(self):
 		self.pairs = []
@@ -179,7 +96,7 @@ class Collisions(_Scene):
 			for body, way, spin in zip(pair, (0.5, -0.5), meeting.spins, strict=True):
 				body.state.vel, body.state.angVel = way * Vector3(*meeting.direction), Vector3(*spin)
 			self.pairs.append(tuple(O.bodies.append(list(pair))))
-		self._engines()
+		self.makeEngines()
 		return self
 
 	def _base(self, k):
@@ -203,7 +120,7 @@ class Collisions(_Scene):
 		return pair
 
 	def _solid(self, faces, orientation, place):
-		return self._rounded(regular(faces, circumradiusOfUnitVolume(faces), tuple(place), Quaternion(*orientation).normalized()))
+		return self.rounded(regular(faces, circumradiusOfUnitVolume(faces), tuple(place), Quaternion(*orientation).normalized()))
 
 	def run(self):
 		"""Until `duration` is over. Returns a dictionary of lists, a number a pair:
@@ -244,7 +161,7 @@ class Collisions(_Scene):
 		return np.array(energies), np.array(linear), np.array(angular)
 
 
-class Bounces(_Scene):
+class Bounces(EnergyScene):
 	"""Cubes of mass and edge 1, turned at random, fall 1 m onto a floor each, and bounce there for good.
 
 	:param Contact how: the contact
@@ -260,7 +177,7 @@ class Bounces(_Scene):
 	def __init__(self, how, steps, number=16, overlap=0.02, seed=5):
 		self.number, self.overlap = number, overlap
 		self.orientations = np.random.default_rng(seed).standard_normal((number, 4))
-		self._begin(how, 2 * self.gravity * self.drop / (overlap * inscribedRadiusOfCube) ** 2, 1.0, steps)
+		self.begin(how, 2 * self.gravity * self.drop / (overlap * inscribedRadiusOfCube) ** 2, 1.0, steps)
 
 	def build(self):
 		height = math.sqrt(3) / 2 + self.drop
@@ -271,11 +188,11 @@ class Bounces(_Scene):
 				cube.state.mass, cube.state.inertia = 1, Vector3(0.1, 0.1, 0.1)
 		else:
 			for k in range(self.number):
-				O.bodies.append(self._rounded(cuboid((*self._place(k), -1), (self.floor, self.floor, 1), fixed=True)))
+				O.bodies.append(self.rounded(cuboid((*self._place(k), -1), (self.floor, self.floor, 1), fixed=True)))
 			turns = [Quaternion(*q).normalized() for q in self.orientations]
-			cubes = [self._rounded(cuboid((*self._place(k), height), 3 * (0.5,), turn)) for k, turn in enumerate(turns)]
+			cubes = [self.rounded(cuboid((*self._place(k), height), 3 * (0.5,), turn)) for k, turn in enumerate(turns)]
 		self.cubes = O.bodies.append(cubes)
-		self._engines()
+		self.makeEngines()
 		return self
 
 	def _place(self, k):
@@ -311,8 +228,8 @@ def lastEnergies(found):
 
 
 def spread(found):
-	"""Of the collisions that touched and have parted: dictionary of number, median, rms and largest error, largest gain, share that gained, and
-	least, median and largest energy left over that of the start.
+	"""Of the collisions that touched and have parted, a dictionary: number, median, rms and largest error, largest gain,
+	number that gained, and least, median and largest energy left over that of the start.
 
 	:param found: what Collisions.run() returned
 	"""
@@ -327,27 +244,3 @@ def spread(found):
 		'gaining': int(np.count_nonzero(error > noticeable)),
 		'left': [float(1 + q) for q in np.quantile(error, (0, 0.5, 1))],
 	}
-
-
-def freeFlight(half, turn, steps):
-	"""A box of half-lengths *half* turns freely by *turn* radians a step. Returns the relative changes of its rotational energy and of its angular
-	momentum's size, as YADE keeps it."""
-	O.reset()
-	O.materials.append(RockJointMat(density=1))
-	box = cuboid((0, 0, 0), half, Quaternion((1, 2, 3), 1))
-	O.bodies.append(box)
-	state = box.state
-	spin = Vector3(0.6, 0.64, 0.48)
-	state.angVel = state.ori * spin
-	state.angMom = state.ori * Vector3(*[state.inertia[k] * spin[k] for k in range(3)])
-	O.engines = [ForceResetter(), NewtonIntegrator(damping=0)]
-	O.dt = turn
-
-	def now():
-		# equal moments: YADE does not use angMom
-		momentum = state.ori.conjugate() * state.angMom if box.aspherical else state.inertia[0] * state.angVel
-		return sum(momentum[k] ** 2 / state.inertia[k] for k in range(3)) / 2, momentum.norm()
-
-	before = now()
-	O.run(steps, True)
-	return [abs(b / a - 1) for a, b in zip(before, now(), strict=True)]

@@ -8,7 +8,8 @@ from yade import O
 
 from ..bodies import cuboid
 from ..pictures import picture
-from .contactPath import fixedHalf, forceUnit, movingHalf, quantities
+from .contactPath import forceUnit, quantities
+from .contactPathScenes import fixedHalf, movingHalf
 
 __all__ = ['drawPaths', 'plotHalving', 'plotPaths']
 

@@ -6,7 +6,7 @@ largest jump, or largest change per motion where there is none, for the paper's 
 the corner radius 0 and the conservative contact; with and without planes that cut nothing; and from a warm start against a cold one.
 Ends with 1 if a contact that is smooth jumps, or a warm answer differs from a cold one by more than the solver's tolerance.
 
-	./run python tests/accuracy/contactPath.py            # three minutes
+	./run python tests/accuracy/contactPath.py            # two minutes
 	./run python tests/accuracy/contactPath.py --quick    # fewer steps, planes and halvings: half a minute
 """
 
@@ -21,21 +21,9 @@ import numpy as np
 from tqdm import tqdm
 from yade import O, RockJointMat
 from yade.polytope.findings import Findings
-from yade.polytope.studies.contactPath import (
-	change,
-	deep,
-	forceUnit,
-	halvings,
-	paths,
-	planeSets,
-	quantities,
-	scan,
-	smoothness,
-	variants,
-	warmAnswers,
-	zoom,
-)
+from yade.polytope.studies.contactPath import change, forceUnit, halvings, quantities, scan, smoothness, warmAnswers, zoom
 from yade.polytope.studies.contactPathPlots import drawPaths, plotHalving, plotPaths
+from yade.polytope.studies.contactPathScenes import deep, paths, planeSets, variants
 from yade.polytope.studies.options import count, paperParser, shown
 from yade.polytope.studies.script import conclude
 
@@ -57,10 +45,11 @@ class Study:
 		"""scans {(planes, path): Scan}, found {(planes, path, variant): [Smoothness of each quantity]}"""
 		sets = planeSets[:2] if self.given.quick else planeSets
 		for planes, path in tqdm([(p, n) for p in sets for n in paths], desc='paths', disable=None):
-			found = scan(paths[path], self.given.steps, planes)
+			found = scan(paths[path], self.given.steps, variants, planes)
 			self.scans[planes, path] = found
 			for name in variants:
-				self.found[planes, path, name] = [smoothness(z) for z in zoom(found, name, self.places, self.depth)]
+				force = forceUnit(self.scans['plain', path].answers[name])
+				self.found[planes, path, name] = [smoothness(z) for z in zoom(found, name, self.places, self.depth, force)]
 
 	def table(self):
 		def shown(one):
@@ -68,8 +57,10 @@ class Study:
 
 		self.findings.table(
 			'smoothness',
-			f'Largest jump, or where there is none the largest change per motion (Lipschitz constant), of contact point, normal and force. Two cubes, edges 1 (moving) '
-			f'and 1.6; lengths in edges of the moving one, forces in mean forces of the path; overlap of faces {2 * deep:g}, corner radius 0.05, barrier 0.0015.',
+			'Largest jump, or where there is none the largest change per motion (Lipschitz constant), of contact point, normal and '
+			'force. Two cubes, edges 1 (moving) '
+			'and 1.6; lengths in edges of the moving one, forces in mean forces of the path with plain planes; overlap of faces '
+			f'{2 * deep:g}, corner radius 0.05, barrier 0.0015.',
 			['planes', 'path', 'contact']
 			+ [f'{q}: {what} [{u}{per}]' for q, u in units.items() for what, per in (('jump', ''), ('rate', ' per edge'))],
 			[[*key, *(cell for one in three for cell in shown(one))] for key, three in self.found.items()],
@@ -107,7 +98,12 @@ class Study:
 				accept=(0, 0) if name == conservative else (0.1, math.pi),
 				note='' if name == conservative else 'the gradient of one body vanishes: status normalFromOneBody',
 			)
-		row(f'{chebyshev}: jumps by about an edge where faces become parallel', self.worst(chebyshev, 'point').jump, 'edges', accept=(0.5, 1.5))
+		row(
+			f'{chebyshev}: jumps by about an edge where faces become parallel',
+			self.worst(chebyshev, 'point').jump,
+			'edges',
+			accept=(0.5, 1.5),
+		)
 		row(
 			f'{sharp}: normal jumps from face to face',
 			self.worst(sharp, 'normal').jump,
@@ -143,13 +139,15 @@ class Study:
 				jumps = [self.worst(name, quantity, planes, (pressed,)).jump for quantity in quantities]
 				rows.append([planes, name, *most, *jumps])
 				if name in (analytic, conservative):
-					self.findings.row(f'{name}, {planes} planes: largest jump of point, normal or force', max(jumps), theory=0, accept=(0, 0))
+					self.findings.row(
+						f'{name}, {planes} planes: largest jump of point, normal or force', max(jumps), theory=0, accept=(0, 0)
+					)
 		self.findings.table(
 			'redundant_planes',
-			'Planes that cut nothing (touching: through all edges and vertices of both cubes; repeated: the planes that face each other four times): largest difference '
+			'Planes that cut nothing (touching: through all edges and vertices of both cubes; repeated: the planes that face each other '
+			'four times): largest difference '
 			'of the answer to that of six planes a cube, and largest jump, over all paths less deep than the corner radius.',
-			['planes', 'contact']
-			+ [f'{what} of the {q} [{u}]' for what in ('difference', 'jump') for q, u in units.items()],
+			['planes', 'contact'] + [f'{what} of the {q} [{u}]' for what in ('difference', 'jump') for q, u in units.items()],
 			rows,
 		)
 
@@ -177,7 +175,8 @@ class Study:
 				)
 		self.findings.table(
 			'warm_start',
-			'Largest difference between answers that start from the last step\'s and answers from nothing, over all paths; the solver\'s tolerance is 1e-10 of the '
+			'Largest difference between answers that start from the last step\'s and answers from nothing, over all paths; the solver\'s '
+			'tolerance is 1e-10 of the '
 			"overlap's own size.",
 			['contact', *(f'{q} [{u}]' for q, u in units.items())],
 			rows,
@@ -188,17 +187,18 @@ class Study:
 		tilt, over = 'tilt, face to edge', 'vertex over an edge to the next face'
 		rows = []
 		for overlap in (0.25, 1, 4):
-			found = scan(paths[tilt], self.given.steps, how={name: variants[name] for name in (analytic, conservative)}, overlap=overlap)
+			found = scan(paths[tilt], self.given.steps, {name: variants[name] for name in (analytic, conservative)}, overlap=overlap)
 			rates = {name: smoothness(zoom(found, name, self.places, self.depth)[0]).rate for name in found.how}
 			rows.append(['overlap of faces', 2 * deep * overlap, tilt, 'point', rates[analytic], rates[conservative]])
 		for factor in (0.25, 1, 4):
 			how = {analytic: {'cornerRadius': 0.05 * factor}, conservative: {'contactModel': 'conservative', 'barrier': 3e-3 * factor}}
-			found = scan(paths[over], self.given.steps, how=how)
+			found = scan(paths[over], self.given.steps, how)
 			rates = {name: smoothness(zoom(found, name, self.places, self.depth)[1]).rate for name in how}
 			rows.append(['corner radius, barrier: factor', factor, over, 'normal', rates[analytic], rates[conservative]])
 		self.findings.table(
 			'scaling',
-			'Largest change per motion of the point as faces tilt, by overlap, and of the normal as a vertex goes over an edge, by corner radius (barrier): a contact '
+			'Largest change per motion of the point as faces tilt, by overlap, and of the normal as a vertex goes over an edge, by '
+			'corner radius (barrier): a contact '
 			'turns within a motion of the order of its rounding.',
 			['varied', 'value', 'path', 'quantity', f'{analytic} [per edge]', f'{conservative} [per edge]'],
 			rows,
@@ -217,7 +217,8 @@ class Study:
 		plotHalving(folder / 'halving.png', worst)
 		figure(
 			'halving.png',
-			'The step with the largest change, halved again and again, on paths less deep than the corner radius: a jump goes up with slope 1, what is smooth becomes level.',
+			'The step with the largest change, halved again and again, on paths less deep than the corner radius: a jump goes up with '
+			'slope 1, what is smooth becomes level.',
 		)
 
 	def all(self):

@@ -17,10 +17,6 @@ sys.path.insert(0, str(benchmark))
 names = {'potentialBlock': 'PotentialBlock', 'polyhedra': 'Polyhedra'}
 
 
-class PeerFailed(Exception):
-	"""Says why there is no result."""
-
-
 def measure(method, study, timeLimit, **request):
 	"""Result of Collisions.run() or Bounces.run() with the peer's shapes and law.
 
@@ -29,6 +25,7 @@ def measure(method, study, timeLimit, **request):
 	:raises PeerFailed: if it is not built, or gives no result within *timeLimit* [s]
 	"""
 	from scenes import SceneFailed, Scenes
+	from yade.polytope.studies.collisionEnergyReport import PeerFailed
 
 	# ./run bench builds in a folder beside the overlay that this YADE was loaded from
 	plugins = pathlib.Path(os.environ['YADE_PREFIX']).parent / 'bench/tests/benchmark'
@@ -50,7 +47,8 @@ def measure(method, study, timeLimit, **request):
 
 def main(arguments):
 	import heap
-	from yade.polytope.studies.collisionEnergy import Bounces, Collisions, Contact, meetings
+	from yade.polytope.studies.collisionEnergy import Bounces, Collisions, meetings
+	from yade.polytope.studies.collisionEnergyScene import Contact
 
 	request = json.loads(arguments[0])
 	convert, loop = {
