@@ -113,6 +113,27 @@ class Study:
 		)
 		self._flatNormals()
 		self._redundant()
+		self._words()
+
+	def _words(self):
+		def rates(name):
+			return [self.worst(name, quantity, without=(pressed,)).rate for quantity in quantities]
+
+		paper, smooth = rates(analytic), rates(conservative)
+		cut = math.degrees(self.found['plain', pressed, analytic][1].jump)
+		self.findings.text(
+			"The paper's point, normal and force move without a jump through every change of contact, with and without planes that cut "
+			"nothing: at most "
+			f'{paper[0]:.3g} edges of the point, {paper[1]:.3g} rad of the normal and {paper[2]:.3g} mean forces per edge of motion; '
+			'these rates go with '
+			'one over overlap and corner radius. They hold while the contact point is within the corner radius of both bodies: pressed '
+			'deeper, the normal '
+			f'jumps by {cut:.3g}°. The conservative contact has no jump at any depth; its rates are {smooth[0]:.3g}, {smooth[1]:.3g} and '
+			f'{smooth[2]:.3g}: '
+			'the point crosses a face as that tilts through a smaller angle. The Chebyshev centre jumps by an edge where faces become '
+			'parallel, and is not '
+			'unique there; with corner radius 0 the normal jumps from face to face.'
+		)
 
 	def _flatNormals(self):
 		"""Face on face the normal should be the faces'."""
