@@ -10,9 +10,10 @@ The C++ side is in the extension module yade._polytope, loaded with YADE itself 
 from yade._polytope import buildInfo, contact
 
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .energy import mechanicalEnergy
 from .pictures import picture
 from .timeStep import stableTimeStep
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'picture', 'polygon', 'regular', 'stableTimeStep']
+__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'regular', 'stableTimeStep']

@@ -33,7 +33,7 @@ from yade.polytope.studies.contactCostReport import ContactCostReport
 from yade.polytope.studies.fallingPolyhedra import FallingRun, save
 from yade.polytope.studies.fallingPolyhedraReport import FallingPolyhedraReport
 from yade.polytope.studies.fallingPolyhedraTables import showCosts, showOutcome, showStates
-from yade.polytope.studies.options import contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
+from yade.polytope.studies.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
 from yade.polytope.studies.script import conclude
 
 fullNumber, fullSteps = 200, 7000
@@ -82,6 +82,7 @@ def options():
 	parser.add_argument('--threads', type=count, default=O.numThreads, help=inSameState)
 	parser.add_argument('--seed', type=int, default=1, help='of the orientations')
 	parser.add_argument('--seeds', type=count, default=1, help='so many runs of each solid, with this seed and the next ones')
+	parser.add_argument('--contact-model', choices=contactModels, default='paper')
 	parser.add_argument('--contact-point', choices=contactPoints, default='analyticCentre')
 	for name, (kind, meaning) in parameters.items():
 		option = ''.join('-' + letter.lower() if letter.isupper() else letter for letter in name)

@@ -81,6 +81,8 @@ class ThreeHingedBeam:
 	100 against a rigid one: the paper's two values.)"""
 	cornerRadius: float = 0.0046
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
+	contactModel: str = 'paper'
+	"""Or 'conservative', which reads neither contactPoint nor solver nor corner radius nor normal weight."""
 	contactPoint: str = 'analyticCentre'
 	solver: str = 'newton'
 	density: float = 2600
@@ -149,7 +151,7 @@ class ThreeHingedBeam:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, solver=self.solver)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, solver=self.solver)],
 				[
 					Ip2_RockJointMat_RockJointMat_RockJointPhys(
 						stiffnessPerArea=False,

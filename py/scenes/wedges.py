@@ -147,6 +147,8 @@ class WedgeScene:
 	"""Of each contact, normal and shear, fraction of critical."""
 	rockingDamping: float = 0.0
 	"""Of each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
+	contactModel: str = 'paper'
+	"""Or 'conservative', which does not read contactPoint, and needs a shorter time step: it is stiff in rocking."""
 	contactPoint: str = 'analyticCentre'
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(wedge's mass / sum of its faces' normal stiffnesses)."""
@@ -184,7 +186,7 @@ class WedgeScene:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02 * wedge.shape.volume ** (1 / 3), avoidSelfInteractionMask=avoided),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessTimes != 'contact')],
 				[self._law()],
 			),
@@ -204,7 +206,7 @@ class WedgeScene:
 		:raises RuntimeError: if the wedge does not come to touch one of them
 		"""
 		wanted = self.geometry.faceBlocks + (self.geometry.edgeBlocks if self.edgeStiffness is not None else [])
-		for _ in range(10):
+		for _ in range(1000):
 			O.step()
 			missing = [name for name in wanted if not O.interactions.has(self.wedgeId, self.ids[name], onlyReal=True)]
 			if not missing:

@@ -12,7 +12,7 @@ from .beam import contactPointNames, solverNames
 
 __all__ = ['drawBeam', 'plotCurves', 'plotSizes']
 
-colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a'}
+colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a', 'conservative': '#7a4fa3'}
 ipoptColor = '#3a8f6b'
 
 

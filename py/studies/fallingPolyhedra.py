@@ -40,7 +40,8 @@ class FallingRun:
 
 	:param str name: of the solid, a key of yade.polytope.scenes.solids, or 'mixed' for all in one scene
 	:param int seed: of the orientations
-	:param given: the options *parameters* (a dictionary for FallingPolyhedra), *number*, *steps*, *seed* (the first), *contact_point*,
+	:param given: the options *parameters* (a dictionary for FallingPolyhedra), *number*, *steps*, *seed* (the first), *contact_model*,
+	    *contact_point*,
 	    *output*, *quick*, *no_pictures*, *vtk_every*, *sample_every*, *ipopt_every*
 	"""
 
@@ -49,6 +50,7 @@ class FallingRun:
 		self.first = seed == given.seed
 		self.faces = tuple(solids.values()) if name == 'mixed' else (solids[name],)
 		self.scene = FallingPolyhedra(faces=self.faces, number=given.number, seed=seed, **given.parameters).build()
+		self.scene.geometryFunctor.contactModel = given.contact_model
 		self.scene.geometryFunctor.contactPoint = given.contact_point
 		self.watch = RunWatch(self.scene.geometryFunctor, self.scene.interactionLoop)
 		self.energyUnit = given.number * self.scene.mass * self.scene.gravity * self.scene.size or 1
@@ -132,7 +134,7 @@ class FallingRun:
 			return {}
 		cold = self.sample.times(warmStart=False)
 		results = {'cold': cold, 'lpColdMicroseconds': cold['lpMicroseconds'], 'centreColdMicroseconds': cold['centreMicroseconds']}
-		if given.ipopt_every and given.contact_point == 'analyticCentre' and hasSolver('ipopt'):
+		if given.ipopt_every and given.contact_model == 'paper' and given.contact_point == 'analyticCentre' and hasSolver('ipopt'):
 			ipopt = self.sample.times(every=given.ipopt_every, passes=3, solver='ipopt', warmStart=False)
 			results.update(ipopt=ipopt, ipoptMicroseconds=ipopt['centreMicroseconds'])
 		return results

@@ -21,6 +21,7 @@ from .script import scriptFile
 __all__ = [
 	'Decreasing',
 	'angle',
+	'contactModels',
 	'contactPoints',
 	'count',
 	'existingFile',
@@ -35,6 +36,7 @@ __all__ = [
 ]
 
 contactPoints = ('analyticCentre', 'chebyshevCentre', 'centroid')
+contactModels = ('paper', 'conservative')
 """Of Ig2_Polytope_Polytope_PolytopeGeom."""
 
 ofTheRun = ('quick', 'output', 'no_pictures')

@@ -196,9 +196,10 @@ def main():
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			rows += group(run)
-	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.2f}', 'yes' if row.met else 'NO'] for row in rows]
+	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.2f}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
 	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
-	run.say(f'\n{sum(row.met for row in rows)} of {len(rows)} targets met')
+	judged = [row for row in rows if row.met is not None]
+	run.say(f'\n{sum(row.met for row in judged)} of {len(judged)} targets met')
 	for note in run.notes:
 		run.say('Note: ' + note)
 	run.results.update(targets=[dataclasses.asdict(row) for row in rows], notes=run.notes)

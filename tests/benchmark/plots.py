@@ -13,6 +13,8 @@ planesOf = {**{name: 2 * faces for name, faces in solids.items()}, **{f'hull {n}
 colors = {
         'ours cold': '#c2410c',
         'ours warm': '#f59e0b',
+        'ours, conservative cold': '#be185d',
+        'ours, conservative warm': '#f472b6',
         'one pass': '#9ca3af',
         'libccd MPR': '#1d4ed8',
         'libccd GJK+EPA': '#60a5fa',
