@@ -11,9 +11,10 @@ from yade._polytope import buildInfo, contact
 
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
 from .energy import mechanicalEnergy
+from .heap import coordinationNumber, porosity
 from .pictures import picture
 from .timeStep import stableTimeStep
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'regular', 'stableTimeStep']
+__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'stableTimeStep']

@@ -232,7 +232,13 @@ class ThreeHingedBeam:
 
 	def work(self, rotation):
 		"""Work of the imposed moment on one half-beam from 0 to a rotation, ∫ M dθ, by quadrature over `balance` [J]."""
-		return self.length / 2 * quad(lambda turned: self.balance(turned).load, 0, rotation, epsrel=1e-7)[0]
+		return self.length / 2 * quad(self._loadOrNone, 0, rotation, epsrel=1e-7)[0]
+
+	def _loadOrNone(self, rotation):
+		try:
+			return self.balance(rotation).load
+		except RuntimeError:
+			return 0.0  # open: the conservative model's corners are blunt by a few barriers
 
 	def drive(self, first, last, steps, sample=1):
 		"""Turn both half-beams at a constant rate from one rotation to another, free to move in x and y: dynamics.

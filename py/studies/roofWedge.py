@@ -150,8 +150,9 @@ class RoofWedgeReport(WedgeReport):
 		self.symmetric = areEvenlySpread(self.base.scene.joints)
 
 	def must(self, value, half):
-		"""Where the closed forms hold."""
-		return (value - half, value + half) if self.symmetric and self.given.stiffness_times == 'face' else None
+		"""Where the closed forms hold, which know no blunt edges."""
+		known = self.symmetric and self.given.stiffness_times == 'face' and self.given.contact_model == 'paper'
+		return (value - half, value + half) if known else None
 
 	def criticalAngles(self, papers, known):
 		"""Both ways beside the closed forms, with σ_h and with ΣH as measured.

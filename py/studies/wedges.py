@@ -15,8 +15,8 @@ from .options import Decreasing, angle, contactModels, contactPoints, count, fra
 
 __all__ = ['WedgeCase', 'WedgeReport', 'parseWedge', 'plotReduction', 'wedgeParser']
 
-rockingStiff = 4
-"""Times more and shorter time steps with the conservative model, which is stiff in rocking: D's are unstable above 0.12 sqrt(m/k)."""
+rockingStiff = 8
+"""Times more and shorter time steps with the conservative model, which is stiff in rocking: those of D with blocks that touch are unstable above 0.05 sqrt(m/k)."""
 lowestSpeed = 1e-10
 """Slower is drawn as this [m/s]."""
 stableColor, failedColor = '#1d4e79', '#c8451b'
@@ -33,7 +33,7 @@ def wedgeParser(text, geometry, steps):
 	show('--shear-stiffness', type=positive, default=1e7, help='in the same unit')
 	times = 'stiffness of a contact: times the area of the wedge\'s face; times the area of the present contact section; as it is'
 	show('--stiffness-times', choices=stiffnessFactors, default='face', help=times)
-	show('--contact-model', choices=contactModels, default='paper', help='conservative: a quarter of the time step; reads no contact point')
+	show('--contact-model', choices=contactModels, default='paper', help='conservative: an eighth of the time step; reads no contact point')
 	show('--contact-point', choices=contactPoints, default='analyticCentre')
 	show('--damping', type=fraction, default=0.7, help='YADE\'s own, of NewtonIntegrator')
 	show('--contact-damping', type=notNegative, default=0.0, help='of contacts in normal and shear direction, fraction of critical')

@@ -73,7 +73,7 @@ namespace {
 		void check(benchmark::State& state)
 		{
 			int    wrong  = 0;
-			double pivots = 0, iterations = 0;
+			double pivots = 0, iterations = 0, contacts = 0;
 			for (std::size_t i = 0; i < set->pairs().size(); ++i) {
 				if (!warm) memory[i] = PairMemory();
 				else
@@ -82,6 +82,7 @@ namespace {
 				query(set->pairs()[i], memory[i]);
 				pivots += result.simplexPivots;
 				iterations += result.newtonIterations;
+				contacts += result.inContact;
 				wrong += result.status == ContactStatus::Failed;
 				const Pair& pair = set->pairs()[i];
 				wrong += settings.contactModel == ContactModel::Conservative ? !energyIsRight(pair) : !wayOutIsRight(pair);
@@ -89,6 +90,7 @@ namespace {
 			state.counters["wrong"]      = wrong;
 			state.counters["pivots"]     = pivots / double(set->pairs().size());
 			state.counters["iterations"] = iterations / double(set->pairs().size());
+			state.counters["contacts"]   = contacts / double(set->pairs().size());
 		}
 
 		void run(benchmark::State& state)

@@ -93,6 +93,7 @@ def kernelGroup(run):
 	                        'pairs': one.pairs,
 	                        'pivots': one.pivots,
 	                        'iterations': one.iterations,
+	                        'contacts': one.contacts,
 	                } for one in found.values()
 	        ]
 	)

@@ -20,6 +20,8 @@ class Measurement:
 	pairs: int
 	pivots: float = 0
 	iterations: float = 0
+	contacts: float = 0
+	"""Part of the pairs that have a contact force; 0 for peers."""
 
 	@property
 	def median(self):
@@ -61,7 +63,7 @@ def run(folder, core, quick, output, heap):
 			raise RuntimeError(f"{method} on {name}: {entry.get('error_message', 'no result')}")
 		one = found.setdefault(
 		        (method, name),
-		        Measurement(method, name, [], int(entry['wrong']), pairs, entry.get('pivots', 0), entry.get('iterations', 0)),
+		        Measurement(method, name, [], int(entry['wrong']), pairs, entry.get('pivots', 0), entry.get('iterations', 0), entry.get('contacts', 0)),
 		)
 		one.times.append(1e6 * entry['pair'])
 	return found, data['context']

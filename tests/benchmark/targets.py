@@ -76,8 +76,11 @@ def kernelRows(kernels):
 		for name in dict.fromkeys(name for _, name in kernels):
 			found = [kernels.get((f'{model} {start}', name)) for model in ('ours, conservative', 'ours')]
 			if all(found):
-				wrong = f' ({found[0].wrong} wrong)' if found[0].wrong else ''
-				rows.append(reported(f'conservative model, {start}, {name}{wrong}', "paper's model", *[one.median for one in found]))
+				touching = found[1].contacts
+				notes = [f'{found[0].wrong} wrong'] if found[0].wrong else []
+				notes += [f'{100 * found[0].contacts:.0f} % in contact'] if found[0].contacts < touching else []
+				measure = f'conservative model, {start}, {name}' + (f' ({", ".join(notes)})' if notes else '')
+				rows.append(reported(measure, "paper's model", *[one.median for one in found]))
 	return rows
 
 

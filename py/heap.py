@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a settled heap of polytopes is like inside: porosity and coordination number."""
+
+import dataclasses
+
+import numpy as np
+from scipy.optimize import linprog
+from scipy.spatial import ConvexHull, HalfspaceIntersection
+from yade import O, Polytope
+
+__all__ = ['Coordination', 'coordinationNumber', 'porosity', 'volumeWithin']
+
+thin = 1e-9
+"""Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
+
+
+def porosity(lower, upper, ids=None):
+	"""Part of an axis-parallel box that is not filled: 1 − solid volume / box volume.
+
+	Bodies across the box's faces count with the part inside, cut exactly (the polyhedron of both sets of half-spaces). Where bodies in
+	contact overlap, the overlap counts twice. Choose a box inside the heap: near walls and free surface there is less.
+
+	:param lower, upper: opposite corners of the box [m], 3 numbers each
+	:param ids: of the bodies that count; None: all free polytopes
+	:returns: [-]
+	:raises ValueError: naming *upper* where the box has no volume, or *ids* for a body that is no polyhedron
+	"""
+	lower, upper = np.array(lower, float), np.array(upper, float)
+	if lower.shape != (3,) or upper.shape != (3,) or not (upper > lower).all():
+		raise ValueError(f'upper: must be three numbers above those of lower, got lower {lower}, upper {upper}')
+	return 1 - sum(volumeWithin(O.bodies[k], lower, upper) for k in _free(ids)) / float(np.prod(upper - lower))
+
+
+def volumeWithin(body, lower, upper):
+	"""Volume [m³] of a polyhedron's part within the box from *lower* to *upper* [m].
+
+	:raises ValueError: naming *ids* for a body that is no polyhedron
+	"""
+	shape, state = body.shape, body.state
+	if not isinstance(shape, Polytope) or shape.dimension != 3:
+		raise ValueError(f'ids: body {body.id} is no polyhedron')
+	turn, position = np.array(state.ori.toRotationMatrix(), float), np.array(state.pos, float)
+	corners = np.array(shape.vertices, float) @ turn.T + position
+	if (corners >= lower).all() and (corners <= upper).all():
+		return float(shape.volume)
+	if (corners.max(axis=0) <= lower).any() or (corners.min(axis=0) >= upper).any():
+		return 0.0
+	normals = np.array(shape.normals, float) @ turn.T
+	offsets = np.array(shape.offsets, float)
+	# about the body's centre, in units of its size
+	size = float(np.ptp(corners, axis=0).max())
+	box = np.vstack([np.eye(3), -np.eye(3)])
+	normals = np.vstack([normals, box])
+	offsets = np.concatenate([offsets, upper - position, position - lower]) / size
+	# the largest ball inside: its centre is interior
+	found = linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
+	if found.status != 0 or found.x[3] < thin:
+		return 0.0
+	part = HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
+	return float(ConvexHull(part.intersections).volume) * size**3
+
+
+@dataclasses.dataclass
+class Coordination:
+	"""Contacts per body. A contact of two bodies of the heap counts for both, one with a wall or floor once."""
+
+	mean: float
+	"""Over all bodies, rattlers included."""
+	mechanical: float
+	"""Over bodies with two contacts or more, counting contacts on these alone: Thornton's mechanical coordination number (2000,
+	Géotechnique 50:43), (2C − N₁)/(N − N₀ − N₁). NaN if there is no such body."""
+	rattlers: int
+	"""N₀ + N₁: bodies with no or one contact. They carry nothing but, at most, themselves."""
+	bodies: int
+	"""N"""
+
+
+def coordinationNumber(ids=None):
+	"""Contacts per body, of the contacts that bear a normal force. A pair of polytopes has one contact, be it face on face.
+
+	:param ids: of the heap's bodies; None: all free polytopes
+	:returns: Coordination
+	:raises ValueError: naming *ids* if there is none
+	"""
+	touching = dict.fromkeys(_free(ids), 0)
+	if not touching:
+		raise ValueError('ids: there is no free polytope')
+	for contact in O.interactions:
+		if contact.isReal and contact.phys.normalForce.squaredNorm() > 0:
+			for k in (contact.id1, contact.id2):
+				if k in touching:
+					touching[k] += 1
+	bearing = [count for count in touching.values() if count > 1]
+	mechanical = sum(bearing) / len(bearing) if bearing else float('nan')
+	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))
+
+
+def _free(ids):
+	if ids is not None:
+		return list(ids)
+	return [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic]
