@@ -142,6 +142,7 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(
 	result.hasGeometry = true;
 	result.status      = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
 	result.depth       = depth;
+	result.energy      = result.inContact ? depth * depth / 2 : Real(0); // a distance's gradient is a conservative force as it is
 	result.infeasibility = -depth / 2; // the largest ball between a sphere and a plane has the depth for its diameter
 	result.normal      = -(state2.ori * nearest.outward);
 	result.point       = (radius - depth / 2) * result.normal;

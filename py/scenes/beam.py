@@ -227,7 +227,8 @@ class ThreeHingedBeam:
 
 	def exhaustion(self):
 		"""Rotation beyond the peak at which the load is back to zero [rad]."""
-		last = 0.999 * min(2 * math.atan(self.height / self.length), math.pi / 2)
+		last = min(2 * math.atan(self.height / self.length), math.pi / 2)
+		last = next(part * last for part in (0.999, 0.99, 0.95) if self._loadOrNone(part * last) < 0)
 		return brentq(lambda rotation: self.balance(rotation).load, self.peak().rotation, last, xtol=1e-9)
 
 	def work(self, rotation):
