@@ -208,7 +208,9 @@ TEST(ConservativeCollisions, AnIntegratorOfFourthOrderLeavesASmallPartOfTheError
 		std::printf("%d steps: energy error, median / root mean square / largest: order 2 %.2e / %.2e / %.2e, order 4 %.2e / %.2e / %.2e\n", steps, double(second.median), double(second.rootMeanSquare),
 			double(second.largest), double(fourth.median), double(fourth.rootMeanSquare), double(fourth.largest));
 		EXPECT_LT(fourth.median, second.median / 10);
-		if (last.median > 0) EXPECT_GT(last.median / fourth.median, 10);
+		if (last.median > 0) {
+			EXPECT_GT(last.median / fourth.median, 10);
+		}
 		last = fourth;
 	}
 }
