@@ -13,16 +13,18 @@ def stableTimeStep(fraction=0.2, default=None):
 	For each body ω² is the larger of Σ (kn + ks)/m and Σ (rocking stiffness + (kn + ks) arm²)/I, over its contacts, with the smallest
 	principal moment of inertia. A conservative contact has the rocking stiffness normal force × :yref:`PolytopeGeom.rockingArm` (face on
 	face it may exceed all others; docs/conservative-contact.md), the paper's none. YADE's GlobalStiffnessTimeStepper does not know it.
-	The central difference scheme is stable up to 2/ω; rocking stiffness grows with the normal force, so leave room: where bodies are
-	thrown together, call this again as the run goes on.
+	The central difference scheme is stable up to 2/ω of one body between fixed ones. Coupled bodies, and rotation with translation, may
+	each raise the highest frequency by √2 (each contact adds (kn + ks)(1/m₁ + 1/m₂ + arm₁²/I₁ + arm₂²/I₂) at most), so up to 1/ω any
+	heap is stable. Rocking stiffness grows with the normal force, so leave room: where bodies are thrown together, call this again as the run
+	goes on.
 
-	:param float fraction: of 1/ω, above 0 and at most 2
+	:param float fraction: of 1/ω, above 0; at most 1 is safe for any heap, at most 2 (refused above) for one body
 	:param float default: returned [s] where no contact limits the step yet
 	:returns: the time step [s]; set it with O.dt = …
 	:raises ValueError: naming *fraction*, or *default* where one is needed
 	"""
 	if not 0 < fraction <= 2:
-		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of stability, got {fraction}')
+		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction}')
 	translation, rotation = {}, {}
 	for contact in O.interactions:
 		if not contact.isReal:
