@@ -3,7 +3,7 @@
 the sliding and the roof wedge (C, D), and settled heaps of polyhedra (A), beside closed forms.
 
 	./run python examples/contactModels.py            # some minutes; table as output/contactModels/models.csv, too
-	./run python examples/contactModels.py --quick    # coarser friction steps, one small heap: under two minutes
+	./run python examples/contactModels.py --quick    # coarser friction steps, one small heap: two minutes
 	./run python examples/contactModels.py --only A --solids cube --seed 3
 """
 
@@ -33,8 +33,10 @@ barrier = 3e-3
 wedgeSteps = {'paper': 0.2, 'conservative': 0.025}
 heapSteps = {'paper': 0.2, 'conservative': 0.05}
 """Time steps over sqrt(mass / stiffness): face on face the conservative contact is stiff in rocking."""
-columns, seconds = 4, 3.0
-"""Of the heaps: starting lattice (four or five layers of bodies lie on each other at the end), simulated time."""
+columns = 4
+"""Of the heaps' starting lattice: some four layers of bodies lie on each other at the end."""
+leastTime, mostTime, rest = 3.0, 10.0, 1e-4
+"""A heap is at rest when its kinetic energy over N m g L is below *rest*, after the least time and every quarter of a second then [s]."""
 
 
 def conservativePeak(beam):
@@ -121,18 +123,20 @@ def roofWedge(given):
 
 
 def heap(faces, model, given):
-	"""A settled heap: (porosity, Coordination, kinetic energy over N m g L)."""
-	number = 60 if given.quick else 200
+	"""A settled heap: (porosity, Coordination, time [s], kinetic energy over N m g L)."""
+	number = 100 if given.quick else 200
 	lattice = {'columns': 3 if given.quick else columns, 'number': number, 'seed': given.seed}
 	scene = FallingPolyhedra(faces=faces, timeStepFraction=heapSteps[model], **lattice).build()
 	scene.geometryFunctor.contactModel = model
-	O.run(round((2 if given.quick else seconds) / O.dt), wait=True)
 	size, particles = scene.size, scene.particles()
+	O.run(round(leastTime / O.dt), wait=True)
+	unit = number * scene.mass * scene.gravity * size
+	while kineticEnergy() > rest * unit and O.time < mostTime:
+		O.run(round(0.25 / O.dt), wait=True)
 	height = sum(body.state.pos[2] for body in particles) / number
 	side = scene.width / 2 - size
 	box = (-side, -side, size / 2), (side, side, max(1.5 * height, size))
-	energy = kineticEnergy() / (number * scene.mass * scene.gravity * size)
-	return polytope.porosity(*box), polytope.coordinationNumber(), energy
+	return polytope.porosity(*box), polytope.coordinationNumber(), O.time, kineticEnergy() / unit
 
 
 def heaps(given):
@@ -142,7 +146,8 @@ def heaps(given):
 		yield f'A: coordination number, {name}', None, *[one[1].mean for one in found]
 		yield f'A: the same without rattlers, {name}', None, *[one[1].mechanical for one in found]
 		yield f'A: rattlers, {name}', None, *[one[1].rattlers for one in found]
-		yield f'A: kinetic energy / (N m g L), {name}', None, *[one[2] for one in found]
+		yield f'A: time [s], {name}', None, *[one[2] for one in found]
+		yield f'A: kinetic energy / (N m g L), {name}', None, *[one[3] for one in found]
 
 
 def each(measure, label):
@@ -154,7 +159,7 @@ parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'A': heaps}
 
 def main():
 	parser = argparse.ArgumentParser(description=' '.join(__doc__.split('\n\n')[0].split()), formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-	parser.add_argument('--quick', action='store_true', help='coarser friction steps, 60 bodies instead of 200, cubes alone')
+	parser.add_argument('--quick', action='store_true', help='coarser friction steps, 100 bodies instead of 200, cubes alone')
 	parser.add_argument('--only', choices=parts, nargs='+', default=list(parts))
 	parser.add_argument('--solids', choices=solids, nargs='+', help='of the heaps; None: all, quick: cubes')
 	parser.add_argument('--seed', type=int, default=1, help="of the heaps' orientations")
