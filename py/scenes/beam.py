@@ -342,12 +342,17 @@ class ThreeHingedBeam:
 			thrust=(abutment.phys.normalForce + abutment.phys.shearForce)[0],
 			thrustMidspan=(midspan.phys.normalForce + midspan.phys.shearForce)[0],
 			lever=(midspan.geom.contactPoint - hinge)[1],
-			stored=sum(share * c.phys.normalForce.squaredNorm() / (2 * c.phys.kn) for c, share in ((abutment, 1), (midspan, 0.5))),
+			stored=sum(share * _stored(c) for c, share in ((abutment, 1), (midspan, 0.5))),
 			tilt=math.atan2(normal[1], normal[0]),
 			drop=self.height - (center + toUpperCorner)[1],
 			rise=(center - toUpperCorner)[1],
 			shearRatio=abutment.phys.shearForce.norm() / abutment.phys.normalForce.norm(),
 		)
+
+
+def _stored(contact):
+	energy = contact.geom.energyPerStiffness  # of the conservative model; -1 for the paper's
+	return contact.phys.kn * energy if energy >= 0 else contact.phys.normalForce.squaredNorm() / (2 * contact.phys.kn)
 
 
 def _rectangle(left, right, bottom, top):
