@@ -28,12 +28,31 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "
 	target_compile_options(polytope_options INTERFACE -Werror -Wno-error=maybe-uninitialized)
 endif()
 
+# Checked builds (`./run sanitize`, `./run fuzz`): the core and its tests under clang's sanitizers, assertions of Eigen and of
+# the standard library on.
+if(POLYTOPE_SANITIZE)
+	if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+		message(FATAL_ERROR "POLYTOPE_SANITIZE=${POLYTOPE_SANITIZE} needs clang: -DCMAKE_CXX_COMPILER=clang++")
+	endif()
+	set(sanitize "-fsanitize=${POLYTOPE_SANITIZE}" "-fno-sanitize-recover=all" "-fno-omit-frame-pointer"
+		"-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzz/ignored.txt")
+	target_compile_options(polytope_options INTERFACE -O1 -g -UNDEBUG ${sanitize})
+	target_compile_definitions(polytope_options INTERFACE CGAL_NDEBUG _GLIBCXX_ASSERTIONS)
+	target_link_options(polytope_options INTERFACE ${sanitize})
+	if(POLYTOPE_FUZZ)
+		target_compile_options(polytope_options INTERFACE -fsanitize=fuzzer-no-link)
+	endif()
+endif()
+
 # YADE is compiled with these. Types of Eigen cross the border between core and YADE, so all our files need the same, or
 # the one-definition rule is broken. Loops that want SIMD work on plain arrays.
 target_compile_definitions(polytope_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_ALIGN EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
 
 # polytope_optimise(<target> <flags for a release build>…)
 function(polytope_optimise target)
+	if(POLYTOPE_SANITIZE)
+		return() # checks make the optimiser's work long and in vain
+	endif()
 	foreach(flag IN LISTS ARGN)
 		target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${flag}>)
 	endforeach()

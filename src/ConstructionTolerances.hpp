@@ -50,6 +50,11 @@ inline const Real horizon = 1 / (rounding * rounding);
 /// smaller) are the same plane. A plane written twice in different ways (other length, other order) differs by a few roundings.
 inline const Real duplicate = 16 * rounding;
 
+/// Lengths [m] that bodies and coordinates may have, in every unit anybody uses. Beyond, the fifth power of a length (inertia)
+/// leaves the range of double, and the contact path takes a plane at 1e60 for none.
+inline const Real smallestLength = 1e-50;
+inline const Real largestLength  = 1e50;
+
 /// A normal this near unit length is left untouched, so that normalising twice changes no bit.
 inline const Real unitLength = 4 * rounding;
 

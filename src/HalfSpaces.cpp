@@ -74,12 +74,14 @@ HalfSpaces normalised(const HalfSpaces& input)
 				refuse("normals: " + entry(i) + "leaves the xy plane; in 2-D every normal needs z = 0");
 			normal.z() = 0;
 		}
-		if (magnitude(length - 1) <= construction::unitLength) continue;
-		// two steps, because the reciprocal of a tiny length may overflow
-		const Real largest = normal.cwiseAbs().maxCoeff();
-		normal             = (normal / largest).normalized();
-		unit.offsets[i] /= length;
-		if (!finite(unit.offsets[i])) refuse("offsets: " + entry(i) + "divided by the length of its normal overflows; scale the plane");
+		if (magnitude(length - 1) > construction::unitLength) {
+			// two steps, because the reciprocal of a tiny length may overflow
+			normal = (normal / normal.cwiseAbs().maxCoeff()).normalized();
+			unit.offsets[i] /= length;
+			if (!finite(unit.offsets[i])) refuse("offsets: " + entry(i) + "divided by the length of its normal overflows; scale the plane");
+		}
+		if (magnitude(unit.offsets[i]) > construction::largestLength)
+			refuse("offsets: " + entry(i) + "(over the length of its normal) is beyond 1e50; choose another unit of length");
 	}
 	return unit;
 }

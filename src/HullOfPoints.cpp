@@ -36,6 +36,8 @@ namespace {
 			for (int k = 0; k < 3; ++k)
 				if (!(Eigen::numext::isfinite)(points[i][k]))
 					refuse("points: entry " + std::to_string(i) + " (counted from 0) is not finite; remove NaN and infinite values");
+				else if (magnitude(points[i][k]) > construction::largestLength)
+					refuse("points: entry " + std::to_string(i) + " (counted from 0) is beyond 1e50; choose another unit of length");
 		if (!(coplanar >= 0 && coplanar <= Real(0.1))) refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the size");
 	}
 
@@ -56,6 +58,7 @@ namespace {
 		const int     used = dimension; // in 2-D the extent is that of x and y
 		const Real    largest = span.head(used).maxCoeff();
 		if (!(largest > 0)) refuseFlat(dimension);
+		if (largest < construction::smallestLength) refuse("points: they are less than 1e-50 apart; choose another unit of length");
 		using std::frexp;
 		using std::ldexp;
 		int exponent = 0;

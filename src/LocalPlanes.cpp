@@ -94,6 +94,7 @@ LocalPlanes aboutInnerPoint(const HalfSpaces& set)
 	const exact::DeepPoint ball = exact::deepest(set.normals, scaled, 2, bounds);
 	if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
 	if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
+	if (ball.depth * scale < construction::smallestLength) refuse("offsets: the body is smaller than 1e-50; choose another unit of length");
 
 	LocalPlanes local;
 	local.centre   = ball.point * scale;

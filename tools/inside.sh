@@ -107,6 +107,9 @@ case $command in
 	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
 	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
+	# the core alone, in folders of their own
+	fuzz) configured && . "$project/tools/fuzz.sh" && fuzz "$@" ;;
+	sanitize) build && . "$project/tools/fuzz.sh" && sanitize "$@" ;;
 	shell) build && exec bash "$@" ;;
 	format) format "$@" ;;
 	*) fail "inside.sh: no command $command" ;;
