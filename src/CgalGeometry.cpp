@@ -80,7 +80,10 @@ DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& 
 	}
 	programme.set_u(3, true, toNumber(cap));
 	programme.set_c(3, Number(-1));
-	const auto solution = CGAL::solve_linear_program(programme, ExactNumber());
+	// Bland's rule: with CGAL's default one degenerate programmes cycle without end (found by fuzzing)
+	CGAL::Quadratic_program_options options;
+	options.set_pricing_strategy(CGAL::QP_BLAND);
+	const auto solution = CGAL::solve_linear_program(programme, ExactNumber(), options);
 	DeepPoint  result;
 	auto       value = solution.variable_values_begin();
 	for (int k = 0; k < 3; ++k, ++value)

@@ -14,6 +14,7 @@ checkedBuild() {
 	shift 2
 	(
 		flock 9
+		configure # makes the build folder anew where it is another YADE's
 		step "configuring for ${sanitizers//,/, }" "tools/packages.txt lists what is needed." \
 			cmake -S "$project" -B "$folder" -G Ninja -DPOLYTOPE_YADE=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
 			-DPOLYTOPE_SANITIZE="$sanitizers" -DPOLYTOPE_FUZZ="$([ "$sanitizers" = thread ] && echo OFF || echo ON)"

@@ -107,8 +107,7 @@ case $command in
 	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
 	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
-	# the core alone, in folders of their own
-	fuzz) configured && . "$project/tools/fuzz.sh" && fuzz "$@" ;;
+	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) build && . "$project/tools/fuzz.sh" && sanitize "$@" ;;
 	shell) build && exec bash "$@" ;;
 	format) format "$@" ;;

@@ -244,4 +244,13 @@ TEST(HullOfPoints, flatPointsAreRefusedAtEverySize)
 	EXPECT_TRUE(says(hullSays({ Vector3(1, 0, 0), Vector3(1, 0, 0), Vector3(1, 0, 0) }, 2), "points: they lie on a line"));
 }
 
+TEST(HullOfPoints, lengthsNobodyHasAreRefused)
+{
+	const auto corners = [](Real size) { return std::vector<Vector3> { Vector3::Zero(), size * Vector3::UnitX(), size * Vector3::UnitY(), size * Vector3::UnitZ() }; };
+	EXPECT_TRUE(says(hullSays(corners(Real(1e300))), "points: entry 1 (counted from 0) is beyond 1e50"));
+	EXPECT_TRUE(says(hullSays(corners(std::numeric_limits<Real>::denorm_min())), "points: they are less than 1e-50 apart"));
+	EXPECT_EQ(hullSays(corners(Real(1e49))), "");
+	EXPECT_EQ(hullSays(corners(Real(1e-49))), "");
+}
+
 } // namespace

@@ -419,4 +419,23 @@ TEST(ShapeConstruction, badNumbersAreRefusedHereToo)
 	}
 }
 
+// Found by fuzzing: a denormal offset ended the process by a signal from GMP; volumes and moments overflowed to infinity and NaN.
+TEST(ShapeConstruction, lengthsNobodyHasAreRefused)
+{
+	for (Real tiny : { std::numeric_limits<Real>::denorm_min(), Real(1e-300), Real(1e-60) }) {
+		EXPECT_TRUE(says(polyhedronSays(box(tiny, tiny, tiny)), "offsets: the body is smaller than 1e-50"));
+		EXPECT_TRUE(says(polyhedronSays(regularPolygon(4, tiny)), "offsets: the body is smaller than 1e-50"));
+		EXPECT_TRUE(says(polyhedronSays(regularPolygon(4, 1), tiny), "thickness: it must lie between"));
+	}
+	for (Real huge : { Real(1e60), Real(1e200), std::numeric_limits<Real>::max() }) {
+		EXPECT_TRUE(says(polyhedronSays(box(1, huge, 1)), "offsets: entry 2"));
+		EXPECT_TRUE(says(polyhedronSays(regularPolygon(4, 1), huge), "thickness: it must lie between"));
+	}
+	for (Real size : { Real(1e-49), Real(1e49) }) {
+		const MassProperties mass = massProperties(polyhedron(box(size, size, size)));
+		EXPECT_NEAR(mass.volume / (8 * size * size * size), 1, 1e-14);
+		EXPECT_TRUE(mass.inertia.allFinite() && mass.inertia(0, 0) > 0);
+	}
+}
+
 } // namespace
