@@ -53,16 +53,15 @@ for model in ('paper', 'conservative'):
 
 
 def errors(path):
-	"""Of valgrind's report: kind, count and stacks of each error, a stack being (object, function, file, line)."""
-	root = ElementTree.parse(path).getroot()
-	counts = {pair.findtext('unique'): int(pair.findtext('count')) for block in root.findall('errorcounts') for pair in block.findall('pair')}
-	for error in root.findall('error'):
-		frames = [tuple(frame.findtext(key, '') for key in ('obj', 'fn', 'file', 'line')) for frame in error.iter('frame')]
-		yield error.findtext('kind'), counts.get(error.findtext('unique'), 1), frames
+	"""Of valgrind's report: kind and stacks of each different error, a stack being (object, function, file, line). The report may be long."""
+	for _, element in ElementTree.iterparse(path):
+		if element.tag == 'error':
+			yield element.findtext('kind'), [tuple(frame.findtext(key, '') for key in ('obj', 'fn', 'file', 'line')) for frame in element.iter('frame')]
+			element.clear()
 
 
 def isOurs(frames):
-	return any(os.path.basename(os.path.realpath(frame[0]) if frame[0] else '') in ours or os.path.basename(frame[0]) in ours for frame in frames)
+	return any(os.path.basename(frame[0]) in ours for frame in frames)
 
 
 def main():
@@ -75,12 +74,15 @@ def main():
 		print(*(line for line in run.stdout.splitlines() if line.startswith('RESULT')), sep='\n')
 		if run.returncode or run.stdout.count('RESULT') != 2:
 			sys.exit(f'the scene ended with {run.returncode}:\n{run.stdout[-2000:]}\n{run.stderr[-4000:]}')
-		found = list(errors(report))
-	own = [error for error in found if isOurs(error[2])]
-	others = collections.Counter(os.path.basename(frames[0][0]) for _, _, frames in found if not isOurs(frames))
-	print(f'errors with a frame of ours: {len(own)}; of others: {len(found) - len(own)}', dict(others))
-	for kind, count, frames in own:
-		print(f'\n{kind}, {count} times')
+		own, others = [], collections.Counter()
+		for kind, frames in errors(report):
+			if isOurs(frames):
+				own.append((kind, frames))
+			else:
+				others[os.path.basename(frames[0][0])] += 1
+	print(f'errors with a frame of ours: {len(own)}; of others: {sum(others.values())}', dict(others.most_common(8)))
+	for kind, frames in own[:20]:
+		print(f'\n{kind}')
 		for path, function, file, line in frames:
 			print(f'  {function or "?"} {file}:{line} {os.path.basename(path)}')
 	return 1 if own else 0
