@@ -4,8 +4,8 @@
 # `./run fuzz` and `./run sanitize`: builds of the core and its tests under clang's sanitizers, in folders of their own.
 # Part of inside.sh.
 
-# Ipopt's library brings a handler of crashes along that would take them from the sanitizers.
-export UCX_ERROR_SIGNALS=''
+# Ipopt's libraries (MPI) bring handlers of crashes along that would take them from the sanitizers.
+export UCX_ERROR_SIGNALS='' OMPI_MCA_opal_signal=''
 export ASAN_OPTIONS=allow_addr2line=1 UBSAN_OPTIONS=print_stacktrace=1:allow_addr2line=1
 
 # checkedBuild FOLDER SANITIZERS TARGETS…
@@ -77,7 +77,7 @@ sanitize() {
 	printf '\nTests of the core under AddressSanitizer and UBSan\n'
 	ctest --test-dir "$build/checked" --output-on-failure -j "$(nproc)" -E '^(Instructions|Allocation)' || result=1
 	printf '\nThreads under ThreadSanitizer\n'
-	TSAN_OPTIONS=halt_on_error=1:allow_addr2line=1:suppressions=$project/tests/fuzz/threads.txt OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+	TSAN_OPTIONS=halt_on_error=1:allow_addr2line=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
 		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*' || result=1
 	fuzz || result=1
 	printf '\nA scene of YADE under valgrind\n'
