@@ -184,8 +184,9 @@ minimiseBarrier(const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, 
 		weights            = BarrierWeights::Stepped;
 		const bool full    = length == 1 && dualStep == 1;
 		const R    size    = maxOf<R>(move.change, move.mismatch);
-		// rounding shows as a full step that did not contract
-		if (full && size > previous / 2 && size <= R(tolerance::stagnation)) return BarrierStatus::RoundingLimited;
+		// rounding shows as a full step that did not contract; before the second small one convergence may not be quadratic yet
+		const bool stalled = full && previous <= R(tolerance::stagnation) && size > previous / 2;
+		if (stalled && size <= R(tolerance::stagnation)) return BarrierStatus::RoundingLimited;
 		if (iterations >= tolerance::newtonIterations) return BarrierStatus::NotConverged;
 		++iterations;
 		point.level += length * step[0];

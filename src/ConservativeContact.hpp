@@ -40,7 +40,7 @@ POLYTOPE_INLINE void startBarrier(
 	start.level = maxOf<R>(s + room, room / 4 - smallest);
 }
 
-/// After the linear programme: x its point in the planes' frame, s its value.
+/// After the linear programme: x its point in the planes' frame, s its value, `below` a bound of it from the weights alone.
 template <class R, int D, int W>
 POLYTOPE_INLINE void conservativeContact(
         const PairInput& in,
@@ -49,6 +49,7 @@ POLYTOPE_INLINE void conservativeContact(
         ContactFrame<R, D>& f,
         const R* x,
         R s,
+        R below,
         PairMemory& memory,
         ContactWorkspace& workspace,
         ContactResult& out)
@@ -69,7 +70,7 @@ POLYTOPE_INLINE void conservativeContact(
 	R sum = -root2;
 	for (int k = 0; k <= D; ++k)
 		sum += sqrt(maxOf<R>(R(out.weights[k]), 0));
-	if (!settings.geometryAcrossGap && s + 2 * mu * sum >= 0) {
+	if (!settings.geometryAcrossGap && below + 2 * mu * sum >= 0) {
 		memory.hasPoint = false;
 		return;
 	}

@@ -42,6 +42,14 @@ POLYTOPE_INLINE bool startFrom(const PairInput& in, const ContactFrame<R, D>& f,
 	return true;
 }
 
+/// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, above `least`.
+template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const ContactFrame<R, D>& f, R least)
+{
+	for (int k = 0; k < D; ++k)
+		reach += abs(f.centre[k]);
+	return maxOf<R>(lowerBound<R, D>(basis, reach), least);
+}
+
 /// n_λ = Σ over body 1 of λ_k a_k in the planes' frame.
 template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, R* dual)
 {
@@ -214,15 +222,16 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 				memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
 			memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
 		}
-		if (!memory.hasBasis) {
-			out.status        = ContactStatus::Failed;
-			out.infeasibility = basis.infeasibility;
-			return;
+		if (!memory.hasBasis) { // or both: then solveWide() finds one
+			for (int k = 0; k < D; ++k)
+				basis.point[k] = dual[k] = 0;
+			basis.infeasibility = -R(padOffset);
 		}
 	}
-	if (lowerBound<R, D>(basis, reach) > dismiss) {
+	const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
+	if (least > dismiss) {
 		out.status        = ContactStatus::Separated;
-		out.infeasibility = basis.infeasibility;
+		out.infeasibility = separatedBound<R, D>(basis, reach, f, -tolerance);
 		out.dismissed     = true;
 		memory.hasPoint   = false;
 		return;
@@ -241,20 +250,26 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
 
 	// 3. LP
-	LpStatus lp = LpStatus::PivotLimit;
-	if (moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis)) {
-		const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
-		lp              = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
-		rememberBasis<R, D>(planes, basis, memory, out);
+	const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
+	LpStatus  lp    = LpStatus::Undecided;
+	if (memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis))
+		lp = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
+	if (lp == LpStatus::Undecided) {
+		if (solveWide<R, D>(planes, basis, f.size, limit, out.simplexPivots)) lp = LpStatus::Optimal;
+		else if (!memory.hasBasis) { // a pose that is not a number
+			out.status = ContactStatus::Failed;
+			return;
+		}
 	}
+	rememberBasis<R, D>(planes, basis, memory, out);
 	const long lpDone = settings.timed ? nanoseconds() : 0;
 	out.lpNanoseconds = lpDone - started;
-	out.infeasibility = basis.infeasibility;
+	out.infeasibility = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, f, -tolerance) : basis.infeasibility;
 	const bool touching = basis.infeasibility < -tolerance;
 	dualDirection<R, D>(planes, basis, dual);
 	out.dualDirection = worldDirection<R, D>(in, f, dual);
 	if (!touching && !settings.geometryAcrossGap) {
-		out.status      = lp == LpStatus::PivotLimit ? ContactStatus::LpNotConverged : ContactStatus::Separated;
+		out.status      = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
 		memory.hasPoint = false;
 		return;
 	}
@@ -277,7 +292,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		}
 	}
 	if (settings.contactModel == ContactModel::Conservative) {
-		conservativeContact<R, D, W>(in, settings, planes, f, x, basis.infeasibility, memory, workspace, out);
+		conservativeContact<R, D, W>(in, settings, planes, f, x, basis.infeasibility, lowerBound<R, D>(basis, reach), memory, workspace, out);
 		if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
 		return;
 	}
@@ -291,7 +306,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 
 	// 5. contact point
 	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
-	if (lp == LpStatus::PivotLimit) outcome = ContactStatus::LpNotConverged;
+	if (lp == LpStatus::Undecided) outcome = ContactStatus::LpNotConverged;
 	else if (settings.contactPoint == ContactPoint::AnalyticCentre) {
 		const R deep = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
 		R       start[D], target[D];

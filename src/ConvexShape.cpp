@@ -50,14 +50,23 @@ namespace {
 			planes.offset[padded + c] = reach;
 			basis.plane[c]            = padded + c;
 		}
-		int pivots = 0;
+		const auto inside = [&] {
+			bool all = true;
+			for (int k = 0; k <= D; ++k)
+				all = all && basis.plane[k] < padded;
+			return all;
+		};
+		int       pivots = 0;
+		const int limit  = 1000 + 100 * int(set.size());
 		solveBasis<Real, D>(planes, basis);
-		const LpStatus status = solveLp<Real, D, 1>(planes, basis, reach, Real(padOffset), reach, 1000 + 100 * int(set.size()), pivots);
-		for (int k = 0; k <= D; ++k) {
-			if (status != LpStatus::Optimal || basis.plane[k] >= padded)
+		const LpStatus status = solveLp<Real, D, 1>(planes, basis, reach, Real(padOffset), reach, limit, pivots);
+		if (status != LpStatus::Optimal || !inside()) {
+			planes.total = padded; // solveWide() has artificial planes of its own
+			if (!solveWide<Real, D>(planes, basis, reach, limit, pivots))
 				throw std::runtime_error("ConvexShape: the inscribed ball of a bounded set was not found");
-			planesOfBall[k] = basis.plane[k];
 		}
+		for (int k = 0; k <= D; ++k)
+			planesOfBall[k] = basis.plane[k];
 		return -basis.infeasibility;
 	}
 

@@ -156,5 +156,7 @@ template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffl
 
 template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { abs(v[0]), abs(v[1]), abs(v[2]), abs(v[3]) } }; }
 template <class V> POLYTOPE_INLINE V         absolute(const V& v) { return v < 0 ? -v : v; }
+POLYTOPE_INLINE double                       absolute(double v) { return std::abs(v); }
+POLYTOPE_INLINE long double                  absolute(long double v) { return std::abs(v); }
 
 } // namespace polytope

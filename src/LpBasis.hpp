@@ -85,7 +85,7 @@ solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&or
 	for (int k = 0; k <= D; ++k) {
 		R length = 0;
 		for (int j = 0; j <= D; ++j)
-			length += abs(basis.inverse[j][k]);
+			length += absolute(basis.inverse[j][k]);
 		basis.weight[k] = basis.inverse[D][k];
 		basis.noise[k]  = R(tolerance::rounding) * length;
 		longest         = maxOf<R>(longest, basis.noise[k]);
@@ -94,13 +94,13 @@ solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&or
 }
 
 /// Corrects weights and point by their residuals: Σ λ_k (a_k; 1) = (0; 1) and a_k·x − s = d_k to rounding, whatever the
-/// inverse lost to cancellation.
-template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+/// inverse lost to cancellation. False if it lost so much that they remain.
+template <class R, int D> POLYTOPE_INLINE bool refineBasis(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
 {
 	R minusS = 0;
 	for (int k = 0; k <= D; ++k)
 		minusS += basis.weight[k] * d[k];
-	for (int round = 0; round < tolerance::refinements; ++round) {
+	for (int round = 0;; ++round) {
 		R dual[D + 1], primal[D + 1];
 		R size = 0, wrong = 0;
 		for (int j = 0; j < D; ++j) {
@@ -118,7 +118,8 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 		}
 		for (int j = 0; j <= D; ++j)
 			wrong = maxOf<R>(wrong, abs(dual[j]) * size);
-		if (wrong <= R(tolerance::refined) * size) break;
+		if (wrong <= R(tolerance::refined) * size) return true;
+		if (round == tolerance::refinements) return wrong <= R(tolerance::refinedLast) * size;
 		for (int k = 0; k <= D; ++k) {
 			minusS += basis.inverse[D][k] * primal[k];
 			for (int j = 0; j < D; ++j)
@@ -129,10 +130,14 @@ template <class R, int D> POLYTOPE_INLINE void refineBasis(const R (&a)[D + 1][D
 	}
 }
 
-/// As solveBasis(), for a basis that has nearly parallel planes: these are paired, for differences that are small keep
-/// their digits if they are taken as such. Out of line, for it is rare.
-template <class R, int D>
-__attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+/// The order in which solveFromDifferences() takes planes some of which are nearly parallel: these are paired, for
+/// differences that are small keep their digits if they are taken as such.
+template <int D> struct DifferenceOrder {
+	int  planes[D + 1] = { 0, 1 };
+	bool chained       = false;
+};
+
+template <class R, int D> DifferenceOrder<D> differenceOrder(const R (&a)[D + 1][D])
 {
 	const auto apart = [&](int i, int j) {
 		R sum = 0;
@@ -140,8 +145,9 @@ __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const
 			sum += (a[i][k] - a[j][k]) * (a[i][k] - a[j][k]);
 		return sum;
 	};
+	DifferenceOrder<D> result;
+	int(&order)[D + 1] = result.planes;
 	// the closest two first
-	int order[D + 1] = { 0, 1 };
 	for (int i = 0; i <= D; ++i)
 		for (int j = 0; j < i; ++j)
 			if (apart(i, j) < apart(order[0], order[1])) {
@@ -150,18 +156,24 @@ __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const
 			}
 	for (int k = 2, i = 0; i <= D; ++i)
 		if (i != order[0] && i != order[1]) order[k++] = i;
-	bool chained = false;
 	if constexpr (D == 3) {
 		if (apart(order[3], order[0]) < apart(order[2], order[0])) {
 			const int nearer = order[3];
 			order[3]         = order[2];
 			order[2]         = nearer;
 		}
-		chained = apart(order[2], order[3]) < apart(order[0], order[3]);
+		result.chained = apart(order[2], order[3]) < apart(order[0], order[3]);
 	}
-	if (!(solveFromDifferences<R, D>(a, d, order, chained, R(tolerance::noVolume), basis) < R(tolerance::singularBasis))) return false;
-	refineBasis<R, D>(a, d, basis);
-	return true;
+	return result;
+}
+
+/// As solveBasis(), for a basis that has nearly parallel planes. Out of line, for it is rare.
+template <class R, int D>
+__attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
+{
+	const DifferenceOrder<D> order = differenceOrder<R, D>(a);
+	if (!(solveFromDifferences<R, D>(a, d, order.planes, order.chained, R(tolerance::noVolume), basis) < R(tolerance::singularBasis))) return false;
+	return refineBasis<R, D>(a, d, basis);
 }
 
 /// solveFromDifferences() in 3-D with the planes in order, all rows at once: lane k is row k. a[j]: component j of the four

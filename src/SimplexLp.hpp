@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "LpBasis.hpp"
+#include "WideLp.hpp"
 
 #include <cmath>
 
@@ -16,7 +16,7 @@
 /// planes.
 namespace polytope {
 
-enum class LpStatus { Optimal, Separated, PivotLimit };
+enum class LpStatus { Optimal, Separated, Undecided };
 
 /// The most violated plane at the basis' point: largest a·x − d − s. Also leaves the slacks d − a·x in planes.slack.
 template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlanes<R, D>& planes, const R* x, R& smallestSlack)
@@ -82,38 +82,9 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 	return -1;
 }
 
-/// One step of the primal simplex, for a basis that violates no plane but has a weight below zero beyond its noise (a
-/// weight that was noise while a nearly parallel plane was in the basis may turn out to be none when that has left):
-/// leaves that plane along the edge of the others, where s falls, to the first plane met. Slacks as mostViolated() left
-/// them. False if there is no such weight (the basis is optimal); `entering` < 0 if no plane is met.
-template <class R, int D> POLYTOPE_INLINE bool primalStep(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, int& leaving, int& entering)
-{
-	leaving = -1;
-	for (int k = 0; k <= D; ++k)
-		if (basis.weight[k] < -R(tolerance::noise) * basis.noise[k] && (leaving < 0 || basis.weight[k] < basis.weight[leaving])) leaving = k;
-	if (leaving < 0) return false;
-	R        limit = R(padOffset);
-	entering       = -1;
-	for (int i = 0; i < planes.total; ++i) {
-		R rate = basis.inverse[D][leaving];
-		for (int j = 0; j < D; ++j)
-			rate += basis.inverse[j][leaving] * planes.normal[j][i];
-		// basic, not met, or a twin of a basic plane
-		bool basic = false;
-		for (int k = 0; k <= D; ++k)
-			basic = basic || basis.plane[k] == i;
-		if (basic || !(-rate * R(tolerance::singularBasis) > basis.noise[leaving]) || planes.offset[i] >= R(padOffset) / 2) continue;
-		const R distance = maxOf<R>(planes.slack[i] + basis.infeasibility, 0) / -rate;
-		if (distance < limit) {
-			limit    = distance;
-			entering = i;
-		}
-	}
-	return true;
-}
-
-/// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove, then primal ones
-/// where a weight is below zero.
+/// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove. At the optimum the
+/// basis is its own certificate: the largest violation at its point bounds s* from above, lowerBound() from below. Undecided
+/// where rounding leaves these two apart, a basis has no digits or pivots run out.
 /// `size`: what the tolerances of lengths are relative to. `reach`: as lowerBound().
 template <class R, int D, int W>
 POLYTOPE_INLINE LpStatus
@@ -129,45 +100,41 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
                 return status;
 	};
 	for (;;) {
-		if (lowerBound<R, D>(*now, reach) > dismissAbove) return end(LpStatus::Separated);
+		const R below = lowerBound<R, D>(*now, reach);
+		if (below > dismissAbove) return end(LpStatus::Separated);
 		R   smallest;
 		int q = mostViolated<R, D, W>(planes, now->point, smallest);
 		// by how much the basis' own planes miss s is what rounding makes of the others
 		R rounding = R(tolerance::violation) * size;
 		for (int k = 0; k <= D; ++k)
 			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
-		const R    bound = -now->infeasibility - rounding;
-		const bool met   = !(smallest < bound);
-		if (!met && bland) q = firstViolated<R, D>(planes, bound);
-		int leaving = -1;
-		if (met && !primalStep<R, D>(planes, *now, leaving, q)) return end(LpStatus::Optimal);
-		if (pivots >= pivotLimit || q < 0) return end(LpStatus::PivotLimit);
-
-		R w[D + 1] = {};
-		if (!met) {
-			for (int k = 0; k <= D; ++k) {
-				w[k] = now->inverse[D][k];
-				for (int j = 0; j < D; ++j)
-					w[k] += now->inverse[j][k] * planes.normal[j][q];
-			}
-			leaving = leavingRow<R, D>(*now, w, bland);
+		const R bound = -now->infeasibility - rounding;
+		if (!(smallest < bound)) {
+			const bool certain = -smallest - below <= R(tolerance::violation) / 2 * (size + reach / 2);
+			return end(certain ? LpStatus::Optimal : LpStatus::Undecided);
 		}
-		if (leaving < 0) return end(LpStatus::PivotLimit); // Σ w = 1, so only rounding can bring us here
+		if (bland) q = firstViolated<R, D>(planes, bound);
+		if (pivots >= pivotLimit || q < 0) return end(LpStatus::Undecided);
+
+		R w[D + 1];
+		for (int k = 0; k <= D; ++k) {
+			w[k] = now->inverse[D][k];
+			for (int j = 0; j < D; ++j)
+				w[k] += now->inverse[j][k] * planes.normal[j][q];
+		}
+		const int leaving = leavingRow<R, D>(*now, w, bland);
+		if (leaving < 0) return end(LpStatus::Undecided); // Σ w = 1, so only rounding can bring us here
 		for (int k = 0; k <= D; ++k)
 			next->plane[k] = now->plane[k];
 		next->plane[leaving] = q;
 		++pivots;
 		if (!solveBasis<R, D>(planes, *next)) {
-			if (met) return end(LpStatus::PivotLimit);
-			if (-planes.slack[q] - now->infeasibility <= R(tolerance::twinViolation) * size) return end(LpStatus::Optimal);
-			next->plane[leaving]                        = now->plane[leaving];
+			next->plane[leaving]                     = now->plane[leaving];
 			next->plane[steadiestRow<R, D>(*now, w)] = q;
-			if (!solveBasis<R, D>(planes, *next)) return end(LpStatus::PivotLimit);
+			if (!solveBasis<R, D>(planes, *next)) return end(LpStatus::Undecided);
 		}
-		if (!met) {
-			stalled = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
-			bland   = stalled > tolerance::stalledPivots;
-		}
+		stalled = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
+		bland   = stalled > tolerance::stalledPivots;
 		LpBasis<R, D>* const old = now;
 		now                      = next;
 		next                     = old;

@@ -52,13 +52,17 @@ constexpr Real singularBasis = Real(1) / 256;
 constexpr Real smallVolume = 1e-3;
 constexpr Real noVolume    = 4 * rounding;
 
-/// × size: how far the one of two such normals that is not in the basis may be violated at the optimum.
-constexpr Real twinViolation = 1024 * rounding;
+/// The linear programme with twice the digits (WideLp.hpp): volume of differences of normals, over their lengths, that is
+/// rounding there; and part of a rounding × size by which a plane may be violated at its optimum.
+constexpr Real wideVolume = 64 * rounding * rounding;
+constexpr Real wideRest   = Real(1) / 16;
 
 /// Noise from which weights and point are refined (below it the inverse is as good), until what is corrected is below
-/// this. Each refinement gains two digits at the least.
+/// `refined`. Each refinement gains two digits at the least, or the basis is no good; some end on a residual of a few more
+/// roundings: up to `refinedLast` that is let pass.
 constexpr Real refinedBasis = 64 * rounding;
 constexpr Real refined      = 4 * rounding;
+constexpr Real refinedLast  = 16 * rounding;
 constexpr int  refinements  = 8 * digits / 53;
 
 /// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
