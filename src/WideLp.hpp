@@ -3,6 +3,8 @@
 
 #include "LpBasis.hpp"
 
+#include <algorithm>
+
 /// The linear programme of SimplexLp.hpp where the digits of Real do not decide it: bases of planes that are parallel but for
 /// the last digits have weights that are mostly rounding. The planes as they stand are taken for exact numbers and the
 /// simplex is run on them with twice the digits; differences of nearly parallel normals are exact in it. Some thousand
@@ -34,9 +36,9 @@ public:
 	using Q = typename Wider<R>::Type;
 
 	/// Volume of differences of normals, over their lengths, that is rounding.
-	static constexpr double noVolume = maxOf<double>(tolerance::wideVolume, 4 * Wider<R>::rounding);
+	static constexpr double noVolume = std::max(tolerance::wideVolume, 4 * Wider<R>::rounding);
 	/// × size: by how much a plane may be violated at the optimum.
-	static constexpr double violation = maxOf<double>(tolerance::wideRest * tolerance::rounding, 8 * Wider<R>::rounding);
+	static constexpr double violation = std::max(tolerance::wideRest * tolerance::rounding, 8 * Wider<R>::rounding);
 
 	WideLp(const PairPlanes<R, D>& planes, R size)
 	        : planes_(planes)

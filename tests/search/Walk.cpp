@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Walk.hpp"
+
+#include "Certificate.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <stdexcept>
+
+namespace polytope::search {
+
+using namespace samples;
+
+namespace {
+
+	std::string text(const char* format, ...)
+	{
+		char    line[300];
+		va_list values;
+		va_start(values, format);
+		std::vsnprintf(line, sizeof line, format, values);
+		va_end(values);
+		return line;
+	}
+
+	bool finite(const ContactResult& r)
+	{
+		return r.point.allFinite() && r.normal.allFinite() && r.sectionCentroid.allFinite() && r.dualDirection.allFinite() && std::isfinite(r.depth)
+		        && std::isfinite(r.infeasibility) && std::isfinite(r.area) && std::isfinite(r.barrierValue) && std::isfinite(r.energy)
+		        && std::isfinite(r.rockingArm);
+	}
+
+	/// The questions put to one pose.
+	class Examiner {
+	public:
+		Examiner(int family, long trial, Tally& tally, std::vector<Finding>& findings)
+		        : family_(family)
+		        , trial_(trial)
+		        , tally_(tally)
+		        , findings_(findings)
+		{
+		}
+
+		/// Of all poses of one pair that moves on; forgets what was remembered.
+		void start(Random& random)
+		{
+			paper_                    = ContactSettings();
+			paper_.geometryAcrossGap  = random() % 4 == 0;
+			paper_.section            = random() % 4 == 0;
+			barrier_                  = paper_;
+			barrier_.contactModel     = ContactModel::Conservative;
+			for (PairMemory& memory : memory_)
+				memory = PairMemory();
+		}
+
+		void examine(const Pair& pair, int pose)
+		{
+			pose_ = pose;
+			++tally_.pairs;
+			ContactSettings lp;
+			lp.tolerance              = -1e6; // no dismissal
+			lp.contactPoint           = ContactPoint::ChebyshevCentre;
+			const ContactResult solved = query(pair, lp);
+			++tally_.queries;
+			Certificate        certificate(pair);
+			const Real         allowed = allowedError(pair);
+			certificate.bracket(solved);
+			const auto error = [&] { return Real(std::max(certificate.upper - solved.infeasibility, solved.infeasibility - certificate.lower)); };
+			if (!(certificate.upper - certificate.lower <= allowed / 4 && error() <= allowed)) {
+				certificate.solveExactly();
+				++tally_.exact;
+			}
+			const Real off = error();
+			tally_.worstInfeasibility = std::max(tally_.worstInfeasibility, off / (tolerance::rounding * pair.reach()));
+			if (!(off <= allowed)) report(Defect::Infeasibility, "LP", text("s* %.17g instead of %.17Lg, size %g", solved.infeasibility, certificate.upper, pair.size()));
+			if (failed(solved.status)) report(Defect::NotConverged, "LP", statusName(solved.status));
+			tally_.mostPivots = std::max(tally_.mostPivots, solved.simplexPivots);
+			const Real level  = -tolerance::contact * pair.size();
+			if (certificate.upper < level - allowed) ++tally_.overlaps;
+			else if (certificate.lower > level + allowed)
+				++tally_.gaps;
+			else
+				++tally_.undecided;
+
+			PairMemory cold[4];
+			checkPaper(pair, certificate, query(pair, paper_, &cold[0]), "cold");
+			checkPaper(pair, certificate, query(pair, paper_, &memory_[0]), "warm");
+			checkBarrier(pair, certificate, cold[1], "cold");
+			checkBarrier(pair, certificate, memory_[1], "warm");
+			const Pair  other = swapped(pair);
+			Certificate exchanged(other);
+			exchanged.lower = certificate.lower;
+			exchanged.upper = certificate.upper;
+			checkPaper(other, exchanged, query(other, paper_, &cold[2]), "exchanged");
+			checkBarrier(other, exchanged, cold[3], "exchanged");
+		}
+
+		void report(Defect defect, const char* way, const std::string& what)
+		{
+			++tally_.defects[std::size_t(defect)];
+			if (findings_.size() < 1000) findings_.push_back({ family_, trial_, pose_, defect, std::string(way) + ": " + what });
+		}
+
+	private:
+		int                   family_;
+		long                  trial_;
+		int                   pose_ = -1;
+		Tally&                tally_;
+		std::vector<Finding>& findings_;
+		ContactSettings       paper_, barrier_;
+		PairMemory            memory_[2];
+
+		static bool failed(ContactStatus status) { return status == ContactStatus::LpNotConverged || status == ContactStatus::Failed; }
+
+		/// What holds for both models.
+		void checkAnswer(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
+		{
+			++tally_.queries;
+			const Real allowed = allowedError(pair);
+			if (failed(result.status)) report(Defect::NotConverged, way, statusName(result.status));
+			if (!finite(result)) report(Defect::NotFinite, way, "a number is none");
+			if (result.hasGeometry && !(std::abs(result.normal.norm() - 1) <= 1e-14))
+				report(Defect::NotFinite, way, text("normal of length 1 + %g", result.normal.norm() - 1));
+			if (result.inContact && !(result.depth >= 0 && result.area >= 0)) report(Defect::NotFinite, way, text("depth %g, area %g", result.depth, result.area));
+			// a pair that was dismissed has a bound, no more
+			const bool bound = !result.hasGeometry;
+			if (result.infeasibility > certificate.upper + allowed || (!bound && result.infeasibility < certificate.lower - allowed))
+				report(Defect::Infeasibility, way, text("s* %.17g instead of %.17Lg, size %g", result.infeasibility, certificate.upper, pair.size()));
+		}
+
+		void checkPaper(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
+		{
+			checkAnswer(pair, certificate, result, way);
+			++tally_.paper[std::size_t(result.status)];
+			tally_.mostPivots     = std::max(tally_.mostPivots, result.simplexPivots);
+			tally_.mostIterations = std::max(tally_.mostIterations, result.newtonIterations);
+			const Real allowed = allowedError(pair), level = -paper_.tolerance * pair.size();
+			const std::string s = text("%s, s* %.6Lg (here %.6g), size %g", statusName(result.status), certificate.upper, result.infeasibility, pair.size());
+			if (!result.inContact && certificate.upper < level - allowed) report(Defect::Miss, way, s);
+			if (result.inContact && certificate.lower > level + allowed) report(Defect::FalseContact, way, s);
+			if (!result.inContact || result.status == ContactStatus::CentreNotConverged || result.status == ContactStatus::IpoptNotAvailable || failed(result.status)) return;
+			// the point's own rounding and the planes', over the overlap's thickness
+			const Real loose = 2e-9 + 4 * Real(allowed / -certificate.upper);
+			if (!(loose > 0 && loose < 0.1)) return;
+			const Extended decrement = certificate.centreDecrement(result.point);
+			if (!(decrement <= loose)) report(Defect::Centre, way, s + text(", decrement %Lg instead of %g", decrement, loose));
+		}
+
+		void checkBarrier(const Pair& pair, const Certificate& certificate, PairMemory& memory, const char* way)
+		{
+			const ContactResult result = query(pair, barrier_, &memory);
+			const Real          level  = memory.level;
+			checkAnswer(pair, certificate, result, way);
+			++tally_.conservative[std::size_t(result.status)];
+			tally_.mostIterations   = std::max(tally_.mostIterations, result.newtonIterations);
+			const Real        allowed = allowedError(pair);
+			const Extended    mu      = Extended(barrier_.barrier) * pair.inscribedRadius();
+			const std::string s = text("%s, s* %.6Lg, Φ %.6g, μ %Lg, size %g", statusName(result.status), certificate.upper, result.barrierValue, mu, pair.size());
+			if (result.inContact && certificate.lower > allowed) report(Defect::ForceAcrossGap, way, s);
+			if (result.status == ContactStatus::CentreNotConverged) report(Defect::Barrier, way, s);
+			const bool solved = result.newtonIterations > 0;
+			if (!solved) { // no contact by a bound of Φ alone: proved by our own, or refuted by a point with Φ < 0
+				if (certificate.lower >= -allowed || certificate.barrierBound(result, mu) >= -allowed) return;
+				PairMemory      own;
+				ContactSettings settings       = barrier_;
+				settings.geometryAcrossGap     = true;
+				const ContactResult all        = query(pair, settings, &own);
+				const Extended      reached    = certificate.barrier(all.point, own.level, mu);
+				if (!(reached >= -allowed)) report(Defect::Miss, way, s + text(", Φ %Lg", reached));
+				return;
+			}
+			if (result.barrierValue < certificate.lower - allowed) report(Defect::BelowLp, way, s);
+			if (!result.hasGeometry) return; // Φ ≥ 0; the point is not given
+			// rounding of the slacks over μ; and of the gradient along the overlap's longest axis, where the Hessian is no more than μ²/reach³
+			const Real far = pair.reach() / Real(mu), loose = 1e-8 + tolerance::rounding * far * (32 + std::sqrt(far));
+			if (!(loose < 0.1)) return;
+			const Extended value = certificate.barrier(result.point, level, mu);
+			if (!(std::abs(value - result.barrierValue) <= 1e-9L * mu + 4 * allowed)) report(Defect::Barrier, way, s + text(", at its point %.9Lg", value));
+			const Extended decrement = certificate.barrierDecrement(result.point, level, mu);
+			if (!(decrement <= loose)) report(Defect::Barrier, way, s + text(", decrement %Lg instead of %g", decrement, loose));
+		}
+	};
+
+	/// A step: both bodies a little, now and then back to some s* along the dual direction.
+	void step(Pair& pair, Real stride, Random& random)
+	{
+		const int D = pair.dimension();
+		pair.centre2 += stride * pair.inscribedRadius() * randomDirection(random, D);
+		for (Matrix3& rotation : pair.rotation) {
+			const Vector3 axis = D == 2 ? Vector3(0, 0, 1) : randomDirection(random);
+			rotation           = Eigen::AngleAxis<Real>(uniform(random, -stride, stride), axis).toRotationMatrix() * rotation;
+		}
+		if (random() % 2) return;
+		const ContactResult result = linearProgramme(pair);
+		const Real          length = result.dualDirection.norm();
+		if (length > 0.05) pair.centre2 += (someInfeasibility(pair, random) - result.infeasibility) / (length * length) * result.dualDirection;
+	}
+
+} // namespace
+
+const char* defectName(Defect defect)
+{
+	switch (defect) {
+		case Defect::Miss: return "miss";
+		case Defect::FalseContact: return "false contact";
+		case Defect::Infeasibility: return "wrong s*";
+		case Defect::Centre: return "unreported centre";
+		case Defect::NotConverged: return "not converged";
+		case Defect::NotFinite: return "not finite";
+		case Defect::ForceAcrossGap: return "force across gap";
+		case Defect::BelowLp: return "Φ below s*";
+		case Defect::Barrier: return "Φ not reached";
+		case Defect::Shape: return "shape";
+	}
+	return "unknown";
+}
+
+void Tally::add(const Tally& other)
+{
+	pairs += other.pairs;
+	overlaps += other.overlaps;
+	gaps += other.gaps;
+	queries += other.queries;
+	exact += other.exact;
+	undecided += other.undecided;
+	for (std::size_t i = 0; i < paper.size(); ++i) {
+		paper[i] += other.paper[i];
+		conservative[i] += other.conservative[i];
+	}
+	for (std::size_t i = 0; i < defects.size(); ++i)
+		defects[i] += other.defects[i];
+	worstInfeasibility = std::max(worstInfeasibility, other.worstInfeasibility);
+	mostPivots         = std::max(mostPivots, other.mostPivots);
+	mostIterations     = std::max(mostIterations, other.mostIterations);
+}
+
+void walk(int family, long trial, unsigned long seed, Tally& tally, std::vector<Finding>& findings)
+{
+	std::seed_seq sequence { unsigned(seed), unsigned(seed >> 32), unsigned(family), unsigned(trial), unsigned(trial >> 32) };
+	Random        random(sequence);
+	Examiner      examiner(family, trial, tally, findings);
+	try {
+		const Poses scene = families()[std::size_t(family)].scene(random);
+		for (int pose = 0; pose < posesPerTrial;) {
+			Pair pair = scene(random);
+			examiner.start(random);
+			const Real stride = decades(random, -9, Real(-0.5));
+			for (const int end = pose + 1 + int(random() % 8); pose < end && pose < posesPerTrial; ++pose) {
+				examiner.examine(pair, pose);
+				step(pair, stride, random);
+			}
+		}
+	} catch (const std::exception& error) {
+		examiner.report(Defect::Shape, "construction", error.what());
+	}
+}
+
+} // namespace polytope::search
