@@ -17,7 +17,9 @@ widePrecision = (
         'test_rock_joint test_save_load test_threads test_vtk test_ipopt'
 ).split()
 if polytope.buildInfo()['precision'] != 'double':
-	numbers.Real.register(yade.minieigenHP.Real)  # pytest.approx asks
+	# what pytest.approx asks of a number, and the messages of failures
+	numbers.Real.register(yade.minieigenHP.Real)
+	yade.minieigenHP.Real.__format__ = lambda self, how: format(float(self), how)
 	here = os.path.dirname(os.path.abspath(__file__))
 	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
 

@@ -77,7 +77,7 @@ O.dt = 1e-4
 O.run(300, True)
 stats = O.engines[2].geomDispatcher.functors[0].stats()
 assert stats['ipoptSolves'] > 1000 and stats['fallbacks'] == stats['failures'] == 0, stats
-print(O.numThreads, *(x.hex() for b in O.bodies for x in tuple(b.state.pos) + tuple(b.state.vel)))
+print(O.numThreads, *(repr(x) for b in O.bodies for x in tuple(b.state.pos) + tuple(b.state.vel)))
 '''
 
 
