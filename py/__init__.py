@@ -14,7 +14,8 @@ from .energy import mechanicalEnergy
 from .heap import coordinationNumber, porosity
 from .pictures import picture
 from .timeStep import stableTimeStep
+from .tradeoff import tradeoff
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'stableTimeStep']
+__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'stableTimeStep', 'tradeoff']

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Accuracy for speed in the paper's scenes: each setting's cost and the error of the answer that matters. The program behind `./run tradeoff`.
+
+Scenes: pair (contact forces), B (peak load), C and D (critical friction angles), F (energy of collisions), rest (where F1's cube comes to
+rest), A (a heap's coordination number). In each, one setting at a time is changed from the default: contact point, contact model,
+Newton tolerance, warm start, solver, arithmetic, time step, stiffness. Out of it come a table on screen and as CSV, a Pareto plot for
+each scene, and one page, report.html. polytope.tradeoff() does the same for a scene of your own: examples/tradeoff.py.
+
+	./run tradeoff                   # all: some 25 minutes
+	./run tradeoff --quick           # fewer settings: four minutes
+	./run tradeoff --only B pair     # these scenes
+"""
+
+import argparse
+import os
+import pathlib
+import sys
+
+here = pathlib.Path(__file__).resolve().parent
+os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the processes
+os.environ.setdefault('POLYTOPE_GEOMETRY', str(here / 'paper/geometry'))
+
+from yade.polytope import tradeoff
+from yade.polytope.studies.tradeoffAxes import allScenes, default, scatter
+from yade.polytope.studies.tradeoffReport import reportScene, show, summary, writePage, writeSummary
+
+
+def options(letters, arguments=None):
+	parser = argparse.ArgumentParser(prog='./run tradeoff', description=__doc__.splitlines()[0])
+	parser.add_argument('--quick', action='store_true', help='fewer settings, and each timed once')
+	parser.add_argument('--only', nargs='+', choices=letters, default=letters, metavar='SCENE', help=f'of {", ".join(letters)}')
+	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)')
+	given = parser.parse_args(arguments)
+	given.output = (given.output or pathlib.Path('output/tradeoff-quick' if given.quick else 'output/tradeoff')).resolve()
+	return given
+
+
+def main(arguments=None):
+	scenes = allScenes()
+	given = options(list(scenes), arguments)
+	tables, parts, failed = {}, [], False
+	for letter in given.only:
+		scene = scenes[letter]
+		settings = scene.chosen(given.quick)
+		finest = scene.numericalReference(settings)
+		reference = scene.truth if scene.truth is not None else finest if finest and letter != 'A' else default
+		times = {'repeats': 1 if given.quick else 2, 'timedSeconds': scene.timedSeconds, 'timeLimit': 30 if given.quick else 240}
+		print(f'\n{letter}: {scene.title}, {len(settings)} settings', flush=True)
+		table = tradeoff(scene.build, settings, scene.measure, reference, **times)
+		if letter == 'A':
+			table = table.against(scatter(table)[0])
+		table.show()
+		findings, _ = reportScene(scene, table, given.output / letter, finest)
+		failed |= not findings.save()
+		tables[letter] = table
+		parts.append((scene, findings))
+	columns, rows = writeSummary(summary(tables, scenes), given.only, given.output / 'summary.csv')
+	print('\nAll scenes: cost over the default\'s, and error of the answer')
+	show(columns, rows)
+	writePage(given.output / 'report.html', parts, columns, rows, pathlib.Path(__file__), given.quick)
+	print(f'\nReport: {given.output / "report.html"}')
+	return 1 if failed else 0
+
+
+if __name__ == '__main__':
+	sys.exit(main())

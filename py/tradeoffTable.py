@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Cost and error of settings: the rows, the table, and its Pareto front."""
+
+import copy
+import csv
+import math
+
+import mpmath
+
+__all__ = ['Row', 'TradeoffTable']
+
+digits = 60
+"""Decimal digits in which answers are compared."""
+
+
+class Row:
+	"""One setting.
+
+	:ivar str name: of the setting
+	:ivar dict changes: what it changes
+	:ivar values: name → number or list (mpmath, all digits) that measure() returned, the first one the answer; {} without an answer
+	:ivar float error: of the answer, |answer − reference| over |reference| (or as it is, for a reference of 0); None without
+	:ivar float stepMicroseconds: of all engines for one step
+	:ivar float contactMicroseconds: of the interaction loop for one contact
+	:ivar float contacts: in one step
+	:ivar float timeStep: [s]
+	:ivar float cost: µs for as much simulated time as the first setting's step
+	:ivar int fallbacks, failures: of the contact functors over the run, see stats()
+	:ivar str note: why there is no answer, or ''
+	"""
+
+	def __init__(self, name, changes):
+		self.name, self.changes, self.values, self.note = name, changes, {}, ''
+		self.error = self.stepMicroseconds = self.contactMicroseconds = self.contacts = self.timeStep = self.cost = self.seconds = None
+		self.fallbacks = self.failures = 0
+
+	def take(self, answer):
+		"""What a process answered; of several the least times."""
+		if 'error' in answer:
+			self.note = answer['error']
+			return
+		self.values = {name: _numbers(text) for name, text in answer['values'].items()}
+		self.timeStep, self.seconds, self.contacts = answer['timeStep'], answer['seconds'], answer.get('contacts')
+		self.fallbacks, self.failures = answer['fallbacks'], answer['failures']
+		for name in ('stepMicroseconds', 'contactMicroseconds'):
+			times = [time for time in (getattr(self, name), answer.get(name)) if time is not None]
+			setattr(self, name, min(times, default=None))
+
+	@property
+	def answer(self):
+		"""The first of the values; None without."""
+		return next(iter(self.values.values()), None)
+
+
+class TradeoffTable:
+	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see :yref:`Row`."""
+
+	def __init__(self, rows, reference, true=None):
+		"""
+		:param list rows: of Row
+		:param reference: number, list, or name of a row
+		:param true: the answer of *reference*, where its row is not among these
+		"""
+		self.rows, self.reference = rows, reference
+		true = self._true(reference) if true is None else true
+		first = next((row.timeStep for row in rows if row.timeStep), None)
+		for row in rows:
+			row.error = None if row.answer is None or true is None else _difference(row.answer, true)
+			if row.cost is None and row.stepMicroseconds is not None:
+				row.cost = row.stepMicroseconds * (first / row.timeStep if row.timeStep else 1)
+
+	def _true(self, reference):
+		if isinstance(reference, str):
+			return self[reference].answer
+		return _numbers([repr(float(x)) for x in reference] if hasattr(reference, '__len__') else repr(float(reference)))
+
+	def __getitem__(self, name):
+		"""The row of that name."""
+		for row in self.rows:
+			if row.name == name:
+				return row
+		raise KeyError(f'{name!r} is none of the settings, {[row.name for row in self.rows]}')
+
+	def against(self, reference, names=None):
+		"""A table of the same runs with errors against another reference; with *names*, of these rows alone."""
+		rows = [copy.copy(row) for row in (self.rows if names is None else map(self.__getitem__, names))]
+		return TradeoffTable(rows, reference, self._true(reference))
+
+	def front(self):
+		"""Rows that no other one beats in both cost and error, cheapest first."""
+		measured = sorted((row for row in self.rows if row.error is not None and row.cost is not None), key=lambda row: (row.cost, row.error))
+		best, kept = math.inf, []
+		for row in measured:
+			if row.error < best:
+				best = row.error
+				kept.append(row)
+		return kept
+
+	columns = ('setting', 'answer', 'error', 'µs per step', 'µs per contact', 'contacts', 'cost', 'on the front', 'fallbacks', 'failures')
+
+	def cells(self):
+		"""The table as (columns, rows of text and numbers): further values of measure() come after the answer."""
+		others = list(dict.fromkeys(name for row in self.rows for name in list(row.values)[1:] if not isinstance(row.values[name], list)))
+		front, cheapest = self.front(), next((row.cost for row in self.rows if row.cost), None)
+		columns = [*self.columns[:2], *others, *self.columns[2:], 'note']
+		rows = []
+		for row in self.rows:
+			answer = row.answer
+			shown = '' if answer is None else f'{len(answer)} numbers' if isinstance(answer, list) else float(answer)
+			more = [float(row.values[name]) if name in row.values else '' for name in others]
+			times = [row.stepMicroseconds, row.contactMicroseconds, row.contacts, row.cost / cheapest if row.cost and cheapest else None]
+			rows.append(
+				[row.name, shown, *more]
+				+ ['' if value is None else value for value in (row.error, *times)]
+				+ ['yes' if row in front else '', row.fallbacks, row.failures, row.note]
+			)
+		return columns, rows
+
+	def show(self):
+		"""Prints it. *cost* is the time for as much simulated time as the first setting's step, over that of the first setting."""
+		from tabulate import tabulate
+
+		columns, rows = self.cells()
+		short = {columns.index(name): '.3g' for name in ('error', 'µs per step', 'µs per contact', 'contacts', 'cost')}
+		text = [
+			[format(cell, short.get(k, '.10g')) if isinstance(cell, float) else cell for k, cell in enumerate(row)] for row in rows
+		]
+		print(tabulate(text, columns, disable_numparse=True))
+
+	def csv(self, path):
+		"""Writes it, with all digits of double precision."""
+		columns, rows = self.cells()
+		with open(path, 'w', newline='') as file:
+			writer = csv.writer(file)
+			writer.writerow(columns)
+			writer.writerows(rows)
+
+	def plot(self, path, title='', floor=1e-17):
+		"""Writes a PNG: error over cost, both logarithmic, each point with its setting's name, the front drawn.
+
+		:param float floor: errors below this, and 0, are drawn there
+		"""
+		from .tradeoffPlot import plotTradeoff
+
+		plotTradeoff(path, [(title, self)], floor)
+
+
+def _numbers(text):
+	with mpmath.workdps(digits):
+		return [_numbers(one) for one in text] if isinstance(text, list) else mpmath.mpf(text)
+
+
+def _difference(value, true):
+	"""|value − true| over |true|, or as it is where that is 0; of lists the Euclidean norms."""
+	if isinstance(true, list) != isinstance(value, list) or isinstance(true, list) and len(true) != len(value):
+		raise ValueError('reference: must have as many numbers as measure() returns')
+	pairs = list(zip(value, true, strict=True)) if isinstance(true, list) else [(value, true)]
+	with mpmath.workdps(digits):
+		off, scale = (mpmath.sqrt(sum(x**2 for x in part)) for part in ([a - b for a, b in pairs], [b for _, b in pairs]))
+		return float(off / scale) if scale else float(off)

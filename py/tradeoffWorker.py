@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One setting of polytope.tradeoff(), in a process of its own: `python3 -m yade.polytope.tradeoffWorker TASK ANSWER`, two JSON files."""
+
+import importlib
+import importlib.util
+import inspect
+import json
+import math
+import os
+import pathlib
+import sys
+import time
+
+import mpmath
+import numpy as np
+import yade
+from yade import Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop, O
+
+__all__ = ['geometryFunctors', 'load', 'settable', 'takesTheScene']
+
+digits = 45
+"""Decimal digits of an answer: those of float128, and ten more."""
+leastBlock = 1e6
+"""Of one block of timed steps [ns]: a thousand times the clock's own resolution."""
+
+settable = ('contactModel', 'barrier', 'contactPoint', 'solver', 'warmStart', 'tolerance', 'newtonTolerance', 'computeArea', 'timing')
+"""Attributes of the contact functor that a setting may change."""
+
+
+def interactionLoops():
+	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]
+
+
+def geometryFunctors():
+	"""The scene's contact functors of polytopes, mixed pairs included."""
+	functors = (functor for loop in interactionLoops() for functor in loop.geomDispatcher.functors)
+	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
+
+
+def load(where):
+	"""The function of {'module', 'file', 'name'}; a script is loaded from its file, with the names that YADE gives scripts."""
+	if where['module'].startswith('yade.'):
+		module = importlib.import_module(where['module'])
+	else:
+		name = 'tradeoff_' + pathlib.Path(where['file']).stem
+		module = sys.modules.get(name)
+		if module is None:
+			sys.path.insert(0, str(pathlib.Path(where['file']).parent))
+			specification = importlib.util.spec_from_file_location(name, where['file'])
+			module = sys.modules[name] = importlib.util.module_from_spec(specification)
+			for source in (yade, yade.utils, math):
+				vars(module).update({key: value for key, value in vars(source).items() if key[0] != '_'})
+			specification.loader.exec_module(module)
+	return getattr(module, where['name'])
+
+
+def takesTheScene(measure):
+	"""Whether *measure* wants what *build* returned."""
+	return bool(inspect.signature(measure).parameters)
+
+
+def apply(changes):
+	"""Attributes of the contact functors and the time step; the scene stands."""
+	for name in settable:
+		if name in changes:
+			for functor in geometryFunctors():
+				setattr(functor, name, changes[name])
+	if 'timeStep' in changes:
+		O.dt = changes['timeStep']
+	if 'timeStepFactor' in changes:
+		O.dt *= changes['timeStepFactor']
+
+
+def written(value):
+	"""A number, or a sequence of them, as text with all digits."""
+	if isinstance(value, (list, tuple, np.ndarray)):
+		return [written(one) for one in value]
+	if isinstance(value, (int, np.integer)):
+		return str(int(value))
+	if isinstance(value, (float, np.floating)):
+		return repr(float(value))
+	return mpmath.nstr(mpmath.mpf(value), digits)
+
+
+def resetTimes():
+	for functor in geometryFunctors():
+		functor.resetStats()
+	for engine in O.engines:
+		engine.execTime = engine.execCount = 0
+	O.timingEnabled = True
+
+
+def contactsSoFar():
+	return sum(functor.stats()['contacts'] for functor in geometryFunctors())
+
+
+def meansSoFar():
+	"""The same as timed() of all steps since resetTimes(): means."""
+	steps, found = max((engine.execCount for engine in O.engines), default=0), contactsSoFar()
+	if not steps:
+		return None, None, None
+	spent, loops = (sum(engine.execTime for engine in engines) * 1e-3 for engines in (O.engines, interactionLoops()))
+	return spent / steps, loops / found if found else None, found / steps
+
+
+def timed(seconds):
+	"""Takes steps for so long and returns the least mean times of blocks of them: (µs a step, µs of the loop a contact, contacts a step).
+
+	The least, not the mean: another program that takes the processor makes a block longer, nothing makes it shorter.
+	"""
+	steps, began, step, contact, contacts = 1, time.perf_counter(), math.inf, math.inf, 0.0
+	while True:
+		resetTimes()
+		for _ in range(steps):
+			O.step()
+		spent, found = sum(engine.execTime for engine in O.engines), contactsSoFar()
+		out = time.perf_counter() - began > seconds
+		if spent < leastBlock and not out:
+			steps *= 2
+			continue
+		if spent / steps * 1e-3 < step:
+			step, contacts = spent / steps * 1e-3, found / steps
+		if found:
+			contact = min(contact, sum(loop.execTime for loop in interactionLoops()) / found * 1e-3)
+		if out:
+			return step, contact if math.isfinite(contact) else None, contacts
+
+
+def answer(task):
+	build, measure = load(task['build']), load(task['measure'])
+	scene = build(**task['arguments'])
+	apply(task['changes'])
+	resetTimes()
+	timeStep, began = float(O.dt), time.perf_counter()
+	values = measure(scene) if takesTheScene(measure) else measure()
+	seconds = time.perf_counter() - began
+	if not isinstance(values, dict):
+		values = {'value': values}
+	counts = [functor.stats() for functor in geometryFunctors()]
+	result = {
+		'values': {name: written(value) for name, value in values.items()},
+		'seconds': seconds,
+		'timeStep': timeStep,
+		'fallbacks': sum(count['fallbacks'] for count in counts),
+		'failures': sum(count['failures'] for count in counts),
+	}
+	times = timed(task['timedSeconds']) if task['timedSeconds'] > 0 and O.engines else meansSoFar()
+	result['stepMicroseconds'], result['contactMicroseconds'], result['contacts'] = times
+	return result
+
+
+def main(taskFile, answerFile):
+	task = json.loads(pathlib.Path(taskFile).read_text())
+	try:
+		content = answer(task)
+	except Exception as error:
+		import traceback
+
+		traceback.print_exc()
+		content = {'error': f'{type(error).__name__}: {error}'}
+	pathlib.Path(answerFile).write_text(json.dumps(content))
+	sys.stdout.flush()
+	sys.stderr.flush()
+	os._exit(0)  # YADE's threads and windows need no farewell
+
+
+if __name__ == '__main__':
+	main(*sys.argv[1:])
