@@ -13,9 +13,10 @@ from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, reg
 from .energy import mechanicalEnergy
 from .heap import coordinationNumber, porosity
 from .pictures import picture
+from .requirements import requirements
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'stableTimeStep', 'tradeoff']
+__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'stableTimeStep', 'tradeoff']

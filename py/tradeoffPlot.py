@@ -6,20 +6,20 @@ from matplotlib.figure import Figure
 __all__ = ['plotTradeoff']
 
 frontColor, otherColor, firstColor = '#c8451b', '#3380a8', '#1c2430'
-leastGap = 0.035
-"""Between two labels' lines, over the plot's height."""
+sameSpot = 0.022
+"""Points nearer than this, over the plot's size, share one label."""
 
 
 def plotTradeoff(path, panels, floor=1e-17, suptitle=''):
-	"""Writes a PNG with one plot beside the other.
+	"""Writes a PNG with one plot beside the other; points are numbered, and named beside the plot.
 
 	:param panels: [(title, TradeoffTable)]
 	:param float floor: errors below it, and 0, are drawn there
 	"""
-	figure = Figure(figsize=(8.2 * len(panels), 6.2), layout='constrained')
+	figure = Figure(figsize=(9.6 * len(panels), 5.8), layout='constrained')
 	for axes, (title, table) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
 		_draw(axes, table, floor)
-		axes.set_title(title, fontsize=10)
+		axes.set_title(title, fontsize=10, loc='left')
 	figure.suptitle(suptitle)
 	figure.savefig(path, dpi=130)
 
@@ -29,46 +29,44 @@ def _draw(axes, table, floor):
 	if not rows:
 		axes.text(0.5, 0.5, 'nothing was measured', transform=axes.transAxes, ha='center')
 		return
-	front = table.front()
-	points = {row.name: (row.cost, max(row.error, floor)) for row in rows}
+	first, front = table.rows[0].name, [row for row in table.front() if row in rows]
+	points = [(row.cost, max(row.error, floor)) for row in rows]
 	axes.set(xscale='log', yscale='log', xlabel='time for the first setting\'s time step [µs]', ylabel='error of the answer')
-	costs, errors = zip(*points.values(), strict=True)
-	span = max(costs) / min(costs)
-	axes.set_xlim(min(costs) / max(span, 2) ** 0.06, max(costs) * max(span, 2) ** 0.42)  # room for the labels
-	span = max(errors) / min(errors)
-	axes.set_ylim(min(errors) / max(span, 10) ** 0.07, max(errors) * max(span, 10) ** 0.07)
-	corners = [points[row.name] for row in front]
-	axes.step([x for x, _ in corners], [y for _, y in corners], where='post', color=frontColor, linewidth=1.2, zorder=1, label='front')
-	first = table.rows[0].name
-	for row in rows:
-		color = frontColor if row in front else otherColor
-		axes.plot(*points[row.name], 's' if row.name == first else 'o', color=firstColor if row.name == first else color, markersize=5)
-	_label(axes, points, {row.name for row in front})
+	for values, limit in zip(zip(*points, strict=True), (axes.set_xlim, axes.set_ylim), strict=True):
+		room = max(max(values) / min(values), 3) ** 0.07
+		limit(min(values) / room, max(values) * room)
+	corners = [points[rows.index(row)] for row in front]
+	ends = [(corners[0][0], axes.get_ylim()[1]), *corners, (axes.get_xlim()[1], corners[-1][1])]
+	axes.step(*zip(*ends, strict=True), where='post', color=frontColor, linewidth=1.1, alpha=0.7, zorder=1)
+	for row, point in zip(rows, points, strict=True):
+		color = firstColor if row.name == first else frontColor if row in front else otherColor
+		axes.plot(*point, 's' if row.name == first else 'o', color=color, markersize=6 if row.name == first else 5, zorder=2)
+	toAxes = axes.transScale + axes.transLimits
+	_number(axes, [toAxes.transform(point) for point in points])
+	for k, row in enumerate(rows):
+		weight = 'bold' if row.name == first else 'normal'
+		color = frontColor if row in front else '0.25'
+		axes.text(1.02, 0.99 - 0.042 * k, f'{k + 1:2}  {row.name}', transform=axes.transAxes, fontsize=8.5, va='top', color=color, weight=weight)
+	missing = [row.name for row in table.rows if row not in rows]
+	if missing:
+		listed = 'no answer:\n' + '\n'.join(missing)
+		axes.text(1.02, 0.99 - 0.042 * (len(rows) + 1), listed, transform=axes.transAxes, fontsize=8, va='top', color='0.55')
 	if any(row.error < floor for row in rows):
 		axes.axhline(floor, color='0.7', linewidth=0.8, linestyle=':')
-		axes.text(0.01, floor, ' 0', transform=axes.get_yaxis_transform(), va='bottom', fontsize=7, color='0.4')
+		axes.text(0.01, floor, 'no error', transform=axes.get_yaxis_transform(), va='bottom', fontsize=8, color='0.4')
 	axes.grid(True, which='major', color='0.92')
 	axes.set_axisbelow(True)
 
 
-def _label(axes, points, onFront):
-	"""Names beside the points, moved up and down until none covers another."""
-	toAxes = axes.transScale + axes.transLimits
-	places = {name: toAxes.transform(point) for name, point in points.items()}
-	taken = []
-	for name, (x, y) in sorted(places.items(), key=lambda item: (item[1][1], item[1][0])):
-		where = y
-		while any(abs(where - other) < leastGap and abs(x - left) < 0.3 for left, other in taken):
-			where += leastGap / 4
-		taken.append((x, where))
-		axes.annotate(
-			name,
-			(x, y),
-			(x + 0.02, where),
-			xycoords='axes fraction',
-			textcoords='axes fraction',
-			fontsize=7.5,
-			va='center',
-			color=frontColor if name in onFront else '0.25',
-			arrowprops={'arrowstyle': '-', 'color': '0.75', 'linewidth': 0.6, 'shrinkA': 0, 'shrinkB': 2} if where - y > leastGap / 2 else None,
-		)
+def _number(axes, places):
+	"""Numbers beside the points; those of one spot together."""
+	groups = []
+	for k, place in enumerate(places):
+		near = next((group for group in groups if abs(group[0] - place).max() < sameSpot), None)
+		if near is None:
+			groups.append((place, [k + 1]))
+		else:
+			near[1].append(k + 1)
+	for (x, y), numbers in groups:
+		text = ', '.join(map(str, numbers))
+		axes.annotate(text, (x, y), (5, 4), xycoords='axes fraction', textcoords='offset points', fontsize=8.5, zorder=3)

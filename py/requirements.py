@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a scene needs, and what it pays for without using it: `polytope.requirements(O)`."""
+
+import dataclasses
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from . import tradeoffPrecision as precision
+from .requirementsLooks import looks
+
+__all__ = ['Finding', 'Requirements', 'requirements']
+
+
+@dataclasses.dataclass
+class Finding:
+	"""One thing looked at."""
+
+	what: str
+	"""'contact area', 'corner radius', …"""
+	seen: str
+	advice: str = ''
+	"""What to change; '' where nothing is to be changed."""
+	cost: float = None
+	"""Of what is paid without use, or of what the advice saves [µs a step]; negative: following the advice costs that. None: no time
+	hangs on it, or none was measured."""
+	trial: tuple = None
+	"""(name, value) of the change that was timed, see requirementsWorker.change."""
+
+
+class Requirements:
+	"""What polytope.requirements() returns; printing it shows all.
+
+	:ivar list findings: of Finding
+	:ivar float stepMicroseconds: of all engines, as the scene is; None if it was not measured
+	"""
+
+	def __init__(self, findings, stepMicroseconds=None):
+		self.findings, self.stepMicroseconds = findings, stepMicroseconds
+
+	def __getitem__(self, what):
+		"""The finding of that name."""
+		for finding in self.findings:
+			if finding.what == what:
+				return finding
+		raise KeyError(f'{what!r} was not looked at; there are {[finding.what for finding in self.findings]}')
+
+	@property
+	def advice(self):
+		"""The findings with something to change."""
+		return [finding for finding in self.findings if finding.advice]
+
+	def __repr__(self):
+		from tabulate import tabulate
+
+		whole = self.stepMicroseconds
+		rows = []
+		for finding in sorted(self.findings, key=lambda finding: not finding.advice):
+			cost = '' if finding.cost is None else f'{finding.cost:+.3g}' + (f' ({100 * finding.cost / whole:+.0f} %)' if whole else '')
+			rows.append([finding.what, finding.seen, finding.advice or 'as it should be', cost])
+		head = f'{len(self.advice)} of {len(rows)} things to change' + (f'; a step takes {whole:.4g} µs' if whole else '')
+		return head + '\n' + tabulate(rows, ['', 'seen', 'advice', 'saves [µs a step]'], maxcolwidths=[18, 48, 56, 16], disable_numparse=True)
+
+	def show(self):
+		"""Prints it."""
+		print(self)
+
+
+def requirements(O, measure=True):
+	"""Looks at the present scene and says what it needs, and what it pays for without using it.
+
+	Looked at: contact area, third dimension, damping and energy, cohesion, corner radius against the overlaps there are, Newton tolerance
+	against the rounding of positions, time step against stiffness and mass, the collider's verletDist, warm start, solver, contact
+	point, clocks and energy tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen.
+
+	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, steps as it is and with one
+	thing changed at a time (engines that run periodically, as recorders and PyRunner, are left out there). The scene itself is not
+	touched: its state is the same afterwards to the last bit.
+
+	:param O: yade.O
+	:param bool measure: False: look only, at once
+	:returns: a :yref:`Requirements`
+	:raises ValueError: naming *O*: nothing to look at (no engines with a polytope's contact functor), or the simulation is running
+	"""
+	findings = [Finding(*found) for found in looks(O)]
+	trials = [finding.trial for finding in findings if finding.trial]
+	if not measure:
+		return Requirements(findings)
+	times = _timed(O, trials)
+	whole = times.get('')
+	if isinstance(whole, float):
+		for finding in findings:
+			time = times.get(finding.trial[0]) if finding.trial else None
+			if isinstance(time, float):
+				finding.cost = whole - time
+	return Requirements(findings, whole if isinstance(whole, float) else None)
+
+
+def _timed(O, trials):
+	"""Name of a change → time of a step [µs], '' as it is; text where it did not run."""
+	with tempfile.TemporaryDirectory() as folder:
+		scene, changes, answers, log = (pathlib.Path(folder) / name for name in ('scene.yade.bin', 'changes.json', 'answers.json', 'log.txt'))
+		O.save(str(scene), quiet=True)
+		changes.write_text(json.dumps(trials))
+		command = [sys.executable, '-m', 'yade.polytope.requirementsWorker', str(scene), str(changes), str(answers)]
+		with open(log, 'w') as file:
+			subprocess.run(command, env=precision.environment(precision.present()), stdin=subprocess.DEVNULL, stdout=file, stderr=file)
+		return json.loads(answers.read_text()) if answers.is_file() else {}

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The looks of polytope.requirements() at a scene. Each gives (what, seen, advice, cost, trial): see requirements.Finding.
+
+They read and change nothing.
+"""
+
+import math
+
+import numpy as np
+import yade.config
+from yade import GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys
+
+from .requirementsWorker import colliders, laws, prismOutline
+from .timeStep import stableTimeStep
+from .tradeoffWorker import geometryFunctors
+
+__all__ = ['looks']
+
+deepest = 0.5
+"""Overlap over corner radius from which on the radius is too small: a contact point lies up to half the overlap's depth in each body,
+and the next blow may be twice as deep."""
+roomiest = 200
+"""Corner radius over overlap up to which it is as small as need be."""
+wideEnough = 10
+"""Times the deepest overlap: the corner radius that is advised."""
+usual, most, least = 0.2, 0.5, 0.05
+"""Time step over 1/ω of the fastest body: as advised, and where advice begins."""
+reach = 0.05
+"""verletDist over the smallest body's size that is advised where there is none."""
+muchFiner = 10
+"""Times by which the Newton tolerance is finer than rounding, from which on that is worth a word."""
+epsilon = 2.0 ** (1 - {64: 53, 80: 64, 128: 113}.get(yade.config.highPrecisionBits, yade.config.highPrecisionBits))
+"""Rounding of a coordinate of 1 in this YADE's arithmetic."""
+mostPairs = 8
+"""Pairs looked at for each contact, above which the reach is too far."""
+
+
+class Scene:
+	"""What several looks need."""
+
+	def __init__(self, O):
+		self.O = O
+		self.functors = geometryFunctors()
+		if not self.functors:
+			raise ValueError('O: has no InteractionLoop with an Ig2_Polytope_Polytope_PolytopeGeom, there is nothing to look at')
+		if O.running:
+			raise ValueError('O: is running; O.pause() first')
+		self.contacts = [contact for contact in O.interactions if contact.isReal and isinstance(contact.geom, PolytopeGeom)]
+		self.bodies = [body for body in O.bodies if body is not None and isinstance(body.shape, Polytope)]
+		self.moving = [body for body in self.bodies if body.dynamic]
+		self.depths = [float(contact.geom.penetrationDepth) for contact in self.contacts if contact.geom.penetrationDepth > 0]
+		self.dampers = laws()
+		self.newton = next((engine for engine in O.engines if isinstance(engine, NewtonIntegrator)), None)
+
+	def any(self, name):
+		"""Whether a contact functor has this switched on."""
+		return any(getattr(functor, name) for functor in self.functors)
+
+	def values(self, name):
+		return sorted({getattr(functor, name) for functor in self.functors})
+
+
+def looks(O):
+	scene = Scene(O)
+	each = (area, dimension, energy, cohesion, cornerRadius, newtonTolerance, timeStep, verletDist)
+	each += (warmStart, solver, contactPoint, clocks, energyTracking)
+	return [(one.__doc__.strip().rstrip('.'), *(list(found) + ['', None, None][len(found) - 1 :])) for one in each for found in [one(scene)] if found]
+
+
+def area(scene):
+	"""contact area"""
+	users = sum(contact.geom.needsArea for contact in scene.contacts)
+	if scene.any('computeArea'):
+		if scene.contacts and users == len(scene.contacts):
+			return 'computeArea is on; all laws need areas anyway', ''
+		advice = 'computeArea = False, unless your script reads geom.contactArea: no law or material uses it'
+		return f'computeArea is on; {users} of {len(scene.contacts)} contacts need their area', advice, None, ('computeArea', False)
+	rocking = any(law.rockingDamping > 0 for law in scene.dampers)
+	if rocking and not any(contact.phys.normalStiffness > 0 for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)):
+		return 'areas are computed for rockingDamping alone', '', None, ('rockingDamping', 0)
+	return f'{users} of {len(scene.contacts)} contacts need their area, and have it', ''
+
+
+def dimension(scene):
+	"""third dimension"""
+	if not scene.moving or any(body.shape.dimension == 2 for body in scene.bodies):
+		return ('polygons: contacts are solved in the plane', '') if scene.moving else None
+	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in scene.moving)
+	still = all(body.state.vel[2] == 0 and body.state.angVel[0] == body.state.angVel[1] == 0 for body in scene.moving)
+	if len(scene.bodies) == len(scene.O.bodies) and (inPlane or still) and all(prismOutline(body) is not None for body in scene.bodies):
+		words = 'blocked out of the xy plane' if inPlane else 'moving in the xy plane'
+		advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
+		return f'prisms along z, {words}, solved in space', advice, None, ('dimension', 2)
+	return 'bodies move in space', ''
+
+
+def energy(scene):
+	"""damping and energy"""
+	if 'paper' not in scene.values('contactModel'):
+		return 'the conservative contact: energy is kept to what the time step allows', ''
+	local = scene.newton.damping if scene.newton else 0
+	viscous = max((law.normalDamping for law in scene.dampers), default=0)
+	if local == 0 and viscous == 0:
+		return (
+			"nothing damps the normal direction, and the paper's contact creates and destroys energy",
+			"contactModel = 'conservative', or damping: with the paper's contact energy is not conserved at any time step",
+			None,
+			('contactModel', 'conservative'),
+		)
+	return f'NewtonIntegrator.damping {local:g}, normalDamping {viscous:g} of critical', ''
+
+
+def cohesion(scene):
+	"""cohesion"""
+	joints = [contact.phys for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)]
+	bonded = [joint for joint in joints if joint.cohesion > 0 or joint.tensileStrength > 0]
+	intact = sum(joint.intact for joint in bonded)
+	if bonded and not intact:
+		advice = 'none to the clock; materials without cohesion and tensileStrength give the same run from here on'
+		return f'{len(bonded)} of {len(joints)} joints had cohesion or tensile strength, none is intact', advice
+	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; it takes no time without', ''
+
+
+def cornerRadius(scene):
+	"""corner radius"""
+	if not scene.depths or 'paper' not in scene.values('contactModel'):
+		return None
+	radii = [float(min(scene.O.bodies[k].shape.cornerRadius for k in pair)) for pair in _pairs(scene)]
+	if not radii:
+		return None
+	lost = sum(contact.geom.status in ('normalFromOneBody', 'normalFromDual') for contact in scene.contacts)
+	depth, radius = max(scene.depths), min(radii)
+	ratio = depth / radius if radius > 0 else math.inf
+	seen = f'deepest overlap {depth:.3g} m, smallest corner radius {radius:.3g} m; {lost} contact points deeper than it'
+	if lost or ratio > deepest:
+		return seen, f'cornerRadius at least {wideEnough * depth:.2g} m, or stiffer contacts: a point deeper than the radius gets no gradient'
+	if ratio < 1 / roomiest:
+		return seen, f'cornerRadius {wideEnough * depth:.2g} m would do; larger ones round corners more than the overlaps ask for'
+	return seen, ''
+
+
+def _pairs(scene):
+	"""Ids of the contacts' bodies that are both polytopes."""
+	pairs = [(contact.id1, contact.id2) for contact in scene.contacts]
+	return [pair for pair in pairs if all(isinstance(scene.O.bodies[k].shape, Polytope) for k in pair)]
+
+
+def newtonTolerance(scene):
+	"""Newton tolerance"""
+	thin = [-float(contact.geom.infeasibility) for contact in scene.contacts if contact.geom.infeasibility < 0]
+	if not thin or scene.values('contactModel') != ['paper'] or scene.values('contactPoint') != ['analyticCentre']:
+		return None
+	far = max(max(abs(float(x)) for x in body.state.pos) for body in scene.bodies)
+	rounding = epsilon * far / float(np.median(thin))
+	tolerance = float(min(scene.values('newtonTolerance')))
+	seen = f'{tolerance:.1g}; positions are rounded by {rounding:.1g} of the overlaps (median)'
+	if tolerance < rounding / muchFiner:
+		nearer = 'move the scene nearer to the origin' if far > 1e3 * _size(scene) else 'stiffness gives such thin overlaps'
+		return seen, f'newtonTolerance finer than {rounding:.0g} gains no digit here ({nearer})', None, ('newtonTolerance', min(rounding, 0.1))
+	return seen, ''
+
+
+def _size(scene):
+	return min(float(body.shape.inscribedRadius) for body in scene.bodies)
+
+
+def timeStep(scene):
+	"""time step"""
+	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
+		return 'set by GlobalStiffnessTimeStepper', ''
+	try:
+		limit = float(stableTimeStep(1))
+	except ValueError:
+		return None
+	fraction = float(scene.O.dt) / limit
+	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (stable below 2 without damping)'
+	if fraction > most:
+		return seen, f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual})): near the limit of stability'
+	if fraction < least:
+		return seen, f'O.dt = {usual * limit:.2g} takes {fraction / usual:.2g} of the steps, unless a stiffer contact is still to come'
+	return seen, ''
+
+
+def verletDist(scene):
+	"""verletDist"""
+	if not colliders() or not scene.moving:
+		return None
+	present = float(colliders()[0].verletDist)
+	size = min(float(body.shape.inscribedRadius) for body in scene.moving)
+	length = abs(present) * (size if present < 0 else 1)
+	pairs = sum(functor.stats()['pairs'] for functor in scene.functors)
+	contacts = sum(functor.stats()['contacts'] for functor in scene.functors)
+	ratio = f', {pairs / contacts:.3g} pairs looked at for each contact so far' if contacts else ''
+	if present == 0:
+		return f'0: the collider sorts in every step{ratio}', f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
+	if length > size and (not contacts or pairs > mostPairs * contacts):
+		return f'{length:.3g} m, more than the smallest body\'s inscribed radius{ratio}', f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
+	return f'{length:.3g} m{ratio}', ''
+
+
+def warmStart(scene):
+	"""warm start"""
+	if all(functor.warmStart for functor in scene.functors):
+		return 'on', '', None, ('warmStart', False)
+	return 'off', 'warmStart = True: the answer is the same to rounding', None, ('warmStart', True)
+
+
+def solver(scene):
+	"""solver"""
+	if 'ipopt' in scene.values('solver'):
+		return 'ipopt for every contact', "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt takes over by itself", None, ('solver', 'newton')
+	return 'newton', ''
+
+
+def contactPoint(scene):
+	"""contact point"""
+	points = scene.values('contactPoint')
+	if 'paper' not in scene.values('contactModel'):
+		return None
+	if 'chebyshevCentre' in points:
+		return 'chebyshevCentre, not unique on faces: it jumps', "contactPoint = 'analyticCentre' where faces meet faces", None, ('contactPoint', 'analyticCentre')
+	if 'centroid' in points:
+		return 'centroid of the overlap', "contactPoint = 'analyticCentre', unless it is the centroid's law that you want", None, ('contactPoint', 'analyticCentre')
+	return 'analyticCentre', ''
+
+
+def clocks(scene):
+	"""clocks"""
+	if scene.any('timing'):
+		return "the contact functor's timing is on", 'timing = False, unless you read lpSeconds and centreSeconds', None, ('timing', False)
+	return "the contact functor's timing is off", ''
+
+
+def energyTracking(scene):
+	"""energy tracking"""
+	if scene.O.trackEnergy:
+		return 'O.trackEnergy is on', 'O.trackEnergy = False, unless you read O.energy', None, ('trackEnergy', False)
+	return 'O.trackEnergy is off', ''

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Times a saved scene as it is and with single things changed: `python3 -m yade.polytope.requirementsWorker SCENE CHANGES ANSWER`.
+
+polytope.requirements() starts it as a process of its own: what it does to the scene does not matter.
+"""
+
+import json
+import math
+import os
+import pathlib
+import sys
+
+import numpy as np
+from yade import InsertionSortCollider, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, PeriodicEngine
+
+from .bodies import polygon
+from .tradeoffWorker import geometryFunctors, interactionLoops, timed
+
+__all__ = ['change', 'colliders', 'laws', 'prismOutline']
+
+seconds = 0.25
+"""Of timed steps for each change."""
+warmUp = 3
+"""Steps before them: boxes and the contacts' memories are made anew."""
+flat = 1e-9
+"""Up to which a normal counts as in the plane, or normal to it."""
+
+
+def colliders():
+	return [engine for engine in O.engines if isinstance(engine, InsertionSortCollider)]
+
+
+def laws():
+	"""The plug-in's laws of the scene."""
+	functors = (functor for loop in interactionLoops() for functor in loop.lawDispatcher.functors)
+	return [functor for functor in functors if isinstance(functor, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb)]
+
+
+def prismOutline(body):
+	"""Corners of the cross-section of a polyhedron that is a prism along z where it is, in order, as (n, 2) array; None if it is none."""
+	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	normals = np.array(body.shape.normals, float).reshape(-1, 3) @ turn.T
+	along = np.abs(normals[:, 2])
+	if not np.all((along < flat) | (along > 1 - flat)):
+		return None
+	corners = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
+	return corners[corners[:, 2] > corners[:, 2].mean(), :2]
+
+
+def change(name, value):
+	"""One change of the scene that was loaded."""
+	if name == 'trackEnergy':
+		O.trackEnergy = value
+	elif name == 'verletDist':
+		for collider in colliders():
+			collider.verletDist = value
+	elif name == 'rockingDamping':
+		for law in laws():
+			law.rockingDamping = value
+		for contact in O.interactions:  # whether areas are needed is asked when a contact is made
+			if contact.isReal:
+				O.interactions.erase(contact.id1, contact.id2)
+	elif name == 'dimension':
+		_flatten()
+	else:
+		for functor in geometryFunctors():
+			setattr(functor, name, value)
+
+
+def _flatten():
+	"""Polygons for prisms; bodies keep material, place and motion, contacts are found anew."""
+	bodies = []
+	for body in O.bodies:
+		height = np.ptp([float((body.state.ori * corner)[2]) for corner in body.shape.vertices])
+		flatBody = polygon(prismOutline(body).tolist(), thickness=height, material=body.material, fixed=not body.dynamic)
+		flatBody.shape.cornerRadius = min(body.shape.cornerRadius, 0.9 * flatBody.shape.inscribedRadius)
+		flatBody.state.vel, flatBody.state.angVel = body.state.vel, body.state.angVel
+		bodies.append(flatBody)
+	O.interactions.clear()
+	O.bodies.clear()
+	O.bodies.append(bodies)
+
+
+def load(scene):
+	O.load(scene, quiet=True)
+	# what writes files or runs scripts belongs to the scene of the user
+	O.engines = [engine for engine in O.engines if not isinstance(engine, PeriodicEngine)]
+
+
+def main(scene, changes, answers):
+	result = {}
+	for name, value in [(None, None), *json.loads(pathlib.Path(changes).read_text()), (None, None)]:
+		load(scene)
+		try:
+			if name:
+				change(name, value)
+			for _ in range(warmUp):
+				O.step()
+			time, *_ = timed(seconds)
+			result[name or ''] = min(time, result.get(name or '', math.inf))
+		except Exception as error:
+			result[name or ''] = f'{type(error).__name__}: {error}'
+	pathlib.Path(answers).write_text(json.dumps(result))
+	sys.stdout.flush()
+	os._exit(0)
+
+
+if __name__ == '__main__':
+	main(*sys.argv[1:])
