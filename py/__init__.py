@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: :yref:`fromHalfSpaces`, *fromVertices*, *regular*, *cuboid*,
-*polygon*, *fromMesh*. One pair without a scene: *contact*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
+*polygon*, *fromMesh*. One pair without a scene: *contact*. What settings cost and bring: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
 RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
@@ -14,9 +14,10 @@ from .energy import mechanicalEnergy
 from .heap import coordinationNumber, porosity
 from .pictures import picture
 from .requirements import requirements
+from .settings import settings
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
 
 __version__ = buildInfo()['version']
 
-__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'stableTimeStep', 'tradeoff']
+__all__ = ['buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'settings', 'stableTimeStep', 'tradeoff']

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from .. import tradeoffPrecision as precision
+from ..settings import presets
 from ..theory.beam import BeamBetweenWalls
 from ..theory.wedges import roofWedgeFrictionAngle
 from . import tradeoffScenes as scenes
@@ -51,6 +52,7 @@ class Scene:
 	:ivar str because: where it comes from
 	:ivar bool ofAnyLaw: whether the closed form holds whatever the law between depth and force
 	:ivar float timedSeconds: of polytope.tradeoff
+	:ivar float timeStepFraction: of the scene as it is, see polytope.settings; None: no answer hangs on it
 	"""
 
 	letter: str
@@ -63,6 +65,15 @@ class Scene:
 	because: str = ''
 	ofAnyLaw: bool = True
 	timedSeconds: float = 0.3
+	timeStepFraction: float = None
+
+	def __post_init__(self):
+		for name, preset in presets.items():
+			if name != 'balanced':  # that is the default
+				changes = {key: value for key, value in preset.items() if key != 'timeStepFraction'}
+				if self.timeStepFraction:
+					changes['timeStepFactor'] = preset['timeStepFraction'] / self.timeStepFraction
+				self.settings = {**self.settings, f"settings('{name}')": changes}
 
 	def chosen(self, quick):
 		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
@@ -82,6 +93,7 @@ class Scene:
 def allScenes():
 	"""letter → Scene."""
 	of = {default: {}}
+	ten = {'time step × 10': {'timeStepFactor': 10}}  # of the paper's 0.02 √(m/k)
 	statics = {**of, **points, **models, **numerical}
 	dynamics = {**of, **points, **models, **numerical, **times, **stiffnesses}
 	# face on face the conservative contact rocks faster than the time step of the wedge in the roof can follow
@@ -114,6 +126,7 @@ def allScenes():
 			'critical friction angle',
 			math.degrees(wedge.frictionAngle()),
 			'limit equilibrium (Hoek & Bray 1981)',
+			timeStepFraction=0.2,
 		),
 		Scene(
 			'D',
@@ -124,29 +137,32 @@ def allScenes():
 			'critical friction angle',
 			_roofAngle(),
 			'φ = α + atan(W/ΣH)',
+			timeStepFraction=0.2,
 		),
 		Scene(
 			'F',
 			'Collisions without loss',
 			scenes.buildCollision,
 			scenes.measureCollision,
-			dynamics,
+			{**dynamics, **ten},
 			'energy after four collisions over that of the fall',
 			1.0,
 			'it is conserved',
 			timedSeconds=0,  # afterwards the blocks are apart
+			timeStepFraction=0.02,
 		),
 		Scene(
 			'rest',
 			'Cube at rest (F1)',
 			scenes.buildRest,
 			scenes.measureRest,
-			dynamics,
+			{**dynamics, **ten},
 			'height at rest + m g/kₙ',
 			0.5,
 			'½ edge − m g/kₙ',
+			timeStepFraction=0.02,
 		),
-		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number'),
+		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number', timeStepFraction=0.2),
 	]
 	return {scene.letter: scene for scene in listed}
 

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.requirements: finds what was put into a scene on purpose, is silent without it, and leaves the scene as it was."""
+
+import pytest
+from yade import (
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InsertionSortCollider,
+	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	NewtonIntegrator,
+	O,
+	PyRunner,
+	RockJointMat,
+	polytope,
+)
+from yade.polytope.report import stateHash
+
+
+def row(number=3, steps=50, spin=0.01, cornerRadius=0.02, material=None, **functor):
+	"""Blocks on a floor, at rest but for what the first steps do; a good scene unless the arguments spoil it."""
+	law, newton = {'normalDamping': 0.3}, {'damping': 0.2}
+	O.reset()
+	O.materials.append(RockJointMat(**{'normalStiffness': 1e7, 'shearStiffness': 1e7, 'frictionAngle': 0.5, 'density': 1000, **(material or {})}))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True, cornerRadius=cornerRadius))
+	for k in range(number):
+		ids = O.bodies.append(polytope.cuboid((1.5 * k, 0, 0.4995), (0.5, 0.4, 0.5), cornerRadius=cornerRadius))
+		O.bodies[ids].state.angVel = (spin, 0, 0)
+	O.engines = [
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.04),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom(**functor)],
+			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
+			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**law)],
+		),
+		NewtonIntegrator(gravity=(0, 0, -10), **newton),
+	]
+	O.dt = 5e-4
+	for _ in range(steps):
+		O.step()
+
+
+def advised(measure=False):
+	return {finding.what for finding in polytope.requirements(O, measure=measure).advice}
+
+
+def testNothingToSayOfAGoodScene():
+	row()
+	O.dt = polytope.stableTimeStep(0.2)
+	assert advised() == set()
+
+
+def testFunctorsSwitches():
+	row(computeArea=True, timing=True, warmStart=False, contactPoint='chebyshevCentre')
+	O.trackEnergy = True
+	assert advised() >= {'contact area', 'clocks', 'warm start', 'contact point', 'energy tracking'}
+
+
+def testAreaThatIsNeededIsNotBlamed():
+	row(computeArea=True)
+	O.engines[2].physDispatcher.functors[0].stiffnessPerArea = True
+	O.interactions.clear()
+	O.step()
+	O.step()
+	found = polytope.requirements(O, measure=False)['contact area']
+	assert not found.advice and 'need' in found.seen
+
+
+def testTimeStep():
+	row()
+	limit = polytope.stableTimeStep(1)
+	for fraction, word in ((0.2, ''), (0.9, 'stability'), (0.01, 'of the steps')):
+		O.dt = fraction * limit
+		found = polytope.requirements(O, measure=False)['time step']
+		assert bool(found.advice) == bool(word) and word in found.advice
+
+
+def testCornerRadiusAgainstOverlaps():
+	row(cornerRadius=0.015)
+	depth = max(float(contact.geom.penetrationDepth) for contact in O.interactions if contact.isReal)
+	for radius, word in ((1.1 * depth, 'at least'), (300 * depth, 'would do'), (10 * depth, '')):
+		for body in O.bodies:
+			body.shape.cornerRadius = radius
+		O.step()
+		found = polytope.requirements(O, measure=False)['corner radius']
+		assert word in found.advice and bool(word) == bool(found.advice), found
+
+
+def testEnergyOfTheUndampedPaperModel():
+	row()
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
+	O.engines[3].damping = 0
+	assert 'damping and energy' in advised()
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
+	assert 'damping and energy' not in advised()
+
+
+def testNewtonToleranceFarFromTheOrigin():
+	row()
+	assert 'Newton tolerance' not in advised()
+	for body in O.bodies:
+		body.state.pos += (1e7, 0, 0)
+	assert 'origin' in polytope.requirements(O, measure=False)['Newton tolerance'].advice
+
+
+def testColliderThatSortsInEveryStep():
+	row()
+	O.engines[1].verletDist = 0
+	assert 'verletDist' in advised()
+
+
+def testCohesionThatIsLost():
+	row(material={'cohesion': 1e5, 'tensileStrength': 1e4})
+	assert 'cohesion' not in advised()
+	for contact in O.interactions:
+		contact.phys.intact = False
+	assert 'cohesion' in advised()
+
+
+def flatRow():
+	row(steps=0, spin=0)
+	O.engines[3].gravity = (0, -10, 0)
+	for k, body in enumerate(O.bodies):
+		if body.dynamic:
+			body.state.blockedDOFs = 'zXY'
+			body.state.pos = (1.2 * k, 0, 0.2)
+			body.state.vel = body.state.angVel = (0, 0, 0)
+	O.bodies[0].state.pos = (0, -5.3995, 0)
+
+
+def testThirdDimensionAndItsPrice():
+	flatRow()
+	for _ in range(20):
+		O.step()
+	found = polytope.requirements(O)['third dimension']
+	assert 'polygon' in found.advice and found.cost is not None
+	O.bodies[1].state.blockedDOFs = ''
+	O.bodies[1].state.angVel = (0.1, 0, 0)
+	assert 'third dimension' not in advised()
+
+
+def testMeasuringTouchesNothing(tmp_path):
+	row(number=5, computeArea=True, timing=True)
+	O.engines = [*O.engines, PyRunner(command='raise SystemExit', iterPeriod=1000, firstIterRun=10**6)]
+	functor = O.engines[2].geomDispatcher.functors[0]
+
+	def everything(name):
+		O.save(str(tmp_path / name), quiet=True)
+		return (tmp_path / name).read_bytes(), stateHash(), functor.stats(), O.iter, O.time, O.timingEnabled, O.engines[2].execTime
+
+	before = everything('before.yade.bin')
+	found = polytope.requirements(O)
+	assert everything('after.yade.bin') == before
+	assert 0 < found.stepMicroseconds < 1e5
+	assert {'contact area', 'clocks', 'warm start'} <= {finding.what for finding in found.findings if finding.cost is not None}
+	assert found['warm start'].cost < 0  # without it, steps take longer
+	assert 'contact area' in repr(found) and 'saves' in repr(found)
+	O.step()  # and goes on
+
+
+def testRefusals():
+	O.reset()
+	with pytest.raises(ValueError, match='O: '):
+		polytope.requirements(O)
+	row()
+	with pytest.raises(KeyError, match='nothing of the sort'):
+		polytope.requirements(O, measure=False)['nothing of the sort']
