@@ -104,7 +104,7 @@ def _timed(O, trials):
 		scene, changes, answers, log = (pathlib.Path(folder) / name for name in ('scene.yade.bin', 'changes.json', 'answers.json', 'log.txt'))
 		O.save(str(scene), quiet=True)
 		changes.write_text(json.dumps(trials))
-		command = [sys.executable, '-m', 'yade.polytope.requirementsWorker', str(scene), str(changes), str(answers)]
+		command = [sys.executable, '-P', '-m', 'yade.polytope.requirementsWorker', str(scene), str(changes), str(answers)]
 		with open(log, 'w') as file:
 			subprocess.run(command, env=precision.environment(precision.present()), stdin=subprocess.DEVNULL, stdout=file, stderr=file)
 		return json.loads(answers.read_text()) if answers.is_file() else {}

@@ -98,7 +98,8 @@ def _run(where, changes, timedSeconds, timeLimit):
 	with tempfile.TemporaryDirectory() as folder:
 		files = [pathlib.Path(folder) / name for name in ('task.json', 'answer.json', 'log.txt')]
 		files[0].write_text(json.dumps(task))
-		command = [sys.executable, '-m', 'yade.polytope.tradeoffWorker', *map(str, files[:2])]
+		# -P: the folder this is called from is no place for modules
+		command = [sys.executable, '-P', '-m', 'yade.polytope.tradeoffWorker', *map(str, files[:2])]
 		with open(files[2], 'w') as log:
 			try:
 				environment = {**precision.environment(kind), inside: '1'}

@@ -24,6 +24,7 @@ class Row:
 	:ivar float contactMicroseconds: of the interaction loop for one contact
 	:ivar float contacts: in one step
 	:ivar float timeStep: [s]
+	:ivar float timeStepOfLimit: time step over polytope.stableTimeStep(1) when measure() ended, None without contacts
 	:ivar float cost: µs for as much simulated time as the first setting's step
 	:ivar int fallbacks, failures: of the contact functors over the run, see stats()
 	:ivar str note: why there is no answer, or ''
@@ -32,7 +33,7 @@ class Row:
 	def __init__(self, name, changes):
 		self.name, self.changes, self.values, self.note = name, changes, {}, ''
 		self.error = self.stepMicroseconds = self.contactMicroseconds = self.contacts = self.timeStep = self.cost = self.seconds = None
-		self.fallbacks = self.failures = 0
+		self.fallbacks, self.failures, self.timeStepOfLimit = 0, 0, None
 
 	def take(self, answer):
 		"""What a process answered; of several the least times."""
@@ -42,6 +43,7 @@ class Row:
 		self.values = {name: _numbers(text) for name, text in answer['values'].items()}
 		self.timeStep, self.seconds, self.contacts = answer['timeStep'], answer['seconds'], answer.get('contacts')
 		self.fallbacks, self.failures = answer['fallbacks'], answer['failures']
+		self.timeStepOfLimit = answer.get('timeStepOfLimit')
 		for name in ('stepMicroseconds', 'contactMicroseconds'):
 			times = [time for time in (getattr(self, name), answer.get(name)) if time is not None]
 			setattr(self, name, min(times, default=None))
@@ -96,7 +98,7 @@ class TradeoffTable:
 				kept.append(row)
 		return kept
 
-	columns = ('setting', 'answer', 'error', 'µs per step', 'µs per contact', 'contacts', 'cost', 'on the front', 'fallbacks', 'failures')
+	columns = ('setting', 'answer', 'error', 'µs per step', 'µs per contact', 'contacts', 'dt·ω', 'cost', 'on the front', 'fallbacks', 'failures')
 
 	def cells(self):
 		"""The table as (columns, rows of text and numbers): further values of measure() come after the answer."""
@@ -108,7 +110,7 @@ class TradeoffTable:
 			answer = row.answer
 			shown = '' if answer is None else f'{len(answer)} numbers' if isinstance(answer, list) else float(answer)
 			more = [float(row.values[name]) if name in row.values else '' for name in others]
-			times = [row.stepMicroseconds, row.contactMicroseconds, row.contacts, row.cost / cheapest if row.cost and cheapest else None]
+			times = [row.stepMicroseconds, row.contactMicroseconds, row.contacts, row.timeStepOfLimit, row.cost / cheapest if row.cost and cheapest else None]
 			rows.append(
 				[row.name, shown, *more]
 				+ ['' if value is None else value for value in (row.error, *times)]
@@ -117,11 +119,11 @@ class TradeoffTable:
 		return columns, rows
 
 	def show(self):
-		"""Prints it. *cost* is the time for as much simulated time as the first setting's step, over that of the first setting."""
+		"""Prints it. *dt·ω* is the time step over polytope.stableTimeStep(1); *cost* is the time for as much simulated time as the first setting's step, over that of the first setting."""
 		from tabulate import tabulate
 
 		columns, rows = self.cells()
-		short = {columns.index(name): '.3g' for name in ('error', 'µs per step', 'µs per contact', 'contacts', 'cost')}
+		short = {columns.index(name): '.3g' for name in ('error', 'µs per step', 'µs per contact', 'contacts', 'dt·ω', 'cost')}
 		text = [
 			[format(cell, short.get(k, '.10g')) if isinstance(cell, float) else cell for k, cell in enumerate(row)] for row in rows
 		]

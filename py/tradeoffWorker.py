@@ -16,6 +16,8 @@ import numpy as np
 import yade
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop, O
 
+from .timeStep import stableTimeStep
+
 __all__ = ['geometryFunctors', 'load', 'settable', 'takesTheScene']
 
 digits = 45
@@ -137,7 +139,12 @@ def answer(task):
 	if not isinstance(values, dict):
 		values = {'value': values}
 	counts = [functor.stats() for functor in geometryFunctors()]
+	try:
+		ofLimit = float(O.dt) / float(stableTimeStep(1))
+	except ValueError:  # no contact that limits it
+		ofLimit = None
 	result = {
+		'timeStepOfLimit': ofLimit,
 		'values': {name: written(value) for name, value in values.items()},
 		'seconds': seconds,
 		'timeStep': timeStep,

@@ -52,7 +52,6 @@ class Scene:
 	:ivar str because: where it comes from
 	:ivar bool ofAnyLaw: whether the closed form holds whatever the law between depth and force
 	:ivar float timedSeconds: of polytope.tradeoff
-	:ivar float timeStepFraction: of the scene as it is, see polytope.settings; None: no answer hangs on it
 	"""
 
 	letter: str
@@ -65,15 +64,10 @@ class Scene:
 	because: str = ''
 	ofAnyLaw: bool = True
 	timedSeconds: float = 0.3
-	timeStepFraction: float = None
 
 	def __post_init__(self):
-		for name, preset in presets.items():
-			if name != 'balanced':  # that is the default
-				changes = {key: value for key, value in preset.items() if key != 'timeStepFraction'}
-				if self.timeStepFraction:
-					changes['timeStepFactor'] = preset['timeStepFraction'] / self.timeStepFraction
-				self.settings = {**self.settings, f"settings('{name}')": changes}
+		mine = {f"settings('{name}')": preset for name, preset in presets.items() if name != 'balanced'}  # that is the default
+		self.settings = {**self.settings, **mine}
 
 	def chosen(self, quick):
 		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
@@ -126,7 +120,6 @@ def allScenes():
 			'critical friction angle',
 			math.degrees(wedge.frictionAngle()),
 			'limit equilibrium (Hoek & Bray 1981)',
-			timeStepFraction=0.2,
 		),
 		Scene(
 			'D',
@@ -137,7 +130,6 @@ def allScenes():
 			'critical friction angle',
 			_roofAngle(),
 			'φ = α + atan(W/ΣH)',
-			timeStepFraction=0.2,
 		),
 		Scene(
 			'F',
@@ -149,7 +141,6 @@ def allScenes():
 			1.0,
 			'it is conserved',
 			timedSeconds=0,  # afterwards the blocks are apart
-			timeStepFraction=0.02,
 		),
 		Scene(
 			'rest',
@@ -160,9 +151,8 @@ def allScenes():
 			'height at rest + m g/kₙ',
 			0.5,
 			'½ edge − m g/kₙ',
-			timeStepFraction=0.02,
 		),
-		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number', timeStepFraction=0.2),
+		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number'),
 	]
 	return {scene.letter: scene for scene in listed}
 

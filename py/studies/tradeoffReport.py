@@ -14,10 +14,15 @@ from .paperReport import section
 from .paperRuns import Run
 from .tradeoffAxes import default, isNumerical, scatter
 
-__all__ = ['reportScene', 'summary', 'writePage', 'writeSummary']
+__all__ = ['ranking', 'rankingColumns', 'reportScene', 'show', 'summary', 'writePage', 'writeSummary']
 
 floor = 1e-17
 """Errors below this are drawn there."""
+leastError = 1e-4
+"""Smaller errors of a scene's answer count as this in the ranking: no input is known better."""
+mostDeviations = 3
+"""Of a heap's coordination number, over the scatter between seeds, for it to be the same heap."""
+rankingColumns = ('setting', 'mean cost', 'mean error', 'largest error over the default\'s')
 
 
 def reportScene(scene, table, folder, finest):
@@ -74,6 +79,35 @@ def summary(tables, scenes):
 	return lines
 
 
+def ranking(tables, scenes):
+	"""What the rule of polytope.settings sees: settings that have an answer in all scenes that count, by their cost.
+
+	:returns: [(name, cost, error, largest error over the default's in any scene)], cost and error geometric means over the default's
+	"""
+	heap = tables.get('A')
+	counting = [letter for letter, scene in scenes.items() if letter in tables and scene.truth is not None and scene.ofAnyLaw]
+	names = [row.name for row in tables[counting[0]].rows] if counting else []
+	found = []
+	for name in names:
+		costs, errors = [], []
+		for letter in counting:
+			row, base = ({row.name: row for row in tables[letter].rows}.get(which) for which in (name, default))
+			if row is not None and row.error is not None and row.cost and base.error is not None and base.cost:
+				costs.append(row.cost / base.cost)
+				errors.append(max(row.error, leastError) / max(base.error, leastError))
+		stands = all(table[name].answer is not None for table in tables.values() if name in [row.name for row in table.rows])
+		if stands and heap and name in [row.name for row in heap.rows]:
+			mean, deviation = scatter(heap)
+			stands = not abs(float(heap[name].answer) - mean) > mostDeviations * deviation
+		if stands and len(costs) == len(counting):
+			found.append((name, _mean(costs), _mean(errors), max(errors)))
+	return sorted(found, key=lambda line: line[1])
+
+
+def _mean(values):
+	return math.exp(sum(map(math.log, values)) / len(values))
+
+
 def writeSummary(lines, letters, path):
 	"""Writes the summary as CSV and returns (columns, rows of text)."""
 	columns = ['setting', 'cost: least', 'median', 'most', *(f'error {letter}' for letter in letters)]
@@ -93,14 +127,16 @@ def _short(cell, form):
 
 
 def show(columns, rows):
+	"""Prints a table of texts."""
 	print(tabulate(rows, columns, disable_numparse=True))
 
 
-def writePage(path, parts, columns, rows, script, quick):
+def writePage(path, parts, columns, rows, ranks, script, quick):
 	"""The HTML page.
 
 	:param list parts: (Scene, its Findings)
 	:param columns, rows: of the summary
+	:param ranks: rows of text of the ranking
 	"""
 	sections = []
 	for scene, findings in parts:
@@ -108,7 +144,7 @@ def writePage(path, parts, columns, rows, script, quick):
 		sections.append(section(run))
 	environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
 	about = {'date': datetime.date.today().isoformat(), 'quick': quick}
-	path.write_text(environment.from_string(_page).render(sections=sections, columns=columns, rows=rows, about=about))
+	path.write_text(environment.from_string(_page).render(sections=sections, columns=columns, rows=rows, ranks=ranks, head=rankingColumns, about=about))
 
 
 _page = '''<!DOCTYPE html>
@@ -128,6 +164,11 @@ rest), the finest arithmetic (pair) or the mean over seeds (A).</p>
 <h2>All scenes</h2>
 <div class="wide"><table><tr>{% for title in columns %}<th>{{ title }}</th>{% endfor %}</tr>
 {% for row in rows %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>
+{% if ranks %}<h2>What polytope.settings() rests on</h2>
+<p>Settings that have an answer in every scene with a closed form that holds for any law (C, D, F, rest): geometric means of cost and
+error over the default's; errors below 1e-4 count as 1e-4.</p>
+<div class="wide"><table><tr>{% for title in head %}<th>{{ title }}</th>{% endfor %}</tr>
+{% for row in ranks %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>{% endif %}
 {% for part in sections %}<h2 id="{{ part.letter }}">{{ part.letter }} · {{ part.title }}</h2>
 {% for item in part.parts %}
 {% if item.kind == 'text' %}<p>{{ item.text }}</p>

@@ -112,7 +112,7 @@ def measureBeam(scene):
 
 # C and D: the whole search for the critical friction angle.
 
-frictionSteps = (8, 1, 0.1, 0.01, 0.001)
+frictionSteps = (8, 1, 0.1, 0.01)
 """[°]; half of the last is how exactly an angle is known."""
 
 
