@@ -211,7 +211,7 @@ class ThreeHingedBeam:
 		def unbalanced(behind):
 			self.place(rotation, behind)
 			O.step()
-			return O.forces.f(self.beamIds[0])[0]
+			return float(O.forces.f(self.beamIds[0])[0])  # SciPy knows floats only, YADE's wider precisions have others
 
 		behind = brentq(unbalanced, 1e-3 * shared, (1 - 1e-3) * shared, xtol=1e-16, rtol=1e-15)
 		unbalanced(behind)
@@ -221,7 +221,7 @@ class ThreeHingedBeam:
 		"""The largest load of all imposed rotations, as `balance` reads it."""
 		alignment = math.atan(self.height / self.length)
 		found = minimize_scalar(
-			lambda rotation: -self.balance(rotation).load, bounds=(1e-2 * alignment, alignment), method='bounded', options={'xatol': 1e-8}
+			lambda rotation: -float(self.balance(rotation).load), bounds=(1e-2 * alignment, alignment), method='bounded', options={'xatol': 1e-8}
 		)
 		return self.balance(found.x)
 
