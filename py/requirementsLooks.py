@@ -194,7 +194,8 @@ def verletDist(scene):
 	if present == 0:
 		return f'0: the collider sorts in every step{ratio}', f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
 	if length > size and (not contacts or pairs > mostPairs * contacts):
-		return f'{length:.3g} m, more than the smallest body\'s inscribed radius{ratio}', f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
+		seen = f'{length:.3g} m, more than the smallest body\'s inscribed radius{ratio}'
+		return seen, f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
 	return f'{length:.3g} m{ratio}', ''
 
 
@@ -208,7 +209,8 @@ def warmStart(scene):
 def solver(scene):
 	"""solver"""
 	if 'ipopt' in scene.values('solver'):
-		return 'ipopt for every contact', "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt takes over by itself", None, ('solver', 'newton')
+		advice = "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt takes over where it gives up"
+		return 'ipopt for every contact', advice, None, ('solver', 'newton')
 	return 'newton', ''
 
 
@@ -217,10 +219,11 @@ def contactPoint(scene):
 	points = scene.values('contactPoint')
 	if 'paper' not in scene.values('contactModel'):
 		return None
+	trial = ('contactPoint', 'analyticCentre')
 	if 'chebyshevCentre' in points:
-		return 'chebyshevCentre, not unique on faces: it jumps', "contactPoint = 'analyticCentre' where faces meet faces", None, ('contactPoint', 'analyticCentre')
+		return 'chebyshevCentre, not unique on faces: it jumps', "contactPoint = 'analyticCentre' where faces meet faces", None, trial
 	if 'centroid' in points:
-		return 'centroid of the overlap', "contactPoint = 'analyticCentre', unless it is the centroid's law that you want", None, ('contactPoint', 'analyticCentre')
+		return 'centroid of the overlap', "contactPoint = 'analyticCentre', unless it is the centroid's law that you want", None, trial
 	return 'analyticCentre', ''
 
 

@@ -90,7 +90,8 @@ class TradeoffTable:
 
 	def front(self):
 		"""Rows that no other one beats in both cost and error, cheapest first."""
-		measured = sorted((row for row in self.rows if row.error is not None and row.cost is not None), key=lambda row: (row.cost, row.error))
+		measured = [row for row in self.rows if row.error is not None and row.cost is not None]
+		measured.sort(key=lambda row: (row.cost, row.error))
 		best, kept = math.inf, []
 		for row in measured:
 			if row.error < best:
@@ -102,7 +103,8 @@ class TradeoffTable:
 
 	def cells(self):
 		"""The table as (columns, rows of text and numbers): further values of measure() come after the answer."""
-		others = list(dict.fromkeys(name for row in self.rows for name in list(row.values)[1:] if not isinstance(row.values[name], list)))
+		named = (name for row in self.rows for name in list(row.values)[1:] if not isinstance(row.values[name], list))
+		others = list(dict.fromkeys(named))
 		front, cheapest = self.front(), next((row.cost for row in self.rows if row.cost), None)
 		columns = [*self.columns[:2], *others, *self.columns[2:], 'note']
 		rows = []

@@ -67,7 +67,8 @@ def run(settings, reference=weight / stiffness, function=measure, **options):
 def testRowsTellWhatChanged():
 	O.reset()
 	here = O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), material=RockJointMat()))
-	table = run({'as it is': {}, 'cold': {'warmStart': False}, 'half step': {'timeStepFactor': 0.5}, 'step': {'timeStep': 2e-3}, 'heavy': {'density': 2000}})
+	steps = {'half step': {'timeStepFactor': 0.5}, 'step': {'timeStep': 2e-3}}
+	table = run({'as it is': {}, 'cold': {'warmStart': False}, **steps, 'heavy': {'density': 2000}})
 	assert len(O.bodies) == 1 and O.bodies[here].state.pos[2] == 0  # the scene of this process is as it was
 	for name in ('as it is', 'cold', 'half step', 'step'):
 		assert table[name].error < 1e-6 and table[name].failures == 0 and table[name].contacts == 1
@@ -163,6 +164,31 @@ def testPresetsStandInTheirOrder(monkeypatch):
 		assert max(fast.error, 1e-4) <= 1.1 * max(balanced.error, 1e-4) and max(exact.error, 1e-4) <= max(balanced.error, 1e-4)
 		if letter == 'F':
 			assert exact.error < 0.01 * balanced.error
+
+
+def tableOf(**results):
+	"""name → (cost, answer); the truth is 1."""
+	rows = [Row(name, {}) for name in results]
+	for row, (cost, answer) in zip(rows, results.values(), strict=True):
+		times = {'stepMicroseconds': cost, 'contactMicroseconds': cost, 'contacts': 1, 'timeStep': 1, 'seconds': 1}
+		row.take({'values': {'x': repr(answer)}, 'fallbacks': 0, 'failures': 0, **times} if answer else {'error': 'none'})
+	return TradeoffTable(rows, 1)
+
+
+def testRankingLeavesOutWhatDoesNotStand(monkeypatch):
+	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/geometry'))
+	from yade.polytope.studies.tradeoffAxes import allScenes
+	from yade.polytope.studies.tradeoffReport import ranking
+
+	tables = {
+		'B': tableOf(default=(1, 5), good=(1, 9), bad=(1, 1), heapless=(1, 1)),  # of one law only: does not count
+		'C': tableOf(default=(2, 1.01), good=(1, 1.04), bad=(1, None), heapless=(1, 1.01)),
+		'D': tableOf(default=(2, 1.01), good=(4, 1.0000001), bad=(1, 1), heapless=(1, 1.01)),
+		'A': tableOf(**{'default': (1, 1), 'seed 2': (1, 1.1), 'seed 3': (1, 0.9), 'good': (1, 1.2), 'heapless': (1, 0.1)}),
+	}
+	found = {name: values for name, *values in ranking(tables, allScenes())}
+	assert set(found) == {'default', 'good'}
+	assert found['default'] == pytest.approx([1, 1, 1]) and found['good'] == pytest.approx([1, (4 * 0.01) ** 0.5, 4], rel=1e-6)
 
 
 def testSettingsAreTakenByTheFunctor():
