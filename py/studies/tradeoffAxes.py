@@ -66,8 +66,11 @@ class Scene:
 	timedSeconds: float = 0.3
 
 	def __post_init__(self):
-		mine = {f"settings('{name}')": preset for name, preset in presets.items() if name != 'balanced'}  # that is the default
-		self.settings = {**self.settings, **mine}
+		for name, preset in presets.items():
+			if name != 'balanced':  # that is the default
+				timeless = not self.settings.keys() & times.keys()  # statics: no answer hangs on the time step
+				changes = {key: value for key, value in preset.items() if not (timeless and key == 'timeStepFactor')}
+				self.settings = {**self.settings, f"settings('{name}')": changes}
 
 	def chosen(self, quick):
 		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
