@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 __all__ = ['plotTradeoff']
 
 frontColor, otherColor, firstColor = '#c8451b', '#3380a8', '#1c2430'
-sameSpot = 0.022
-"""Points nearer than this, over the plot's size, share one label."""
+sameSpot = (0.06, 0.03)
+"""Points nearer than this in x and in y, over the plot's size, share one label."""
 
 
 def plotTradeoff(path, panels, floor=1e-17, suptitle=''):
@@ -62,7 +62,7 @@ def _number(axes, places):
 	"""Numbers beside the points; those of one spot together."""
 	groups = []
 	for k, place in enumerate(places):
-		near = next((group for group in groups if abs(group[0] - place).max() < sameSpot), None)
+		near = next((group for group in groups if all(abs(group[0] - place) < sameSpot)), None)
 		if near is None:
 			groups.append((place, [k + 1]))
 		else:

@@ -89,12 +89,12 @@ class TradeoffTable:
 		return TradeoffTable(rows, reference, self._true(reference))
 
 	def front(self):
-		"""Rows that no other one beats in both cost and error, cheapest first."""
+		"""Rows that no other one beats in both cost and error, cheapest first; an error less by under a tenth is no gain."""
 		measured = [row for row in self.rows if row.error is not None and row.cost is not None]
 		measured.sort(key=lambda row: (row.cost, row.error))
 		best, kept = math.inf, []
 		for row in measured:
-			if row.error < best:
+			if row.error < 0.9 * best or not kept:
 				best = row.error
 				kept.append(row)
 		return kept
