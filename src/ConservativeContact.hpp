@@ -109,6 +109,9 @@ POLYTOPE_INLINE void conservativeContact(
 	out.dualDirection = worldDirection<R, D>(in, f, n);
 	if (out.inContact && solved != BarrierStatus::NotConverged)
 		out.status = solved == BarrierStatus::RoundingLimited ? ContactStatus::RoundingLimited : ContactStatus::Contact;
+	// flat faces of thin bodies: hardly anything holds the point along the face, and planes tilted by their own rounding move it
+	if (out.inContact && out.rockingArm * R(tolerance::noise * tolerance::rounding) > R(tolerance::stagnation) * f.size && out.status == ContactStatus::Contact)
+		out.status = ContactStatus::RoundingLimited;
 	if (length > R(tolerance::direction)) {
 		for (int k = 0; k < D; ++k)
 			n[k] /= length;

@@ -6,99 +6,108 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <array>
+#include <limits>
 #include <vector>
 
-/// The definitions of the contact (see ContactKernel.hpp) once more, written plainly and in 113-bit arithmetic: what the
-/// kernel's answers are compared with. Shares no code with it. World axes from body 1's centre.
+/// The definitions of the contact (see ContactKernel.hpp) once more, written plainly and in 113-bit arithmetic (or another
+/// `Number`): what the kernel's answers are compared with. Shares no code with it. World axes from body 1's centre.
 namespace polytope::samples {
 
-using Quad       = boost::multiprecision::cpp_bin_float_quad;
-using QuadVector = std::array<Quad, 3>;
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-inline QuadVector precise(const Vector3& v) { return { Quad(v[0]), Quad(v[1]), Quad(v[2]) }; }
+template <class Number> using PreciseVector = std::array<Number, 3>;
+using QuadVector                            = PreciseVector<Quad>;
 
-inline Vector3 rounded(const QuadVector& v) { return { Real(v[0]), Real(v[1]), Real(v[2]) }; }
+template <class Number = Quad> PreciseVector<Number> precise(const Vector3& v) { return { Number(v[0]), Number(v[1]), Number(v[2]) }; }
 
-inline Quad dot(const QuadVector& a, const QuadVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class Number> Vector3 rounded(const PreciseVector<Number>& v) { return { Real(v[0]), Real(v[1]), Real(v[2]) }; }
 
-inline QuadVector along(const QuadVector& x, const Quad& t, const QuadVector& n) { return { x[0] + t * n[0], x[1] + t * n[1], x[2] + t * n[2] }; }
+template <class Number> Number dot(const PreciseVector<Number>& a, const PreciseVector<Number>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-inline QuadVector minus(const QuadVector& a, const QuadVector& b) { return along(a, Quad(-1), b); }
+template <class Number>
+PreciseVector<Number> along(const PreciseVector<Number>& x, const typename PreciseVector<Number>::value_type& t, const PreciseVector<Number>& n)
+{
+	return { x[0] + t * n[0], x[1] + t * n[1], x[2] + t * n[2] };
+}
 
-inline Quad norm(const QuadVector& v) { return sqrt(dot(v, v)); }
+template <class Number> PreciseVector<Number> minus(const PreciseVector<Number>& a, const PreciseVector<Number>& b) { return along(a, Number(-1), b); }
 
-class PrecisePair {
+template <class Number> Number norm(const PreciseVector<Number>& v) { return sqrt(dot(v, v)); }
+
+template <class Number> class PrecisePairOf {
 public:
+	using Vector = PreciseVector<Number>;
 	struct Plane {
-		QuadVector normal;
-		Quad       offset;
-		Quad       slack(const QuadVector& x) const { return offset - dot(normal, x); }
+		Vector normal;
+		Number       offset;
+		Number       slack(const Vector& x) const { return offset - dot(normal, x); }
 	};
 	std::array<std::vector<Plane>, 2> planes;
-	std::array<Quad, 2>               cornerRadius;
+	std::array<Number, 2>               cornerRadius;
 	int                               dimension;
 
-	explicit PrecisePair(const Pair& pair)
+	explicit PrecisePairOf(const Pair& pair)
 	        : dimension(pair.dimension())
 	{
 		for (int body = 0; body < 2; ++body) {
 			const HalfSpaces& set    = pair.shape[body]->planes();
-			const QuadVector  centre = precise(body == 0 ? Vector3::Zero() : pair.centre2);
+			const Vector  centre = precise<Number>(body == 0 ? Vector3::Zero() : pair.centre2);
 			cornerRadius[body]       = pair.shape[body]->cornerRadius();
 			for (std::size_t i = 0; i < set.size(); ++i) {
 				Plane plane;
 				for (int k = 0; k < 3; ++k)
-					plane.normal[k] = dot(precise(pair.rotation[body].row(k)), precise(set.normals[i]));
-				plane.offset = Quad(set.offsets[i]) + dot(plane.normal, centre);
+					plane.normal[k] = dot(precise<Number>(pair.rotation[body].row(k)), precise<Number>(set.normals[i]));
+				plane.offset = Number(set.offsets[i]) + dot(plane.normal, centre);
 				planes[body].push_back(plane);
 			}
 		}
 	}
 
 	/// Largest a·x − d over all planes: −(radius of the ball about x) inside.
-	Quad violation(const QuadVector& x) const { return std::max(violation(0, x), violation(1, x)); }
-	Quad violation(int body, const QuadVector& x) const
+	Number violation(const Vector& x) const { return std::max(violation(0, x), violation(1, x)); }
+	Number violation(int body, const Vector& x) const
 	{
-		Quad largest = -planes[body][0].slack(x);
+		Number largest = -planes[body][0].slack(x);
 		for (const Plane& plane : planes[body])
-			largest = std::max<Quad>(largest, -plane.slack(x));
+			largest = std::max<Number>(largest, -plane.slack(x));
 		return largest;
 	}
 
 	/// Length of e in the local norm at x: √(eᵀ H e), H = Σ a aᵀ/slack². One is the Dikin ellipsoid's surface.
-	Quad localLength(const QuadVector& x, const QuadVector& e) const
+	Number localLength(const Vector& x, const Vector& e) const
 	{
-		Quad sum = 0;
+		Number sum = 0;
 		for (const auto& body : planes)
 			for (const Plane& plane : body) {
-				const Quad part = dot(plane.normal, e) / plane.slack(x);
+				const Number part = dot(plane.normal, e) / plane.slack(x);
 				sum += part * part;
 			}
 		return sqrt(sum);
 	}
 
-	/// The analytic centre by damped Newton from x (strictly inside), to 25 digits. False if it does not get there.
-	bool analyticCentre(QuadVector& x) const
+	/// The analytic centre by damped Newton from x (strictly inside), to three quarters of the digits. False if it does not get there.
+	bool analyticCentre(Vector& x) const
 	{
+		const Number close = ldexp(Number(1), -3 * std::numeric_limits<Number>::digits / 8); // and twice as many digits after that step
 		for (int iteration = 0; iteration < 500; ++iteration) {
-			QuadVector step;
-			const Quad decrement = newtonStep(x, step);
+			Vector step;
+			const Number decrement = newtonStep(x, step);
 			if (decrement < 0) return false;
-			x = along(x, decrement < Quad(0.25) ? Quad(1) : Quad(1 / (1 + decrement)), step);
-			if (decrement < Quad(1e-13)) return violation(x) < 0;
+			x = along(x, decrement < Number(0.25) ? Number(1) : Number(1 / (1 + decrement)), step);
+			if (decrement < close) return violation(x) < 0;
 		}
 		return false;
 	}
 
 	/// Newton step of −Σ log(slack) at x and its local length (the decrement); −1 outside.
-	Quad newtonStep(const QuadVector& x, QuadVector& step) const
+	Number newtonStep(const Vector& x, Vector& step) const
 	{
 		if (!(violation(x) < 0)) return -1;
-		QuadVector                g {};
-		std::array<QuadVector, 3> h {};
+		Vector                g {};
+		std::array<Vector, 3> h {};
 		for (const auto& body : planes)
 			for (const Plane& plane : body) {
-				const Quad inverse = 1 / plane.slack(x);
+				const Number inverse = 1 / plane.slack(x);
 				for (int k = 0; k < dimension; ++k) {
 					g[k] += inverse * plane.normal[k];
 					for (int j = 0; j < dimension; ++j)
@@ -110,7 +119,7 @@ public:
 		// Gauss without pivoting: the matrix is positive definite
 		for (int k = 0; k < dimension; ++k)
 			for (int i = k + 1; i < dimension; ++i) {
-				const Quad factor = h[i][k] / h[k][k];
+				const Number factor = h[i][k] / h[k][k];
 				for (int j = k; j < dimension; ++j)
 					h[i][j] -= factor * h[k][j];
 				step[i] -= factor * step[k];
@@ -124,11 +133,11 @@ public:
 	}
 
 	/// Gradient of a body's inner potential particle, Σ 2⟨a·x − d + r⟩ a.
-	QuadVector innerGradient(int body, const QuadVector& x) const
+	Vector innerGradient(int body, const Vector& x) const
 	{
-		QuadVector g {};
+		Vector g {};
 		for (const Plane& plane : planes[body]) {
-			const Quad bracket = cornerRadius[body] - plane.slack(x);
+			const Number bracket = cornerRadius[body] - plane.slack(x);
 			if (bracket > 0) g = along(g, 2 * bracket, plane.normal);
 		}
 		return g;
@@ -136,50 +145,52 @@ public:
 
 	/// How far two points no farther apart than `move` in the local norm can have body 1's and 2's normals turned: with
 	/// |a·δ| ≤ move × slack, the gradient moves by at most Σ 2 move slack over the planes that are active.
-	Quad normalSlip(int body, const QuadVector& x, const Quad& move) const
+	Number normalSlip(int body, const Vector& x, const Number& move) const
 	{
-		Quad sum = 0;
+		Number sum = 0;
 		for (const Plane& plane : planes[body]) {
-			const Quad slack = plane.slack(x);
+			const Number slack = plane.slack(x);
 			if (slack < cornerRadius[body] * (1 + 2 * move)) sum += 2 * move * slack;
 		}
-		const Quad length = norm(innerGradient(body, x));
-		return length > 0 ? Quad(sum / length) : Quad(2);
+		const Number length = norm(innerGradient(body, x));
+		return length > 0 ? Number(sum / length) : Number(2);
 	}
 
 	/// Eq. 17 with equal weights; false where a gradient or the difference is zero.
-	bool normal(const QuadVector& x, QuadVector& n) const
+	bool normal(const Vector& x, Vector& n) const
 	{
-		const QuadVector g0 = innerGradient(0, x), g1 = innerGradient(1, x);
-		const Quad       l0 = norm(g0), l1 = norm(g1);
+		const Vector g0 = innerGradient(0, x), g1 = innerGradient(1, x);
+		const Number       l0 = norm(g0), l1 = norm(g1);
 		if (l0 == 0 || l1 == 0) return false;
 		for (int k = 0; k < 3; ++k)
 			n[k] = g0[k] / l0 - g1[k] / l1;
-		const Quad length = norm(n);
+		const Number length = norm(n);
 		if (length == 0) return false;
-		for (Quad& component : n)
+		for (Number& component : n)
 			component /= length;
 		return true;
 	}
 
 	/// From x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.
 	struct Exit {
-		Quad distance = 1e30;
-		Quad rate     = 1;
+		Number distance = std::numeric_limits<Number>::max();
+		Number rate     = 1;
 	};
-	Exit exit(int body, const QuadVector& x, const QuadVector& n, int sign) const
+	Exit exit(int body, const Vector& x, const Vector& n, int sign) const
 	{
 		Exit nearest;
 		for (const Plane& plane : planes[body]) {
-			const Quad rate = sign * dot(plane.normal, n);
+			const Number rate = sign * dot(plane.normal, n);
 			if (!(rate > 0)) continue;
-			const Quad distance = plane.slack(x) / rate;
+			const Number distance = plane.slack(x) / rate;
 			if (distance < nearest.distance) nearest = { distance, rate };
 		}
 		return nearest;
 	}
 
-	Quad depth(const QuadVector& x, const QuadVector& n) const { return exit(0, x, n, 1).distance + exit(1, x, n, -1).distance; }
+	Number depth(const Vector& x, const Vector& n) const { return exit(0, x, n, 1).distance + exit(1, x, n, -1).distance; }
 };
+
+using PrecisePair = PrecisePairOf<Quad>;
 
 } // namespace polytope::samples

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Pairs from easy to the point of breaking, each contact in double beside exact arithmetic, as CSV on standard output:
+//
+//     polytope_extremes [--quick] SAMPLES [AXIS …]
+//
+// SAMPLES per value and kind of an axis, both contact models each (fewer, and none if quick, where references are costly). Pairs depend on axis, value, kind and number only.
+#include "PairAxes.hpp"
+#include "Reference.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+const char* modelName(ContactModel model) { return model == ContactModel::Paper ? "paper" : "conservative"; }
+
+/// One number per axis, value, kind and sample, the same on every machine.
+std::uint64_t seedOf(const std::string& text)
+{
+	std::uint64_t hash = 14695981039346656037u; // FNV-1a
+	for (unsigned char c : text)
+		hash = (hash ^ c) * 1099511628211u;
+	return hash;
+}
+
+void writeRow(const std::string& head, const Comparison& c, Real deviation, Real moved)
+{
+	std::cout << head << ',' << statusName(c.result.status) << ',' << c.result.inContact << ',' << c.touches << ',' << c.within << ',' << c.size << ','
+	          << c.inscribed / c.size << ',' << c.infeasibility << ',' << c.infeasibilityError << ',' << c.infeasibilityRounding << ',' << c.value << ',' << c.valueError << ',' << c.depth
+	          << ',' << c.depthError << ',' << c.depthRounding << ',' << c.centreError << ',' << c.centreRounding << ',' << c.normalError << ','
+	          << c.normalRounding << ',' << c.forceError << ',' << c.compared << ',' << c.finite << ',' << c.bounded << ',' << c.free << ',' << deviation << ',' << moved << ','
+	          << c.result.simplexPivots << ',' << c.result.newtonIterations << ',' << c.nanoseconds << ",\n";
+}
+
+void writeRefusal(const std::string& head, std::string message)
+{
+	for (char& c : message)
+		if (c == ',' || c == '\n' || c == '"') c = ';';
+	std::cout << head << ",refused,0,0,0" << std::string(25, ',') << message << '\n';
+}
+
+void sample(const PairAxis& axis, Real value, const std::string& kind, int number)
+{
+	std::ostringstream name;
+	name << axis.name << '/' << kind << '/' << value << '/' << number;
+	const std::uint64_t seed = seedOf(name.str());
+	const auto          head = [&](ContactModel model) {
+        std::ostringstream text;
+        text << axis.name << ",\"" << kind << "\"," << value << ',' << number << ',' << modelName(model);
+        return text.str();
+	};
+	Pair       pair;
+	const auto make = [&](PairAxis::Maker maker, ContactModel model) {
+		std::mt19937_64 random(seed);
+		return maker(value, kind, model, random);
+	};
+	std::unique_ptr<PairReference> reference;
+	for (ContactModel model : { ContactModel::Paper, ContactModel::Conservative })
+		try {
+			const Pair made = make(axis.make, model);
+			if (!reference || made.centre2 != pair.centre2) {
+				pair = made;
+				reference.reset(new PairReference(pair));
+			}
+			const Comparison c     = reference->compare(model);
+			Real             other = 0, moved = 0;
+			if (axis.intended) {
+				const Pair      intended = make(axis.intended, model);
+				ContactSettings settings;
+				settings.contactModel = model;
+				settings.section      = true;
+				const ContactResult before = query(intended, settings);
+				const Real          unit   = axis.scaled ? value : Real(1);
+				other                      = deviation(c.result, before, unit, intended.size());
+				moved                      = (c.result.infeasibility / unit - before.infeasibility) / intended.size();
+			}
+			writeRow(head(model), c, other, moved);
+		} catch (const std::invalid_argument& refusal) {
+			writeRefusal(head(model), refusal.what());
+		}
+}
+
+int usage(const char* program)
+{
+	std::cerr << "usage: " << program << " [--quick] SAMPLES [AXIS …]; axes:";
+	for (const PairAxis& axis : pairAxes())
+		std::cerr << ' ' << axis.name;
+	std::cerr << '\n';
+	return 2;
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+	const bool quick   = count > 1 && !std::strcmp(arguments[1], "--quick");
+	const int  first   = quick ? 2 : 1;
+	const int  samples = count > first ? std::atoi(arguments[first]) : 0;
+	if (samples < 1) return usage(arguments[0]);
+	for (int i = first + 1; i < count; ++i) {
+		bool known = false;
+		for (const PairAxis& axis : pairAxes())
+			known = known || axis.name == arguments[i];
+		if (!known) return usage(arguments[0]);
+	}
+	std::cout.precision(17);
+	std::cout << "axis,kind,value,sample,model,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,infeasibilityRounding,barrierValue,"
+	             "barrierValueError,depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,compared,finite,bounded,free,"
+	             "deviation,moved,pivots,iterations,nanoseconds,refusal\n";
+	for (const PairAxis& axis : pairAxes()) {
+		bool asked = count == first + 1;
+		for (int i = first + 1; i < count; ++i)
+			asked = asked || axis.name == arguments[i];
+		if (!asked) continue;
+		for (const std::string& kind : axis.kinds)
+			for (Real value : axis.values) {
+				const bool costly = value > axis.costlyAbove;
+				for (int number = 0; number < samples && !(costly && (quick || number * value > samples * axis.costlyAbove)); ++number)
+					sample(axis, value, kind, number);
+			}
+	}
+}

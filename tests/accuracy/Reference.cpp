@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Reference.hpp"
+
+#include "ExactLp.hpp"
+#include "PreciseBarrier.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace polytope::samples {
+namespace {
+
+	using boost::multiprecision::cpp_bin_float;
+	using Digits150 = boost::multiprecision::number<cpp_bin_float<150>, boost::multiprecision::et_off>;
+	using Vector    = PreciseVector<Digits150>;
+
+	/// Of the linear programme, whatever the dimension.
+	struct ExactOptimum {
+		Digits150 infeasibility;
+		Vector    point {};
+	};
+
+	template <int D> ExactOptimum solvedExactly(const Pair& pair)
+	{
+		const ExactLp<D> lp(pair);
+		ExactOptimum     optimum;
+		optimum.infeasibility = Digits150(numerator(lp.infeasibility)) / Digits150(denominator(lp.infeasibility));
+		for (int k = 0; k < D; ++k)
+			optimum.point[k] = Digits150(numerator(lp.point[k])) / Digits150(denominator(lp.point[k]));
+		return optimum;
+	}
+
+	ExactOptimum solvedExactly(const Pair& pair) { return pair.dimension() == 2 ? solvedExactly<2>(pair) : solvedExactly<3>(pair); }
+
+	bool allFinite(const ContactResult& r)
+	{
+		return r.point.allFinite() && r.normal.allFinite() && r.dualDirection.allFinite() && r.sectionCentroid.allFinite() && std::isfinite(r.depth)
+		        && std::isfinite(r.infeasibility) && std::isfinite(r.area) && std::isfinite(r.barrierValue) && std::isfinite(r.energy)
+		        && std::isfinite(r.rockingArm);
+	}
+
+	/// Whatever the status: what a law makes of it cannot be worse than what bodies of this size can do to each other.
+	bool isBounded(const PrecisePairOf<Digits150>& exact, const Pair& pair, const ContactResult& r)
+	{
+		if (!r.hasGeometry) return !r.inContact;
+		if (!(std::abs(r.normal.norm() - 1) < 1e-14)) return false;
+		if (!r.inContact) return true;
+		const Real larger = std::max(pair.shape[0]->boundingRadius(), pair.shape[1]->boundingRadius());
+		// the conservative contact of one body inside the other is without force
+		if (!(r.depth > 0 || (r.barrierValue < 0 && r.depth >= 0)) || !(r.depth <= 2 * (larger + pair.size()))) return false;
+		// the point: in the overlap, for the conservative contact no farther out of it than Φ's level allows
+		const Digits150 outside = exact.violation(precise<Digits150>(r.point)) / Digits150(pair.size());
+		return outside <= Digits150(r.barrierValue != 0 ? 0.1 : 1e-14);
+	}
+
+	Real relative(const Digits150& difference, const Digits150& size) { return Real(abs(difference) / size); }
+
+	/// The normal of Eq. 17 at the reference's centre, from the bodies ours took it from. False where there is none.
+	bool referenceNormal(const PrecisePairOf<Digits150>& exact, const Vector& x, ContactStatus status, const Vector3& dual, Vector& normal)
+	{
+		if (status == ContactStatus::NormalFromDual) {
+			normal = precise<Digits150>(dual.normalized()); // not unique where the programme's basis is not: checked by its property instead
+			return true;
+		}
+		if (status != ContactStatus::NormalFromOneBody) return exact.normal(x, normal);
+		const Vector    g[2]   = { exact.innerGradient(0, x), exact.innerGradient(1, x) };
+		const int       body   = norm(g[0]) > norm(g[1]) ? 0 : 1;
+		const Digits150 length = norm(g[body]);
+		if (length == 0) return false;
+		normal = along(Vector {}, (body == 0 ? 1 : -1) / length, g[body]);
+		return true;
+	}
+
+	void comparePaper(const Pair& pair, const ExactOptimum& optimum, Comparison& c)
+	{
+		const ContactResult&           r = c.result;
+		const PrecisePairOf<Digits150> exact(pair);
+		const Digits150                size = pair.size();
+		c.bounded                           = isBounded(exact, pair, r);
+		if (!r.inContact || !(optimum.infeasibility < 0)) return;
+		Vector centre = optimum.point, normal;
+		if (!exact.analyticCentre(centre) || !referenceNormal(exact, centre, r.status, r.dualDirection, normal)) return;
+		c.compared           = true;
+		const Digits150 depth = exact.depth(centre, normal);
+		const Vector    ours = precise<Digits150>(r.point), n = precise<Digits150>(r.normal);
+		c.centreError        = Real(exact.localLength(centre, minus(ours, centre)));
+		c.normalError        = Real(norm(minus(n, normal)));
+		c.forceError         = Real(norm(minus(along(Vector {}, Digits150(r.depth), n), along(Vector {}, depth, normal))) / size);
+		c.depth              = Real(depth / size);
+		c.depthError         = relative(Digits150(r.depth) - depth, size);
+		const Real roundings = c.infeasibilityRounding * c.size;
+		c.centreRounding     = 2e-9 + roundings / Real(-optimum.infeasibility);
+		const Digits150 slip = exact.normalSlip(0, centre, c.centreRounding) + exact.normalSlip(1, centre, c.centreRounding);
+		c.normalRounding     = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip));
+		const auto exit1 = exact.exit(0, centre, normal, 1), exit2 = exact.exit(1, centre, normal, -1);
+		const Real glance = Real(1 / exit1.rate + 1 / exit2.rate);
+		// the way to a plane that is met at a grazing angle is as uncertain as the angle
+		c.depthRounding = glance * (roundings / c.size + c.normalRounding * c.depth);
+	}
+
+	/// Freedom from each other after the way the dual direction promises, in the exact programme.
+	bool isFree(const Pair& pair, const ContactResult& r, const Digits150& infeasibility)
+	{
+		const Real length = r.dualDirection.norm();
+		if (!(length > 0)) return false;
+		const Real way  = Real(-infeasibility) / length;
+		const Pair away = movedApart(pair, way * r.dualDirection / length);
+		return solvedExactly(away).infeasibility > -32 * tolerance::rounding * Digits150(pair.size() + way + pair.centre2.norm());
+	}
+
+	/// How far, in the barrier's local norm, its minimiser goes when normals are tilted by a few roundings: far where faces
+	/// lie flat on each other and nothing but the barrier of far side planes holds it (the rocking arm is long).
+	Real tiltedCentre(const PreciseBarrierOf<Digits150>& barrier)
+	{
+		std::array<std::array<Digits150, 4>, 4> h {};
+		const int                               n = barrier.pair.dimension + 1;
+		const auto                              each = [&](const auto& visit) {
+            for (const auto& body : barrier.pair.planes)
+                for (const auto& plane : body) {
+                    const std::array<Digits150, 4> z { -plane.normal[0], -plane.normal[1], barrier.pair.dimension == 3 ? Digits150(-plane.normal[2]) : Digits150(1), 1 };
+                    visit(z, barrier.s + plane.slack(barrier.x));
+                }
+		};
+		each([&](const auto& z, const Digits150& sigma) {
+			const Digits150 weight = 2 * barrier.mu * barrier.mu / (sigma * sigma * sigma);
+			for (int i = 0; i < n; ++i)
+				for (int j = 0; j < n; ++j)
+					h[i][j] += weight * z[i] * z[j];
+		});
+		Real largest = 0;
+		for (int axis = 0; axis < n - 1; ++axis) {
+			auto                     m = h;
+			std::array<Digits150, 4> step {};
+			step[axis] = 8 * tolerance::rounding;
+			for (int k = n - 1; k >= 0; --k)
+				for (int i = k - 1; i >= 0; --i) {
+					const Digits150 factor = m[i][k] / m[k][k];
+					for (int j = k; j >= 0; --j)
+						m[i][j] -= factor * m[k][j];
+					step[i] -= factor * step[k];
+				}
+			for (int k = 0; k < n; ++k) {
+				for (int j = 0; j < k; ++j)
+					step[k] -= m[k][j] * step[j];
+				step[k] /= m[k][k];
+			}
+			Digits150 sum = 0;
+			each([&](const auto& z, const Digits150& sigma) {
+				Digits150 part = 0;
+				for (int k = 0; k < n - 1; ++k)
+					part += z[k] * step[k];
+				sum += part * part / (sigma * sigma);
+			});
+			largest = std::max(largest, Real(sqrt(sum)));
+		}
+		return largest;
+	}
+
+	void compareConservative(const Pair& pair, const ContactSettings& settings, const ExactOptimum& optimum, Comparison& c)
+	{
+		const ContactResult&        r = c.result;
+		const Digits150             size = pair.size();
+		PreciseBarrierOf<Digits150> barrier(pair, settings.barrier);
+		barrier.x             = optimum.point;
+		barrier.s             = optimum.infeasibility;
+		const Digits150 value = barrier.value();
+		c.bounded             = isBounded(barrier.pair, pair, r);
+		c.value               = Real(value / size);
+		c.touches             = value < 0;
+		c.within              = std::abs(c.value) <= tolerance::contact + c.infeasibilityRounding;
+		if (!r.inContact || !(value < 0)) return;
+		c.valueError = relative(Digits150(r.barrierValue) - value, size);
+		Vector     n {};
+		const auto lambda = barrier.weights(0);
+		for (std::size_t i = 0; i < lambda.size(); ++i)
+			n = along(n, lambda[i], barrier.pair.planes[0][i].normal);
+		const Digits150 length = norm(n);
+		c.depth                = Real(-4 * value * length / size);
+		c.depthError           = relative(Digits150(r.depth) + 4 * value * length, size);
+		const Vector away      = minus(precise<Digits150>(r.point), barrier.x);
+		Digits150    sum = 0, nearest = barrier.s + barrier.pair.planes[0][0].slack(barrier.x);
+		for (const auto& body : barrier.pair.planes)
+			for (const auto& plane : body) {
+				const Digits150 sigma = barrier.s + plane.slack(barrier.x), part = dot(plane.normal, away) / sigma;
+				sum += part * part;
+				nearest = std::min(nearest, sigma);
+			}
+		c.centreError        = Real(sqrt(sum));
+		c.forceError         = Real(norm(minus(along(Vector {}, Digits150(r.depth), precise<Digits150>(r.normal)), along(Vector {}, -4 * value, n))) / size);
+		const Real roundings = c.infeasibilityRounding * c.size;
+		c.centreRounding     = 2e-9 + roundings / Real(nearest) + tiltedCentre(barrier);
+		if (!(length > 0) || r.status == ContactStatus::NoDirection) return;
+		c.compared       = true;
+		c.normalError    = Real(norm(minus(precise<Digits150>(r.normal), along(Vector {}, 1 / length, n))));
+		c.normalRounding = 1e-14 + 4 * c.centreRounding / Real(length);
+		c.depthRounding  = roundings / c.size + c.depth * c.centreRounding / Real(length);
+	}
+
+} // namespace
+
+struct PairReference::Optimum {
+	ExactOptimum exact;
+};
+
+PairReference::PairReference(const Pair& pair)
+        : pair_(pair)
+        , optimum_(new Optimum { solvedExactly(pair) })
+{
+}
+
+PairReference::~PairReference() = default;
+
+Comparison PairReference::compare(ContactModel model) const
+{
+	const ExactOptimum& optimum = optimum_->exact;
+	Comparison          c;
+	c.size      = pair_.size();
+	c.inscribed = pair_.inscribedRadius();
+	ContactSettings settings;
+	settings.contactModel = model;
+	settings.section      = true;
+	c.nanoseconds         = std::numeric_limits<long>::max();
+	for (int repetition = 0; repetition < 3; ++repetition) {
+		const auto begin = std::chrono::steady_clock::now();
+		c.result         = query(pair_, settings);
+		c.nanoseconds    = std::min(c.nanoseconds, long(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count()));
+	}
+	c.finite             = allFinite(c.result);
+	const Digits150 size = pair_.size();
+	c.infeasibility      = Real(optimum.infeasibility / size);
+	c.touches            = optimum.infeasibility < 0;
+	// four roundings of planes, and of where the bodies stand
+	c.infeasibilityRounding = 8 * tolerance::rounding * (c.size + pair_.centre2.norm()) / c.size;
+	c.within                = std::abs(c.infeasibility) <= tolerance::contact + c.infeasibilityRounding;
+	if (!c.result.dismissed) c.infeasibilityError = relative(Digits150(c.result.infeasibility) - optimum.infeasibility, size);
+	if (model == ContactModel::Paper) {
+		comparePaper(pair_, optimum, c);
+		if (c.result.status == ContactStatus::NormalFromDual) c.free = isFree(pair_, c.result, optimum.infeasibility);
+	} else
+		compareConservative(pair_, settings, optimum, c);
+	return c;
+}
+
+Real deviation(const ContactResult& ours, const ContactResult& other, Real unit, Real size)
+{
+	if (ours.inContact != other.inContact || ours.status != other.status) return std::numeric_limits<Real>::infinity();
+	const Real length = unit * size;
+	return std::max({ std::abs(ours.infeasibility / length - other.infeasibility / size),
+	                  std::abs(ours.depth / length - other.depth / size),
+	                  (ours.point / length - other.point / size).norm(),
+	                  (ours.normal - other.normal).norm() });
+}
+
+} // namespace polytope::samples

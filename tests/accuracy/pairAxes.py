@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in the README."""
+
+import dataclasses
+import math
+
+__all__ = ['Axis', 'Limit', 'axes']
+
+
+@dataclasses.dataclass
+class Limit:
+	"""The worst value of a quantity over all samples of a range of the axis must not be above `most`.
+
+	Errors count where the contact's status raises no doubt (see pairTables.quiet); what has another status is loud.
+	"""
+
+	text: str
+	quantity: str
+	"""A column of the CSV, or a name of pairTables.derived."""
+	most: float
+	model: str = ''
+	"""paper or conservative; '' for both."""
+	low: float = -math.inf
+	high: float = math.inf
+	least: float = 0.0
+
+
+@dataclasses.dataclass
+class Axis:
+	title: str
+	label: str
+	"""Of the values."""
+	limits: list
+	note: str = ''
+
+
+depths = [
+	Limit('s* over the size', 'infeasibilityError', 1e-14),
+	Limit('depth over the size', 'depthError', 2e-14, 'paper'),
+	Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative'),
+]
+"""What holds on most axes; the conservative contact's Newton stops at 1e-10 of each slack, which its weights feel."""
+
+axes = {
+	'depth': Axis(
+		'Overlap depth',
+		'overlap −s* (conservative: −Φ) over the size',
+		[
+			*depths,
+			Limit('contact point over the overlap, overlaps down to 1e-6', 'centreError', 3e-9, 'paper', low=0.9e-6),
+			Limit('contact point × overlap², overlaps down to 1e-14', 'centreTimesOverlap', 5e-15, 'paper'),
+			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
+		],
+		'Below 1e-14 of the size the sign of s* is rounding, and the pair counts as separated. The contact point is as uncertain as the '
+		'planes’ rounding over the overlap: 1 % of the overlap’s own size at 1e-13.',
+	),
+	'aspect': Axis(
+		'Aspect ratio: plates and needles',
+		'length over thickness',
+		[
+			*depths,
+			Limit('contact point over the overlap, up to 1e8', 'centreError', 1e-4, 'paper', high=1.1e8),
+			Limit('contact point over the overlap', 'centreError', 3e-2, 'conservative'),
+		],
+		'The overlap is a tenth of the thickness. Errors are of the size, so a plate’s depth is known to 1e-15 × aspect ratio of its thickness. '
+		'Flat on flat, only the barrier of far side faces holds the conservative contact’s point: from a ratio of about 1e5 on it is the '
+		'planes’ rounding that places it, and the status says roundingLimited.',
+	),
+	'size': Axis(
+		'Size ratio of the pair',
+		'larger over smaller body',
+		[
+			Limit('s* over the larger body’s size', 'infeasibilityOfLarger', 1e-14),
+			Limit('depth over the larger body’s size', 'depthOfLarger', 2e-14, 'paper'),
+			Limit('depth × normal over the larger body’s size', 'forceOfLarger', 1e-12, 'conservative'),
+		],
+		'The bodies’ distance and the larger one’s planes are rounded by its size: a grain on a block a million times larger has its depth '
+		'to 1e-9 of the grain.',
+	),
+	'coordinates': Axis(
+		'Coordinates',
+		'distance from the origin over the size',
+		[
+			*depths,
+			Limit('contact point over the overlap', 'centreError', 1e-9),
+			Limit('change of s* by the positions’ own rounding, over the distance', 'movedOverDistance', 1e-15, low=0.5),
+		],
+		'Contacts are computed from the difference of positions: nothing is lost beyond the rounding of the positions themselves, 1e-16 of '
+		'the distance.',
+	),
+	'angle': Axis(
+		'Angle between nearly parallel faces',
+		'angle (rad)',
+		[
+			*depths,
+			Limit('contact point × overlap²', 'centreTimesOverlap', 5e-15, 'paper'),
+			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
+		],
+		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep.',
+	),
+	'twins': Axis(
+		'Two planes of one body that nearly agree',
+		'angle between them (rad)',
+		[*depths, Limit('contact point over the overlap', 'centreError', 1e-9)],
+	),
+	'planes': Axis(
+		'Planes per body',
+		'planes',
+		[*depths, Limit('contact point over the overlap', 'centreError', 1e-8)],
+		'The conservative contact’s barrier counts planes: the more there are, the deeper an overlap before its force begins.',
+	),
+	'redundant': Axis(
+		'Redundant and duplicated planes',
+		'planes added to a box',
+		[*depths, Limit('contact point over the overlap', 'centreError', 3e-9)],
+		'Copies move the analytic centre by definition (they are kept); the reference has them too.',
+	),
+	'touching': Axis(
+		'Exactly touching',
+		'gap in roundings of the size (2.2e-16)',
+		[
+			Limit('s* over the size', 'infeasibilityError', 1e-14),
+			Limit('least overlap called a contact, in roundings', 'overlapCalledContact', 200, 'paper', least=30),
+			Limit('largest overlap called separated, in roundings', 'overlapCalledSeparated', 60, 'paper'),
+		],
+		'A pair touches from −s* = 45 roundings on. The conservative contact begins deeper, where its barrier is overcome.',
+	),
+	'coincident': Axis(
+		'Identical bodies in one place',
+		'distance of their centres over the size',
+		depths,
+		'No direction leads out of coincident bodies: noDirection, the normal along the line of centres (paper), no force (conservative).',
+	),
+	'inside': Axis(
+		'One body inside the other',
+		'inner over outer body',
+		[Limit('s* over the size', 'infeasibilityError', 1e-14), Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative')],
+		'No plane of the outer body is near: noDirection (paper), a force that fades out (conservative).',
+	),
+	'deep': Axis(
+		'Overlap beyond the corner radius',
+		'overlap −s* (conservative: −Φ) over the corner radius',
+		[*depths, Limit('contact point over the overlap', 'centreError', 1e-9)],
+		'Deeper than cornerRadius in one body the normal is the other’s (normalFromOneBody), in both the programme’s dual direction '
+		'(normalFromDual), checked to lead out: moved along it by what it promises, the pair is free in exact arithmetic.',
+	),
+	'units': Axis(
+		'Units',
+		'one size in metres',
+		[*depths, Limit('difference to the answer in metres, scaled', 'deviation', 1e-11)],
+		'From 1e-60 to 1e45 m. Planes 1e60 m away are what the kernel fills its vectors with: bodies of that size fail.',
+	),
+}

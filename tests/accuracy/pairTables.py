@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the samples of polytope_extremes say: faults, worst errors, and how contacts ended."""
+
+import collections
+import csv
+import math
+import statistics
+
+__all__ = ['Sample', 'faults', 'quiet', 'readSamples', 'summary', 'worst']
+
+quiet = ('contact', 'normalFromOneBody', 'normalFromDual')
+"""Statuses that raise no doubt about point, depth and normal; every other one is loud."""
+failed = ('failed', 'refused', 'lpNotConverged', 'centreNotConverged', 'ipoptNotAvailable')
+
+rounding = 2.0**-52
+
+textColumns = ('axis', 'kind', 'model', 'status', 'refusal')
+flags = ('inContact', 'touches', 'within', 'compared', 'finite', 'bounded', 'free')
+
+
+class Sample:
+	"""One contact of one pair: the CSV's columns as attributes, NaN where there is none."""
+
+	def __init__(self, row):
+		for name, text in row.items():
+			if name in flags:
+				setattr(self, name, text == '1')
+			else:
+				setattr(self, name, text if name in textColumns else float(text) if text else math.nan)
+
+	@property
+	def refused(self):
+		return self.status == 'refused'
+
+	@property
+	def missed(self):
+		"""A contact called separated, beyond what rounding leaves open. What failed says so."""
+		return self.touches and not self.inContact and not self.within and self.status == 'separated'
+
+	@property
+	def falseContact(self):
+		return self.inContact and not self.touches and not self.within
+
+	def error(self, quantity):
+		"""A column or one of `derived`; NaN where the sample has none, or its status is loud."""
+		if self.refused or quantity not in ('infeasibilityError', 'infeasibilityOfLarger') and self.status not in quiet + ('separated',):
+			return math.nan
+		if quantity in ('depthError', 'centreError', 'forceError', 'normalError') and not self.compared:
+			return math.nan
+		return derived[quantity](self) if quantity in derived else getattr(self, quantity)
+
+	@property
+	def silent(self):
+		"""An error beyond what rounding of the planes explains, with a status that raises no doubt."""
+		if self.status not in (*quiet, 'separated'):
+			return False
+		# 2e-14: what the definition of the depth leaves to a centre accepted at newtonTolerance
+		pairs = [(self.infeasibilityError, self.infeasibilityRounding)]
+		if self.compared:
+			pairs += [
+				(self.depthError, self.depthRounding + 2e-14),
+				(self.centreError, self.centreRounding),
+				(self.normalError, self.normalRounding),
+			]
+		return any(error > allowed for error, allowed in pairs)
+
+
+def _compared(sample, value):
+	return value if sample.compared else math.nan
+
+
+derived = {
+	'infeasibilityOfLarger': lambda s: s.infeasibilityError / s.value,
+	'depthOfLarger': lambda s: _compared(s, s.depthError / s.value),
+	'forceOfLarger': lambda s: _compared(s, s.forceError / s.value),
+	'centreTimesOverlap': lambda s: _compared(s, max(s.centreError - 3e-9, 0) * -s.infeasibility),
+	'movedOverDistance': lambda s: abs(s.moved) / s.value,
+	'overlapCalledContact': lambda s: -s.infeasibility / rounding if s.inContact and s.value > -150 else math.nan,
+	'overlapCalledSeparated': lambda s: -s.infeasibility / rounding if not s.inContact else math.nan,
+}
+
+
+def readSamples(path):
+	"""The samples of one CSV file."""
+	with open(path, newline='') as file:
+		return [Sample(row) for row in csv.DictReader(file)]
+
+
+def faults(samples):
+	"""What must not be: {name: samples}."""
+	asked = [s for s in samples if not s.refused]
+	return {
+		'not a number': [s for s in asked if not s.finite],
+		'unbounded': [s for s in asked if not s.bounded],
+		'missed contact': [s for s in asked if s.missed],
+		'false contact': [s for s in asked if s.falseContact],
+		'no way out along the normal': [s for s in asked if not s.free],
+		'error without a status': [s for s in asked if s.silent],
+	}
+
+
+def worst(samples, limit):
+	"""The largest (and least) value of a limit's quantity over the samples it holds for; NaN, NaN where there is none."""
+	values = [
+		s.error(limit.quantity) for s in samples if limit.model in ('', s.model) and limit.low <= s.value <= limit.high and not s.refused
+	]
+	values = [v for v in values if not math.isnan(v)]
+	return (max(values), min(values)) if values else (math.nan, math.nan)
+
+
+summaryColumns = (
+	'pair',
+	'model',
+	'value',
+	'samples',
+	's*: median error',
+	's*: worst',
+	'depth: worst error',
+	'depth × normal: worst error',
+	'point: median error',
+	'point: worst',
+	'normal: worst error',
+	'µs, worst',
+	'how they ended',
+)
+
+
+def summary(samples):
+	"""Rows for `summaryColumns`: one for each kind of pair, model and value."""
+	groups = collections.defaultdict(list)
+	for s in samples:
+		groups[s.kind, s.model, s.value].append(s)
+	rows = []
+	for (kind, model, value), group in groups.items():
+
+		def of(pick, name, group=group):
+			values = [getattr(s, name) for s in group if not s.refused and (name == 'infeasibilityError' or s.compared)]
+			return f'{pick(values):.2g}' if values else ''
+
+		ends = collections.Counter(s.status for s in group)
+		times = [s.nanoseconds / 1e3 for s in group if not s.refused]
+		rows.append(
+			[
+				kind,
+				model,
+				f'{value:g}',
+				len(group),
+				of(statistics.median, 'infeasibilityError'),
+				of(max, 'infeasibilityError'),
+				of(max, 'depthError'),
+				of(max, 'forceError'),
+				of(statistics.median, 'centreError'),
+				of(max, 'centreError'),
+				of(max, 'normalError'),
+				f'{max(times):.3g}' if times else '',
+				', '.join(f'{name} {count}' for name, count in ends.items()),
+			]
+		)
+	return rows
