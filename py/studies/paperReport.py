@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One report of the paper's simulations: an HTML page with all figures and tables, a CSV file with all rows, and a table on screen.
+"""One report of several scripts' findings (`./run paper`, `./run accuracy`): an HTML page with all figures and tables, a CSV file with all rows, and a table on screen.
 
 It takes what Findings wrote into the folders of the runs (see paperRuns.Run).
 """
@@ -47,6 +47,7 @@ def section(run):
 		'title': findings.get('title', run.title),
 		'summary': _summary(run.script),
 		'script': run.script.name,
+		'command': '/'.join(run.script.parts[-3:]),
 		'options': ' '.join(run.options),
 		'seconds': record.get('seconds'),
 		'failure': run.failure,
@@ -100,15 +101,16 @@ def writeResults(sections, path):
 				writer.writerow([part['letter'], part['title'], row['quantity'], row['unit'], *figures, row['cells'][-1], row['note']])
 
 
-def writeHtml(sections, template, path, quick, absent):
+def writeHtml(sections, template, path, quick, absent, base=None):
 	"""The page.
 
 	:param list sections: see section()
 	:param pathlib.Path template: of jinja2
+	:param base: folder of the template that *template* extends, if it does
 	:param bool quick: whether these are short variants
 	:param list absent: letters of the simulations that were not asked for
 	"""
-	environment = jinja2.Environment(loader=jinja2.FileSystemLoader(template.parent), autoescape=True, undefined=jinja2.StrictUndefined)
+	environment = jinja2.Environment(loader=jinja2.FileSystemLoader([template.parent, *([base] if base else [])]), autoescape=True, undefined=jinja2.StrictUndefined)
 	rows = [row for part in sections for row in part['rows']]
 	about = {
 		'quick': quick,
@@ -119,6 +121,8 @@ def writeHtml(sections, template, path, quick, absent):
 		'missed': sum(row['good'] is False for row in rows),
 		'failed': [part['letter'] for part in sections if part['failure']],
 		'absent': absent,
+		'withPaper': any(row['paper'] is not None for row in rows),
+		'withTheory': any(row['theory'] is not None for row in rows),
 	}
 	path.write_text(environment.get_template(template.name).render(sections=sections, about=about))
 

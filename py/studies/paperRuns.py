@@ -16,14 +16,15 @@ __all__ = ['Run', 'perform', 'sourceHash']
 sourceFolders = ('src', 'pkg', 'py', 'examples')
 
 
-def sourceHash(project, without=()):
+def sourceHash(project, without=(), folders=sourceFolders):
 	"""Of all that a result may depend on: any change makes every simulation run again.
 
 	:param pathlib.Path project: the folder in which src, pkg, py and examples are
 	:param without: paths in it that no result depends on
+	:param folders: of the project, that results depend on
 	"""
 	digest = hashlib.sha256()
-	for folder in sourceFolders:
+	for folder in folders:
 		for path in sorted((project / folder).rglob('*')):
 			if path.is_file() and '__pycache__' not in path.parts and path.relative_to(project) not in without:
 				digest.update(f'{path.relative_to(project)} {path.stat().st_size}\n'.encode())

@@ -39,10 +39,11 @@ namespace {
 	/// Body 2 to aside + t·direction with s* (Φ) = target, by bisection.
 	void approach(Pair& pair, const Vector3& aside, const Vector3& direction, Real target, ContactModel model = ContactModel::Paper)
 	{
-		Real near = 0, far = 2 * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius()) + aside.norm() + 2 * std::abs(target);
+		Real near = 0,
+		     far  = 2 * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius()) + aside.norm() + 2 * std::abs(target);
 		for (int step = 0; step < 70; ++step) {
-			const Real middle = (near + far) / 2;
-			pair.centre2      = aside + middle * direction;
+			const Real middle                          = (near + far) / 2;
+			pair.centre2                               = aside + middle * direction;
 			(level(pair, model) < target ? near : far) = middle;
 		}
 	}
@@ -68,9 +69,11 @@ namespace {
 		const Shape cube = rounded(cuboid(1, 1, 1)), slab = rounded(cuboid(Real(0.8), Real(0.7), Real(0.9)));
 		const Shape octahedron = rounded(regularSolid(8, 1));
 		const Real  turn       = uniform(random, -3, 3);
-		const auto  tilted     = [&](const Matrix3& rotation) { return Matrix3(about(randomDirection(random), uniform(random, 0, Real(0.2))) * rotation); };
-		Pair        pair;
-		Vector3     aside = Vector3::Zero();
+		const auto  tilted     = [&](const Matrix3& rotation) {
+                        return Matrix3(about(randomDirection(random), uniform(random, 0, Real(0.2))) * rotation);
+		};
+		Pair    pair;
+		Vector3 aside = Vector3::Zero();
 		if (kind == "face on face") {
 			pair             = pairOf(cube, slab);
 			pair.rotation[1] = about(Vector3::UnitZ(), turn);
@@ -96,8 +99,7 @@ namespace {
 				rotation = randomRotation(random);
 			approach(pair, aside, randomDirection(random), -overlap * pair.size(), model);
 			return pair;
-		} else
-			throw std::logic_error("no such kind: " + kind);
+		} else throw std::logic_error("no such kind: " + kind);
 		approach(pair, aside, Vector3::UnitZ(), -overlap * pair.size(), model);
 		return anyTurn(pair, random);
 	}
@@ -114,14 +116,18 @@ namespace {
 
 	// ------------------------------------------------------------------------------------------------------ axes
 
-	Pair depthPair(Real value, const std::string& kind, ContactModel model, Random& random) { return features(kind, value, model, random); }
+	Pair depthPair(Real value, const std::string& kind, ContactModel model, Random& random)
+	{
+		return features(kind, value, model, random);
+	}
 
 	Pair aspectPair(Real aspect, const std::string& kind, ContactModel, Random& random)
 	{
 		const Real thin = 1 / aspect;
 		if (kind == "plate and cube") return anyhow(rounded(cuboid(1, 1, thin)), rounded(cuboid(1, 1, 1)), Real(0.1), random);
 		if (kind == "needle and cube") return anyhow(rounded(cuboid(1, thin, thin)), rounded(cuboid(1, 1, 1)), Real(0.1), random);
-		if (kind == "crossed needles") return anyhow(rounded(cuboid(1, thin, thin)), rounded(cuboid(1, thin, thin)), Real(0.1), random);
+		if (kind == "crossed needles")
+			return anyhow(rounded(cuboid(1, thin, thin)), rounded(cuboid(1, thin, thin)), Real(0.1), random);
 		if (kind == "plate on plate") {
 			Pair pair        = pairOf(rounded(cuboid(1, 1, thin)), rounded(cuboid(1, Real(0.9), thin)));
 			pair.rotation[1] = about(Vector3::UnitZ(), uniform(random, -3, 3));
@@ -157,7 +163,10 @@ namespace {
 		return random() % 2 ? pair : swapped(pair);
 	}
 
-	Pair placedPair(Real, const std::string& kind, ContactModel model, Random& random) { return features(kind, Real(1e-3), model, random); }
+	Pair placedPair(Real, const std::string& kind, ContactModel model, Random& random)
+	{
+		return features(kind, Real(1e-3), model, random);
+	}
 	/// Both centres rounded where the scene has them.
 	Pair roundedPlaces(Real distance, const std::string& kind, ContactModel model, Random& random)
 	{
@@ -181,7 +190,8 @@ namespace {
 		}
 		Pair       pair  = pairOf(rounded(cuboid(1, 1, 1)), rounded(cuboid(Real(0.8), Real(0.7), Real(0.9))));
 		const Real along = uniform(random, -3, 3);
-		pair.rotation[1] = about(Vector3(std::cos(along), std::sin(along), 0), angle) * about(Vector3::UnitZ(), uniform(random, -3, 3));
+		pair.rotation[1]
+		        = about(Vector3(std::cos(along), std::sin(along), 0), angle) * about(Vector3::UnitZ(), uniform(random, -3, 3));
 		// a wedge-shaped overlap that ends within the face, or one that does not
 		const Real overlap = kind == "wedge" ? Real(0.1) * angle : Real(1e-2);
 		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), -overlap, model);
@@ -279,10 +289,12 @@ namespace {
 			if (kind == "all faces again") normal = Vector3(set.normals[random() % 6]);
 			set.normals.push_back(normal);
 			// the box's farthest vertex along the normal
-			set.offsets.push_back(std::abs(normal[0]) * Real(0.8) + std::abs(normal[1]) * Real(0.7) + std::abs(normal[2]) * Real(0.9) + room);
+			set.offsets.push_back(
+			        std::abs(normal[0]) * Real(0.8) + std::abs(normal[1]) * Real(0.7) + std::abs(normal[2]) * Real(0.9) + room);
 		}
-		Pair pair        = pairOf(rounded(cuboid(1, 1, 1)), rounded(set));
-		pair.rotation[1] = about(randomDirection(random), uniform(random, 0, Real(0.3))) * about(Vector3::UnitZ(), uniform(random, -3, 3));
+		Pair pair = pairOf(rounded(cuboid(1, 1, 1)), rounded(set));
+		pair.rotation[1]
+		        = about(randomDirection(random), uniform(random, 0, Real(0.3))) * about(Vector3::UnitZ(), uniform(random, -3, 3));
 		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3), model);
 		return anyTurn(pair, random);
 	}
@@ -293,8 +305,8 @@ namespace {
 		const Shape cube = rounded(cuboid(1, 1, 1)), octahedron = rounded(regularSolid(8, 1));
 		Pair        pair;
 		const auto  place = [&](const Shape& one, const Shape& two, Real x, Real y, Real z) {
-			pair         = pairOf(one, two);
-			pair.centre2 = Vector3(x, y, z);
+                        pair         = pairOf(one, two);
+                        pair.centre2 = Vector3(x, y, z);
 		};
 		if (kind == "vertex on vertex") place(cube, cube, 2, 2, 2);
 		else if (kind == "vertex on edge") place(cube, octahedron, 2, Real(0.25), 1);
@@ -325,8 +337,9 @@ namespace {
 
 	Pair insidePair(Real ratio, const std::string& kind, ContactModel, Random& random)
 	{
-		const Shape outer = rounded(anySolid(random)), inner = scaled(*rounded(anySolid(random)), ratio * outer->inscribedRadius() / 4);
-		Pair        pair  = pairOf(outer, inner);
+		const Shape outer = rounded(anySolid(random)),
+		            inner = scaled(*rounded(anySolid(random)), ratio * outer->inscribedRadius() / 4);
+		Pair pair         = pairOf(outer, inner);
 		if (kind == "anywhere") pair.centre2 = uniform(random, 0, Real(0.5)) * outer->inscribedRadius() * randomDirection(random);
 		for (Matrix3& rotation : pair.rotation)
 			rotation = randomRotation(random);
@@ -343,8 +356,14 @@ namespace {
 		return pair;
 	}
 
-	Pair unitPair(Real, const std::string& kind, ContactModel model, Random& random) { return features(kind, Real(1e-3), model, random); }
-	Pair inUnits(Real unit, const std::string& kind, ContactModel model, Random& random) { return scaled(unitPair(unit, kind, model, random), unit); }
+	Pair unitPair(Real, const std::string& kind, ContactModel model, Random& random)
+	{
+		return features(kind, Real(1e-3), model, random);
+	}
+	Pair inUnits(Real unit, const std::string& kind, ContactModel model, Random& random)
+	{
+		return scaled(unitPair(unit, kind, model, random), unit);
+	}
 
 	/// 10^low … 10^high, low < high or not.
 	std::vector<Real> powers(int from, int to, int stride = 1)
@@ -368,22 +387,26 @@ const std::vector<PairAxis>& pairAxes()
 	static const std::vector<std::string> contacts { "face on face", "vertex on face", "edge on edge", "any solids", "polygons" };
 	static const std::vector<std::string> solidContacts { "face on face", "vertex on face", "edge on edge", "any solids" };
 	static const std::vector<PairAxis>    axes {
-        { "depth", powers(-1, -15, -1), contacts, depthPair },
-        { "aspect", powers(0, 10), { "plate and cube", "needle and cube", "plate on plate", "crossed needles", "slivers", "polygons" }, aspectPair },
-        { "size", powers(0, 8), { "any solids", "on a face", "at a vertex", "polygons" }, sizePair },
-        { "coordinates", joined({ 0 }, powers(0, 12)), contacts, roundedPlaces, placedPair },
-        { "angle", powers(-1, -17, -1), { "wedge", "whole face", "polygons" }, anglePair },
-        { "twins", powers(-1, -17, -1), { "both have a share", "both have a share, vertex below", "redundant" }, twinsPair },
-        { "planes", { 4, 6, 10, 20, 50, 100, 200, 600, 2000 }, { "balls", "spike on face", "drum on drum" }, planesPair, nullptr, false, 100 },
-        { "redundant", { 0, 1, 3, 10, 30, 100, 1000 }, { "face again", "all faces again", "through vertices", "outside" }, redundantPair, nullptr, false, 100 },
-        { "touching",
-          { -10000, -1000, -300, -150, -100, -70, -50, -30, -10, -3, -1, 0, 1, 3, 10, 30, 100, 1000, 10000 },
-          { "vertex on vertex", "vertex on edge", "vertex on face", "edge on edge, parallel", "edge on edge, crossed", "edge on face", "face on face" },
-          touchingPair },
-        { "coincident", joined({ 0 }, powers(-18, -1)), { "4", "6", "8", "12", "20", "any planes" }, coincidentPair },
-        { "inside", { 1, Real(0.3), Real(0.1), 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8 }, { "concentric", "anywhere" }, insidePair },
-        { "deep", { 0.1, 0.3, 0.6, 0.9, 0.99, 1, 1.01, 1.1, 1.5, 2, 3, 6, 10, 30, 60, 90 }, solidContacts, deepPair },
-        { "units", joined(powers(-60, -15, 15), joined(powers(-12, 6, 3), powers(15, 45, 15))), contacts, inUnits, unitPair, true },
+		   { "depth", powers(-1, -15, -1), contacts, depthPair },
+		   { "aspect", powers(0, 10),
+		           { "plate and cube", "needle and cube", "plate on plate", "crossed needles", "slivers", "polygons" }, aspectPair },
+		   { "size", powers(0, 8), { "any solids", "on a face", "at a vertex", "polygons" }, sizePair },
+		   { "coordinates", joined({ 0 }, powers(0, 12)), contacts, roundedPlaces, placedPair },
+		   { "angle", powers(-1, -17, -1), { "wedge", "whole face", "polygons" }, anglePair },
+		   { "twins", powers(-1, -17, -1), { "both have a share", "both have a share, vertex below", "redundant" }, twinsPair },
+		   { "planes", { 4, 6, 10, 20, 50, 100, 200, 600, 2000 }, { "balls", "spike on face", "drum on drum" }, planesPair, nullptr,
+		           false, 100 },
+		   { "redundant", { 0, 1, 3, 10, 30, 100, 1000 }, { "face again", "all faces again", "through vertices", "outside" },
+		           redundantPair, nullptr, false, 100 },
+		   { "touching", { -10000, -1000, -300, -150, -100, -70, -50, -30, -10, -3, -1, 0, 1, 3, 10, 30, 100, 1000, 10000 },
+		           { "vertex on vertex", "vertex on edge", "vertex on face", "edge on edge, parallel", "edge on edge, crossed",
+		                   "edge on face", "face on face" },
+		           touchingPair },
+		   { "coincident", joined({ 0 }, powers(-18, -1)), { "4", "6", "8", "12", "20", "any planes" }, coincidentPair },
+		   { "inside", { 1, Real(0.3), Real(0.1), 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8 }, { "concentric", "anywhere" },
+		           insidePair },
+		   { "deep", { 0.1, 0.3, 0.6, 0.9, 0.99, 1, 1.01, 1.1, 1.5, 2, 3, 6, 10, 30, 60, 90 }, solidContacts, deepPair },
+		   { "units", joined(powers(-60, -15, 15), joined(powers(-12, 6, 3), powers(15, 45, 15))), contacts, inUnits, unitPair, true },
 	};
 	return axes;
 }

@@ -33,11 +33,12 @@ std::uint64_t seedOf(const std::string& text)
 
 void writeRow(const std::string& head, const Comparison& c, Real deviation, Real moved)
 {
-	std::cout << head << ',' << statusName(c.result.status) << ',' << c.result.inContact << ',' << c.touches << ',' << c.within << ',' << c.size << ','
-	          << c.inscribed / c.size << ',' << c.infeasibility << ',' << c.infeasibilityError << ',' << c.infeasibilityRounding << ',' << c.value << ',' << c.valueError << ',' << c.depth
-	          << ',' << c.depthError << ',' << c.depthRounding << ',' << c.centreError << ',' << c.centreRounding << ',' << c.normalError << ','
-	          << c.normalRounding << ',' << c.forceError << ',' << c.compared << ',' << c.finite << ',' << c.bounded << ',' << c.free << ',' << deviation << ',' << moved << ','
-	          << c.result.simplexPivots << ',' << c.result.newtonIterations << ',' << c.nanoseconds << ",\n";
+	std::cout << head << ',' << statusName(c.result.status) << ',' << c.result.inContact << ',' << c.touches << ',' << c.within << ','
+	          << c.size << ',' << c.inscribed / c.size << ',' << c.infeasibility << ',' << c.infeasibilityError << ','
+	          << c.infeasibilityRounding << ',' << c.value << ',' << c.valueError << ',' << c.depth << ',' << c.depthError << ','
+	          << c.depthRounding << ',' << c.centreError << ',' << c.centreRounding << ',' << c.normalError << ',' << c.normalRounding
+	          << ',' << c.forceError << ',' << c.compared << ',' << c.finite << ',' << c.bounded << ',' << c.free << ',' << deviation
+	          << ',' << moved << ',' << c.result.simplexPivots << ',' << c.result.newtonIterations << ',' << c.nanoseconds << ",\n";
 }
 
 void writeRefusal(const std::string& head, std::string message)
@@ -53,9 +54,9 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 	name << axis.name << '/' << kind << '/' << value << '/' << number;
 	const std::uint64_t seed = seedOf(name.str());
 	const auto          head = [&](ContactModel model) {
-        std::ostringstream text;
-        text << axis.name << ",\"" << kind << "\"," << value << ',' << number << ',' << modelName(model);
-        return text.str();
+                std::ostringstream text;
+                text << axis.name << ",\"" << kind << "\"," << value << ',' << number << ',' << modelName(model);
+                return text.str();
 	};
 	Pair       pair;
 	const auto make = [&](PairAxis::Maker maker, ContactModel model) {
@@ -75,8 +76,8 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 			if (axis.intended) {
 				const Pair      intended = make(axis.intended, model);
 				ContactSettings settings;
-				settings.contactModel = model;
-				settings.section      = true;
+				settings.contactModel      = model;
+				settings.section           = true;
 				const ContactResult before = query(intended, settings);
 				const Real          unit   = axis.scaled ? value : Real(1);
 				other                      = deviation(c.result, before, unit, intended.size());
@@ -112,8 +113,10 @@ int main(int count, char** arguments)
 		if (!known) return usage(arguments[0]);
 	}
 	std::cout.precision(17);
-	std::cout << "axis,kind,value,sample,model,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,infeasibilityRounding,barrierValue,"
-	             "barrierValueError,depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,compared,finite,bounded,free,"
+	std::cout << "axis,kind,value,sample,model,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,"
+	             "infeasibilityRounding,barrierValue,"
+	             "barrierValueError,depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,"
+	             "compared,finite,bounded,free,"
 	             "deviation,moved,pivots,iterations,nanoseconds,refusal\n";
 	for (const PairAxis& axis : pairAxes()) {
 		bool asked = count == first + 1;
@@ -123,7 +126,8 @@ int main(int count, char** arguments)
 		for (const std::string& kind : axis.kinds)
 			for (Real value : axis.values) {
 				const bool costly = value > axis.costlyAbove;
-				for (int number = 0; number < samples && !(costly && (quick || number * value > samples * axis.costlyAbove)); ++number)
+				for (int number = 0;
+				        number < samples && !(costly && (quick || number * value > samples * axis.costlyAbove)); ++number)
 					sample(axis, value, kind, number);
 			}
 	}

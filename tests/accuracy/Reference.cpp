@@ -35,9 +35,9 @@ namespace {
 
 	bool allFinite(const ContactResult& r)
 	{
-		return r.point.allFinite() && r.normal.allFinite() && r.dualDirection.allFinite() && r.sectionCentroid.allFinite() && std::isfinite(r.depth)
-		        && std::isfinite(r.infeasibility) && std::isfinite(r.area) && std::isfinite(r.barrierValue) && std::isfinite(r.energy)
-		        && std::isfinite(r.rockingArm);
+		return r.point.allFinite() && r.normal.allFinite() && r.dualDirection.allFinite() && r.sectionCentroid.allFinite()
+		        && std::isfinite(r.depth) && std::isfinite(r.infeasibility) && std::isfinite(r.area)
+		        && std::isfinite(r.barrierValue) && std::isfinite(r.energy) && std::isfinite(r.rockingArm);
 	}
 
 	/// Whatever the status: what a law makes of it cannot be worse than what bodies of this size can do to each other.
@@ -57,10 +57,12 @@ namespace {
 	Real relative(const Digits150& difference, const Digits150& size) { return Real(abs(difference) / size); }
 
 	/// The normal of Eq. 17 at the reference's centre, from the bodies ours took it from. False where there is none.
-	bool referenceNormal(const PrecisePairOf<Digits150>& exact, const Vector& x, ContactStatus status, const Vector3& dual, Vector& normal)
+	bool referenceNormal(
+	        const PrecisePairOf<Digits150>& exact, const Vector& x, ContactStatus status, const Vector3& dual, Vector& normal)
 	{
 		if (status == ContactStatus::NormalFromDual) {
-			normal = precise<Digits150>(dual.normalized()); // not unique where the programme's basis is not: checked by its property instead
+			normal = precise<Digits150>(
+			        dual.normalized()); // not unique where the programme's basis is not: checked by its property instead
 			return true;
 		}
 		if (status != ContactStatus::NormalFromOneBody) return exact.normal(x, normal);
@@ -81,7 +83,7 @@ namespace {
 		if (!r.inContact || !(optimum.infeasibility < 0)) return;
 		Vector centre = optimum.point, normal;
 		if (!exact.analyticCentre(centre) || !referenceNormal(exact, centre, r.status, r.dualDirection, normal)) return;
-		c.compared           = true;
+		c.compared            = true;
 		const Digits150 depth = exact.depth(centre, normal);
 		const Vector    ours = precise<Digits150>(r.point), n = precise<Digits150>(r.normal);
 		c.centreError        = Real(exact.localLength(centre, minus(ours, centre)));
@@ -90,7 +92,7 @@ namespace {
 		c.depth              = Real(depth / size);
 		c.depthError         = relative(Digits150(r.depth) - depth, size);
 		const Real roundings = c.infeasibilityRounding * c.size;
-		c.centreRounding     = 2e-9 + roundings / Real(-optimum.infeasibility);
+		c.centreRounding     = 2e-9 + 2 * roundings / Real(-optimum.infeasibility);
 		const Digits150 slip = exact.normalSlip(0, centre, c.centreRounding) + exact.normalSlip(1, centre, c.centreRounding);
 		c.normalRounding     = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip));
 		const auto exit1 = exact.exit(0, centre, normal, 1), exit2 = exact.exit(1, centre, normal, -1);
@@ -114,13 +116,14 @@ namespace {
 	Real tiltedCentre(const PreciseBarrierOf<Digits150>& barrier)
 	{
 		std::array<std::array<Digits150, 4>, 4> h {};
-		const int                               n = barrier.pair.dimension + 1;
+		const int                               n    = barrier.pair.dimension + 1;
 		const auto                              each = [&](const auto& visit) {
-            for (const auto& body : barrier.pair.planes)
-                for (const auto& plane : body) {
-                    const std::array<Digits150, 4> z { -plane.normal[0], -plane.normal[1], barrier.pair.dimension == 3 ? Digits150(-plane.normal[2]) : Digits150(1), 1 };
-                    visit(z, barrier.s + plane.slack(barrier.x));
-                }
+                        for (const auto& body : barrier.pair.planes)
+                                for (const auto& plane : body) {
+                                        const std::array<Digits150, 4> z { -plane.normal[0], -plane.normal[1],
+                                                barrier.pair.dimension == 3 ? Digits150(-plane.normal[2]) : Digits150(1), 1 };
+                                        visit(z, barrier.s + plane.slack(barrier.x));
+                                }
 		};
 		each([&](const auto& z, const Digits150& sigma) {
 			const Digits150 weight = 2 * barrier.mu * barrier.mu / (sigma * sigma * sigma);
@@ -159,7 +162,7 @@ namespace {
 
 	void compareConservative(const Pair& pair, const ContactSettings& settings, const ExactOptimum& optimum, Comparison& c)
 	{
-		const ContactResult&        r = c.result;
+		const ContactResult&        r    = c.result;
 		const Digits150             size = pair.size();
 		PreciseBarrierOf<Digits150> barrier(pair, settings.barrier);
 		barrier.x             = optimum.point;
@@ -186,10 +189,12 @@ namespace {
 				sum += part * part;
 				nearest = std::min(nearest, sigma);
 			}
-		c.centreError        = Real(sqrt(sum));
-		c.forceError         = Real(norm(minus(along(Vector {}, Digits150(r.depth), precise<Digits150>(r.normal)), along(Vector {}, -4 * value, n))) / size);
+		c.centreError = Real(sqrt(sum));
+		c.forceError  = Real(
+                        norm(minus(along(Vector {}, Digits150(r.depth), precise<Digits150>(r.normal)), along(Vector {}, -4 * value, n)))
+                        / size);
 		const Real roundings = c.infeasibilityRounding * c.size;
-		c.centreRounding     = 2e-9 + roundings / Real(nearest) + tiltedCentre(barrier);
+		c.centreRounding     = 2e-9 + 2 * roundings / Real(nearest) + tiltedCentre(barrier);
 		if (!(length > 0) || r.status == ContactStatus::NoDirection) return;
 		c.compared       = true;
 		c.normalError    = Real(norm(minus(precise<Digits150>(r.normal), along(Vector {}, 1 / length, n))));
@@ -203,11 +208,7 @@ struct PairReference::Optimum {
 	ExactOptimum exact;
 };
 
-PairReference::PairReference(const Pair& pair)
-        : pair_(pair)
-        , optimum_(new Optimum { solvedExactly(pair) })
-{
-}
+PairReference::PairReference(const Pair& pair) : pair_(pair), optimum_(new Optimum { solvedExactly(pair) }) { }
 
 PairReference::~PairReference() = default;
 
@@ -224,7 +225,7 @@ Comparison PairReference::compare(ContactModel model) const
 	for (int repetition = 0; repetition < 3; ++repetition) {
 		const auto begin = std::chrono::steady_clock::now();
 		c.result         = query(pair_, settings);
-		c.nanoseconds    = std::min(c.nanoseconds, long(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count()));
+		c.nanoseconds = std::min(c.nanoseconds, long(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count()));
 	}
 	c.finite             = allFinite(c.result);
 	const Digits150 size = pair_.size();
@@ -233,12 +234,13 @@ Comparison PairReference::compare(ContactModel model) const
 	// four roundings of planes, and of where the bodies stand
 	c.infeasibilityRounding = 8 * tolerance::rounding * (c.size + pair_.centre2.norm()) / c.size;
 	c.within                = std::abs(c.infeasibility) <= tolerance::contact + c.infeasibilityRounding;
-	if (!c.result.dismissed) c.infeasibilityError = relative(Digits150(c.result.infeasibility) - optimum.infeasibility, size);
+	const Digits150 above   = Digits150(c.result.infeasibility) - optimum.infeasibility;
+	// of a separated pair ours is a lower bound
+	if (c.result.inContact || above > 0) c.infeasibilityError = relative(above, size);
 	if (model == ContactModel::Paper) {
 		comparePaper(pair_, optimum, c);
 		if (c.result.status == ContactStatus::NormalFromDual) c.free = isFree(pair_, c.result, optimum.infeasibility);
-	} else
-		compareConservative(pair_, settings, optimum, c);
+	} else compareConservative(pair_, settings, optimum, c);
 	return c;
 }
 
@@ -246,10 +248,9 @@ Real deviation(const ContactResult& ours, const ContactResult& other, Real unit,
 {
 	if (ours.inContact != other.inContact || ours.status != other.status) return std::numeric_limits<Real>::infinity();
 	const Real length = unit * size;
-	return std::max({ std::abs(ours.infeasibility / length - other.infeasibility / size),
-	                  std::abs(ours.depth / length - other.depth / size),
-	                  (ours.point / length - other.point / size).norm(),
-	                  (ours.normal - other.normal).norm() });
+	return std::max(
+	        { std::abs(ours.infeasibility / length - other.infeasibility / size), std::abs(ours.depth / length - other.depth / size),
+	                (ours.point / length - other.point / size).norm(), (ours.normal - other.normal).norm() });
 }
 
 } // namespace polytope::samples

@@ -20,6 +20,11 @@ statusColors = {
 	'centreByIpopt': '#b79ad0',
 }
 failedColor = '#b3261e'
+errors = {
+	'infeasibilityError': 's*: error over the size',
+	'forceError': 'depth × normal: error over the size',
+	'centreError': 'contact point: error over the overlap’s own size',
+}
 least = 1e-17
 """Errors below are drawn here: exact."""
 
@@ -32,13 +37,11 @@ def plotPairs(path, axis, samples):
 	"""
 	values = list(dict.fromkeys(s.value for s in samples))
 	kinds = list(dict.fromkeys(s.kind for s in samples))
-	figure = Figure(figsize=(12, 10), dpi=110)
-	plots = figure.subplots(3, 2, sharex=True, sharey='row', height_ratios=[3, 3, 1.6])
+	figure = Figure(figsize=(12, 13), dpi=110)
+	plots = figure.subplots(4, 2, sharex=True, sharey='row', height_ratios=[2, 2, 3, 1.4])
 	for column, model in enumerate(('paper', 'conservative')):
 		own = [s for s in samples if s.model == model]
-		for row, (name, label) in enumerate(
-			(('forceError', 'depth × normal: error over the size'), ('centreError', 'contact point: error over the overlap’s own size'))
-		):
+		for row, (name, label) in enumerate(errors.items()):
 			plot = plots[row][column]
 			for kind, color in zip(kinds, colors, strict=False):
 				_curve(plot, [s for s in own if s.kind == kind], values, name, kind, color)
@@ -46,27 +49,28 @@ def plotPairs(path, axis, samples):
 			plot.grid(True, lw=0.3, color='0.85')
 			if column == 0:
 				plot.set_ylabel(label)
-		_statuses(plots[2][column], own, values)
+		_statuses(plots[3][column], own, values)
 		plots[0][column].set_title(f'{axis.title}: {model}')
-		plots[2][column].set_xlabel(axis.label)
-		plots[2][column].set_xticks(range(len(values)), [f'{v:g}' for v in values], rotation=60 if len(values) > 9 else 0, fontsize=8)
-	plots[2][0].set_ylabel('share of statuses')
-	plots[0][0].legend(fontsize=8, title='line: median; marks: worst', title_fontsize=8)
+		plots[3][column].set_xlabel(axis.label)
+		plots[3][column].set_xticks(range(len(values)), [f'{v:g}' for v in values], rotation=60 if len(values) > 9 else 0, fontsize=8)
+	plots[3][0].set_ylabel('share of statuses')
+	handles, labels = plots[0][0].get_legend_handles_labels()
+	figure.legend(handles, labels, fontsize=8, ncols=len(labels), loc='lower center', bbox_to_anchor=(0.5, 0.016), frameon=False)
 	figure.text(
 		0.5,
 		0.005,
-		f'○ all statuses “contact”; ◇ another one that says what was done; ✕ not converged, failed or refused. Errors below {least:g} are drawn there.',
+		f'line: median, marks: worst; ● all statuses “contact”; ◇ another one that says what was done; ✕ not converged, failed or refused. Errors below {least:g} are drawn there.',
 		ha='center',
 		fontsize=8,
 	)
-	save(figure, path, bottom=0.03)
+	save(figure, path, bottom=0.035)
 
 
 def _curve(plot, samples, values, name, kind, color):
 	positions, medians, worsts, marks = [], [], [], []
 	for position, value in enumerate(values):
 		here = [s for s in samples if s.value == value]
-		errors = [max(getattr(s, name), least) for s in here if s.compared]
+		errors = [max(getattr(s, name), least) for s in here if not s.refused and (s.compared or name == 'infeasibilityError')]
 		if not errors:
 			continue
 		statuses = {s.status for s in here}

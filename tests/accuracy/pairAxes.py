@@ -58,7 +58,8 @@ axes = {
 		'Aspect ratio: plates and needles',
 		'length over thickness',
 		[
-			*depths,
+			Limit('s* over the size', 'infeasibilityError', 1e-14),
+			Limit('depth × normal over the size', 'forceError', 1e-12),
 			Limit('contact point over the overlap, up to 1e8', 'centreError', 1e-4, 'paper', high=1.1e8),
 			Limit('contact point over the overlap', 'centreError', 3e-2, 'conservative'),
 		],
@@ -128,7 +129,7 @@ axes = {
 	'coincident': Axis(
 		'Identical bodies in one place',
 		'distance of their centres over the size',
-		depths,
+		[*depths[:2], Limit('depth × normal over the size', 'forceError', 1e-10, 'conservative')],
 		'No direction leads out of coincident bodies: noDirection, the normal along the line of centres (paper), no force (conservative).',
 	),
 	'inside': Axis(

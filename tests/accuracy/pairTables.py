@@ -43,7 +43,7 @@ class Sample:
 
 	def error(self, quantity):
 		"""A column or one of `derived`; NaN where the sample has none, or its status is loud."""
-		if self.refused or quantity not in ('infeasibilityError', 'infeasibilityOfLarger') and self.status not in quiet + ('separated',):
+		if self.refused or self.status not in (*quiet, 'separated'):
 			return math.nan
 		if quantity in ('depthError', 'centreError', 'forceError', 'normalError') and not self.compared:
 			return math.nan

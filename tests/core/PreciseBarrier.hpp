@@ -13,14 +13,12 @@ template <class Number> class PreciseBarrierOf {
 public:
 	using Vector = PreciseVector<Number>;
 	PrecisePairOf<Number> pair;
-	Number        mu;
-	Vector  x {};
-	Number        s = 0;
+	Number                mu;
+	Vector                x {};
+	Number                s = 0;
 
 	PreciseBarrierOf(const Pair& source, Real barrier)
-	        : pair(source)
-	        , mu(Number(barrier) * Number(source.inscribedRadius()))
-	        , centre2_(precise<Number>(source.centre2))
+	        : pair(source), mu(Number(barrier) * Number(source.inscribedRadius())), centre2_(precise<Number>(source.centre2))
 	{
 	}
 
@@ -28,12 +26,13 @@ public:
 	PreciseBarrierOf moved(const Vector& move, const Vector& axis, const Number& angle) const
 	{
 		PreciseBarrierOf other = *this;
-		other.centre2_       = along(centre2_, 1, move);
+		other.centre2_         = along(centre2_, 1, move);
 		const Number c = cos(angle), sine = sin(angle);
 		for (auto& plane : other.pair.planes[1]) {
-			const Vector a     = plane.normal;
-			const Number       own   = plane.offset - dot(a, centre2_), parallel = dot(axis, a) * (1 - c);
-			const Vector cross = { axis[1] * a[2] - axis[2] * a[1], axis[2] * a[0] - axis[0] * a[2], axis[0] * a[1] - axis[1] * a[0] };
+			const Vector a   = plane.normal;
+			const Number own = plane.offset - dot(a, centre2_), parallel = dot(axis, a) * (1 - c);
+			const Vector cross
+			        = { axis[1] * a[2] - axis[2] * a[1], axis[2] * a[0] - axis[0] * a[2], axis[0] * a[1] - axis[1] * a[0] };
 			for (int k = 0; k < 3; ++k)
 				plane.normal[k] = c * a[k] + sine * cross[k] + parallel * axis[k];
 			plane.offset = own + dot(plane.normal, other.centre2_);
@@ -44,13 +43,13 @@ public:
 	/// Φ; leaves the minimiser in x and s, from where they are (lifted until inside). NaN if Newton does not get there.
 	Number value()
 	{
-		s = std::max<Number>(s, pair.violation(x) + mu / 4);
+		s            = std::max<Number>(s, pair.violation(x) + mu / 4);
 		Number reach = 0;
 		for (const auto& body : pair.planes)
 			for (const auto& plane : body)
 				reach = std::max<Number>(reach, abs(plane.offset));
 		for (int iteration = 0; iteration < 300; ++iteration) {
-			const int                          n = pair.dimension + 1;
+			const int                            n = pair.dimension + 1;
 			std::array<Number, 4>                step {};
 			std::array<std::array<Number, 4>, 4> h {};
 			step[n - 1] = -1;
@@ -85,9 +84,9 @@ public:
 					step[k] -= h[k][j] * step[j];
 				step[k] /= h[k][k];
 			}
-			const Vector from = x;
-			const Number       level = s, before = objective();
-			Number             t = 1;
+			const Vector from  = x;
+			const Number level = s, before = objective();
+			Number       t = 1;
 			for (int halving = 0; halving < 200; ++halving, t /= 2) {
 				for (int k = 0; k < n - 1; ++k)
 					x[k] = from[k] + t * step[k];

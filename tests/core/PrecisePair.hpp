@@ -22,15 +22,22 @@ template <class Number = Quad> PreciseVector<Number> precise(const Vector3& v) {
 
 template <class Number> Vector3 rounded(const PreciseVector<Number>& v) { return { Real(v[0]), Real(v[1]), Real(v[2]) }; }
 
-template <class Number> Number dot(const PreciseVector<Number>& a, const PreciseVector<Number>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class Number> Number dot(const PreciseVector<Number>& a, const PreciseVector<Number>& b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 template <class Number>
-PreciseVector<Number> along(const PreciseVector<Number>& x, const typename PreciseVector<Number>::value_type& t, const PreciseVector<Number>& n)
+PreciseVector<Number> along(
+        const PreciseVector<Number>& x, const typename PreciseVector<Number>::value_type& t, const PreciseVector<Number>& n)
 {
 	return { x[0] + t * n[0], x[1] + t * n[1], x[2] + t * n[2] };
 }
 
-template <class Number> PreciseVector<Number> minus(const PreciseVector<Number>& a, const PreciseVector<Number>& b) { return along(a, Number(-1), b); }
+template <class Number> PreciseVector<Number> minus(const PreciseVector<Number>& a, const PreciseVector<Number>& b)
+{
+	return along(a, Number(-1), b);
+}
 
 template <class Number> Number norm(const PreciseVector<Number>& v) { return sqrt(dot(v, v)); }
 
@@ -39,19 +46,18 @@ public:
 	using Vector = PreciseVector<Number>;
 	struct Plane {
 		Vector normal;
-		Number       offset;
-		Number       slack(const Vector& x) const { return offset - dot(normal, x); }
+		Number offset;
+		Number slack(const Vector& x) const { return offset - dot(normal, x); }
 	};
 	std::array<std::vector<Plane>, 2> planes;
-	std::array<Number, 2>               cornerRadius;
+	std::array<Number, 2>             cornerRadius;
 	int                               dimension;
 
-	explicit PrecisePairOf(const Pair& pair)
-	        : dimension(pair.dimension())
+	explicit PrecisePairOf(const Pair& pair) : dimension(pair.dimension())
 	{
 		for (int body = 0; body < 2; ++body) {
 			const HalfSpaces& set    = pair.shape[body]->planes();
-			const Vector  centre = precise<Number>(body == 0 ? Vector3::Zero() : pair.centre2);
+			const Vector      centre = precise<Number>(body == 0 ? Vector3::Zero() : pair.centre2);
 			cornerRadius[body]       = pair.shape[body]->cornerRadius();
 			for (std::size_t i = 0; i < set.size(); ++i) {
 				Plane plane;
@@ -88,9 +94,10 @@ public:
 	/// The analytic centre by damped Newton from x (strictly inside), to three quarters of the digits. False if it does not get there.
 	bool analyticCentre(Vector& x) const
 	{
-		const Number close = ldexp(Number(1), -3 * std::numeric_limits<Number>::digits / 8); // and twice as many digits after that step
+		const Number close
+		        = ldexp(Number(1), -3 * std::numeric_limits<Number>::digits / 8); // and twice as many digits after that step
 		for (int iteration = 0; iteration < 500; ++iteration) {
-			Vector step;
+			Vector       step;
 			const Number decrement = newtonStep(x, step);
 			if (decrement < 0) return false;
 			x = along(x, decrement < Number(0.25) ? Number(1) : Number(1 / (1 + decrement)), step);
@@ -160,7 +167,7 @@ public:
 	bool normal(const Vector& x, Vector& n) const
 	{
 		const Vector g0 = innerGradient(0, x), g1 = innerGradient(1, x);
-		const Number       l0 = norm(g0), l1 = norm(g1);
+		const Number l0 = norm(g0), l1 = norm(g1);
 		if (l0 == 0 || l1 == 0) return false;
 		for (int k = 0; k < 3; ++k)
 			n[k] = g0[k] / l0 - g1[k] / l1;

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Studies of accuracy, and one report of what came out: the program behind `./run accuracy`.
+
+Each script of this folder runs as a program of its own and leaves its findings (yade.polytope.findings) in a folder of its own. Out of
+these come report.html, with all figures and tables, and results.csv. A study that is complete, of the same source and with the same
+options, is not run again. Ends with 1, and says why, if a limit was missed or a script failed.
+
+	./run accuracy                        # all studies
+	./run accuracy --quick                # fewer samples and steps, the same limits
+	./run accuracy --only pairs scenes    # these two
+"""
+
+import argparse
+import os
+import pathlib
+import signal
+import sys
+
+os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
+
+from yade.polytope.studies.options import count
+from yade.polytope.studies.paperReport import section, show, writeHtml, writeResults
+from yade.polytope.studies.paperRuns import Run, perform, sourceHash
+
+here = scripts = pathlib.Path(__file__).resolve().parent
+project = here.parents[1]
+
+studies = {
+	'pairs': ('pairExtremes', 'Pairs at the extremes', ('--jobs', '1')),
+	'scenes': ('sceneExtremes', 'Scenes at the extremes', ()),
+	'path': ('contactPath', 'Path of the contact', ()),
+	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
+}
+"""Name: script, title, options besides --quick and --output."""
+
+
+def present():
+	"""The studies whose scripts are there."""
+	return {name: study for name, study in studies.items() if (scripts / f'{study[0]}.py').is_file()}
+
+
+def options(arguments=None):
+	parser = argparse.ArgumentParser(prog='./run accuracy', description=__doc__.splitlines()[0])
+	parser.add_argument('--quick', action='store_true', help='fewer samples and steps, with the same limits: minutes')
+	parser.add_argument('--only', nargs='+', choices=list(present()), default=list(present()), metavar='NAME', help=f'of {", ".join(present())}')
+	parser.add_argument('--fresh', action='store_true', help='run again what is complete already')
+	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/accuracy, with --quick output/accuracy-quick)')
+	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='studies at a time (default: one a processor)')
+	given = parser.parse_args(arguments)
+	given.output = (given.output or pathlib.Path('output/accuracy-quick' if given.quick else 'output/accuracy')).resolve()
+	return given
+
+
+def plannedRuns(given):
+	source = sourceHash(project, folders=('src', 'pkg', 'py', 'tests/core', 'tests/accuracy'))
+	quick = ['--quick'] if given.quick else []
+	return [
+		Run(name, title, scripts / f'{script}.py', given.output / script, [*quick, *extra], source)
+		for name, (script, title, extra) in present().items()
+		if name in given.only
+	]
+
+
+def main(arguments=None):
+	given = options(arguments)
+	given.output.mkdir(parents=True, exist_ok=True)
+	runs = plannedRuns(given)
+	if given.fresh:
+		for run in runs:
+			run.forget()
+	try:
+		perform(runs, given.jobs)
+	except KeyboardInterrupt:
+		print('\nInterrupted: what is complete is kept; call again to go on.', file=sys.stderr)
+		return 130
+	sections = [section(run) for run in runs]
+	page, rows = given.output / 'report.html', given.output / 'results.csv'
+	writeResults(sections, rows)
+	absent = [name for name in present() if name not in given.only]
+	writeHtml(sections, here / 'accuracy.html.jinja', page, given.quick, absent, base=project / 'examples/paper')
+	good = show(sections)
+	print(f'\nReport: {page}, rows: {rows}')
+	return 0 if good else 1
+
+
+if __name__ == '__main__':
+	signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that perform() stops what it started
+	sys.exit(main())

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`./run accuracy`: its quick variants hold the limits that the README states, and a fault would be seen."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+from yade import Quaternion, Vector3
+from yade import polytope
+
+folder = pathlib.Path(__file__).resolve().parents[1] / 'accuracy'
+program = folder.parents[1] / 'build/tests/accuracy/polytope_extremes'
+sys.path.append(str(folder))
+
+import pairTables
+import report
+
+
+def run(script, where, *options):
+	done = subprocess.run(
+		[sys.executable, folder / f'{script}.py', '--output', where, *options],
+		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=900
+	)
+	assert (where / 'findings.json').is_file(), done.stderr
+	return done.returncode, json.loads((where / 'findings.json').read_text())
+
+
+@pytest.mark.skipif(not program.is_file(), reason='polytope_extremes is not built')
+def testPairsHoldTheStatedLimits(tmp_path):
+	code, findings = run('pairExtremes', tmp_path, '--quick', '--samples', '1')
+	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
+	assert not [row for row in findings['rows'] if not row['good']]
+	assert code == 0 and len(findings['rows']) > 50
+	assert len(list(tmp_path.glob('*.png'))) == len(list((tmp_path / 'samples').glob('*.csv'))) == 13
+
+
+def testScenesHoldTheStatedLimits(tmp_path):
+	code, findings = run('sceneExtremes', tmp_path, '--quick')
+	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
+	assert not [row for row in findings['rows'] if not row['good']]
+	assert code == 0 and len(list(tmp_path.glob('*.png'))) == 6
+
+
+def sample(**changes):
+	"""A good contact as a line of the CSV, with changes."""
+	good = dict(
+		axis='depth', kind='face on face', value=0.1, sample=0, model='paper', status='contact', inContact=1, touches=1, within=0, size=1,
+		infeasibility=-0.1, infeasibilityError=1e-16, infeasibilityRounding=4e-15, depthError=1e-16, depthRounding=1e-15, forceError=1e-16,
+		centreError=1e-12, centreRounding=2e-9, normalError=1e-16, normalRounding=1e-14, compared=1, finite=1, bounded=1, free=1, refusal=''
+	)
+	return pairTables.Sample({name: str(value) for name, value in {**good, **changes}.items()})
+
+
+@pytest.mark.parametrize(
+	'fault, changes', [
+		('not a number', dict(finite=0)), ('unbounded', dict(bounded=0)), ('missed contact', dict(inContact=0, status='separated', compared=0)),
+		('false contact', dict(touches=0)), ('no way out along the normal', dict(free=0)), ('error without a status', dict(centreError=1e-6)),
+		('error without a status', dict(infeasibilityError=1e-13)), ('error without a status', dict(depthError=1e-13)),
+		('error without a status', dict(normalError=1e-3, status='normalFromOneBody')),
+	]
+)
+def testFaultsAreSeen(fault, changes):
+	found = pairTables.faults([sample(), sample(**changes)])
+	assert [name for name, bad in found.items() if bad] == [fault] and len(found[fault]) == 1
+
+
+@pytest.mark.parametrize(
+	'changes', [{}, dict(centreError=1., status='roundingLimited'), dict(inContact=0, within=1, status='separated', compared=0),
+	            dict(inContact=0, status='failed', compared=0), dict(touches=0, within=1)]
+)
+def testWhatIsLoudOrUndecidedIsNoFault(changes):
+	assert not any(pairTables.faults([sample(**changes)]).values())
+
+
+def testACoordinateCostsItsOwnRoundingOnly():
+	"""Up to 1e9 sizes from the origin: the contact is that of the positions as stored, its point rounded where it stands."""
+	turn = Quaternion((1, 2, 3), 0.4)
+	for distance in (0, 1e3, 1e6, 1e9):
+		far = Vector3(0.6, -0.48, 0.64) * distance
+		one, two = polytope.regular(12, 1, far), polytope.regular(8, 1, far + Vector3(0.7, 0.5, 1.1), turn)
+		apart = two.state.pos - one.state.pos
+		here, there = polytope.regular(12, 1), polytope.regular(8, 1, apart, turn)
+		for model in ('paper', 'conservative'):
+			c, near = polytope.contact(one, two, contactModel=model), polytope.contact(here, there, contactModel=model)
+			assert c.inContact and (c.infeasibility, c.depth, tuple(c.normal)) == (near.infeasibility, near.depth, tuple(near.normal))
+			assert (c.point - one.state.pos - near.point).norm() <= 4e-16 * max(distance, 1)
+
+
+def testThinPlatesSayThatTheirPointIsRounding():
+	"""Flat on flat, what holds the conservative contact's point along the face is the barrier of far side planes alone."""
+	turn = Quaternion((1, 2, 3), 0.7)
+	for aspect, status in ((1e3, 'contact'), (1e6, 'roundingLimited'), (1e8, 'roundingLimited'), (1e10, 'roundingLimited')):
+		one = polytope.cuboid((0, 0, 0), (1, 1, 1 / aspect), turn)
+		two = polytope.cuboid(turn * Vector3(0.3, 0.1, 1.8 / aspect), (1, 0.9, 1 / aspect), turn * Quaternion((0, 0, 1), 0.5))
+		c = polytope.contact(one, two, contactModel='conservative')
+		assert c.inContact and c.status == status and c.depth * aspect == pytest.approx(0.2, rel=1e-3)
+		assert max(abs(x) for x in turn.conjugate() * c.point) < 1
+
+
+# ------------------------------------------------------------------------------------------------ the runner
+
+script = '''"""A small study."""
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[sys.argv.index('--output') + 1])
+folder.mkdir(parents=True, exist_ok=True)
+row = dict(quantity='error of {name}', unit='', paper=None, theory=None, ours={ours}, accept=[0, 1], good={ours} <= 1, note='')
+good = row['good']
+(folder / 'findings.json').write_text(json.dumps(dict(letter='{name}', title='Study {name}', options={{}}, rows=[row], parts=[], good=good)))
+sys.exit(0 if good else 1)
+'''
+
+
+@pytest.fixture
+def studies(tmp_path, monkeypatch):
+	monkeypatch.setattr(report, 'scripts', tmp_path)
+	monkeypatch.setattr(report, 'studies', {'one': ('first', 'First', ()), 'two': ('second', 'Second', ()), 'none': ('absent', 'Absent', ())})
+	(tmp_path / 'first.py').write_text(script.format(name='one', ours=0.5))
+	(tmp_path / 'second.py').write_text(script.format(name='two', ours=0.25))
+	return tmp_path
+
+
+def testRunnerTakesTheScriptsThatAreThere(studies, capsys):
+	out = studies / 'out'
+	assert report.main(['--output', str(out)]) == 0
+	page = (out / 'report.html').read_text()
+	assert 'Study one' in page and 'Study two' in page and 'Absent' not in page and 'Accuracy of yade-polytope' in page
+	assert 'closed form' not in page and 'All 2 required rows hold.' in page
+	assert [row['quantity'] for row in csv.DictReader(open(out / 'results.csv'))] == ['error of one', 'error of two']
+	(studies / 'second.py').write_text(script.format(name='two', ours=2))
+	assert report.main(['--output', str(out), '--only', 'two', '--fresh']) == 1
+	assert 'two: missed: error of two' in capsys.readouterr().out
+	with pytest.raises(SystemExit):
+		report.main(['--only', 'none'])
+
+
+def testStudiesAreThere():
+	assert {'pairs', 'scenes'} <= set(report.present())
