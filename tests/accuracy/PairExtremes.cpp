@@ -4,6 +4,8 @@
 //
 //     polytope_extremes [--quick] SAMPLES [AXIS …]
 //
+//     polytope_extremes --transitions SAMPLES
+//
 // SAMPLES per value and kind of an axis, both contact models each (fewer, and none if quick, where references are costly). Pairs depend on axis, value, kind and number only.
 #include "PairAxes.hpp"
 #include "Reference.hpp"
@@ -89,9 +91,50 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 		}
 }
 
+/// Body 2 pressed into body 1 along the contact's first normal, from 0.3 to 4 corner radii: what changes where the status does.
+void pressIn(const PairAxis& deep, const std::string& kind, int number)
+{
+	std::mt19937_64   random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
+	const Pair        pair      = deep.make(Real(0.3), kind, ContactModel::Paper, random);
+	const Real        radius    = pair.shape[0]->cornerRadius(), size = pair.size();
+	const Vector3     direction = query(pair).normal;
+	const auto        at        = [&](Real way) { return query(movedApart(pair, -way * direction)); };
+	const int         steps     = 400;
+	Real              before    = 0;
+	ContactResult     last      = at(0);
+	for (int step = 1; step <= steps; ++step) {
+		const Real    way  = 4 * radius * step / steps;
+		ContactResult here = at(way);
+		if (here.status != last.status) {
+			Real low = before, high = way;
+			for (int k = 0; k < 60; ++k) {
+				const Real middle                              = (low + high) / 2;
+				(at(middle).status == last.status ? low : high) = middle;
+			}
+			const ContactResult one = at(low), two = at(high);
+			std::cout << '"' << kind << "\"," << number << ',' << statusName(one.status) << ',' << statusName(two.status) << ',' << -two.infeasibility / radius
+			          << ',' << (one.normal - two.normal).norm() << ',' << std::abs(one.depth - two.depth) / two.depth << ','
+			          << (one.point - two.point).norm() / size << '\n';
+		}
+		before = way;
+		last   = here;
+	}
+}
+
+int transitions(int samples)
+{
+	std::cout << "kind,sample,from,to,overlap,normal,depth,point\n";
+	for (const PairAxis& axis : pairAxes())
+		if (axis.name == "deep")
+			for (const std::string& kind : axis.kinds)
+				for (int number = 0; number < samples; ++number)
+					pressIn(axis, kind, number);
+	return 0;
+}
+
 int usage(const char* program)
 {
-	std::cerr << "usage: " << program << " [--quick] SAMPLES [AXIS …]; axes:";
+	std::cerr << "usage: " << program << " [--quick] SAMPLES [AXIS …], or --transitions SAMPLES; axes:";
 	for (const PairAxis& axis : pairAxes())
 		std::cerr << ' ' << axis.name;
 	std::cerr << '\n';
@@ -102,9 +145,11 @@ int usage(const char* program)
 
 int main(int count, char** arguments)
 {
+	std::cout.precision(17);
 	const bool quick   = count > 1 && !std::strcmp(arguments[1], "--quick");
 	const int  first   = quick ? 2 : 1;
 	const int  samples = count > first ? std::atoi(arguments[first]) : 0;
+	if (count == 3 && !std::strcmp(arguments[1], "--transitions")) return transitions(std::atoi(arguments[2]));
 	if (samples < 1) return usage(arguments[0]);
 	for (int i = first + 1; i < count; ++i) {
 		bool known = false;
@@ -112,7 +157,6 @@ int main(int count, char** arguments)
 			known = known || axis.name == arguments[i];
 		if (!known) return usage(arguments[0]);
 	}
-	std::cout.precision(17);
 	std::cout << "axis,kind,value,sample,model,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,"
 	             "infeasibilityRounding,barrierValue,"
 	             "barrierValueError,depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,"

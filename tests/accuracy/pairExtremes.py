@@ -11,7 +11,9 @@ rounding without a status that says so; or if an error is above the limit that t
 """
 
 import argparse
+import collections
 import concurrent.futures
+import csv
 import os
 import pathlib
 import subprocess
@@ -88,6 +90,36 @@ def report(findings, name, samples):
 	findings.figure(findings.folder / f'{name}.png', f'{axis.title}: error and status along the axis.')
 
 
+def transitions(findings, given):
+	"""What jumps where a pair is pressed in and the paper's normal loses its corners: the status changes there, the conservative one's does not."""
+	path = given.output / 'samples' / 'transitions.csv'
+	with open(path, 'w') as file:
+		subprocess.run([given.program, '--transitions', str(given.samples)], stdout=file, check=True)
+	with open(path, newline='') as file:
+		found = list(csv.DictReader(file))
+	groups = collections.defaultdict(list)
+	for row in found:
+		groups[row['kind'], row['from'], row['to']].append(row)
+
+	def largest(name, rows=found):
+		return max(float(row[name]) for row in rows)
+
+	title = 'Status changes at the corner radius (paper)'
+	findings.row(f'{title}: jump of the contact point over the size', largest('point'), accept=(0, 1e-13))
+	findings.row(f'{title}: turn of the normal (chord of the unit vectors)', largest('normal'), note='the model’s own: a body deeper than its corners has no say')
+	findings.row(f'{title}: change of depth, relative', largest('depth'))
+	findings.table(
+		'transitions',
+		'Body 2 pressed into body 1: largest jumps where the status changes (bisected to rounding)',
+		['pair', 'from', 'to', 'times', 'from overlap over corner radius', 'to', 'turn of the normal', 'change of depth', 'way of the point'],
+		[
+			[*key, len(rows), *(f'{pick(float(row["overlap"]) for row in rows):.3g}' for pick in (min, max))]
+			+ [f'{largest(name, rows):.3g}' for name in ('normal', 'depth', 'point')]
+			for key, rows in groups.items()
+		],
+	)
+
+
 def main(arguments=None):
 	given = options(arguments)
 	findings = Findings('pairs', 'Pairs at the extremes', given.output, {'samples': given.samples, 'quick': given.quick})
@@ -99,6 +131,8 @@ def main(arguments=None):
 	)
 	for name, samples in sampled(given).items():
 		report(findings, name, samples)
+		if name == 'deep':
+			transitions(findings, given)
 	return conclude(findings)
 
 

@@ -246,7 +246,7 @@ class Tower:
 def tower(model, blocks=50, steps=30000, seed=1):
 	"""Cubes of 1 m on top of each other, each up to 2 cm aside, placed with the overlaps that carry what lies above."""
 	scene = Scene(model, damping=0.2, normalDamping=0.5, shearDamping=0.5, rockingDamping=0.5)
-	stiffness = 1e9
+	stiffness = 1e10  # at a tenth of it the column buckles under its weight, see sceneExtremes.py
 	scene.material(stiffness)
 	weight = density * gravity
 	aside = np.random.default_rng(seed).uniform(-0.02, 0.02, (blocks, 2))
