@@ -199,7 +199,8 @@ minimiseBarrier(const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, 
 }
 
 /// Φ, and n = Σ over body 1 of λ_i a_i = −Σ over body 2: at the minimiser dΦ = n·(motion of body 2's material point at x).
-template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const BarrierPoint<R, D>& point, R* n)
+/// `held` = Σ λ_i |a_i across the last axis|²: what holds the point along the contact.
+template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const BarrierPoint<R, D>& point, R* n, R& held)
 {
 	using std::sqrt;
 	using V = typename Lanes<R, W>::Type;
@@ -208,6 +209,7 @@ template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes
 	for (int k = 0; k < D; ++k)
 		X[k] = broadcast<R, W>(point.x[k]);
 	R barrier = 0, sums[2][D];
+	V across = broadcast<R, W>(0);
 	for (int body = 0; body < 2; ++body) {
 		V sum[D + 1];
 		for (V& s : sum)
@@ -222,8 +224,11 @@ template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes
 			sigma += level;
 			const V u = Mu / sigma;
 			sum[D] += u;
-			for (int k = 0; k < D; ++k)
-				sum[k] += u * u * a[k];
+			for (int k = 0; k < D; ++k) {
+				const V share = u * u * a[k];
+				sum[k] += share;
+				if (k < D - 1) across += share * a[k];
+			}
 		}
 		for (int k = 0; k < D; ++k)
 			sums[body][k] = horizontalSum<R, W>(sum[k]);
@@ -231,6 +236,7 @@ template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes
 	}
 	for (int k = 0; k < D; ++k)
 		n[k] = (sums[0][k] - sums[1][k]) / 2;
+	held = horizontalSum<R, W>(across);
 	return point.level + (barrier - 2 * sqrt(R(2)) * mu);
 }
 

@@ -103,8 +103,8 @@ POLYTOPE_INLINE void conservativeContact(
 	out.decrement = point.change;
 	if (solved == BarrierStatus::NotConverged) out.status = ContactStatus::CentreNotConverged;
 
-	R       n[D];
-	const R value    = barrierValue<R, D, W>(planes, mu, point, n);
+	R       n[D], held;
+	const R value    = barrierValue<R, D, W>(planes, mu, point, n, held);
 	const R length   = norm<R, D>(n);
 	out.barrierValue = value;
 	memory.level     = point.level;
@@ -121,7 +121,10 @@ POLYTOPE_INLINE void conservativeContact(
 	out.dualDirection = worldDirection<R, D>(in, f, n);
 	if (out.inContact && solved != BarrierStatus::NotConverged)
 		out.status = solved == BarrierStatus::RoundingLimited ? ContactStatus::RoundingLimited : ContactStatus::Contact;
-	if (out.status == ContactStatus::Contact && placedByRounding<R, D>(point, R(out.rockingArm), f.size)) out.status = ContactStatus::RoundingLimited;
+	// flat faces of thin bodies: far side planes' barrier is all that holds the point along the face, and planes tilted by their own
+	// rounding pull at it
+	if (out.status == ContactStatus::Contact && R(tolerance::noise * tolerance::rounding) * length > R(tolerance::stagnation) * held)
+		out.status = ContactStatus::RoundingLimited;
 	if (length > R(tolerance::direction)) {
 		for (int k = 0; k < D; ++k)
 			n[k] /= length;
