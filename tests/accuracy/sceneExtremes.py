@@ -139,8 +139,8 @@ def towers(findings, quick):
 	for model, r in last.items():
 		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 1e-2))
 		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 2e-2))
-	findings.row(f'{title}: settlement of the top over the closed form’s, difference (paper)', abs(last['paper'].settlement), accept=(0, 1e-3))
-	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the closed form’s overlaps. A joint’s rocking stiffness in the '
+	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
+	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
 		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')
 	findings.table('tower', f'{title}; value: steps', *cells(results))
 	lines = linesOf(results, force=('normal force', 0), sideways=('way sideways (m)', 1), tilt=('tilt (rad)', 1), speed=('speed (m/s)', 1))
