@@ -41,18 +41,6 @@ POLYTOPE_INLINE void startBarrier(
 }
 
 /// After the linear programme: x its point in the planes' frame, s its value, `below` a bound of it from the weights alone.
-/// Whether hardly anything holds the point along the contact (flat faces of thin bodies): planes tilted by their own rounding
-/// move it by a tenth of the size, or what holds it is nothing but such tilts.
-template <class R, int D> POLYTOPE_INLINE bool placedByRounding(const BarrierPoint<R, D>& point, R rockingArm, R size)
-{
-	const R tilt    = R(tolerance::noise * tolerance::rounding);
-	R       softest = point.pivot[1];
-	for (int k = 2; k <= D; ++k)
-		softest = minOf<R>(softest, point.pivot[k]);
-	return rockingArm * tilt > R(tolerance::stagnation) * size || softest < tilt * tilt * point.pivot[1];
-}
-
-/// After the linear programme: x its point in the planes' frame, s its value.
 template <class R, int D, int W>
 POLYTOPE_INLINE void conservativeContact(
         const PairInput& in,
