@@ -216,7 +216,7 @@ def acrossBoundary(shift, velocity):
 def testContactAcrossThePeriodicBoundary(cell):
 	velocity = Vector3(0.02, -0.03, 0.01)
 	expected, _ = acrossBoundary(Vector3.Zero, velocity)
-	expected = [x if isinstance(x, float) else Vector3(x) for x in expected]
+	expected = [Vector3(x) if isinstance(x, Vector3) else x for x in expected]
 	for count in ((1, 0, 0), (1, 1, 0), (-1, 0, 1), (2, -1, -1)):
 		O.reset()
 		O.periodic = True
@@ -225,8 +225,8 @@ def testContactAcrossThePeriodicBoundary(cell):
 		found, i = acrossBoundary(shift, velocity)
 		assert tuple(i.cellDist) == tuple(-n for n in count)
 		for one, other in zip(found, expected):
-			difference = abs(one - other) if isinstance(one, float) else (one - other).norm()
-			scale = abs(other) if isinstance(other, float) else max(other.norm(), 1.)
+			difference = (one - other).norm() if isinstance(one, Vector3) else abs(one - other)
+			scale = max(other.norm(), 1.) if isinstance(other, Vector3) else abs(other)
 			assert difference < 1e-10 * scale, (found, expected)
 
 
