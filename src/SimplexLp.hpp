@@ -110,7 +110,7 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
 			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
 		const R bound = -now->infeasibility - rounding;
 		if (!(smallest < bound)) {
-			const bool certain = -smallest - below <= R(tolerance::violation) / 2 * (size + reach / 2);
+			const bool certain = -smallest - below <= R(tolerance::certain) * (size + reach / 2);
 			return end(certain ? LpStatus::Optimal : LpStatus::Undecided);
 		}
 		if (bland) q = firstViolated<R, D>(planes, bound);

@@ -35,6 +35,11 @@ constexpr Real contact = 45 * rounding;
 /// roundings of the size; a smaller value would pivot on noise.
 constexpr Real violation = 8 * rounding;
 
+/// × both sizes: how far the bounds of s* from above and below may be apart at the optimum. With a few roundings of the
+/// bounds themselves that is the accuracy stated for s*, 8 roundings of the pair's reach; a smaller value would solve again,
+/// with more digits, where a weight that is zero has come out as −1e-15.
+constexpr Real certain = 6 * rounding;
+
 /// A basis with a weight λ below −this is not dual feasible and is repaired or refused (λ sum to 1). A quarter of the
 /// digits: a basis of nearly parallel planes carries weights this noisy, and the final test is on s*, not on λ.
 constexpr Real weight = 1024 * rounding;

@@ -87,6 +87,28 @@ testAll() {
 	return $result
 }
 
+# Random pairs against an exact predicate; a log beside what it prints.
+search() {
+	local logFile
+	logFile=$project/output/search/log-$(date -u +%Y%m%d-%H%M%S).txt
+	mkdir -p "$project/output/search"
+	POLYTOPE_REVISION=$(git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || true) \
+		"$build/tests/search/polytope_search" --log "$logFile" "$@"
+}
+
+# The full run looks at every precision that is installed; the quick one at those that happen to be built.
+tradeoff() {
+	local other
+	build
+	case " $* " in
+		*" --quick "* | *" --help "* | *" -h "*) ;;
+		*) for other in longdouble float128 mpfr150; do
+			if hasPrecision $other; then (buildPrecision $other) || echo "  $other: its rows say that it was not built"; fi
+		done ;;
+	esac
+	exec python3 "$project/examples/tradeoffPaper.py" "$@"
+}
+
 format() {
 	local check=() files
 	[ "${1:-}" = --check ] && check=(--dry-run --Werror)
@@ -106,6 +128,8 @@ case $command in
 	test) if [ -n "${YADE_POLYTOPE_PRECISION:-}" ]; then build && runTests "$@"; else testAll "$@"; fi ;;
 	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
+	tradeoff) tradeoff "$@" ;;
+	search) build && search "$@" ;;
 	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) build && . "$project/tools/fuzz.sh" && sanitize "$@" ;;

@@ -233,4 +233,38 @@ TEST(SimplexLp, StartFromAStripWithANearlyParallelPlane)
 	}
 }
 
+// Nearly parallel planes of a pair between whose bases the simplex in double went back and forth for ever (lpNotConverged),
+// 0.4 of the size from the optimum.
+TEST(SimplexLp, NearlyParallelPlanesThatCycled)
+{
+	std::mt19937_64 random(801);
+	for (int trial = 0; trial < 1500; ++trial)
+		nearlyParallelPair(random, 2);
+	for (int trial = 0; trial < 225; ++trial)
+		nearlyParallelPair(random, 3);
+	const Pair pair = nearlyParallelPair(random, 3);
+	EXPECT_EQ(query(pair).status, ContactStatus::Contact);
+	EXPECT_LE(roundingsFromExact<3>(pair), 4);
+}
+
+/// solveWide() alone against the exact optimum, from nothing.
+TEST(SimplexLp, WithTwiceTheDigits)
+{
+	std::mt19937_64 random(306);
+	const Shapes    shapes = randomShapes(30, random);
+	for (int trial = 0; trial < 150; ++trial) {
+		const Pair         pair = trial % 2 ? nearlyParallelPair(random) : randomPair(shapes, random);
+		PlaneRows<Real, 3> rows(worldPlanes(pair, 0), worldPlanes(pair, 1));
+		LpBasis<Real, 3>   basis;
+		int                pivots = 0;
+		ASSERT_TRUE((solveWide<Real, 3>(rows.planes, basis, pair.size(), 1000, pivots))) << trial;
+		const Real off = std::abs(Real(Rational(Rational(basis.infeasibility) - ExactLp<3>(pair).infeasibility)));
+		EXPECT_LE(off, 4 * tolerance::rounding * pair.reach()) << trial;
+		for (int k = 0; k <= 3; ++k) {
+			EXPECT_LT(basis.plane[k], rows.planes.total);
+			EXPECT_GE(basis.weight[k], 0);
+		}
+	}
+}
+
 } // namespace
