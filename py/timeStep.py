@@ -12,7 +12,8 @@ def stableTimeStep(fraction=0.2, default=None):
 
 	For each body ω² is the larger of Σ (kn + ks)/m and Σ (rocking stiffness + (kn + ks) arm²)/I, over its contacts, with the smallest
 	principal moment of inertia. A conservative contact has the rocking stiffness normal force × :yref:`PolytopeGeom.rockingArm` (face on
-	face it may exceed all others; docs/conservative-contact.md), the paper's none. YADE's GlobalStiffnessTimeStepper does not know it.
+	face it may exceed all others; docs/conservative-contact.md). The paper's model has one of about kn × (face)², for its contact point moves to the
+	closing edge, too: arm² covers most of it (a cube on a floor is stable up to 1.83/ω). YADE's GlobalStiffnessTimeStepper does not know it.
 	The central difference scheme is stable up to 2/ω of one body between fixed ones. Coupled bodies, and rotation with translation, may
 	each raise the highest frequency by √2 (each contact adds (kn + ks)(1/m₁ + 1/m₂ + arm₁²/I₁ + arm₂²/I₂) at most), so up to 1/ω any
 	heap is stable. Rocking stiffness grows with the normal force, so leave room: where bodies are thrown together, call this again as the run
