@@ -244,7 +244,7 @@ void checkOptimum(const Pair& pair)
 {
 	const ContactResult result = samples::linearProgramme(pair);
 	if (!result.hasGeometry || result.status == ContactStatus::LpNotConverged) return; // dismissed from far off; or says so
-	const Real   allowed = 2 * tolerance::twinViolation * pair.size() + 64 * tolerance::rounding * pair.reach();
+	const Real   allowed = 64 * tolerance::rounding * pair.reach();
 	const Planes planes(pair);
 	const Real   above = Real(planes.violation(result.point) - result.infeasibility);
 	const Real   below = Real(result.infeasibility - planes.bound(result, pair.dimension(), pair.reach()));
