@@ -105,7 +105,7 @@ POLYTOPE_INLINE void conservativeContact(
 	out.hasGeometry   = true;
 	out.depth         = -4 * value * length;
 	out.energy        = value < 0 ? 2 * value * value : R(0);
-	out.rockingArm    = rockingArm<R, D>(point, n);
+	out.rockingArm    = solved == BarrierStatus::NotConverged ? R(0) : rockingArm<R, D>(point, n); // its Hessian is the minimiser's
 	out.dualDirection = worldDirection<R, D>(in, f, n);
 	if (out.inContact && solved != BarrierStatus::NotConverged)
 		out.status = solved == BarrierStatus::RoundingLimited ? ContactStatus::RoundingLimited : ContactStatus::Contact;
@@ -135,9 +135,9 @@ POLYTOPE_INLINE void conservativeContact(
 		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
 		out.sectionCentroid = worldPoint<R, D>(in, f, section.centroid);
 	}
-	R all = out.depth;
+	R all = out.depth + out.energy + out.rockingArm;
 	for (int k = 0; k < 3; ++k)
-		all += out.point[k] + out.normal[k];
+		all += out.point[k] + out.normal[k] + out.dualDirection[k];
 	if (!isfinite(all)) {
 		out.status      = ContactStatus::Failed;
 		out.inContact   = false;

@@ -42,12 +42,16 @@ POLYTOPE_INLINE bool startFrom(const PairInput& in, const ContactFrame<R, D>& f,
 	return true;
 }
 
-/// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, above `least`.
+/// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
+/// included, above `least`.
 template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const ContactFrame<R, D>& f, R least)
 {
+	R noise = 0;
 	for (int k = 0; k < D; ++k)
 		reach += abs(f.centre[k]);
-	return maxOf<R>(lowerBound<R, D>(basis, reach), least);
+	for (int k = 0; k <= D; ++k)
+		noise += basis.noise[k];
+	return maxOf<R>(lowerBound<R, D>(basis, reach) - noise * reach, least);
 }
 
 /// n_λ = Σ over body 1 of λ_k a_k in the planes' frame.
@@ -361,7 +365,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		out.sectionCentroid = worldPoint<R, D>(in, f, section.centroid);
 	}
 	using std::isfinite;
-	if (!finite(out.point) || !finite(out.normal) || !isfinite(out.depth)) {
+	if (!finite(out.point) || !finite(out.normal) || !finite(out.dualDirection) || !isfinite(out.depth)) {
 		out.status      = ContactStatus::Failed;
 		out.inContact   = false;
 		out.hasGeometry = false;
