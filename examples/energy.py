@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's contact and the conservative one: 200 polyhedra in a box without friction and damping, and their total energy over time.
 
-	./run python examples/energy.py                 # one to three minutes; writes energy.png and prints the errors
+	./run python examples/energy.py                 # one to three minutes; writes output/energy.png and prints the errors
 	./run python examples/energy.py --seconds 0.5   # shorter; --output FILE, --help
 
 The paper's averaged normal is no gradient of an energy: such a gas heats itself up, at any time step. With contactModel='conservative'
@@ -62,7 +62,7 @@ def draw(path, results):
 def main():
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 	parser.add_argument('--seconds', type=float, default=1.2, help='simulated time; the solids reach the floor after 0.2 to 0.6 s')
-	parser.add_argument('--output', default='energy.png', help='the picture')
+	parser.add_argument('--output', default='output/energy.png', help='the picture')
 	given = parser.parse_args()
 	results, rows = {}, []
 	for model, shorter in runs:
@@ -70,6 +70,7 @@ def main():
 		results[model, shorter] = O.dt, times, values, limit
 		worst = max(abs(value - 1) for value in values)
 		rows.append([model, f'{1e6 * O.dt:.2f}', f'{1e6 * limit:.0f}', f'{100 * (values[-1] - 1):+.4f}', f'{100 * worst:.4f}'])
+	os.makedirs(os.path.dirname(given.output) or '.', exist_ok=True)
 	draw(given.output, results)
 	print(tabulate(rows, ['model', 'Δt [µs]', 'stable up to [µs]', 'error at the end [%]', 'largest [%]'], disable_numparse=True))
 	print(f'Picture: {given.output}')

@@ -15,6 +15,8 @@ def mechanicalEnergy():
 	moments of inertia (rotAlgorithm delValle2023). Springs: kn × :yref:`PolytopeGeom.energyPerStiffness` for conservative contacts, kn
 	depth²/2 for others, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
 
+	Contacts count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
+
 	:returns: [J]
 	:raises ValueError: if O.engines has no NewtonIntegrator
 	"""

@@ -2,6 +2,7 @@
 """What a settled heap of polytopes is like inside: porosity and coordination number."""
 
 import dataclasses
+import numbers
 
 import numpy as np
 from scipy.optimize import linprog
@@ -23,11 +24,11 @@ def porosity(lower, upper, ids=None):
 	:param lower, upper: opposite corners of the box [m], 3 numbers each
 	:param ids: of the bodies that count; None: all free polytopes
 	:returns: [-]
-	:raises ValueError: naming *upper* where the box has no volume, or *ids* for a body that is no polyhedron
+	:raises ValueError: naming *upper* where the box has no volume, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
 	lower, upper = np.array(lower, float), np.array(upper, float)
-	if lower.shape != (3,) or upper.shape != (3,) or not (upper > lower).all():
-		raise ValueError(f'upper: must be three numbers above those of lower, got lower {lower}, upper {upper}')
+	if lower.shape != (3,) or upper.shape != (3,) or not (upper > lower).all() or not np.isfinite(upper - lower).all():
+		raise ValueError(f'upper: must be three finite numbers above those of lower, got lower {lower}, upper {upper}')
 	return 1 - sum(volumeWithin(O.bodies[k], lower, upper) for k in _free(ids)) / float(np.prod(upper - lower))
 
 
@@ -80,7 +81,7 @@ def coordinationNumber(ids=None):
 
 	:param ids: of the heap's bodies; None: all free polytopes
 	:returns: Coordination
-	:raises ValueError: naming *ids* if there is none
+	:raises ValueError: naming *ids* if there is none, or a body is not there or named twice
 	"""
 	touching = dict.fromkeys(_free(ids), 0)
 	if not touching:
@@ -97,5 +98,14 @@ def coordinationNumber(ids=None):
 
 def _free(ids):
 	if ids is not None:
-		return list(ids)
+		try:
+			ids = list(ids)
+		except TypeError:
+			raise ValueError(f'ids: must be a list of numbers of bodies, got {ids!r}') from None
+		for k in ids:
+			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
+				raise ValueError(f'ids: there is no body {k!r}')
+		if len(set(ids)) < len(ids):
+			raise ValueError('ids: some bodies are named twice')
+		return ids
 	return [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic]

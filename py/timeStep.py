@@ -26,6 +26,8 @@ def stableTimeStep(fraction=0.2, default=None):
 	"""
 	if not 0 < fraction <= 2:
 		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction}')
+	if default is not None and not default > 0:
+		raise ValueError(f'default: must be a time step above 0, got {default}')
 	translation, rotation = {}, {}
 	for contact in O.interactions:
 		if not contact.isReal:
@@ -38,7 +40,7 @@ def stableTimeStep(fraction=0.2, default=None):
 	fastest = 0
 	for body, stiffness in translation.items():
 		state = O.bodies[body].state
-		if O.bodies[body].dynamic and state.mass > 0:
+		if O.bodies[body].dynamic and state.mass > 0 and min(state.inertia) > 0:
 			fastest = max(fastest, stiffness / state.mass, rotation[body] / min(state.inertia))
 	if fastest > 0:
 		return fraction / math.sqrt(fastest)

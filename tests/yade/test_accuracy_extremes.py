@@ -32,15 +32,16 @@ def run(script, where, *options):
 def testPairsHoldTheStatedLimits(tmp_path):
 	code, findings = run('pairExtremes', tmp_path, '--quick', '--samples', '1')
 	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
-	assert not [row for row in findings['rows'] if not row['good']]
+	assert not [row for row in findings['rows'] if row['good'] is False]  # None: reported only
 	assert code == 0 and len(findings['rows']) > 50
-	assert len(list(tmp_path.glob('*.png'))) == len(list((tmp_path / 'samples').glob('*.csv'))) == 13
+	assert len(list(tmp_path.glob('*.png'))) == 13
+	assert len(list((tmp_path / 'samples').glob('*.csv'))) == 14  # also the transitions of the deep axis
 
 
 def testScenesHoldTheStatedLimits(tmp_path):
 	code, findings = run('sceneExtremes', tmp_path, '--quick')
 	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
-	assert not [row for row in findings['rows'] if not row['good']]
+	assert not [row for row in findings['rows'] if row['good'] is False]  # None: reported only
 	assert code == 0 and len(list(tmp_path.glob('*.png'))) == 6
 
 

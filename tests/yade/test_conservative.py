@@ -24,7 +24,7 @@ def emptyScene():
 
 
 @pytest.mark.parametrize(
-        'attribute, value, good', [('contactModel', 'potential', 'conservative'), ('barrier', 0., 3e-3), ('barrier', -1., 3e-3), ('barrier', float('nan'), 3e-3)]
+        'attribute, value, good', [('contactModel', 'potential', 'conservative'), ('barrier', 0., 3e-3), ('barrier', -1., 3e-3), ('barrier', 0.2, 3e-3), ('barrier', 1e-300, 3e-3), ('barrier', float('nan'), 3e-3)]
 )
 def testRefusals(attribute, value, good):
 	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')

@@ -152,7 +152,7 @@ def testDilationLiftsAtTheCostOfShear():
 	O.run(3000, True)
 	while O.iter < 12000:
 		O.step()
-		pushed += O.forces.f(floor.id)[0] * 0.01 * O.dt
+		pushed = pushed + O.forces.f(floor.id)[0] * 0.01 * O.dt  # wider numbers are changed in place by +=
 		if O.iter == 3501: begun, begin, low = dict(energies()), pushed, block.state.pos[2]
 	terms = energies()
 	friction, viscous = (terms[k] - begun[k] for k in ('plastDissip', 'normDampDissip'))

@@ -93,3 +93,17 @@ def testCoordinationOfATowerAndARattler(model):
 	assert (found.bodies, found.rattlers) == (6, 3)
 	assert found.mean == pytest.approx(8 / 6) and found.mechanical == 2
 	assert math.isnan(polytope.coordinationNumber(ids=[5]).mechanical)
+
+
+@pytest.mark.parametrize('ids', [[99], [-1], ['a'], [0, 0], 0])
+def testBodiesThatAreNotThereAreRefused(ids):
+	joint()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	for call in (polytope.coordinationNumber, lambda ids: polytope.porosity((0, 0, 0), (1, 1, 1), ids=ids)):
+		with pytest.raises(ValueError, match='ids'):
+			call(ids)
+
+
+def testBoxesWithoutAnEndAreRefused():
+	with pytest.raises(ValueError, match='upper'):
+		polytope.porosity((0, 0, 0), (1, 1, math.inf))

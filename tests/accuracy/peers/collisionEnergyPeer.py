@@ -5,6 +5,7 @@
 Usage: collisionEnergyPeer.py '{"method": "polyhedra", "study": "collisions", …}'; the last line printed is RESULT and JSON.
 """
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -12,7 +13,6 @@ import subprocess
 import sys
 
 benchmark = pathlib.Path(__file__).resolve().parents[2] / 'benchmark'
-sys.path.insert(0, str(benchmark))
 
 names = {'potentialBlock': 'PotentialBlock', 'polyhedra': 'Polyhedra'}
 
@@ -24,14 +24,17 @@ def measure(method, study, timeLimit, **request):
 	:param str study: 'collisions' (request: number, seed, steps, overlap, duration) or 'bounces' (number, steps, seconds)
 	:raises PeerFailed: if it is not built, or gives no result within *timeLimit* [s]
 	"""
-	from scenes import SceneFailed, Scenes
 	from yade.polytope.studies.collisionEnergyReport import PeerFailed
 
+	# by its path: others have a module `scenes`, too
+	place = importlib.util.spec_from_file_location('benchmarkScenes', benchmark / 'scenes.py')
+	scenes = importlib.util.module_from_spec(place)
+	place.loader.exec_module(scenes)
 	# ./run bench builds in a folder beside the overlay that this YADE was loaded from
 	plugins = pathlib.Path(os.environ['YADE_PREFIX']).parent / 'bench/tests/benchmark'
 	try:
-		overlay = Scenes(plugins, core=None, quick=True, results=[], note=None).overlay(method)
-	except SceneFailed:
+		overlay = scenes.Scenes(plugins, core=None, quick=True, results=[], note=None).overlay(method)
+	except scenes.SceneFailed:
 		raise PeerFailed('not built (./run bench builds it)') from None
 	command = [sys.executable, __file__, json.dumps({'method': method, 'study': study, **request})]
 	environment = {**os.environ, 'OMP_NUM_THREADS': '1', 'YADE_PREFIX': str(overlay)}
@@ -46,6 +49,7 @@ def measure(method, study, timeLimit, **request):
 
 
 def main(arguments):
+	sys.path.insert(0, str(benchmark))
 	import heap
 	from yade.polytope.studies.collisionEnergy import Bounces, Collisions, meetings
 	from yade.polytope.studies.collisionEnergyScene import Contact
