@@ -133,6 +133,9 @@ constexpr int  ipoptRounds = 20;
 /// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
 constexpr Real barrier = 3e-3;
 
+/// Range of `barrier` that a script may set. Above, bodies of many faces may never touch; below, weights leave the range of the numbers.
+constexpr Real leastBarrier = 1e-9, largestBarrier = 0.05;
+
 /// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
 constexpr Real barrierStep = 0.95;
 

@@ -7,8 +7,8 @@
 
 /// The linear programme of SimplexLp.hpp where the digits of Real do not decide it: bases of planes that are parallel but for
 /// the last digits have weights that are mostly rounding. The planes as they stand are taken for exact numbers and the
-/// simplex is run on them with twice the digits; differences of nearly parallel normals are exact in it. Some thousand
-/// times slower, and rare: about one in 10⁵ of pairs with nearly parallel faces.
+/// simplex is run on them with twice the digits; differences of nearly parallel normals are exact in it. Much
+/// slower, and rare.
 namespace polytope {
 
 /// A wider arithmetic, the widest at hand, and its rounding.

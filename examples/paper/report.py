@@ -14,14 +14,13 @@ where it stood. Ends with 1, and says why, if a row that must hold was missed or
 import argparse
 import os
 import pathlib
-import signal
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
 
 from yade.polytope.studies.options import count
-from yade.polytope.studies.paperReport import section, show, writeHtml, writeResults
-from yade.polytope.studies.paperRuns import Run, perform, sourceHash
+from yade.polytope.studies.paperRuns import Run, sourceHash
+from yade.polytope.studies.reportRun import endOnTerm, report
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 
@@ -36,7 +35,7 @@ simulations = {
 """Letter: script, title, options of the full run besides --output; the quick one's are --quick alone."""
 
 ofTheReport = [pathlib.Path('examples/paper') / name for name in ('report.py', 'report.html.jinja')]
-ofTheReport += [pathlib.Path('py/studies') / name for name in ('paperReport.py', 'paperRuns.py')]
+ofTheReport += [pathlib.Path('py/studies') / name for name in ('paperReport.py', 'paperRuns.py', 'reportRun.py')]
 """What no simulation depends on."""
 
 
@@ -69,24 +68,9 @@ def plannedRuns(given):
 def main(arguments=None):
 	given = options(arguments)
 	given.output.mkdir(parents=True, exist_ok=True)
-	runs = plannedRuns(given)
-	if given.fresh:
-		for run in runs:
-			run.forget()
-	try:
-		perform(runs, given.jobs)
-	except KeyboardInterrupt:
-		print('\nInterrupted: what is complete is kept; call again to go on.', file=sys.stderr)
-		return 130
-	sections = [section(run) for run in runs]
-	page, rows = given.output / 'report.html', given.output / 'results.csv'
-	writeResults(sections, rows)
-	writeHtml(sections, here / 'report.html.jinja', page, given.quick, [letter for letter in simulations if letter not in given.only])
-	good = show(sections)
-	print(f'\nReport: {page}, rows: {rows}')
-	return 0 if good else 1
+	return report(plannedRuns(given), given, here / 'report.html.jinja', [letter for letter in simulations if letter not in given.only])
 
 
 if __name__ == '__main__':
-	signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that perform() stops what it started
+	endOnTerm()
 	sys.exit(main())

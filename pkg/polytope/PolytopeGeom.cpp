@@ -191,8 +191,8 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 		settings_.contactModel = polytope::ContactModel::Conservative;
 	else
 		refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
-	// above, bodies of many faces may never touch; below, weights leave the range of the numbers
-	if (!(barrier >= 1e-9 && barrier <= 0.05)) refuse("barrier: must lie between 1e-9 and 0.05 (a fraction of the smaller body's inscribed radius)");
+	if (!(barrier >= polytope::tolerance::leastBarrier && barrier <= polytope::tolerance::largestBarrier))
+		refuse("barrier: must lie between 1e-9 and 0.05 (a fraction of the smaller body's inscribed radius)");
 	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
 	else if (contactPoint == "chebyshevCentre")
 		settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;

@@ -13,14 +13,13 @@ options, is not run again. Ends with 1, and says why, if a limit was missed or a
 import argparse
 import os
 import pathlib
-import signal
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
 
 from yade.polytope.studies.options import count
-from yade.polytope.studies.paperReport import section, show, writeHtml, writeResults
-from yade.polytope.studies.paperRuns import Run, perform, sourceHash
+from yade.polytope.studies.paperRuns import Run, sourceHash
+from yade.polytope.studies.reportRun import endOnTerm, report
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 project = here.parents[1]
@@ -64,25 +63,10 @@ def plannedRuns(given):
 def main(arguments=None):
 	given = options(arguments)
 	given.output.mkdir(parents=True, exist_ok=True)
-	runs = plannedRuns(given)
-	if given.fresh:
-		for run in runs:
-			run.forget()
-	try:
-		perform(runs, given.jobs)
-	except KeyboardInterrupt:
-		print('\nInterrupted: what is complete is kept; call again to go on.', file=sys.stderr)
-		return 130
-	sections = [section(run) for run in runs]
-	page, rows = given.output / 'report.html', given.output / 'results.csv'
-	writeResults(sections, rows)
 	absent = [name for name in present() if name not in given.only]
-	writeHtml(sections, here / 'accuracy.html.jinja', page, given.quick, absent, base=project / 'examples/paper')
-	good = show(sections)
-	print(f'\nReport: {page}, rows: {rows}')
-	return 0 if good else 1
+	return report(plannedRuns(given), given, here / 'accuracy.html.jinja', absent, base=project / 'examples/paper')
 
 
 if __name__ == '__main__':
-	signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that perform() stops what it started
+	endOnTerm()
 	sys.exit(main())
