@@ -94,8 +94,8 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 			// LDLᵀ in the order z, y, x
 			if (!(zz > 0)) return false;
 			const R lzy = h[2][1] / zz, lzx = h[2][0] / zz;
-			const R dy = h[1][1] - lzy * h[2][1];
-			const R yx = h[1][0] - lzy * h[2][0];
+			const R dy  = h[1][1] - lzy * h[2][1];
+			const R yx  = h[1][0] - lzy * h[2][0];
 			const R lyx = yx / dy;
 			const R dx  = h[0][0] - lzx * h[2][0] - lyx * yx;
 			step.skewed = !(dy > kept * h[1][1]) || !(dx > kept * h[0][0]);
@@ -110,8 +110,8 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 	} else {
 		const R dy = h[1][1];
 		if (!(dy > 0)) return false;
-		const R l  = h[1][0] / dy;
-		const R dx = h[0][0] - l * h[1][0];
+		const R l   = h[1][0] / dy;
+		const R dx  = h[0][0] - l * h[1][0];
 		step.skewed = !(dx > kept * h[0][0]);
 		if (step.skewed) return false;
 		const R by = -g[1], bx = -g[0] - l * by;
@@ -154,7 +154,8 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> stiffAxes(const PairPla
 			for (int k = 0; k < D; ++k)
 				y[k] = a[k] / sqrt(across);
 		}
-		return { { { y[1] * n[2] - y[2] * n[1], y[2] * n[0] - y[0] * n[2], y[0] * n[1] - y[1] * n[0] }, { y[0], y[1], y[2] }, { n[0], n[1], n[2] } } };
+		return { { { y[1] * n[2] - y[2] * n[1], y[2] * n[0] - y[0] * n[2], y[0] * n[1] - y[1] * n[0] }, { y[0], y[1], y[2] },
+			{ n[0], n[1], n[2] } } };
 	}
 }
 
@@ -196,8 +197,8 @@ template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R
 		const R derivative = horizontalSum<R, W>(sum);
 		if (abs(derivative) <= R(tolerance::lineSearchSlope) * -slope) break;
 		(derivative < 0 ? low : high) = t;
-		const R rest = derivative - 1 / (tMax - t);
-		t            = rest < 0 ? tMax + 1 / rest : (low + high) / 2;
+		const R rest                  = derivative - 1 / (tMax - t);
+		t                             = rest < 0 ? tMax + 1 / rest : (low + high) / 2;
 	}
 	return t < tMax ? t : low;
 }

@@ -27,10 +27,10 @@ enum class BarrierStatus { Converged, RoundingLimited, Skewed, NotConverged };
 /// Minimiser and what Newton leaves behind. Unknowns in the order of elimination: s, then the axes from the last to the first.
 template <class R, int D> struct BarrierPoint {
 	R x[D];
-	R level = 0;          ///< s
+	R level = 0;           ///< s
 	R lower[D + 1][D + 1]; ///< Hessian's LDLᵀ factors, at the iterate before the last step
 	R pivot[D + 1];
-	R change = 0;         ///< largest relative change of a slack in the last step
+	R change = 0; ///< largest relative change of a slack in the last step
 };
 
 /// Solves H v = b with the factors; b is overwritten.
@@ -52,8 +52,8 @@ enum class BarrierWeights { FromSlacks, Stepped };
 /// Slacks at the point (left in planes.slack), u_i (in planes.rate), Hessian and right-hand side of the Newton step. False
 /// if a slack is not positive.
 template <class R, int D, int W>
-POLYTOPE_INLINE bool
-barrierSystem(const PairPlanes<R, D>& planes, R mu, BarrierWeights weights, R dualStep, const BarrierPoint<R, D>& point, R (&h)[D + 1][D + 1], R (&b)[D + 1])
+POLYTOPE_INLINE bool barrierSystem(const PairPlanes<R, D>& planes, R mu, BarrierWeights weights, R dualStep,
+        const BarrierPoint<R, D>& point, R (&h)[D + 1][D + 1], R (&b)[D + 1])
 {
 	using V             = typename Lanes<R, W>::Type;
 	constexpr int N     = D + 1;
@@ -167,8 +167,8 @@ template <class R, int D, int W> POLYTOPE_INLINE BarrierMove<R> barrierMove(cons
 /// what remains after the last step is predicted below `accept`, relative to each slack. `turnable`: give up as Skewed where
 /// other axes would keep more digits.
 template <class R, int D, int W>
-POLYTOPE_INLINE BarrierStatus
-minimiseBarrier(const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, D>& point, BarrierWeights weights, bool turnable, int& iterations)
+POLYTOPE_INLINE BarrierStatus minimiseBarrier(
+        const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, D>& point, BarrierWeights weights, bool turnable, int& iterations)
 {
 	R dualStep = 0, previous = R(padOffset);
 	for (;;) {
@@ -178,12 +178,12 @@ minimiseBarrier(const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, 
 		solveFactored<R, D>(point, step);
 		const BarrierMove<R> move = barrierMove<R, D, W>(planes, mu, step);
 		if (!(move.change >= 0)) return BarrierStatus::NotConverged;
-		const R    reach   = R(tolerance::barrierStep);
-		const R    length  = move.slackFall > reach ? reach / move.slackFall : R(1);
-		dualStep           = move.weightFall > reach ? reach / move.weightFall : R(1);
-		weights            = BarrierWeights::Stepped;
-		const bool full    = length == 1 && dualStep == 1;
-		const R    size    = maxOf<R>(move.change, move.mismatch);
+		const R reach   = R(tolerance::barrierStep);
+		const R length  = move.slackFall > reach ? reach / move.slackFall : R(1);
+		dualStep        = move.weightFall > reach ? reach / move.weightFall : R(1);
+		weights         = BarrierWeights::Stepped;
+		const bool full = length == 1 && dualStep == 1;
+		const R    size = maxOf<R>(move.change, move.mismatch);
 		// rounding shows as a full step that did not contract; before the second small one convergence may not be quadratic yet
 		const bool stalled = full && previous <= R(tolerance::stagnation) && size > previous / 2;
 		if (stalled && size <= R(tolerance::stagnation)) return BarrierStatus::RoundingLimited;
@@ -200,7 +200,8 @@ minimiseBarrier(const PairPlanes<R, D>& planes, R mu, R accept, BarrierPoint<R, 
 
 /// Φ, and n = Σ over body 1 of λ_i a_i = −Σ over body 2: at the minimiser dΦ = n·(motion of body 2's material point at x).
 /// `held` = Σ λ_i |a_i across the last axis|²: what holds the point along the contact.
-template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const BarrierPoint<R, D>& point, R* n, R& held)
+template <class R, int D, int W>
+POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const BarrierPoint<R, D>& point, R* n, R& held)
 {
 	using std::sqrt;
 	using V = typename Lanes<R, W>::Type;
@@ -209,7 +210,7 @@ template <class R, int D, int W> POLYTOPE_INLINE R barrierValue(const PairPlanes
 	for (int k = 0; k < D; ++k)
 		X[k] = broadcast<R, W>(point.x[k]);
 	R barrier = 0, sums[2][D];
-	V across = broadcast<R, W>(0);
+	V across  = broadcast<R, W>(0);
 	for (int body = 0; body < 2; ++body) {
 		V sum[D + 1];
 		for (V& s : sum)

@@ -49,8 +49,9 @@ ClosestPoint closestPoint(const ConvexShape& shape, const Vector3& query)
 	for (std::size_t f = 0; f < hull.faces.size(); ++f) {
 		const int plane = hull.planeOfFace[f];
 		// the caps of a polygon's prism have no plane of their own
-		const Vector3 normal = plane >= 0 ? shape.planes().normals[plane] : Vector3(0, 0, hull.vertices[hull.faces[f].front()].z() > 0 ? 1 : -1);
-		const Real    beyond = normal.dot(query - hull.vertices[hull.faces[f].front()]);
+		const Vector3 normal
+		        = plane >= 0 ? shape.planes().normals[plane] : Vector3(0, 0, hull.vertices[hull.faces[f].front()].z() > 0 ? 1 : -1);
+		const Real beyond = normal.dot(query - hull.vertices[hull.faces[f].front()]);
 		if (beyond > inside.distance) inside = { query - beyond * normal, normal, beyond };
 		if (!(beyond > 0)) continue;
 		const Vector3 point    = onFace(hull, hull.faces[f], normal, query);

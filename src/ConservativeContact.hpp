@@ -23,8 +23,8 @@ namespace polytope {
 /// Start of the Newton iterations: the last minimiser, carried by both bodies, or, if that has become worse, the linear
 /// programme's optimum (x, s). Lifted until every slack has room.
 template <class R, int D, int W>
-POLYTOPE_INLINE void startBarrier(
-        const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, const PairMemory& memory, bool warm, const R* x, R s, R mu, BarrierPoint<R, D>& start)
+POLYTOPE_INLINE void startBarrier(const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, const PairMemory& memory, bool warm,
+        const R* x, R s, R mu, BarrierPoint<R, D>& start)
 {
 	const R room = R(tolerance::barrierRoom) * mu;
 	R       smallest;
@@ -42,17 +42,8 @@ POLYTOPE_INLINE void startBarrier(
 
 /// After the linear programme: x its point in the planes' frame, s its value, `below` a bound of it from the weights alone.
 template <class R, int D, int W>
-POLYTOPE_INLINE void conservativeContact(
-        const PairInput& in,
-        const ContactSettings& settings,
-        PairPlanes<R, D>& planes,
-        ContactFrame<R, D>& f,
-        const R* x,
-        R s,
-        R below,
-        PairMemory& memory,
-        ContactWorkspace& workspace,
-        ContactResult& out)
+POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
+        ContactFrame<R, D>& f, const R* x, R s, R below, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	using std::isfinite;
 	using std::sqrt;
@@ -80,7 +71,8 @@ POLYTOPE_INLINE void conservativeContact(
 	BarrierWeights weights = BarrierWeights::FromSlacks;
 	BarrierStatus  solved;
 	for (int turns = 0;; ++turns) {
-		solved = minimiseBarrier<R, D, W>(planes, mu, settings.newtonTolerance, point, weights, turns < tolerance::turns, out.newtonIterations);
+		solved = minimiseBarrier<R, D, W>(
+		        planes, mu, settings.newtonTolerance, point, weights, turns < tolerance::turns, out.newtonIterations);
 		if (solved != BarrierStatus::Skewed) break;
 		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
 		turnPlanes<R, D, W>(turn, planes);

@@ -36,8 +36,8 @@ template <class R, int D> POLYTOPE_INLINE R norm(const R* v)
 template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> contactFrame(const PairInput& in)
 {
 	ContactFrame<R, D> f;
-	f.home = in.shape[1]->boundingRadius() < in.shape[0]->boundingRadius() ? 1 : 0;
-	f.size = in.shape[f.home]->boundingRadius();
+	f.home              = in.shape[1]->boundingRadius() < in.shape[0]->boundingRadius() ? 1 : 0;
+	f.size              = in.shape[f.home]->boundingRadius();
 	const Matrix3& h    = *in.rotation[f.home];
 	const Matrix3& o    = *in.rotation[1 - f.home];
 	const R        sign = f.home == 0 ? R(1) : R(-1);
@@ -149,8 +149,8 @@ template <class R, int D> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, 
 /// Turns the frame: last axis along `direction` (if it has one), origin to x; both in the planes' frame.
 template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>& f, const R* direction, const R* x)
 {
-	const R        length = norm<R, D>(direction);
-	R              n[D];
+	const R length = norm<R, D>(direction);
+	R       n[D];
 	for (int k = 0; k < D; ++k)
 		n[k] = length > R(tolerance::direction) ? direction[k] / length : R(k == D - 1);
 	const Rotation<R, D> turn = axesAround<R, D>(n);
@@ -177,8 +177,8 @@ template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput&
 		}
 	for (int body = 0; body < 2; ++body) {
 		const bool home = body == f.home;
-		placePlanes<R, D, W>(
-		        *in.shape[body], home ? f.axes : turn, home ? nowhere : centre, home ? f.origin : origin, planes, planes.begin(body), planes.end(body));
+		placePlanes<R, D, W>(*in.shape[body], home ? f.axes : turn, home ? nowhere : centre, home ? f.origin : origin, planes,
+		        planes.begin(body), planes.end(body));
 	}
 }
 

@@ -25,7 +25,8 @@ inline long nanoseconds()
 
 /// Solves the basis given by codes (2 × index + body) in the home frame; false if it cannot serve.
 template <class R, int D>
-POLYTOPE_INLINE bool startFrom(const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
+POLYTOPE_INLINE bool startFrom(
+        const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
 {
 	R          normals[D + 1][D];
 	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
@@ -99,8 +100,8 @@ POLYTOPE_INLINE bool finite(const Vector3& v)
 
 /// Newton from `start`, in axes turned to the overlap's own where those of the contact do not do; x and dual turn with them.
 template <class R, int D, int W>
-POLYTOPE_INLINE CentreStatus
-newtonCentre(PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
+POLYTOPE_INLINE CentreStatus newtonCentre(
+        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
 {
 	for (int turns = 0;; ++turns) {
 		const CentreStatus centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
@@ -125,16 +126,16 @@ template <class R, int D> POLYTOPE_INLINE ContactStatus ipoptCentre(const PairPl
 
 /// Normal at x (Eq. 17) from both gradients, or what stands in for it. Leaves slacks for the depth.
 template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus contactNormal(
-        const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
 {
-	R         weight[2];
-	R         g[2][D];
-	int       directed = 0;
+	R   weight[2];
+	R   g[2][D];
+	int directed = 0;
 	for (int body = 0; body < 2; ++body) {
 		innerPotentialGradient<R, D, W>(planes, body, x, in.shape[body]->cornerRadius(), g[body]);
-		const R length = norm<R, D>(g[body]);
-		const bool has = length > R(tolerance::direction) * f.size;
+		const R    length = norm<R, D>(g[body]);
+		const bool has    = length > R(tolerance::direction) * f.size;
 		directed += has;
 		weight[body] = has ? (body == 0 ? R(1) : R(-1)) * settings.normalWeight[body] / length : R(0);
 	}
@@ -149,7 +150,8 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 		length = norm<R, D>(n);
 	}
 	ContactStatus status = directed == 2 ? ContactStatus::Contact : ContactStatus::NormalFromOneBody;
-	if (directed == 0 || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
+	if (directed == 0
+	        || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
 		status = ContactStatus::NormalFromDual;
 		for (int k = 0; k < D; ++k)
 			n[k] = dual[k];
@@ -157,7 +159,7 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 	}
 	if (!(length > R(tolerance::direction) * R(directed == 0))) {
 		// concentric bodies: along the line of centres, or the last axis
-		status   = ContactStatus::NoDirection;
+		status = ContactStatus::NoDirection;
 		R line[D];
 		for (int k = 0; k < D; ++k)
 			line[k] = f.home == 0 ? f.centre[k] : -f.centre[k];
@@ -174,7 +176,8 @@ POLYTOPE_INLINE ContactStatus contactNormal(
 	return status;
 }
 
-template <class R, int D> POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
+template <class R, int D>
+POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {
 	for (int k = 0; k <= D; ++k) {
 		const bool second = basis.plane[k] >= planes.first;
@@ -200,8 +203,8 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 }
 
 template <class R, int D, int W>
-POLYTOPE_INLINE void
-contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void contactKernel(
+        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	const long         started   = settings.timed ? nanoseconds() : 0;
 	ContactFrame<R, D> f         = contactFrame<R, D>(in);
@@ -215,7 +218,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	// 1. a first basis: the last step's, or the smaller inscribed ball's
 	LpBasis<R, D> basis;
 	R             dual[D];
-	const bool    warm = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
+	const bool    warm
+	        = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
 	if (!warm) {
 		int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
 		memory.hasPoint = memory.hasBasis = false;
@@ -266,9 +270,9 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		}
 	}
 	rememberBasis<R, D>(planes, basis, memory, out);
-	const long lpDone = settings.timed ? nanoseconds() : 0;
-	out.lpNanoseconds = lpDone - started;
-	out.infeasibility = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, f, -tolerance) : basis.infeasibility;
+	const long lpDone   = settings.timed ? nanoseconds() : 0;
+	out.lpNanoseconds   = lpDone - started;
+	out.infeasibility   = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, f, -tolerance) : basis.infeasibility;
 	const bool touching = basis.infeasibility < -tolerance;
 	dualDirection<R, D>(planes, basis, dual);
 	out.dualDirection = worldDirection<R, D>(in, f, dual);
@@ -296,7 +300,8 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		}
 	}
 	if (settings.contactModel == ContactModel::Conservative) {
-		conservativeContact<R, D, W>(in, settings, planes, f, x, basis.infeasibility, lowerBound<R, D>(basis, reach), memory, workspace, out);
+		conservativeContact<R, D, W>(
+		        in, settings, planes, f, x, basis.infeasibility, lowerBound<R, D>(basis, reach), memory, workspace, out);
 		if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
 		return;
 	}
@@ -317,8 +322,7 @@ contactKernel(const PairInput& in, const ContactSettings& settings, PairMemory& 
 		for (int k = 0; k < D; ++k)
 			start[k] = x[k];
 		if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
-		else
-			simplexCentre<R, D>(basis, deep, x, target);
+		else simplexCentre<R, D>(basis, deep, x, target);
 		moveInside<R, D, W>(planes, start, target);
 		// what is left of the way to the centre moves the depth by at most that part of itself
 		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);

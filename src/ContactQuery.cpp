@@ -26,7 +26,7 @@ namespace {
 	using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
 
 	struct Kernels {
-		Kernel      flat; ///< 2-D
+		Kernel      flat;  ///< 2-D
 		Kernel      solid; ///< 3-D
 		const char* name;
 	};
@@ -34,12 +34,12 @@ namespace {
 	// The kernel is compiled once per instruction set through function attributes, not per-file flags: inline functions
 	// of libraries that the linker merges across files stay baseline code.
 #if defined(__x86_64__) && !defined(POLYTOPE_REAL)
-#define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                                              \
-	template <int D>                                                                                                                                      \
-	__attribute__((target(TARGET))) void NAME(                                                                                                            \
-	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)                   \
-	{                                                                                                                                                     \
-		contactKernel<Real, D, WIDTH>(in, settings, memory, workspace, out);                                                                              \
+#define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
+	template <int D>                                                                                                                   \
+	__attribute__((target(TARGET))) void NAME(                                                                                         \
+	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out) \
+	{                                                                                                                                  \
+		contactKernel<Real, D, WIDTH>(in, settings, memory, workspace, out);                                                       \
 	}
 	// four lanes with AVX-512 too: bodies have few faces, and its 32 registers hold the Hessian's sums
 	POLYTOPE_KERNEL(kernelV4, "arch=x86-64-v4", 4)
@@ -55,7 +55,8 @@ namespace {
 	}
 #else
 	template <int D>
-	void kernelScalar(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+	void kernelScalar(
+	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 	{
 		contactKernel<Real, D, 1>(in, settings, memory, workspace, out);
 	}
@@ -66,16 +67,8 @@ namespace {
 
 } // namespace
 
-void contactQuery(
-        const ConvexShape&     shape1,
-        const Matrix3&         rotation1,
-        const ConvexShape&     shape2,
-        const Matrix3&         rotation2,
-        const Vector3&         centre2,
-        const ContactSettings& settings,
-        PairMemory&            memory,
-        ContactWorkspace&      workspace,
-        ContactResult&         result)
+void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
+        const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
 	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
 	result              = ContactResult();

@@ -56,34 +56,36 @@ struct ContactSettings {
 struct PairMemory {
 	bool                   hasBasis = false;
 	bool                   hasPoint = false;
-	std::array<int, 4>     basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
+	std::array<int, 4>     basis { { 0, 0, 0, 0 } };                   ///< 2 × plane index + (0: body 1, 1: body 2)
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
 	Real                   level = 0; ///< last s of the conservative contact's minimiser; any value is safe
 };
 
 struct ContactResult {
-	ContactStatus status         = ContactStatus::Separated;
-	bool          inContact      = false;
-	bool          hasGeometry    = false;           ///< point, normal and depth are set
-	Real          infeasibility  = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
-	Vector3       point          = Vector3::Zero(); ///< world axes, from body 1's centre
-	Vector3       normal         = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
-	Real          depth          = 0;               ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
-	Vector3       dualDirection  = Vector3::Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
-	Real          area           = 0;               ///< contact section (times thickness in 2-D)
-	Vector3       sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
-	Real          barrierValue     = 0; ///< conservative: Φ [m], ≥ s*; contact where it is negative
-	Real          energy           = 0; ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
-	Real          rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
-	bool          dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
-	int           simplexPivots    = 0;
-	int           newtonIterations = 0;
-	bool          ipoptSolved      = false; ///< Ipopt was called, with or without success
-	int           ipoptIterations  = 0;
-	Real          decrement        = 0; ///< Newton decrement before the last step
-	long          lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
-	std::array<int, 4>  basis { { 0, 0, 0, 0 } };  ///< as PairMemory::basis
-	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
+	ContactStatus status        = ContactStatus::Separated;
+	bool          inContact     = false;
+	bool          hasGeometry   = false;           ///< point, normal and depth are set
+	Real          infeasibility = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
+	Vector3       point         = Vector3::Zero(); ///< world axes, from body 1's centre
+	Vector3       normal        = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
+	Real          depth
+	        = 0; ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
+	Vector3 dualDirection = Vector3::
+	        Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
+	Real    area             = 0;               ///< contact section (times thickness in 2-D)
+	Vector3 sectionCentroid  = Vector3::Zero(); ///< world axes, from body 1's centre
+	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
+	Real    energy           = 0;               ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
+	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
+	bool    dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
+	int     simplexPivots    = 0;
+	int     newtonIterations = 0;
+	bool    ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int     ipoptIterations  = 0;
+	Real    decrement        = 0;                     ///< Newton decrement before the last step
+	long    lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };     ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } };   ///< LP dual λ of the basis
 };
 
 /// Buffers of one thread; grow to the largest pair seen, then stay.
@@ -99,16 +101,8 @@ private:
 /// One pair. `rotation1`, `rotation2`: body to world; `centre2`: from body 1's centre to body 2's, world axes (so scene
 /// coordinates never enter, and periodic shifts are the caller's). In 2-D the rotations are about z and z of everything
 /// is ignored.
-void contactQuery(
-        const ConvexShape&     shape1,
-        const Matrix3&         rotation1,
-        const ConvexShape&     shape2,
-        const Matrix3&         rotation2,
-        const Vector3&         centre2,
-        const ContactSettings& settings,
-        PairMemory&            memory,
-        ContactWorkspace&      workspace,
-        ContactResult&         result);
+void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
+        const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result);
 
 /// Name of the instruction set the query runs with on this machine.
 const char* instructionSet();

@@ -26,11 +26,12 @@ template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>
 
 /// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half
 /// width; without the planes that lie on plane `skip`, if that is not −1. `buffer` holds 4 (total + 5) numbers.
-template <class R> POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer, int skip)
+template <class R>
+POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer, int skip)
 {
-	const Rotation<R, 3> axes  = axesAround<R, 3>(normal);
-	R*                   here  = buffer;
-	R*                   there = buffer + 2 * (planes.total + 5);
+	const Rotation<R, 3> axes       = axesAround<R, 3>(normal);
+	R*                   here       = buffer;
+	R*                   there      = buffer + 2 * (planes.total + 5);
 	const R              corners[8] = { -halfWidth, -halfWidth, halfWidth, -halfWidth, halfWidth, halfWidth, -halfWidth, halfWidth };
 	int                  count      = 4;
 	for (int k = 0; k < 8; ++k)
@@ -41,16 +42,16 @@ template <class R> POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3
 		planes.plane(i, a, d);
 		if (d >= R(padOffset) / 2) continue;
 		const R au = dot<R, 3>(a, axes.m[0]), av = dot<R, 3>(a, axes.m[1]);
-		const R rest = d - dot<R, 3>(a, origin);
-		int     kept = 0;
+		const R rest  = d - dot<R, 3>(a, origin);
+		int     kept  = 0;
 		R       lastU = here[2 * count - 2], lastV = here[2 * count - 1];
 		R       last = au * lastU + av * lastV - rest;
 		for (int k = 0; k < count; ++k) {
 			const R u = here[2 * k], v = here[2 * k + 1];
 			const R value = au * u + av * v - rest;
 			if ((value > 0) != (last > 0)) {
-				const R t         = last / (last - value);
-				there[2 * kept]   = lastU + t * (u - lastU);
+				const R t           = last / (last - value);
+				there[2 * kept]     = lastU + t * (u - lastU);
 				there[2 * kept + 1] = lastV + t * (v - lastV);
 				++kept;
 			}
@@ -87,7 +88,8 @@ template <class R> POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3
 }
 
 /// 2-D: the segment of the line through origin, normal to `normal`, inside both bodies.
-template <class R> POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R* origin, const R* normal, R halfWidth, R*, int skip)
+template <class R>
+POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R* origin, const R* normal, R halfWidth, R*, int skip)
 {
 	const Rotation<R, 2> axes = axesAround<R, 2>(normal);
 	R                    low = -halfWidth, high = halfWidth;
@@ -98,10 +100,8 @@ template <class R> POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2
 		const R rate = dot<R, 2>(a, axes.m[0]);
 		const R rest = d - dot<R, 2>(a, origin);
 		if (rate > 0) high = minOf<R>(high, rest / rate);
-		else if (rate < 0)
-			low = maxOf<R>(low, rest / rate);
-		else if (rest < 0)
-			high = low;
+		else if (rate < 0) low = maxOf<R>(low, rest / rate);
+		else if (rest < 0) high = low;
 	}
 	Section<R, 2> section;
 	section.area = high > low ? high - low : R(0);

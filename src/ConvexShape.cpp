@@ -22,10 +22,11 @@ namespace {
 	}
 
 	/// Largest inscribed ball by the same simplex, started from a simplex of artificial planes far outside.
-	template <int D> Real inscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall)
+	template <int D>
+	Real inscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall)
 	{
-		const int         total = padded + padWidth;
-		std::vector<Real> rows(std::size_t(D + 3) * total, Real(0));
+		const int           total = padded + padWidth;
+		std::vector<Real>   rows(std::size_t(D + 3) * total, Real(0));
 		PairPlanes<Real, D> planes;
 		for (int k = 0; k < D; ++k)
 			planes.normal[k] = rows.data() + k * total;
@@ -73,11 +74,8 @@ namespace {
 } // namespace
 
 ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness)
-        : planes_(normalised(planes))
-        , cornerRadius_(cornerRadius)
-        , thickness_(thickness)
-        , polyhedron_(polytope::polyhedron(planes_, thickness))
-        , mass_(massProperties(polyhedron_))
+        : planes_(normalised(planes)), cornerRadius_(cornerRadius), thickness_(thickness),
+          polyhedron_(polytope::polyhedron(planes_, thickness)), mass_(massProperties(polyhedron_))
 {
 	fillArrays();
 	const int D = dimension();
@@ -92,8 +90,8 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
 	if (!isfinite(cornerRadius) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
 		throw std::invalid_argument(
-		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius " + text(inscribedRadius_)
-		        + " m; got " + text(cornerRadius));
+		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius "
+		        + text(inscribedRadius_) + " m; got " + text(cornerRadius));
 }
 
 void ConvexShape::fillArrays()
@@ -112,7 +110,7 @@ void ConvexShape::fillArrays()
 std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNormal, int dimension)
 {
 	std::shared_ptr<ConvexShape> wall(new ConvexShape);
-	wall->planes_         = { { unitNormal }, { Real(0) }, dimension };
+	wall->planes_          = { { unitNormal }, { Real(0) }, dimension };
 	wall->inscribedRadius_ = wall->boundingRadius_ = wall->thickness_ = std::numeric_limits<Real>::infinity();
 	// below padOffset, so neutral planes stay neutral, and far above every slack
 	wall->cornerRadius_ = Real(padOffset) / 1e30;
@@ -124,9 +122,9 @@ std::shared_ptr<const ConvexShape> ConvexShape::shared(const HalfSpaces& planes,
 {
 	// keyed by the exact numbers; entries whose last body is gone are swept when the map has doubled
 	using Key = std::vector<Real>;
-	static std::mutex                                  mutex;
+	static std::mutex                                      mutex;
 	static std::map<Key, std::weak_ptr<const ConvexShape>> known;
-	static std::size_t                                 sweepAt = 64;
+	static std::size_t                                     sweepAt = 64;
 
 	Key key { Real(planes.dimension), cornerRadius, thickness };
 	for (const Vector3& n : planes.normals)

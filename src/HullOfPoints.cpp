@@ -23,28 +23,32 @@ namespace {
 		std::vector<Vector3> points;
 		Vector3              centre;
 		Real                 unit; ///< a power of two: points · unit + centre are the caller's
-		Real                 size; ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
+		Real size; ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
 	};
 
 	void check(const std::vector<Vector3>& points, int dimension, const Real& coplanar)
 	{
 		if (dimension != 2 && dimension != 3) refuse("dimension: " + std::to_string(dimension) + "; give 2 or 3");
 		if (points.size() < std::size_t(dimension) + 1)
-			refuse("points: " + std::to_string(points.size()) + " cannot span a body in " + std::to_string(dimension) + "-D; give at least "
-			       + std::to_string(dimension + 1));
+			refuse("points: " + std::to_string(points.size()) + " cannot span a body in " + std::to_string(dimension)
+			        + "-D; give at least " + std::to_string(dimension + 1));
 		for (std::size_t i = 0; i < points.size(); ++i)
 			for (int k = 0; k < 3; ++k)
 				if (!(Eigen::numext::isfinite)(points[i][k]))
-					refuse("points: entry " + std::to_string(i) + " (counted from 0) is not finite; remove NaN and infinite values");
+					refuse("points: entry " + std::to_string(i)
+					        + " (counted from 0) is not finite; remove NaN and infinite values");
 				else if (magnitude(points[i][k]) > construction::largestLength)
-					refuse("points: entry " + std::to_string(i) + " (counted from 0) is beyond 1e50; choose another unit of length");
-		if (!(coplanar >= 0 && coplanar <= Real(0.1))) refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the size");
+					refuse("points: entry " + std::to_string(i)
+					        + " (counted from 0) is beyond 1e50; choose another unit of length");
+		if (!(coplanar >= 0 && coplanar <= Real(0.1)))
+			refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the size");
 	}
 
 	[[noreturn]] void refuseFlat(int dimension)
 	{
-		refuse(dimension == 2 ? "points: they lie on a line; give at least three corners of a polygon"
-		                      : "points: they lie in a plane; give points that span a volume (for a polygon use yade.polytope.polygon)");
+		refuse(dimension == 2
+		                ? "points: they lie on a line; give at least three corners of a polygon"
+		                : "points: they lie in a plane; give points that span a volume (for a polygon use yade.polytope.polygon)");
 	}
 
 	UnitPoints atUnitSize(const std::vector<Vector3>& points, int dimension)
@@ -54,8 +58,8 @@ namespace {
 			low  = low.cwiseMin(p);
 			high = high.cwiseMax(p);
 		}
-		const Vector3 span = high - low;
-		const int     used = dimension; // in 2-D the extent is that of x and y
+		const Vector3 span    = high - low;
+		const int     used    = dimension; // in 2-D the extent is that of x and y
 		const Real    largest = span.head(used).maxCoeff();
 		if (!(largest > 0)) refuseFlat(dimension);
 		if (largest < construction::smallestLength) refuse("points: they are less than 1e-50 apart; choose another unit of length");
@@ -106,11 +110,11 @@ namespace {
 		for (std::size_t k = 0; k < members.size(); ++k)
 			rows.row(Eigen::Index(k)) = (points[std::size_t(members[k])] - fit.middle).transpose();
 		const Eigen::HouseholderQR<Eigen::Matrix<Real, Eigen::Dynamic, 3>> qr(rows);
-		const Matrix3 factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
+		const Matrix3                   factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
 		const Eigen::JacobiSVD<Matrix3> svd(factor, Eigen::ComputeFullV);
 		fit.normal = svd.matrixV().col(2);
 		fit.width  = svd.singularValues()[1];
-		fit.misfit           = (rows * fit.normal).cwiseAbs().maxCoeff();
+		fit.misfit = (rows * fit.normal).cwiseAbs().maxCoeff();
 		return fit;
 	}
 
@@ -182,11 +186,11 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
 	const Real      tolerance = std::max(construction::coincidence, coplanar) * set.size;
 	const auto      misfit    = [&set](const Indices& members) { return planeFit(set.points, members).misfit; };
 	const auto      outside   = [&](const Indices& members) {
-		const Fit fit   = outwardFit(set.points, members, inner);
-		Real      reach = 0;
-		for (int i : corners)
-			reach = std::max(reach, Real(fit.normal.dot(set.points[std::size_t(i)] - fit.middle)));
-		return reach;
+                const Fit fit   = outwardFit(set.points, members, inner);
+                Real      reach = 0;
+                for (int i : corners)
+                        reach = std::max(reach, Real(fit.normal.dot(set.points[std::size_t(i)] - fit.middle)));
+                return reach;
 	};
 	const Clusters facets = cluster(triangles, edges, misfit, outside, tolerance);
 

@@ -10,7 +10,8 @@
 /// Zero where x lies deeper than r inside every face.
 namespace polytope {
 
-template <class R, int D, int W> POLYTOPE_INLINE void innerPotentialGradient(const PairPlanes<R, D>& planes, int body, const R* x, R cornerRadius, R* gradient)
+template <class R, int D, int W>
+POLYTOPE_INLINE void innerPotentialGradient(const PairPlanes<R, D>& planes, int body, const R* x, R cornerRadius, R* gradient)
 {
 	using V = typename Lanes<R, W>::Type;
 	V X[D], g[D];

@@ -55,16 +55,17 @@ namespace {
 		const Real* point() const { return point_; }
 
 		bool get_nlp_info(Index& n, Index& m, Index& nonZerosJacobian, Index& nonZerosHessian, IndexStyleEnum& style) override;
-		bool get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper) override;
+		bool get_bounds_info(
+		        Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper) override;
 		bool get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*) override;
 		bool eval_f(Index n, const Number* z, bool, Number& value) override;
 		bool eval_grad_f(Index n, const Number* z, bool, Number* gradient) override;
 		bool eval_g(Index, const Number* z, bool, Index m, Number* constraint) override;
 		bool eval_jac_g(Index, const Number*, bool, Index m, Index, Index* rows, Index* columns, Number* values) override;
-		bool eval_h(Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows, Index* columns, Number* values) override;
-		void finalize_solution(
-		        SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*, const Number*, Number, const IpoptData*, IpoptCalculatedQuantities*)
-		        override;
+		bool eval_h(Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows, Index* columns,
+		        Number* values) override;
+		void finalize_solution(SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*,
+		        const Number*, Number, const IpoptData*, IpoptCalculatedQuantities*) override;
 
 	private:
 		/// From x₀ along an axis to the nearest planes.
@@ -76,8 +77,8 @@ namespace {
 		Real plane(int i, int k) const { return normal_[std::size_t(i) * dimension_ + k]; }
 
 		int                 dimension_ = 0, planes_ = 0;
-		Real                point_[3]  = {}; ///< x₀
-		Real                unit_[3]   = {}; ///< D
+		Real                point_[3] = {};  ///< x₀
+		Real                unit_[3]  = {};  ///< D
 		std::vector<Real>   normal_, slack_; ///< a; d − a·x₀
 		std::vector<Real>   slackUnit_;      ///< S
 		std::vector<double> coefficient_;    ///< a_ik D_k/S_i
@@ -148,7 +149,8 @@ namespace {
 		if (!inside())
 			for (int i = 0; i < planes_; ++i)
 				for (int k = 0; k < dimension_; ++k)
-					slackUnit_[i] = std::max<Real>(slackUnit_[i], (plane(i, k) < 0 ? -plane(i, k) : plane(i, k)) * unit_[k]);
+					slackUnit_[i]
+					        = std::max<Real>(slackUnit_[i], (plane(i, k) < 0 ? -plane(i, k) : plane(i, k)) * unit_[k]);
 		coefficient_.resize(normal_.size());
 		for (int i = 0; i < planes_; ++i)
 			for (int k = 0; k < dimension_; ++k)
@@ -186,7 +188,8 @@ namespace {
 		return true;
 	}
 
-	bool CentreProgramme::get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper)
+	bool CentreProgramme::get_bounds_info(
+	        Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper)
 	{
 		constexpr Number infinite = 1e20; // beyond Ipopt's nlp_upper_bound_inf
 		for (Index j = 0; j < n; ++j) {
@@ -247,20 +250,20 @@ namespace {
 		return true;
 	}
 
-	bool CentreProgramme::eval_h(Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows, Index* columns, Number* values)
+	bool CentreProgramme::eval_h(Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows,
+	        Index* columns, Number* values)
 	{
 		// the constraints are linear: of the Lagrangian only the objective's own diagonal is left
 		for (Index j = dimension_; j < n; ++j) {
 			const Index i = j - dimension_;
 			if (values) values[i] = factor / (z[j] * z[j]);
-			else
-				rows[i] = columns[i] = j;
+			else rows[i] = columns[i] = j;
 		}
 		return true;
 	}
 
-	void CentreProgramme::finalize_solution(
-	        SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*, const Number*, Number, const IpoptData*, IpoptCalculatedQuantities*)
+	void CentreProgramme::finalize_solution(SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*,
+	        const Number*, Number, const IpoptData*, IpoptCalculatedQuantities*)
 	{
 		solution_.assign(z, z + n);
 	}
@@ -325,7 +328,7 @@ namespace {
 			programme_->scale();
 			const ApplicationReturnStatus status = optimise();
 			if (IsValid(application_->Statistics())) iterations += application_->Statistics()->IterationCount();
-			const Real moved = programme_->moveToSolution();
+			const Real moved  = programme_->moveToSolution();
 			const bool inside = programme_->inside();
 			if (!(moved >= 0) || (!inside && status != Maximum_Iterations_Exceeded)) return IpoptOutcome::Failed;
 			if (inside && status == Solve_Succeeded && moved <= tolerance::ipoptMove) {
@@ -343,7 +346,7 @@ const char* ipoptVersion() { return IPOPT_VERSION; }
 
 IpoptOutcome ipoptCentre(int dimension, int count, const Real* const* normal, const Real* offset, Real* x, int& iterations)
 {
-	static std::mutex                                 making;
+	static std::mutex                                making;
 	static thread_local std::unique_ptr<IpoptRunner> solver;
 	try {
 		if (!solver) {

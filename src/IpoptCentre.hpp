@@ -19,6 +19,7 @@ const char* ipoptVersion();
 /// (see padOffset) are left out. The frame is turned to the contact normal (last axis).
 /// `x`: inside, or near it; replaced by the centre if Converged, else left alone (as where there is no inside). Adds to `iterations`.
 /// May be called by any number of threads at once. Nothing is thrown or printed. Works in double whatever Real is.
-__attribute__((cold)) IpoptOutcome ipoptCentre(int dimension, int count, const Real* const* normal, const Real* offset, Real* x, int& iterations);
+__attribute__((cold)) IpoptOutcome ipoptCentre(
+        int dimension, int count, const Real* const* normal, const Real* offset, Real* x, int& iterations);
 
 } // namespace polytope

@@ -27,10 +27,8 @@ ESymSolverStatus IpoptLinearSolver::factorise(const Index* rows, const Index* co
 	for (std::size_t i = 0; i < values_.size(); ++i) {
 		const int row = std::max(rows[i], columns[i]) - 1, column = std::min(rows[i], columns[i]) - 1;
 		if (row == column) diagonal_[row] += values_[i];
-		else if (row >= firstMultiplier && column < dimension_)
-			constraints_(row - firstMultiplier, column) += values_[i];
-		else if (row != column + planes_ || values_[i] != 1)
-			return SYMSOLVER_FATAL_ERROR; // not this programme
+		else if (row >= firstMultiplier && column < dimension_) constraints_(row - firstMultiplier, column) += values_[i];
+		else if (row != column + planes_ || values_[i] != 1) return SYMSOLVER_FATAL_ERROR; // not this programme
 	}
 	Eigen::MatrixXd stack(dimension_ + planes_, dimension_);
 	stack.setZero();
@@ -52,10 +50,10 @@ ESymSolverStatus IpoptLinearSolver::factorise(const Index* rows, const Index* co
 void IpoptLinearSolver::solve(double* vector) const
 {
 	using Part = Eigen::Map<Eigen::VectorXd>;
-	Part u(vector, dimension_), sigma(vector + dimension_, planes_), lambda(vector + dimension_ + planes_, planes_);
-	const Eigen::ArrayXd p     = diagonal_.segment(dimension_, planes_).array();
-	const Eigen::ArrayXd onePd = 1 - p * diagonal_.tail(planes_).array();
-	const Eigen::ArrayXd t     = (sigma.array() - p * lambda.array()) / onePd; // λ = t + w C u
+	Part                  u(vector, dimension_), sigma(vector + dimension_, planes_), lambda(vector + dimension_ + planes_, planes_);
+	const Eigen::ArrayXd  p      = diagonal_.segment(dimension_, planes_).array();
+	const Eigen::ArrayXd  onePd  = 1 - p * diagonal_.tail(planes_).array();
+	const Eigen::ArrayXd  t      = (sigma.array() - p * lambda.array()) / onePd; // λ = t + w C u
 	const Eigen::VectorXd rightU = sigma;
 	u -= constraints_.transpose() * t.matrix();
 	const auto r = factor_.triangularView<Eigen::Upper>();

@@ -25,16 +25,11 @@ public:
 	void setDimension(int dimension) { dimension_ = dimension; }
 
 	bool                    InitializeImpl(const Ipopt::OptionsList&, const std::string&) override { return true; }
-	Ipopt::ESymSolverStatus InitializeStructure(Ipopt::Index size, Ipopt::Index nonZeros, const Ipopt::Index* rows, const Ipopt::Index* columns) override;
+	Ipopt::ESymSolverStatus InitializeStructure(
+	        Ipopt::Index size, Ipopt::Index nonZeros, const Ipopt::Index* rows, const Ipopt::Index* columns) override;
 	Ipopt::Number*          GetValuesArrayPtr() override { return values_.data(); }
-	Ipopt::ESymSolverStatus MultiSolve(
-	        bool                newMatrix,
-	        const Ipopt::Index* rows,
-	        const Ipopt::Index* columns,
-	        Ipopt::Index        rightSides,
-	        Ipopt::Number*      vectors,
-	        bool                checkNegative,
-	        Ipopt::Index        negative) override;
+	Ipopt::ESymSolverStatus MultiSolve(bool newMatrix, const Ipopt::Index* rows, const Ipopt::Index* columns, Ipopt::Index rightSides,
+	        Ipopt::Number* vectors, bool checkNegative, Ipopt::Index negative) override;
 
 	Ipopt::Index  NumberOfNegEVals() const override { return planes_; }
 	bool          IncreaseQuality() override { return false; }
@@ -46,9 +41,9 @@ private:
 	void                    solve(double* vector) const;
 
 	int                 dimension_ = 3, planes_ = 0;
-	std::vector<double> values_;                     ///< of the triplets
-	Eigen::VectorXd     diagonal_;                   ///< E, P, −Δ
-	Eigen::MatrixXd     constraints_, factor_;       ///< C; R, upper triangular
+	std::vector<double> values_;               ///< of the triplets
+	Eigen::VectorXd     diagonal_;             ///< E, P, −Δ
+	Eigen::MatrixXd     constraints_, factor_; ///< C; R, upper triangular
 };
 
 } // namespace polytope

@@ -34,7 +34,7 @@ namespace {
 				exact::Bounds bounds { Vector3::Constant(-1), Vector3::Constant(1) };
 				if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
 				bounds.lower[k] = bounds.upper[k] = sign;
-				const exact::DeepPoint flattest = exact::deepest(set.normals, level, 1, bounds);
+				const exact::DeepPoint flattest   = exact::deepest(set.normals, level, 1, bounds);
 				if (flattest.depth >= -construction::recession) return flattest.point.normalized();
 			}
 		return Vector3::Zero();
@@ -60,7 +60,8 @@ namespace {
 		for (std::size_t i = 0; i < normals.size(); ++i)
 			size = std::max(size, magnitude(offsets[i] - normals[i].dot(ball.point)));
 		if (ball.depth < -construction::coincidence * size)
-			refuse("offsets: the half-spaces have no common point; a plane is normal·x <= offset with the normal pointing out of the body: "
+			refuse("offsets: the half-spaces have no common point; a plane is normal·x <= offset with the normal pointing out "
+			       "of the body: "
 			       "check the signs of normals and offsets");
 	}
 
@@ -94,7 +95,8 @@ LocalPlanes aboutInnerPoint(const HalfSpaces& set)
 	const exact::DeepPoint ball = exact::deepest(set.normals, scaled, 2, bounds);
 	if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
 	if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
-	if (ball.depth * scale < construction::smallestLength) refuse("offsets: the body is smaller than 1e-50; choose another unit of length");
+	if (ball.depth * scale < construction::smallestLength)
+		refuse("offsets: the body is smaller than 1e-50; choose another unit of length");
 
 	LocalPlanes local;
 	local.centre   = ball.point * scale;

@@ -17,11 +17,11 @@
 namespace polytope {
 
 template <class R, int D> struct LpBasis {
-	int plane[D + 1];     ///< rows of PairPlanes
+	int plane[D + 1];      ///< rows of PairPlanes
 	R   inverse[D + 1][4]; ///< [j][k]: component j of row k of the inverse of the matrix with columns (a_k; 1)
-	R   weight[4];        ///< λ_k, sum 1
-	R   noise[4];         ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
-	R   point[D];         ///< x of the basis: its planes have equal violation
+	R   weight[4];         ///< λ_k, sum 1
+	R   noise[4];          ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
+	R   point[D];          ///< x of the basis: its planes have equal violation
 	R   infeasibility = 0; ///< s of the basis, ≤ s*
 };
 
@@ -31,8 +31,8 @@ template <class R, int D> struct LpBasis {
 ///
 ///     (p; t) = Σ μ_k (a_k; 1)   ⇔   Σ ν_k e_k = p − t a_0,   ν_k: sum of μ over the planes that hang on edge k
 template <class R, int D>
-POLYTOPE_INLINE R
-solveFromDifferences(const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, R leastVolume, LpBasis<R, D>& basis)
+POLYTOPE_INLINE R solveFromDifferences(
+        const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, R leastVolume, LpBasis<R, D>& basis)
 {
 	R e[D][D], c[D][D], difference[D], det;
 	for (int k = 0; k < D; ++k) {
@@ -172,13 +172,15 @@ template <class R, int D>
 __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
 {
 	const DifferenceOrder<D> order = differenceOrder<R, D>(a);
-	if (!(solveFromDifferences<R, D>(a, d, order.planes, order.chained, R(tolerance::noVolume), basis) < R(tolerance::singularBasis))) return false;
+	if (!(solveFromDifferences<R, D>(a, d, order.planes, order.chained, R(tolerance::noVolume), basis) < R(tolerance::singularBasis)))
+		return false;
 	return refineBasis<R, D>(a, d, basis);
 }
 
 /// solveFromDifferences() in 3-D with the planes in order, all rows at once: lane k is row k. a[j]: component j of the four
 /// normals. Also s.
-template <class R> POLYTOPE_INLINE R solveRows(const typename Lanes<R, 4>::Type (&a)[3], const typename Lanes<R, 4>::Type& d, LpBasis<R, 3>& basis)
+template <class R>
+POLYTOPE_INLINE R solveRows(const typename Lanes<R, 4>::Type (&a)[3], const typename Lanes<R, 4>::Type& d, LpBasis<R, 3>& basis)
 {
 	using V = typename Lanes<R, 4>::Type;
 	V e[3], c[3], row[4]; // lane 0, the root's, is zero until its row is the others' rest
@@ -227,8 +229,8 @@ template <class R, int D, class Plane> POLYTOPE_INLINE bool solveBasis(const Pla
 	for (int k = 0; k <= D; ++k)
 		plane(k, a[k], d[k]);
 	if constexpr (D == 3) {
-		const typename Lanes<R, 4>::Type normals[3]
-		        = { four<R>(a[0][0], a[1][0], a[2][0], a[3][0]), four<R>(a[0][1], a[1][1], a[2][1], a[3][1]), four<R>(a[0][2], a[1][2], a[2][2], a[3][2]) };
+		const typename Lanes<R, 4>::Type normals[3] = { four<R>(a[0][0], a[1][0], a[2][0], a[3][0]),
+			four<R>(a[0][1], a[1][1], a[2][1], a[3][1]), four<R>(a[0][2], a[1][2], a[2][2], a[3][2]) };
 		if (solveRows<R>(normals, four<R>(d[0], d[1], d[2], d[3]), basis) <= R(tolerance::refinedBasis)) return true;
 		if (!solveNearlyParallel<R, D>(a, d, basis)) return false;
 	} else {

@@ -13,77 +13,78 @@
 namespace polytope {
 namespace {
 
-/// ∫ dV, ∫ x dV and ∫ x xᵀ dV, x counted from `origin`: the sum over the tetrahedra that origin spans with the faces' triangles.
-struct Moments {
-	Real    zeroth = 0;
-	Vector3 first  = Vector3::Zero();
-	Matrix3 second = Matrix3::Zero();
-};
+	/// ∫ dV, ∫ x dV and ∫ x xᵀ dV, x counted from `origin`: the sum over the tetrahedra that origin spans with the faces' triangles.
+	struct Moments {
+		Real    zeroth = 0;
+		Vector3 first  = Vector3::Zero();
+		Matrix3 second = Matrix3::Zero();
+	};
 
-void addTetrahedron(Moments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
-{
-	const Real    volume = a.dot(b.cross(c)) / 6;
-	const Vector3 corner = a + b + c;
-	sum.zeroth += volume;
-	sum.first += volume / 4 * corner;
-	sum.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + corner * corner.transpose());
-}
-
-using Points = std::vector<Vector3>;
-
-Moments momentsOf(const Polyhedron& shape, const Points& points)
-{
-	Moments sum;
-	for (const std::vector<int>& face : shape.faces)
-		for (std::size_t k = 2; k < face.size(); ++k)
-			addTetrahedron(sum, points[std::size_t(face[0])], points[std::size_t(face[k - 1])], points[std::size_t(face[k])]);
-	return sum;
-}
-
-Real boxVolume(const Points& points)
-{
-	Vector3 low = points.front(), high = points.front();
-	for (const Vector3& p : points) {
-		low  = low.cwiseMin(p);
-		high = high.cwiseMax(p);
+	void addTetrahedron(Moments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
+	{
+		const Real    volume = a.dot(b.cross(c)) / 6;
+		const Vector3 corner = a + b + c;
+		sum.zeroth += volume;
+		sum.first += volume / 4 * corner;
+		sum.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + corner * corner.transpose());
 	}
-	return (high - low).prod();
-}
 
-/// Rotation whose columns are the directions in which the points extend most and least.
-Matrix3 alongThePoints(const Points& points)
-{
-	Eigen::Matrix<Real, Eigen::Dynamic, 3> rows(Eigen::Index(points.size()), 3);
-	for (std::size_t i = 0; i < points.size(); ++i)
-		rows.row(Eigen::Index(i)) = points[i].transpose();
-	Matrix3 axes = Eigen::JacobiSVD<decltype(rows)>(rows, Eigen::ComputeFullV).matrixV();
-	axes.col(2)  = axes.col(0).cross(axes.col(1));
-	return axes;
-}
+	using Points = std::vector<Vector3>;
 
-/// ∫ x xᵀ dV about the centroid, in the axes of the points.
-Matrix3 secondAboutCentroid(const Polyhedron& shape, Points points, const Vector3& centroid)
-{
-	for (Vector3& p : points)
-		p -= centroid;
-	const Matrix3 second = momentsOf(shape, points).second;
-	return (second + second.transpose()) / 2;
-}
+	Moments momentsOf(const Polyhedron& shape, const Points& points)
+	{
+		Moments sum;
+		for (const std::vector<int>& face : shape.faces)
+			for (std::size_t k = 2; k < face.size(); ++k)
+				addTetrahedron(
+				        sum, points[std::size_t(face[0])], points[std::size_t(face[k - 1])], points[std::size_t(face[k])]);
+		return sum;
+	}
 
-bool isDiagonal(const Matrix3& tensor)
-{
-	const Real largest = tensor.diagonal().cwiseAbs().maxCoeff();
-	const Vector3 products(tensor(0, 1), tensor(0, 2), tensor(1, 2));
-	return products.cwiseAbs().maxCoeff() <= construction::diagonal * largest;
-}
+	Real boxVolume(const Points& points)
+	{
+		Vector3 low = points.front(), high = points.front();
+		for (const Vector3& p : points) {
+			low  = low.cwiseMin(p);
+			high = high.cwiseMax(p);
+		}
+		return (high - low).prod();
+	}
 
-/// Eigenvectors carry no sign: the largest component is made positive, so that equal input gives equal axes.
-Vector3 withFixedSign(const Vector3& axis)
-{
-	int largest = 0;
-	axis.cwiseAbs().maxCoeff(&largest);
-	return axis[largest] < 0 ? Vector3(-axis) : axis;
-}
+	/// Rotation whose columns are the directions in which the points extend most and least.
+	Matrix3 alongThePoints(const Points& points)
+	{
+		Eigen::Matrix<Real, Eigen::Dynamic, 3> rows(Eigen::Index(points.size()), 3);
+		for (std::size_t i = 0; i < points.size(); ++i)
+			rows.row(Eigen::Index(i)) = points[i].transpose();
+		Matrix3 axes = Eigen::JacobiSVD<decltype(rows)>(rows, Eigen::ComputeFullV).matrixV();
+		axes.col(2)  = axes.col(0).cross(axes.col(1));
+		return axes;
+	}
+
+	/// ∫ x xᵀ dV about the centroid, in the axes of the points.
+	Matrix3 secondAboutCentroid(const Polyhedron& shape, Points points, const Vector3& centroid)
+	{
+		for (Vector3& p : points)
+			p -= centroid;
+		const Matrix3 second = momentsOf(shape, points).second;
+		return (second + second.transpose()) / 2;
+	}
+
+	bool isDiagonal(const Matrix3& tensor)
+	{
+		const Real    largest = tensor.diagonal().cwiseAbs().maxCoeff();
+		const Vector3 products(tensor(0, 1), tensor(0, 2), tensor(1, 2));
+		return products.cwiseAbs().maxCoeff() <= construction::diagonal * largest;
+	}
+
+	/// Eigenvectors carry no sign: the largest component is made positive, so that equal input gives equal axes.
+	Vector3 withFixedSign(const Vector3& axis)
+	{
+		int largest = 0;
+		axis.cwiseAbs().maxCoeff(&largest);
+		return axis[largest] < 0 ? Vector3(-axis) : axis;
+	}
 
 } // namespace
 
@@ -109,8 +110,8 @@ MassProperties massProperties(const Polyhedron& shape)
 	if (!(about.zeroth > 0))
 		throw std::invalid_argument("shape: its volume is not positive; list each face counter-clockwise seen from outside");
 	// a second sum about the centroid itself: the parallel-axis theorem would subtract nearly equal numbers
-	const Vector3 shift  = about.first / about.zeroth;
-	const Matrix3 second = secondAboutCentroid(shape, points, shift);
+	const Vector3 shift   = about.first / about.zeroth;
+	const Matrix3 second  = secondAboutCentroid(shape, points, shift);
 	Matrix3       inertia = -second;
 	for (int k = 0; k < 3; ++k) // not trace − own term: a needle's small moment would be the difference of two large ones
 		inertia(k, k) = second((k + 1) % 3, (k + 1) % 3) + second((k + 2) % 3, (k + 2) % 3);
@@ -138,9 +139,9 @@ PrincipalAxes principalAxes(const Matrix3& inertia, int dimension)
 		using std::cos;
 		using std::hypot;
 		using std::sin;
-		const Real half = (inertia(0, 0) - inertia(1, 1)) / 2, product = inertia(0, 1);
-		const Real mean = (inertia(0, 0) + inertia(1, 1)) / 2, radius = hypot(half, product);
-		const Real angle = atan2(product, half) / 2; // of the axis with the larger moment
+		const Real    half = (inertia(0, 0) - inertia(1, 1)) / 2, product = inertia(0, 1);
+		const Real    mean = (inertia(0, 0) + inertia(1, 1)) / 2, radius = hypot(half, product);
+		const Real    angle    = atan2(product, half) / 2; // of the axis with the larger moment
 		const Vector3 first    = withFixedSign(Vector3(-sin(angle), cos(angle), 0));
 		result.rotation.col(0) = first;
 		result.rotation.col(1) = Vector3(-first.y(), first.x(), 0);

@@ -7,7 +7,7 @@ namespace polytope {
 
 /// Volume, centroid and second moments for unit density.
 struct MassProperties {
-	Real    volume = 0;
+	Real    volume   = 0;
 	Vector3 centroid = Vector3::Zero();
 	Matrix3 inertia  = Matrix3::Zero(); ///< about the centroid, axes of the vertices, per unit density [m^5]
 };

@@ -18,7 +18,8 @@ inline int compared(const Real* a, const Real* b, int count)
 }
 
 /// Whether body 2 goes first: by the shapes' sizes and planes, then orientations, then positions.
-inline bool secondGoesFirst(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2)
+inline bool secondGoesFirst(
+        const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2)
 {
 	int order = 0;
 	if (&shape1 != &shape2) {

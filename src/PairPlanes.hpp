@@ -43,10 +43,10 @@ template <class R, int D> POLYTOPE_INLINE void rotateBack(const Rotation<R, D>& 
 template <class R, int D> struct PairPlanes {
 	R*  normal[D]; ///< component arrays of the unit normals
 	R*  offset;
-	R*  slack;     ///< scratch: d − a·x at the current point
-	R*  rate;      ///< scratch: a·direction
-	int first;     ///< padded number of planes of body 1; body 2's follow
-	int total;     ///< padded number of planes of both
+	R*  slack; ///< scratch: d − a·x at the current point
+	R*  rate;  ///< scratch: a·direction
+	int first; ///< padded number of planes of body 1; body 2's follow
+	int total; ///< padded number of planes of both
 
 	int begin(int body) const { return body == 0 ? 0 : first; }
 	int end(int body) const { return body == 0 ? first : total; }
@@ -63,8 +63,8 @@ template <class R, int D> struct PairPlanes {
 /// (the body's, in the home frame) and `origin` (of the rows' frame, in the home frame) are given in the body's axes: so a
 /// normal's rounding acts over the overlap only, and a plane that passes near the contact loses no digits to its body's size.
 template <class R, int D, int W>
-POLYTOPE_INLINE void
-placePlanes(const ConvexShape& shape, const Rotation<R, D>& t, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
+POLYTOPE_INLINE void placePlanes(
+        const ConvexShape& shape, const Rotation<R, D>& t, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
 {
 	using V = typename Lanes<R, W>::Type;
 	V T[D][D], C[D], O[D];
@@ -127,7 +127,8 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> axesAround(const R* n)
 		const R sign = n[2] < 0 ? R(-1) : R(1);
 		const R a    = R(-1) / (sign + n[2]);
 		const R b    = n[0] * n[1] * a;
-		return { { { 1 + sign * n[0] * n[0] * a, sign * b, -sign * n[0] }, { b, sign + n[1] * n[1] * a, -n[1] }, { n[0], n[1], n[2] } } };
+		return { { { 1 + sign * n[0] * n[0] * a, sign * b, -sign * n[0] }, { b, sign + n[1] * n[1] * a, -n[1] },
+			{ n[0], n[1], n[2] } } };
 	}
 }
 

@@ -43,11 +43,13 @@ HalfSpaces regularSolid(int faces, Real circumradius)
 			ratio = sqrt((5 + 2 * sqrt(Real(5))) / 15);
 			break;
 		case 20:
-			addSigned(1, 1, 1), addSigned(0, 1 / golden, golden), addSigned(1 / golden, golden, 0), addSigned(golden, 0, 1 / golden);
+			addSigned(1, 1, 1), addSigned(0, 1 / golden, golden), addSigned(1 / golden, golden, 0),
+			        addSigned(golden, 0, 1 / golden);
 			ratio = sqrt((5 + 2 * sqrt(Real(5))) / 15);
 			break;
 		default:
-			throw std::invalid_argument("faces: a regular polyhedron has 4, 6, 8, 12 or 20 faces, not " + std::to_string(faces));
+			throw std::invalid_argument(
+			        "faces: a regular polyhedron has 4, 6, 8, 12 or 20 faces, not " + std::to_string(faces));
 	}
 	set.offsets.assign(set.normals.size(), ratio * circumradius);
 	for (Vector3& n : set.normals)

@@ -63,9 +63,10 @@ namespace {
 	{
 		for (const exact::Triangle& t : triangles) {
 			if (local.isClosing(t[0]) || local.isClosing(t[1]) || local.isClosing(t[2])) return true;
-			const Vector3 &a = local.normals[std::size_t(t[0])], &b = local.normals[std::size_t(t[1])], &c = local.normals[std::size_t(t[2])];
-			const Vector3 scaledPoint = local.slacks[std::size_t(t[0])] * b.cross(c) + local.slacks[std::size_t(t[1])] * c.cross(a)
-			        + local.slacks[std::size_t(t[2])] * a.cross(b);
+			const Vector3 &a = local.normals[std::size_t(t[0])], &b = local.normals[std::size_t(t[1])],
+			              &c          = local.normals[std::size_t(t[2])];
+			const Vector3 scaledPoint = local.slacks[std::size_t(t[0])] * b.cross(c)
+			        + local.slacks[std::size_t(t[1])] * c.cross(a) + local.slacks[std::size_t(t[2])] * a.cross(b);
 			if (!(scaledPoint.norm() <= construction::farVertex * local.inradius * magnitude(a.dot(b.cross(c))))) return true;
 		}
 		return false;
@@ -89,7 +90,8 @@ namespace {
 		for (const auto& edge : edges) {
 			const std::size_t i = std::size_t(edge.first.first), j = std::size_t(edge.first.second);
 			if (i > j || repeated[i]) continue;
-			const Real apart = (local.normals[i] - local.normals[j]).norm() * extent + magnitude(local.slacks[i] - local.slacks[j]);
+			const Real apart
+			        = (local.normals[i] - local.normals[j]).norm() * extent + magnitude(local.slacks[i] - local.slacks[j]);
 			if (apart <= construction::coplanarity * local.size(extent)) repeated[j] = true;
 		}
 		bool any = false;
@@ -138,7 +140,8 @@ namespace {
 					++faces[std::size_t(vertex)];
 			}
 			for (Indices& ring : rings) {
-				const auto end = std::remove_if(ring.begin(), ring.end(), [&](int vertex) { return faces[std::size_t(vertex)] < 3; });
+				const auto end = std::remove_if(
+				        ring.begin(), ring.end(), [&](int vertex) { return faces[std::size_t(vertex)] < 3; });
 				changed |= end != ring.end();
 				ring.erase(end, ring.end());
 			}

@@ -87,8 +87,8 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 /// where rounding leaves these two apart, a basis has no digits or pivots run out.
 /// `size`: what the tolerances of lengths are relative to. `reach`: as lowerBound().
 template <class R, int D, int W>
-POLYTOPE_INLINE LpStatus
-solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissAbove, R reach, int pivotLimit, int& pivots)
+POLYTOPE_INLINE LpStatus solveLp(
+        const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissAbove, R reach, int pivotLimit, int& pivots)
 {
 	int            stalled = 0;
 	bool           bland   = false;
@@ -133,8 +133,8 @@ solveLp(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, R dismissA
 			next->plane[steadiestRow<R, D>(*now, w)] = q;
 			if (!solveBasis<R, D>(planes, *next)) return end(LpStatus::Undecided);
 		}
-		stalled = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
-		bland   = stalled > tolerance::stalledPivots;
+		stalled                  = next->infeasibility > now->infeasibility ? 0 : stalled + 1;
+		bland                    = stalled > tolerance::stalledPivots;
 		LpBasis<R, D>* const old = now;
 		now                      = next;
 		next                     = old;

@@ -16,7 +16,10 @@ namespace polytope::tolerance {
 using Real = double;
 
 /// 2 to this power.
-constexpr Real powerOfTwo(int exponent) { return exponent < 0 ? powerOfTwo(exponent + 1) / 2 : exponent > 0 ? powerOfTwo(exponent - 1) * 2 : 1; }
+constexpr Real powerOfTwo(int exponent)
+{
+	return exponent < 0 ? powerOfTwo(exponent + 1) / 2 : exponent > 0 ? powerOfTwo(exponent - 1) * 2 : 1;
+}
 
 /// Significant bits of polytope::Real.
 constexpr int digits = std::numeric_limits<polytope::Real>::digits;

@@ -41,8 +41,7 @@ struct Clusters {
 	std::vector<Indices> members; ///< cluster → its corners, ascending; empty for numbers not in use
 
 	/// Each triangle on its own.
-	explicit Clusters(const Triangles& triangles)
-	        : of(triangles.size())
+	explicit Clusters(const Triangles& triangles) : of(triangles.size())
 	{
 		std::iota(of.begin(), of.end(), 0);
 		for (exact::Triangle triangle : triangles) {
@@ -98,7 +97,8 @@ Clusters cluster(const Triangles& triangles, const Edges& edges, const Misfit& m
 		for (const auto& pair : pairs) {
 			int a = result.root(pair.first), b = result.root(pair.second);
 			if (a == b) continue;
-			if (result.members[std::size_t(a)].size() < result.members[std::size_t(b)].size()) std::swap(a, b); // keeps paths short
+			if (result.members[std::size_t(a)].size() < result.members[std::size_t(b)].size())
+				std::swap(a, b); // keeps paths short
 			Indices both = result.together(a, b);
 			if (misfit(both) > tolerance || outside(both) > construction::support * tolerance) continue;
 			result.members[std::size_t(a)] = std::move(both);

@@ -40,9 +40,7 @@ public:
 	/// × size: by how much a plane may be violated at the optimum.
 	static constexpr double violation = std::max(tolerance::wideRest * tolerance::rounding, 8 * Wider<R>::rounding);
 
-	WideLp(const PairPlanes<R, D>& planes, R size)
-	        : planes_(planes)
-	        , size_(size)
+	WideLp(const PairPlanes<R, D>& planes, R size) : planes_(planes), size_(size)
 	{
 		R largest = size;
 		for (int i = 0; i < planes.total; ++i)
@@ -162,7 +160,8 @@ private:
 				if (tried[k] || !(w[k] > 0)) continue;
 				const Q    ratio = maxOf<Q>(basis_.weight[k], Q(0)) / w[k];
 				const bool tie   = leaving >= 0 && ratio == least;
-				if (leaving < 0 || ratio < least || (tie && (bland ? basis_.plane[k] < basis_.plane[leaving] : w[k] > w[leaving]))) {
+				if (leaving < 0 || ratio < least
+				        || (tie && (bland ? basis_.plane[k] < basis_.plane[leaving] : w[k] > w[leaving]))) {
 					leaving = k;
 					least   = ratio;
 				}

@@ -58,7 +58,7 @@ namespace {
 void Gl1_Polytope::go(const shared_ptr<Shape>& shape, const shared_ptr<State>&, bool viewWire, const GLViewInfo&)
 {
 	constexpr double edgeShade = 0.35; // of the body's colour
-	const auto&    convex    = static_cast<const Polytope&>(*shape).convex();
+	const auto&      convex    = static_cast<const Polytope&>(*shape).convex();
 	if (!convex) return;
 	const bool facesShown = !(wire || viewWire);
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MixedPairs.hpp"
 
-#include <lib/high-precision/Constants.hpp>
 #include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
 
 #include <src/ClosestPoint.hpp>
 
 namespace yade {
 
-YADE_PLUGIN((Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
+YADE_PLUGIN(
+        (Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
 
 namespace {
 
@@ -38,8 +39,8 @@ namespace {
 	/// side: +1 if the polytope's centre is on the facet's normal's side.
 	Convex facetOf(const Facet& facet, const polytope::ConvexShape& other, int side)
 	{
-		const auto&    v = facet.vertices;
-		const Vector3r n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+		const auto&          v = facet.vertices;
+		const Vector3r       n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
 		polytope::HalfSpaces planes;
 		planes.normals = { n, -n };
 		planes.offsets = { n.dot(v[0]), 2 * other.boundingRadius() - n.dot(v[0]) };
@@ -55,14 +56,8 @@ namespace {
 
 } // namespace
 
-bool Ig2_Wall_Polytope_PolytopeGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	const auto& wall   = static_cast<const Wall&>(*shape1);
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
@@ -78,14 +73,8 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(
 	return query(*geom.partner, foot, *convex, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Box_Polytope_PolytopeGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
@@ -95,14 +84,8 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Facet_Polytope_PolytopeGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	const auto& facet  = static_cast<const Facet&>(*shape1);
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
@@ -119,14 +102,8 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Sphere_Polytope_PolytopeGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	const Real  radius = static_cast<const Sphere&>(*shape1).radius;
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
@@ -138,16 +115,16 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(
 	const polytope::ClosestPoint nearest = polytope::closestPoint(*convex, state2.ori.conjugate() * Vector3r(-centre2));
 	const Real                   depth   = radius - nearest.distance;
 	polytope::ContactResult      result;
-	result.inContact   = depth > tolerance * radius;
-	result.hasGeometry = true;
-	result.status      = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
-	result.depth       = depth;
-	result.energy      = result.inContact ? depth * depth / 2 : Real(0); // a distance's gradient is a conservative force as it is
+	result.inContact     = depth > tolerance * radius;
+	result.hasGeometry   = true;
+	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
+	result.depth         = depth;
+	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a distance's gradient is a conservative force as it is
 	result.infeasibility = -depth / 2; // the largest ball between a sphere and a plane has the depth for its diameter
-	result.normal      = -(state2.ori * nearest.outward);
-	result.point       = (radius - depth / 2) * result.normal;
-	const Real cap     = math::max(Real(0), math::min(depth / 2, radius));
-	result.area        = Mathr::PI * cap * (2 * radius - cap);
+	result.normal        = -(state2.ori * nearest.outward);
+	result.point         = (radius - depth / 2) * result.normal;
+	const Real cap       = math::max(Real(0), math::min(depth / 2, radius));
+	result.area          = Mathr::PI * cap * (2 * radius - cap);
 	return apply(result, state1.pos, state1, state2, shift2, force, c);
 }
 

@@ -71,7 +71,8 @@ std::string differenceFromBuild()
 	const std::string version = yadeConfig("version");
 	if (version != yadeVersion) return "it was compiled for YADE " + std::string(yadeVersion) + ", and this is YADE " + version;
 	const std::string real = yadeConfig("highPrecisionName");
-	if (real != realName) return "it was compiled for a YADE with numbers of the kind " + std::string(realName) + ", and this one has " + real;
+	if (real != realName)
+		return "it was compiled for a YADE with numbers of the kind " + std::string(realName) + ", and this one has " + real;
 	const std::string features = yadeConfig("features");
 	if (features != yadeFeatures)
 		return "it was compiled for a YADE with the features\n\t" + std::string(yadeFeatures) + "\nand this one has\n\t" + features;

@@ -18,14 +18,15 @@ namespace {
 		const Real                      size = shape.boundingRadius();
 		if (mass.centroid.norm() > Polytope::frameTolerance * size)
 			throw std::invalid_argument("offsets: the body frame's origin must be the centroid, which is at a distance of "
-			                            + std::to_string(double(mass.centroid.norm())) + " m; use yade.polytope.fromHalfSpaces, which moves it there");
+			        + std::to_string(double(mass.centroid.norm()))
+			        + " m; use yade.polytope.fromHalfSpaces, which moves it there");
 		Real products = 0;
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < i; ++j)
 				products = math::max(products, math::abs(mass.inertia(i, j)));
 		if (products > Polytope::frameTolerance * mass.inertia.trace())
-			throw std::invalid_argument(
-			        "normals: the body frame's axes must be the principal axes of inertia; use yade.polytope.fromHalfSpaces, which turns the body");
+			throw std::invalid_argument("normals: the body frame's axes must be the principal axes of inertia; use "
+			                            "yade.polytope.fromHalfSpaces, which turns the body");
 	}
 
 	/// The core takes any radius its formulas allow; a body's must leave an inner particle.
@@ -34,7 +35,8 @@ namespace {
 		if (shape.cornerRadius() >= shape.inscribedRadius())
 			throw std::invalid_argument(
 			        "cornerRadius: must fit inside the body, that is, be smaller than the inscribed ball's radius "
-			        + boost::lexical_cast<std::string>(shape.inscribedRadius()) + " m; got " + boost::lexical_cast<std::string>(shape.cornerRadius()));
+			        + boost::lexical_cast<std::string>(shape.inscribedRadius()) + " m; got "
+			        + boost::lexical_cast<std::string>(shape.cornerRadius()));
 	}
 
 } // namespace

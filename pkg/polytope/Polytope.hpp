@@ -23,11 +23,11 @@ public:
 	/// Null until planes are given.
 	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
 
-	Real                            volume() const;
-	Vector3r                        inertia() const;
-	vector<Vector3r>                vertices() const;
-	boost::python::list             faces() const;
-	Real                            inscribedRadius() const;
+	Real                volume() const;
+	Vector3r            inertia() const;
+	vector<Vector3r>    vertices() const;
+	boost::python::list faces() const;
+	Real                inscribedRadius() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Polytope, Shape,

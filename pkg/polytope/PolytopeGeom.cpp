@@ -59,14 +59,8 @@ Real normalWeightOfFirst(const Body* body1, const Body* body2)
 	return k1 > 0 && k2 > 0 && math::isfinite(k1 + k2) ? k1 / (k1 + k2) : Real(0.5);
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
 	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
@@ -91,14 +85,8 @@ ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
 	return counters_[thread < int(counters_.size()) ? thread : 0];
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::query(
-        const polytope::ConvexShape&   convex1,
-        const Body1Frame&              frame1,
-        const polytope::ConvexShape&   convex2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
+bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
+        const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
         const shared_ptr<Interaction>& c)
 {
 	// a thread's own buffers; they grow to the largest pair it has met
@@ -119,19 +107,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
 	polytope::ContactResult result;
 	const Vector3r          centre2 = state2.pos + shift2 - frame1.origin;
-	polytope::contactQuery(convex1, frame1.rotation, convex2, state2.ori.toRotationMatrix(), centre2, settings, memory, workspace, result);
+	polytope::contactQuery(
+	        convex1, frame1.rotation, convex2, state2.ori.toRotationMatrix(), centre2, settings, memory, workspace, result);
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::apply(
-        const polytope::ContactResult& result,
-        const Vector3r&                origin1,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& c)
+bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	auto& geom         = geometry(c);
 	geom.statusCode    = int(result.status);
@@ -156,13 +139,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
-	geom.contactArea  = result.area;
-	geom.barrierValue = result.barrierValue;
-	geom.rockingArm   = result.rockingArm;
+	geom.contactArea        = result.area;
+	geom.barrierValue       = result.barrierValue;
+	geom.rockingArm         = result.rockingArm;
 	geom.energyPerStiffness = settings_.contactModel == polytope::ContactModel::Conservative ? result.energy : Real(-1);
-	const Vector3r point = origin1 + result.point;
+	const Vector3r point    = origin1 + result.point;
 	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();
-	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal, /*avoidGranularRatcheting*/ false);
+	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal,
+	        /*avoidGranularRatcheting*/ false);
 	return true;
 }
 
@@ -187,27 +171,22 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 		throw std::invalid_argument(message);
 	};
 	if (contactModel == "paper") settings_.contactModel = polytope::ContactModel::Paper;
-	else if (contactModel == "conservative")
-		settings_.contactModel = polytope::ContactModel::Conservative;
-	else
-		refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
+	else if (contactModel == "conservative") settings_.contactModel = polytope::ContactModel::Conservative;
+	else refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
 	if (!(barrier >= polytope::tolerance::leastBarrier && barrier <= polytope::tolerance::largestBarrier))
 		refuse("barrier: must lie between 1e-9 and 0.05 (a fraction of the smaller body's inscribed radius)");
 	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
-	else if (contactPoint == "chebyshevCentre")
-		settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
-	else if (contactPoint == "centroid")
-		settings_.contactPoint = polytope::ContactPoint::Centroid;
-	else
-		refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
+	else if (contactPoint == "chebyshevCentre") settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
+	else if (contactPoint == "centroid") settings_.contactPoint = polytope::ContactPoint::Centroid;
+	else refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
 	if (solver == "newton") settings_.solver = polytope::CentreSolver::Newton;
-	else if (solver != "ipopt")
-		refuse("solver: must be 'newton' or 'ipopt', not '" + solver + "'");
+	else if (solver != "ipopt") refuse("solver: must be 'newton' or 'ipopt', not '" + solver + "'");
 	else if (!polytope::ipoptVersion())
-		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with -DPOLYTOPE_IPOPT=ON");
-	else
-		settings_.solver = polytope::CentreSolver::Ipopt;
-	if (!(tolerance >= 0 && tolerance < 1)) refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
+		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
+		       "-DPOLYTOPE_IPOPT=ON");
+	else settings_.solver = polytope::CentreSolver::Ipopt;
+	if (!(tolerance >= 0 && tolerance < 1))
+		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
 	if (!(newtonTolerance > 0 && newtonTolerance < 1)) refuse("newtonTolerance: must be above 0 and below 1");
 	settings_.tolerance       = tolerance;
 	settings_.newtonTolerance = newtonTolerance;
@@ -250,10 +229,10 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	all["ipoptSolves"]      = sum.ipoptSolves;
 	all["ipoptIterations"]  = sum.ipoptIterations;
 	all["rescued"]          = of(ContactStatus::CentreByIpopt);
-	all["fallbacks"]        = of(ContactStatus::CentreNotConverged) + of(ContactStatus::IpoptNotAvailable) + of(ContactStatus::LpNotConverged)
+	all["fallbacks"] = of(ContactStatus::CentreNotConverged) + of(ContactStatus::IpoptNotAvailable) + of(ContactStatus::LpNotConverged)
 	        + of(ContactStatus::NoDirection);
-	all["failures"]         = of(ContactStatus::Failed);
-	all["statuses"]         = statuses;
+	all["failures"] = of(ContactStatus::Failed);
+	all["statuses"] = statuses;
 	if (timing) {
 		all["timedPairs"]    = sum.timedPairs;
 		all["lpSeconds"]     = 1e-9 * double(sum.lpNanoseconds);

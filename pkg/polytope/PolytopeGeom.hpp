@@ -58,21 +58,10 @@ struct alignas(64) ContactCounters {
 
 class Ig2_Polytope_Polytope_PolytopeGeom : public IGeomFunctor {
 public:
-	bool go(const shared_ptr<Shape>&       shape1,
-	        const shared_ptr<Shape>&       shape2,
-	        const State&                   state1,
-	        const State&                   state2,
-	        const Vector3r&                shift2,
-	        const bool&                    force,
-	        const shared_ptr<Interaction>& c) override;
-	bool goReverse(
-	        const shared_ptr<Shape>&       shape1,
-	        const shared_ptr<Shape>&       shape2,
-	        const State&                   state1,
-	        const State&                   state2,
-	        const Vector3r&                shift2,
-	        const bool&                    force,
-	        const shared_ptr<Interaction>& c) override
+	bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
+	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override;
+	bool goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
+	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override
 	{
 		return go(shape1, shape2, state1, state2, shift2, force, c); // symmetric: the dispatcher never reverses it
 	}
@@ -119,25 +108,12 @@ protected:
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
 
 	/// Two sets of half-spaces: core query, then apply().
-	bool query(
-	        const polytope::ConvexShape&   convex1,
-	        const Body1Frame&              frame1,
-	        const polytope::ConvexShape&   convex2,
-	        const State&                   state1,
-	        const State&                   state2,
-	        const Vector3r&                shift2,
-	        const bool&                    force,
-	        const shared_ptr<Interaction>& c);
+	bool query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
+	        const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
 	/// Counts the result and, for a contact, hands it to ScGeom. `origin1`: what result.point is relative to.
-	bool apply(
-	        const polytope::ContactResult& result,
-	        const Vector3r&                origin1,
-	        const State&                   state1,
-	        const State&                   state2,
-	        const Vector3r&                shift2,
-	        const bool&                    force,
-	        const shared_ptr<Interaction>& c);
+	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
+	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
 	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron).
 	bool failed(const shared_ptr<Interaction>& c);
@@ -145,11 +121,11 @@ protected:
 	ContactCounters& counters();
 
 private:
-	polytope::ContactSettings              settings_;
-	std::vector<ContactCounters>           counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	std::string                            goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
-	Real                                   goodBarrier_ = polytope::tolerance::barrier;
-	Real                                   goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
+	polytope::ContactSettings    settings_;
+	std::vector<ContactCounters> counters_         = std::vector<ContactCounters>(omp_get_max_threads());
+	std::string                  goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
+	Real                         goodBarrier_   = polytope::tolerance::barrier;
+	Real                         goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
 

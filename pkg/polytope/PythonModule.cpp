@@ -45,8 +45,8 @@ py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::R
 }
 
 /// Half-spaces in the frame of centroid and principal axes, and where that frame is.
-py::dict centred(
-        const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness, bool keepRedundant)
+py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness,
+        bool keepRedundant)
 {
 	polytope::HalfSpaces given;
 	given.normals            = normals;
@@ -57,11 +57,11 @@ py::dict centred(
 	// first to the centroid, then to the axes: a small body far out has no digits to spare for its inertia
 	yade::Vector3r position = polytope::massProperties(polytope::polyhedron(set, thickness)).centroid;
 	if (dimension == 2) position[2] = 0;
-	set              = polytope::moved(set, yade::Matrix3r::Identity(), -position);
-	const auto  mass = polytope::massProperties(polytope::polyhedron(set, thickness));
-	const auto  axes = polytope::principalAxes(mass.inertia, dimension);
-	const auto  central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
-	py::dict    result;
+	set                = polytope::moved(set, yade::Matrix3r::Identity(), -position);
+	const auto mass    = polytope::massProperties(polytope::polyhedron(set, thickness));
+	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
+	const auto central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
+	py::dict   result;
 	result["normals"]         = central.normals;
 	result["offsets"]         = central.offsets;
 	result["position"]        = position;
@@ -73,7 +73,8 @@ py::dict centred(
 const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body, const char* name)
 {
 	const auto* shape = body ? dynamic_cast<const yade::Polytope*>(body->shape.get()) : nullptr;
-	if (!shape || !shape->convex()) throw std::invalid_argument(std::string(name) + ": must be a body with a Polytope shape that has planes");
+	if (!shape || !shape->convex())
+		throw std::invalid_argument(std::string(name) + ": must be a body with a Polytope shape that has planes");
 	const auto& state = *body->state;
 	if (!yade::math::isfinite(state.pos.squaredNorm() + state.ori.squaredNorm()))
 		throw std::invalid_argument(std::string(name) + ": its position and orientation must be finite");
@@ -88,19 +89,13 @@ struct Contact {
 	std::string status() const { return polytope::statusName(result.status); }
 };
 
-Contact contact(
-        const boost::shared_ptr<yade::Body>& body1,
-        const boost::shared_ptr<yade::Body>& body2,
-        const std::string&                   contactPoint,
-        yade::Real                           tolerance,
-        yade::Real                           newtonTolerance,
-        const std::string&                   solver,
-        const std::string&                   contactModel,
-        yade::Real                           barrier)
+Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
+        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
-	if (convex1.dimension() != convex2.dimension()) throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
+	if (convex1.dimension() != convex2.dimension())
+		throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
 	// the functor validates the settings and knows the weights of the normals
 	yade::Ig2_Polytope_Polytope_PolytopeGeom functor;
 	functor.contactPoint    = contactPoint;
@@ -120,8 +115,8 @@ Contact contact(
 	polytope::ContactWorkspace workspace;
 	Contact                    answer;
 	const yade::Vector3r       centre2 = body2->state->pos - body1->state->pos;
-	polytope::contactQuery(
-	        convex1, body1->state->ori.toRotationMatrix(), convex2, body2->state->ori.toRotationMatrix(), centre2, settings, memory, workspace, answer.result);
+	polytope::contactQuery(convex1, body1->state->ori.toRotationMatrix(), convex2, body2->state->ori.toRotationMatrix(), centre2,
+	        settings, memory, workspace, answer.result);
 	answer.point           = body1->state->pos + answer.result.point;
 	answer.sectionCentroid = body1->state->pos + answer.result.sectionCentroid;
 	return answer;
@@ -138,56 +133,60 @@ BOOST_PYTHON_MODULE(_polytope)
 	using yade::Vector3r;
 
 	py::docstring_options options(true, true, false);
-	py::def("buildInfo", &buildInfo, 
-	        "Versions of the plug-in, of the YADE it was compiled for and of Ipopt (None where the build has none; it computes in double whatever "
-	        "the precision), and *precision*, the numbers' kind (double, longdouble, float128, mpfr150), with its significant *bits* and decimal "
+	py::def("buildInfo", &buildInfo,
+	        "Versions of the plug-in, of the YADE it was compiled for and of Ipopt (None where the build has none; it computes in "
+	        "double whatever "
+	        "the precision), and *precision*, the numbers' kind (double, longdouble, float128, mpfr150), with its significant *bits* "
+	        "and decimal "
 	        "*digits*, as a dictionary.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
-	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")), "Normals and offsets of the convex hull of points.");
+	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
+	        "Normals and offsets of the convex hull of points.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>, "Whether the bodies overlap (s* < −tolerance).")
 	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
+	        .add_property("infeasibility", &field<Real, &ContactResult::infeasibility>,
+	                "Optimum s* of the phase-one linear programme [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
+	                "in the overlap.")
 	        .add_property(
-	                "infeasibility",
-	                &field<Real, &ContactResult::infeasibility>,
-	                "Optimum s* of the phase-one linear programme [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball in the overlap.")
-	        .add_property(
-	                "point",
-	                +[](const Contact& c) { return c.point; },
-	                "Contact point, world coordinates [m]: the analytic centre of all half-spaces (Eq. 10). Across a gap, of both bodies grown until "
+	                "point", +[](const Contact& c) { return c.point; },
+	                "Contact point, world coordinates [m]: the analytic centre of all half-spaces (Eq. 10). Across a gap, of both "
+	                "bodies grown until "
 	                "they just overlap.")
 	        .add_property("normal", &field<Vector3r, &ContactResult::normal>, "Unit contact normal from b1 to b2 (Eqs 13-17).")
-	        .add_property("depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
-	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>, "Conservative model: elastic energy over the normal stiffness [m²].")
-	        .add_property("rockingArm", &field<Real, &ContactResult::rockingArm>, "Conservative model: way of the contact point per tilt [m/rad].")
-	        .add_property("area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
 	        .add_property(
-	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; }, "Centroid of the contact section, world coordinates [m].")
+	                "depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
+	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>,
+	                "Conservative model: elastic energy over the normal stiffness [m²].")
+	        .add_property("rockingArm", &field<Real, &ContactResult::rockingArm>,
+	                "Conservative model: way of the contact point per tilt [m/rad].")
 	        .add_property(
-	                "dualDirection",
-	                &field<Vector3r, &ContactResult::dualDirection>,
-	                "Σ over b1's planes of λ_i a_i, λ the linear programme's dual: moved by |s*|/|dualDirection| along it, b2 is free of b1.")
+	                "area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
+	        .add_property(
+	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; },
+	                "Centroid of the contact section, world coordinates [m].")
+	        .add_property("dualDirection", &field<Vector3r, &ContactResult::dualDirection>,
+	                "Σ over b1's planes of λ_i a_i, λ the linear programme's dual: moved by |s*|/|dualDirection| along it, b2 is free "
+	                "of b1.")
 	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
-	        .add_property("ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
+	        .add_property(
+	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear programme.");
-	py::def(
-	        "contact",
-	        &contact,
-	        (py::arg("b1"),
-	         py::arg("b2"),
-	         py::arg("contactPoint")    = "analyticCentre",
-	         py::arg("tolerance")       = Real(polytope::tolerance::contact),
-	         py::arg("newtonTolerance") = Real(polytope::tolerance::newton),
-	         py::arg("solver")          = "newton",
-	         py::arg("contactModel")    = "paper",
-	         py::arg("barrier")         = Real(polytope::tolerance::barrier)),
+	py::def("contact", &contact,
+	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
+	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
+	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
+	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier)),
 	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier: as on :yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
-	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, newtonIterations, "
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier: as on "
+	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
+	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
+	        "newtonIterations, "
 	        "ipoptIterations, simplexPivots\n"
-	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, solver 'ipopt' in a build without, tolerances or barrier out of range");
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, "
+	        "solver 'ipopt' in a build without, tolerances or barrier out of range");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "RockJoint.hpp"
 
-#include <lib/high-precision/Constants.hpp>
 #include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
 
 #include "PolytopeGeom.hpp"
 
@@ -14,7 +14,8 @@ YADE_PLUGIN((RockJointMat)(RockJointPhys)(Ip2_RockJointMat_RockJointMat_RockJoin
 
 RockJointMat::Values RockJointMat::values() const
 {
-	return { { normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle, dilationLimit } };
+	return { { normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle,
+		dilationLimit } };
 }
 
 void RockJointMat::setValues(const Values& v)
@@ -47,9 +48,7 @@ void RockJointMat::postLoad(RockJointMat&)
 	require(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);
 	require(strength(cohesion), "cohesion", cohesion, "at least 0 and finite [Pa]");
 	require(strength(tensileStrength), "tensileStrength", tensileStrength, "at least 0 and finite [Pa]");
-	require(angle(residualFrictionAngle) || residualFrictionAngle == -1,
-	        "residualFrictionAngle",
-	        residualFrictionAngle,
+	require(angle(residualFrictionAngle) || residualFrictionAngle == -1, "residualFrictionAngle", residualFrictionAngle,
 	        "-1 (the same as frictionAngle) or an angle in radians, at least 0 and below pi/2");
 	require(angle(dilationAngle), "dilationAngle", dilationAngle, angleRule);
 	require(dilationLimit >= 0, "dilationLimit", dilationLimit, "at least 0 [m] (infinity: no limit)");
@@ -92,7 +91,8 @@ namespace {
 	{
 		const auto* spheres = dynamic_cast<const GenericSpheresContact*>(geom);
 		if (!spheres) return 1;
-		const Real r1 = spheres->refR1 > 0 ? spheres->refR1 : spheres->refR2, r2 = spheres->refR2 > 0 ? spheres->refR2 : spheres->refR1;
+		const Real r1 = spheres->refR1 > 0 ? spheres->refR1 : spheres->refR2,
+		           r2 = spheres->refR2 > 0 ? spheres->refR2 : spheres->refR1;
 		return Mathr::PI * math::pow(math::min(r1, r2), 2);
 	}
 
@@ -104,13 +104,16 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	if (contact->phys) return;
 	const auto& m1 = static_cast<const RockJointMat&>(*material1);
 	const auto& m2 = static_cast<const RockJointMat&>(*material2);
-	const auto  of = [&](const shared_ptr<MatchMaker>& rule, Real v1, Real v2, Real otherwise) { return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise; };
+	const auto  of = [&](const shared_ptr<MatchMaker>& rule, Real v1, Real v2, Real otherwise) {
+                return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise;
+	};
 
 	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
 	const Real shear  = of(ks, m1.shearStiffness, m2.shearStiffness, seriesStiffness(m1.shearStiffness, m2.shearStiffness));
 
-	auto phys                    = shared_ptr<RockJointPhys>(new RockJointPhys);
-	phys->tangensOfFrictionAngle = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
+	auto phys = shared_ptr<RockJointPhys>(new RockJointPhys);
+	phys->tangensOfFrictionAngle
+	        = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
 	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
 		phys->tangensOfResidualFrictionAngle = math::tan(math::min(residualAngle(m1), residualAngle(m2)));
 	phys->cohesion               = math::min(m1.cohesion, m2.cohesion);
@@ -129,8 +132,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 			phys->normalStiffness = normal;
 			phys->shearStiffness  = shear;
 		}
-	} else
-		phys->contactArea = nominalArea(contact->geom.get());
+	} else phys->contactArea = nominalArea(contact->geom.get());
 	phys->kn      = stiffnessPerArea ? normal * phys->contactArea : normal;
 	phys->ks      = stiffnessPerArea ? shear * phys->contactArea : shear;
 	contact->phys = phys;

@@ -99,7 +99,8 @@ REGISTER_SERIALIZABLE(RockJointPhys);
 
 class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor {
 public:
-	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& contact) override;
+	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
+	        const shared_ptr<Interaction>& contact) override;
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,

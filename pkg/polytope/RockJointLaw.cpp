@@ -42,7 +42,8 @@ namespace {
 	/// What the normal spring holds; a conservative contact's geometry knows the energy its force is the gradient of.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
-		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0) return phys.kn * geom.energyPerStiffness;
+		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0)
+			return phys.kn * geom.energyPerStiffness;
 		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
 	}
 
@@ -57,18 +58,12 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	const Body*         body2;
 	const State&        state1;
 	const State&        state2;
-	Vector3r            centre2; ///< of body 2, in the period of body 1
+	Vector3r            centre2;    ///< of body 2, in the period of body 1
 	Vector3r            arm1, arm2; ///< from the centres to the contact point
 
 	Pair(const Interaction& contact_, const PolytopeGeom& geom_, Scene* scene_)
-	        : contact(contact_)
-	        , geom(geom_)
-	        , scene(scene_)
-	        , body1(Body::byId(contact.getId1(), scene).get())
-	        , body2(Body::byId(contact.getId2(), scene).get())
-	        , state1(*body1->state)
-	        , state2(*body2->state)
-	        , centre2(state2.pos)
+	        : contact(contact_), geom(geom_), scene(scene_), body1(Body::byId(contact.getId1(), scene).get()),
+	          body2(Body::byId(contact.getId2(), scene).get()), state1(*body1->state), state2(*body2->state), centre2(state2.pos)
 	{
 		if (scene->isPeriodic) centre2 += scene->cell->intrShiftPos(contact.cellDist);
 		arm1 = geom.contactPoint - state1.pos;
@@ -98,13 +93,9 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 	Real     normalViscous, elasticNormal, dilation;
 
 	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
-	        : force(phys.normalForce + phys.shearForce)
-	        , shear(turnedShear)
-	        , shearViscous(phys.shearViscous)
-	        , moment(phys.rockingMoment)
-	        , normalViscous(phys.normalViscous.dot(normal))
-	        , elasticNormal(phys.normalForce.dot(normal) - normalViscous)
-	        , dilation(phys.dilation)
+	        : force(phys.normalForce + phys.shearForce), shear(turnedShear), shearViscous(phys.shearViscous),
+	          moment(phys.rockingMoment), normalViscous(phys.normalViscous.dot(normal)),
+	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation)
 	{
 	}
 };
@@ -200,7 +191,8 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
         const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
 {
 	const Vector3r velocity = pair.velocity();
-	const Vector3r viscous  = -shearDamping * pair.criticalDamping(phys.ks) * (velocity - pair.geom.normal.dot(velocity) * pair.geom.normal);
+	const Vector3r viscous
+	        = -shearDamping * pair.criticalDamping(phys.ks) * (velocity - pair.geom.normal.dot(velocity) * pair.geom.normal);
 	return fractionWithin(phys.shearStrength(normal), shear, viscous) * viscous;
 }
 
@@ -224,7 +216,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 {
 	const Vector3r force = phys.normalForce + phys.shearForce;
 	if (!math::isfinite(force.squaredNorm() + phys.rockingMoment.squaredNorm())) {
-		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip = Vector3r::Zero();
+		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
+		        = Vector3r::Zero();
 		++nonFinite_;
 		return false;
 	}
@@ -244,10 +237,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 	work.fractured = phys.intact;
 	if (phys.intact) phys.fail();
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
-	phys.isSliding   = false;
+	phys.isSliding                                                                                   = false;
 	if (scene->trackEnergy) book(pair, phys, last, work);
-	else
-		phys.lastStored = -1;
+	else phys.lastStored = -1;
 	return phys.hasPeak() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
 }
 
@@ -256,7 +248,8 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()
 	// EnergyTracker makes names without locking out its other users: all of ours at once, before any is used
 #pragma omp critical(polytopeEnergyNames)
 	if (!energiesNamed_) {
-		const char* const names[energyCount] = { "elastPotential", "plastDissip", "normDampDissip", "shearDampDissip", "fractureDissip", "nonconservative" };
+		const char* const names[energyCount]
+		        = { "elastPotential", "plastDissip", "normDampDissip", "shearDampDissip", "fractureDissip", "nonconservative" };
 		for (int k = 0; k < energyCount; ++k)
 			scene->energy->findId(names[k], energyIds_[k], /*reset in each step*/ k == elastic);
 		energiesNamed_ = true;
@@ -269,12 +262,14 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	if (!energiesNamed_) nameEnergies();
 	const Vector3r force = phys.normalForce + phys.shearForce;
 	const Real     given = scene->dt / 2
-	        * ((last.force + force).dot(pair.centreVelocity()) + (phys.lastArm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
-	           - (phys.lastArm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel));
+	        * ((last.force + force).dot(pair.centreVelocity())
+	                + (phys.lastArm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
+	                - (phys.lastArm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel));
 	// a contact that was there before tracking was switched on has no last step to compare with
 	const bool known = phys.lastStored >= 0 || pair.contact.iterMadeReal == scene->iter;
 	Real       rest  = 0;
-	if (known) rest = -given - (work.stored - math::max(phys.lastStored, Real(0))) - work.plastic - work.normalDamping - work.shearDamping;
+	if (known)
+		rest = -given - (work.stored - math::max(phys.lastStored, Real(0))) - work.plastic - work.normalDamping - work.shearDamping;
 
 	const auto add = [&](Energy kind, Real value) { scene->energy->add(value, "", energyIds_[kind], kind == elastic); };
 	add(elastic, work.stored);

@@ -94,27 +94,27 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 /// Body 2 pressed into body 1 along the contact's first normal, from 0.3 to 4 corner radii: what changes where the status does.
 void pressIn(const PairAxis& deep, const std::string& kind, int number)
 {
-	std::mt19937_64   random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
-	const Pair        pair      = deep.make(Real(0.3), kind, ContactModel::Paper, random);
-	const Real        radius    = pair.shape[0]->cornerRadius(), size = pair.size();
-	const Vector3     direction = query(pair).normal;
-	const auto        at        = [&](Real way) { return query(movedApart(pair, -way * direction)); };
-	const int         steps     = 400;
-	Real              before    = 0;
-	ContactResult     last      = at(0);
+	std::mt19937_64 random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
+	const Pair      pair   = deep.make(Real(0.3), kind, ContactModel::Paper, random);
+	const Real      radius = pair.shape[0]->cornerRadius(), size = pair.size();
+	const Vector3   direction = query(pair).normal;
+	const auto      at        = [&](Real way) { return query(movedApart(pair, -way * direction)); };
+	const int       steps     = 400;
+	Real            before    = 0;
+	ContactResult   last      = at(0);
 	for (int step = 1; step <= steps; ++step) {
 		const Real    way  = 4 * radius * step / steps;
 		ContactResult here = at(way);
 		if (here.status != last.status) {
 			Real low = before, high = way;
 			for (int k = 0; k < 60; ++k) {
-				const Real middle                              = (low + high) / 2;
+				const Real middle                               = (low + high) / 2;
 				(at(middle).status == last.status ? low : high) = middle;
 			}
 			const ContactResult one = at(low), two = at(high);
-			std::cout << '"' << kind << "\"," << number << ',' << statusName(one.status) << ',' << statusName(two.status) << ',' << -two.infeasibility / radius
-			          << ',' << (one.normal - two.normal).norm() << ',' << std::abs(one.depth - two.depth) / two.depth << ','
-			          << (one.point - two.point).norm() / size << '\n';
+			std::cout << '"' << kind << "\"," << number << ',' << statusName(one.status) << ',' << statusName(two.status) << ','
+			          << -two.infeasibility / radius << ',' << (one.normal - two.normal).norm() << ','
+			          << std::abs(one.depth - two.depth) / two.depth << ',' << (one.point - two.point).norm() / size << '\n';
 		}
 		before = way;
 		last   = here;

@@ -51,12 +51,13 @@ void expectNoneAfterTheLargest(ContactSettings settings, int dimension)
 	ContactWorkspace        workspace;
 	ContactResult           result;
 	const auto              queryAll = [&] {
-		int contacts = 0;
-		for (std::size_t i = 0; i < pairs.size(); ++i) {
-			contactQuery(*pairs[i].shape[0], pairs[i].rotation[0], *pairs[i].shape[1], pairs[i].rotation[1], pairs[i].centre2, settings, memories[i], workspace, result);
-			contacts += result.hasGeometry;
-		}
-		return contacts;
+                int contacts = 0;
+                for (std::size_t i = 0; i < pairs.size(); ++i) {
+                        contactQuery(*pairs[i].shape[0], pairs[i].rotation[0], *pairs[i].shape[1], pairs[i].rotation[1], pairs[i].centre2,
+			                     settings, memories[i], workspace, result);
+                        contacts += result.hasGeometry;
+                }
+                return contacts;
 	};
 	EXPECT_GT(queryAll(), 100);
 	const long before = allocations;

@@ -53,7 +53,8 @@ template <int D> void expectDerivatives()
 				ASSERT_TRUE((barrierDerivatives<R, D, 1>(rows.planes, ahead, gAhead, unused)));
 				ASSERT_TRUE((barrierDerivatives<R, D, 1>(rows.planes, back, gBack, unused)));
 				for (int j = 0; j <= k; ++j)
-					EXPECT_NEAR(double(h[k][j] * size * size), double((gAhead[j] - gBack[j]) / (2 * step) * size * size), 1e-6);
+					EXPECT_NEAR(double(h[k][j] * size * size),
+					        double((gAhead[j] - gBack[j]) / (2 * step) * size * size), 1e-6);
 			}
 		}
 	}
@@ -69,10 +70,10 @@ TEST(AnalyticCentre, NewtonStepSolvesTheSystem)
 {
 	std::mt19937_64 random(18);
 	for (int trial = 0; trial < 200; ++trial) {
-		const HalfSpaces   set1 = randomPlanes(12, random), set2 = randomPlanes(8, random);
-		PlaneRows<Real, 3> rows(set1, set2);
-		const Vector3      x = Real(0.5) * randomDirection(random);
-		Real               g[3], h[3][3];
+		const HalfSpaces     set1 = randomPlanes(12, random), set2 = randomPlanes(8, random);
+		PlaneRows<Real, 3>   rows(set1, set2);
+		const Vector3        x = Real(0.5) * randomDirection(random);
+		Real                 g[3], h[3][3];
 		BarrierStep<Real, 3> step;
 		ASSERT_TRUE((barrierDerivatives<Real, 3, 2>(rows.planes, x.data(), g, h)));
 		ASSERT_TRUE((newtonStep<Real, 3>(g, h, step)));
@@ -97,7 +98,8 @@ TEST(AnalyticCentre, StepLengthIsNearTheMinimumAlongTheLineOrGoesDownByItsBound)
 		const Vector3 direction = randomDirection(random);
 		Real          exit      = 1e9;
 		for (int i = 0; i < rows.planes.total; ++i) {
-			const Real rate = rows.planes.normal[0][i] * direction[0] + rows.planes.normal[1][i] * direction[1] + rows.planes.normal[2][i] * direction[2];
+			const Real rate = rows.planes.normal[0][i] * direction[0] + rows.planes.normal[1][i] * direction[1]
+			        + rows.planes.normal[2][i] * direction[2];
 			if (rate > 0) exit = std::min(exit, rows.planes.offset[i] / rate);
 		}
 		const Vector3        x = (1 - decades(random, -12, -1)) * exit * direction;
@@ -125,7 +127,8 @@ TEST(AnalyticCentre, StepLengthIsNearTheMinimumAlongTheLineOrGoesDownByItsBound)
 		const Vector3 there = x + length * vectorOf(step.direction, 3);
 		Real          ahead[3];
 		ASSERT_TRUE((barrierDerivatives<Real, 3, 2>(rows.planes, there.data(), ahead, h)));
-		EXPECT_LE(std::abs(vectorOf(ahead, 3).dot(vectorOf(step.direction, 3))), 1.01 * tolerance::lineSearchSlope * step.decrement * step.decrement);
+		EXPECT_LE(std::abs(vectorOf(ahead, 3).dot(vectorOf(step.direction, 3))),
+		        1.01 * tolerance::lineSearchSlope * step.decrement * step.decrement);
 	}
 	EXPECT_GT(damped, 1200);
 	EXPECT_GT(towards, 100);

@@ -41,7 +41,8 @@ struct Body {
 		const int  axes[]  = { 0, 1, 2, 1, 0 };
 		const Real parts[] = { 0.5, 0.5, 1, 0.5, 0.5 };
 		for (int k = 0; k < 5; ++k) {
-			const Quaternion turn(Eigen::AngleAxis<Real>(parts[k] * time * spin[axes[k]] / inertia[axes[k]], Vector3::Unit(axes[k])));
+			const Quaternion turn(
+			        Eigen::AngleAxis<Real>(parts[k] * time * spin[axes[k]] / inertia[axes[k]], Vector3::Unit(axes[k])));
 			spin        = turn.conjugate() * spin;
 			orientation = (orientation * turn).normalized();
 		}
@@ -65,11 +66,11 @@ Collision randomCollision(std::mt19937_64& random)
 	Collision collision;
 	const int faces[] = { 4, 6, 8, 12, 20 };
 	for (Body& body : collision.body) {
-		HalfSpaces set = random() % 2 ? regularSolid(faces[random() % 5], 1) : randomPlanes(5 + int(random() % 16), random);
-		set            = stretched(set, Vector3(1, uniform(random, Real(0.5), 1), uniform(random, Real(0.3), 1)));
-		body.shape     = balanced(set);
-		body.mass      = body.shape->mass().volume;
-		body.inertia   = body.shape->mass().inertia.diagonal();
+		HalfSpaces set   = random() % 2 ? regularSolid(faces[random() % 5], 1) : randomPlanes(5 + int(random() % 16), random);
+		set              = stretched(set, Vector3(1, uniform(random, Real(0.5), 1), uniform(random, Real(0.3), 1)));
+		body.shape       = balanced(set);
+		body.mass        = body.shape->mass().volume;
+		body.inertia     = body.shape->mass().inertia.diagonal();
 		body.orientation = Quaternion(randomRotation(random));
 		body.position = body.velocity = Vector3::Zero();
 		body.spin                     = uniform(random, 0, 1) * body.inertia.cwiseProduct(randomDirection(random));
@@ -86,9 +87,9 @@ Collision randomCollision(std::mt19937_64& random)
 	collision.body[1].position = pair.centre2;
 	collision.body[1].velocity = -direction;
 	// an overlap of about 2 % of the smaller inscribed radius
-	const Real mass      = 1 / (1 / collision.body[0].mass + 1 / collision.body[1].mass);
-	collision.stiffness  = mass / std::pow(Real(0.02) * inner, 2);
-	collision.duration   = 8 * Real(M_PI) * std::sqrt(mass / collision.stiffness);
+	const Real mass     = 1 / (1 / collision.body[0].mass + 1 / collision.body[1].mass);
+	collision.stiffness = mass / std::pow(Real(0.02) * inner, 2);
+	collision.duration  = 8 * Real(M_PI) * std::sqrt(mass / collision.stiffness);
 	return collision;
 }
 
@@ -105,18 +106,20 @@ Outcome run(Collision collision, const ContactSettings& settings, int steps)
 	PairMemory    memory;
 	ContactResult result;
 	const auto    contact = [&] {
-		Pair pair;
-		pair.shape[0]    = a.shape;
-		pair.shape[1]    = b.shape;
-		pair.rotation[0] = a.orientation.toRotationMatrix();
-		pair.rotation[1] = b.orientation.toRotationMatrix();
-		pair.centre2     = b.position - a.position;
-		result           = query(pair, settings, &memory);
+                Pair pair;
+                pair.shape[0]    = a.shape;
+                pair.shape[1]    = b.shape;
+                pair.rotation[0] = a.orientation.toRotationMatrix();
+                pair.rotation[1] = b.orientation.toRotationMatrix();
+                pair.centre2     = b.position - a.position;
+                result           = query(pair, settings, &memory);
 	};
 	const auto kick = [&](Real time) {
 		if (!result.inContact) return;
 		Vector3 force = collision.stiffness * result.depth * result.normal;
-		if (collision.smooth > 0) force = -8 * collision.stiffness * std::pow(result.barrierValue, 3) / std::pow(collision.smooth, 2) * result.dualDirection;
+		if (collision.smooth > 0)
+			force = -8 * collision.stiffness * std::pow(result.barrierValue, 3) / std::pow(collision.smooth, 2)
+			        * result.dualDirection;
 		const Vector3 at = a.position + result.point;
 		b.kick(force, at, time);
 		a.kick(-force, at, time);
@@ -178,8 +181,10 @@ TEST(ConservativeCollisions, EnergyErrorFallsWithTheSquareOfTheTimeStep)
 	for (int steps : { 2000, 4000, 8000 }) {
 		all.push_back(errors(collisions, conservative, steps));
 		const Errors other = errors(collisions, paper, steps);
-		std::printf("%d steps: energy error, median / root mean square / largest: conservative %.2e / %.2e / %.2e, paper %.2e / %.2e / %.2e\n", steps, double(all.back().median), double(all.back().rootMeanSquare),
-			double(all.back().largest), double(other.median), double(other.rootMeanSquare), double(other.largest));
+		std::printf("%d steps: energy error, median / root mean square / largest: conservative %.2e / %.2e / %.2e, paper %.2e / "
+		            "%.2e / %.2e\n",
+		        steps, double(all.back().median), double(all.back().rootMeanSquare), double(all.back().largest),
+		        double(other.median), double(other.rootMeanSquare), double(other.largest));
 		EXPECT_LT(all.back().momentum, 1e-11);
 		EXPECT_GT(other.median, 100 * all.back().median);
 	}
@@ -203,8 +208,8 @@ TEST(ConservativeCollisions, DefaultBarrierIsNotMuchWorseThanAnyOther)
 		settings.barrier      = barrier;
 		for (int steps : { 1000, 500 }) {
 			const Errors found = coarse[barrier] = errors(collisions, settings, steps);
-			std::printf("barrier %.0e, %d steps: energy error, median / root mean square / largest: %.1e / %.1e / %.1e\n", double(barrier), steps, double(found.median),
-				double(found.rootMeanSquare), double(found.largest));
+			std::printf("barrier %.0e, %d steps: energy error, median / root mean square / largest: %.1e / %.1e / %.1e\n",
+			        double(barrier), steps, double(found.median), double(found.rootMeanSquare), double(found.largest));
 		}
 	}
 	for (const auto& [barrier, found] : coarse)
@@ -229,8 +234,10 @@ TEST(ConservativeCollisions, WithoutTheKinkOfALinearSpringLeapfrogLeavesNextToNo
 	conservative.newtonTolerance = 1e-20; // what the solver leaves must not show
 	for (int steps : { 2000, 4000 }) {
 		const Errors two = errors(linear, conservative, steps), four = errors(smooth, conservative, steps);
-		std::printf("%d steps: energy error, median / root mean square / largest: energy ∝ Φ² %.1e / %.1e / %.1e, ∝ Φ⁴ %.1e / %.1e / %.1e\n", steps, double(two.median),
-			double(two.rootMeanSquare), double(two.largest), double(four.median), double(four.rootMeanSquare), double(four.largest));
+		std::printf("%d steps: energy error, median / root mean square / largest: energy ∝ Φ² %.1e / %.1e / %.1e, ∝ Φ⁴ %.1e / %.1e "
+		            "/ %.1e\n",
+		        steps, double(two.median), double(two.rootMeanSquare), double(two.largest), double(four.median),
+		        double(four.rootMeanSquare), double(four.largest));
 		EXPECT_LT(four.median, two.median / 1000);
 		EXPECT_LT(four.rootMeanSquare, two.rootMeanSquare / 3);
 	}
@@ -245,17 +252,17 @@ struct Rocking {
 
 	Rocking()
 	{
-		cube.shape       = ConvexShape::shared(cuboid(0.5, 0.5, 0.5), 0);
-		cube.mass        = 1;
-		cube.inertia     = cube.shape->mass().inertia.diagonal();
-		cube.velocity    = cube.spin = Vector3::Zero();
-		cube.orientation = Quaternion::Identity();
-		stiffness        = 1e6;
-		weight           = 1000;
+		cube.shape    = ConvexShape::shared(cuboid(0.5, 0.5, 0.5), 0);
+		cube.mass     = 1;
+		cube.inertia  = cube.shape->mass().inertia.diagonal();
+		cube.velocity = cube.spin = Vector3::Zero();
+		cube.orientation          = Quaternion::Identity();
+		stiffness                 = 1e6;
+		weight                    = 1000;
 		// at rest on the wall
 		Real low = 0.4, high = 0.5;
 		for (int halving = 0; halving < 60; ++halving) {
-			cube.position = Vector3(0, 0, (low + high) / 2);
+			cube.position                                       = Vector3(0, 0, (low + high) / 2);
 			(stiffness * contact().depth > weight ? low : high) = (low + high) / 2;
 		}
 		frequency        = std::sqrt(weight * contact().rockingArm / cube.inertia.y());
@@ -272,8 +279,8 @@ struct Rocking {
 		ContactSettings settings;
 		settings.contactModel      = ContactModel::Conservative;
 		const ContactResult result = query(pair, settings);
-		force                      = result.inContact ? Vector3(stiffness * result.depth * result.normal) : Vector3(Vector3::Zero());
-		at                         = result.point;
+		force = result.inContact ? Vector3(stiffness * result.depth * result.normal) : Vector3(Vector3::Zero());
+		at    = result.point;
 		return result;
 	}
 	void step(Real time)

@@ -66,7 +66,8 @@ protected:
 	const Shapes    shapes = randomShapes(90, random, dimension, Real(-1));
 };
 
-INSTANTIATE_TEST_SUITE_P(Dimensions, ConservativeContact, testing::Values(2, 3), [](const auto& info) { return std::to_string(info.param) + "D"; });
+INSTANTIATE_TEST_SUITE_P(
+        Dimensions, ConservativeContact, testing::Values(2, 3), [](const auto& info) { return std::to_string(info.param) + "D"; });
 
 TEST_P(ConservativeContact, ForceAndTorqueAreDifferencesOfTheEnergy)
 {
@@ -95,13 +96,17 @@ TEST_P(ConservativeContact, ForceAndTorqueAreDifferencesOfTheEnergy)
 		for (int k = 0; k < 3; ++k) {
 			QuadVector e {}, none {}, z { 0, 0, 1 };
 			e[k] = 1;
-			if (k < dimension) forceOn2[k] = -Real((energyAt(along(none, step, e), z, 0) - energyAt(along(none, -step, e), z, 0)) / (2 * step));
-			if (dimension == 3 || k == 2) torqueOn2[k] = -Real((energyAt(none, e, angle) - energyAt(none, e, -angle)) / (2 * angle));
+			if (k < dimension)
+				forceOn2[k] = -Real(
+				        (energyAt(along(none, step, e), z, 0) - energyAt(along(none, -step, e), z, 0)) / (2 * step));
+			if (dimension == 3 || k == 2)
+				torqueOn2[k] = -Real((energyAt(none, e, angle) - energyAt(none, e, -angle)) / (2 * angle));
 		}
 		const Vector3 f = force(result), torque = (result.point - pair.centre2).cross(f);
 		const Real    size = pair.size(), scale = -2 * result.barrierValue, rounding = roundingOverMu(pair);
 		ASSERT_LT(value, 0);
-		const Real energyError = std::abs(Real(result.energy / Quad(2 * value * value) - 1)) * std::min(Real(1), -result.barrierValue / pair.reach());
+		const Real energyError = std::abs(Real(result.energy / Quad(2 * value * value) - 1))
+		        * std::min(Real(1), -result.barrierValue / pair.reach());
 		const Real forceError = (f - forceOn2).norm() / scale, torqueError = (torque - torqueOn2).norm() / (scale * size);
 		worstEnergy = std::max(worstEnergy, energyError);
 		worstForce  = std::max(worstForce, forceError / (1 + rounding * 1e13));
@@ -112,7 +117,8 @@ TEST_P(ConservativeContact, ForceAndTorqueAreDifferencesOfTheEnergy)
 		EXPECT_LE(torqueError, 1e-12 + 10 * rounding * (1 + result.rockingArm / size));
 	}
 	EXPECT_GT(contacts, 150);
-	std::printf("%d-D, %d contacts: worst error of energy %.1e, force %.1e, torque %.1e (slivers' by their planes' rounding over μ)\n", dimension, contacts, worstEnergy, worstForce, worstTorque);
+	std::printf("%d-D, %d contacts: worst error of energy %.1e, force %.1e, torque %.1e (slivers' by their planes' rounding over μ)\n",
+	        dimension, contacts, worstEnergy, worstForce, worstTorque);
 }
 
 TEST_P(ConservativeContact, ValueIsNotBelowTheLinearProgrammes)
@@ -128,7 +134,7 @@ TEST_P(ConservativeContact, ValueIsNotBelowTheLinearProgrammes)
 		}
 		// somewhere about touching
 		const Vector3 direction = randomDirection(random, dimension);
-		pair.centre2            = uniform(random, 0, 1) * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius()) * direction;
+		pair.centre2 = uniform(random, 0, 1) * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius()) * direction;
 		const ContactResult result = query(pair, acrossGap());
 		ASSERT_TRUE(usable(result.status)) << statusName(result.status);
 		const Real over = result.barrierValue - result.infeasibility, mu = tolerance::barrier * pair.inscribedRadius();
@@ -145,7 +151,8 @@ TEST_P(ConservativeContact, ValueIsNotBelowTheLinearProgrammes)
 	EXPECT_GT(apart, trials / 5);
 	EXPECT_GT(overlapping, trials / 5);
 	EXPECT_GT(contacts, trials / 6);
-	std::printf("%d-D, %d pairs (%d overlap, %d in contact): least (Φ − s*)/μ %.3g overlapping, %.3g apart\n", dimension, trials, overlapping, contacts, least, leastApart);
+	std::printf("%d-D, %d pairs (%d overlap, %d in contact): least (Φ − s*)/μ %.3g overlapping, %.3g apart\n", dimension, trials,
+	        overlapping, contacts, least, leastApart);
 }
 
 TEST_P(ConservativeContact, WeightsAreADualsAndNoneAboveOneHalf)
@@ -213,7 +220,8 @@ TEST_P(ConservativeContact, RigidMotionAndScaleChangeNothing)
 		const ContactResult there    = query(turned(pair, rotation), conservative(1e-14));
 		const Real          loose    = 1e-12 + 100 * roundingOverMu(pair);
 		EXPECT_NEAR(there.barrierValue, result.barrierValue, 8 * tolerance::rounding * pair.reach());
-		EXPECT_LE((force(there) - rotation * force(result)).norm(), loose * -2 * result.barrierValue + 8 * tolerance::rounding * pair.reach());
+		EXPECT_LE((force(there) - rotation * force(result)).norm(),
+		        loose * -2 * result.barrierValue + 8 * tolerance::rounding * pair.reach());
 		EXPECT_LE((there.point - rotation * result.point).norm(), loose * (pair.size() + result.rockingArm));
 		if (trial % 10) continue;
 		const Real          factor = std::ldexp(Real(1), trial % 20 ? -30 : 13);
@@ -232,8 +240,8 @@ TEST_P(ConservativeContact, RigidMotionAndScaleChangeNothing)
 TEST_P(ConservativeContact, WhatThePairRemembersChangesNothing)
 {
 	for (Real stride : { 1e-5, 1e-3, 0.3 }) {
-		long   warmIterations = 0, coldIterations = 0, contacts = 0;
-		int    most = 0;
+		long warmIterations = 0, coldIterations = 0, contacts = 0;
+		int  most = 0;
 		for (int path = 0; path < 60 && !HasFailure(); ++path) {
 			Pair       pair = overlappingPair(shapes, random, -3, -1);
 			PairMemory memory;
@@ -253,15 +261,17 @@ TEST_P(ConservativeContact, WhatThePairRemembersChangesNothing)
 				coldIterations += cold.newtonIterations;
 				most             = std::max(most, warm.newtonIterations);
 				const Real loose = 1e-8 + 100 * roundingOverMu(pair);
-				EXPECT_NEAR(warm.barrierValue, cold.barrierValue, 1e-9 * tolerance::barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
-				EXPECT_LE((force(warm) - force(cold)).norm(), loose * -2 * cold.barrierValue + 8 * tolerance::rounding * pair.reach());
+				EXPECT_NEAR(warm.barrierValue, cold.barrierValue,
+				        1e-9 * tolerance::barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
+				EXPECT_LE((force(warm) - force(cold)).norm(),
+				        loose * -2 * cold.barrierValue + 8 * tolerance::rounding * pair.reach());
 				EXPECT_LE((warm.point - cold.point).norm(), loose * (pair.size() + cold.rockingArm));
 			}
 		}
 		EXPECT_GT(contacts, 800);
 		EXPECT_LT(warmIterations, stride < 0.1 ? coldIterations : 2 * coldIterations);
-		std::printf("%d-D, steps of %.0e of the inscribed radius, %ld contacts: %.2f iterations warm (at most %d), %.2f cold\n", dimension, double(stride), contacts, double(warmIterations) / contacts,
-			most, double(coldIterations) / contacts);
+		std::printf("%d-D, steps of %.0e of the inscribed radius, %ld contacts: %.2f iterations warm (at most %d), %.2f cold\n",
+		        dimension, double(stride), contacts, double(warmIterations) / contacts, most, double(coldIterations) / contacts);
 	}
 }
 
@@ -277,10 +287,11 @@ TEST_P(ConservativeContact, AnyBasisPointAndLevelAreAGoodEnoughStart)
 		}
 		for (Vector3& point : memory.point)
 			point = decades(random, -3, 3) * pair.size() * randomDirection(random, dimension);
-		memory.level            = uniform(random, -1, 1) * decades(random, -6, 3) * pair.size();
+		memory.level             = uniform(random, -1, 1) * decades(random, -6, 3) * pair.size();
 		const ContactResult warm = query(pair, conservative(), &memory), cold = query(pair, conservative());
 		ASSERT_TRUE(usable(warm.status)) << statusName(warm.status);
-		EXPECT_NEAR(warm.barrierValue, cold.barrierValue, 1e-9 * tolerance::barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
+		EXPECT_NEAR(warm.barrierValue, cold.barrierValue,
+		        1e-9 * tolerance::barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
 	}
 }
 
@@ -290,11 +301,12 @@ TEST_P(ConservativeContact, NoPairFails)
 	const int                    trials = 12000, moves = 8;
 	std::map<ContactStatus, int> count;
 	int                          most = 0, contacts = 0, solved = 0;
-	double                       sum = 0;
+	double                       sum  = 0;
 	Shapes                       many = randomShapes(60, random, dimension, Real(-3));
 	for (int planes : { 120, 200, 260 })
 		for (Real aspect : { 1., 0.1, 0.01 }) {
-			HalfSpaces set = stretched(randomPlanes(planes, random, dimension), dimension == 3 ? Vector3(1, std::sqrt(aspect), aspect) : Vector3(1, aspect, 1));
+			HalfSpaces set = stretched(randomPlanes(planes, random, dimension),
+			        dimension == 3 ? Vector3(1, std::sqrt(aspect), aspect) : Vector3(1, aspect, 1));
 			many.push_back(ConvexShape::shared(set, 0));
 		}
 	for (int trial = 0; trial < trials; ++trial) {
@@ -330,11 +342,11 @@ TEST_P(ConservativeContact, IsContinuousAcrossTheGap)
 		// the place where Φ = 0
 		Real near = pair.centre2.norm(), far = near + 2 * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius());
 		for (int halving = 0; halving < 60; ++halving) {
-			pair.centre2 = (near + far) / 2 * direction;
+			pair.centre2                                             = (near + far) / 2 * direction;
 			(query(pair, acrossGap()).barrierValue < 0 ? near : far) = (near + far) / 2;
 		}
-		const Real steps = 1e-6;
-		pair.centre2     = (near - steps * inner) * direction;
+		const Real steps       = 1e-6;
+		pair.centre2           = (near - steps * inner) * direction;
 		const ContactResult in = query(pair, acrossGap());
 		pair.centre2 += 2 * steps * inner * direction;
 		const ContactResult out = query(pair, acrossGap());
@@ -359,7 +371,10 @@ TEST_P(ConservativeContact, SlidingOverFacesEdgesAndVerticesItGoesOnSmoothly)
 		for (int k = 0; k <= steps; ++k) {
 			here.centre2               = from + Real(k) / steps * (to - from);
 			const ContactResult result = query(here, acrossGap());
-			if (k > 0) jump = std::max(jump, (result.depth * result.normal - last.depth * last.normal).norm() + (result.point - last.point).norm());
+			if (k > 0)
+				jump = std::max(jump,
+				        (result.depth * result.normal - last.depth * last.normal).norm()
+				                + (result.point - last.point).norm());
 			last = result;
 		}
 		return jump;
@@ -378,7 +393,7 @@ TEST_P(ConservativeContact, SlidingOverFacesEdgesAndVerticesItGoesOnSmoothly)
 		moveTo(pair, (direction + other).normalized(), Real(-0.01));
 		const int  steps  = 4000;
 		const Real coarse = largest(pair, from, pair.centre2, steps), fine = largest(pair, from, pair.centre2, 2 * steps);
-		worst             = std::min(worst, coarse / fine);
+		worst = std::min(worst, coarse / fine);
 		EXPECT_GT(coarse / fine, 1.9);
 	}
 	std::printf("%d-D: steps half as large, jumps smaller by %.3f at the least\n", dimension, double(worst));
@@ -402,21 +417,24 @@ TEST_P(ConservativeContact, RockingArmIsTheWayOfThePointPerTilt)
 		// both tangents; tilting about one moves the point along both
 		const Vector3 n = result.normal;
 		Vector3       t[2];
-		t[0] = dimension == 2 ? Vector3(-n.y(), n.x(), 0) : Vector3(n.unitOrthogonal());
-		t[1] = n.cross(t[0]);
+		t[0]               = dimension == 2 ? Vector3(-n.y(), n.x(), 0) : Vector3(n.unitOrthogonal());
+		t[1]               = n.cross(t[0]);
 		Real       c[2][2] = { { 0, 0 }, { 0, 0 } };
 		const Real angle   = 1e-6 * mu / std::max(pair.reach(), result.rockingArm);
 		for (int j = 0; j < dimension - 1; ++j) {
 			const Vector3    axis = dimension == 2 ? Vector3::UnitZ() : Vector3(t[j].cross(n)); // axis × n = ∓t
 			const QuadVector e = precise(axis), arm = minus(precise(pair.centre2), here.x);
-			const QuadVector cross  = { e[1] * arm[2] - e[2] * arm[1], e[2] * arm[0] - e[0] * arm[2], e[0] * arm[1] - e[1] * arm[0] };
-			PreciseBarrier   tilted = here.moved(along({}, Quad(angle), cross), e, angle);
+			const QuadVector cross
+			        = { e[1] * arm[2] - e[2] * arm[1], e[2] * arm[0] - e[0] * arm[2], e[0] * arm[1] - e[1] * arm[0] };
+			PreciseBarrier tilted = here.moved(along({}, Quad(angle), cross), e, angle);
 			tilted.value();
 			for (int i = 0; i < dimension - 1; ++i)
 				c[i][j] = Real(dot(precise(t[i]), minus(tilted.x, here.x)) / Quad(angle));
 		}
 		const Real half = (c[0][0] - c[1][1]) / 2, mixed = (c[0][1] + c[1][0]) / 2, root = std::sqrt(half * half + mixed * mixed);
-		const Real arm  = dimension == 2 ? std::abs(c[0][0]) : std::max(std::abs((c[0][0] + c[1][1]) / 2 - root), std::abs((c[0][0] + c[1][1]) / 2 + root));
+		const Real arm = dimension == 2
+		        ? std::abs(c[0][0])
+		        : std::max(std::abs((c[0][0] + c[1][1]) / 2 - root), std::abs((c[0][0] + c[1][1]) / 2 + root));
 		EXPECT_NEAR(result.rockingArm, arm, (1e-3 + 100 * roundingOverMu(pair)) * arm);
 	}
 	EXPECT_GT(compared, 30);
@@ -429,9 +447,9 @@ TEST(ConservativeContactOf, FaceOnFaceRockingArmIsLengthCubedOverSixtyFourMuSqua
 	pair.shape[0] = ConvexShape::shared(cuboid(10, 10, 10), Real(0.1));
 	pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
 	for (Real barrier : { 1e-3, 1e-4 }) {
-		ContactSettings settings = conservative();
-		settings.barrier         = barrier;
-		pair.centre2             = Vector3(0, 0, 11 - 2 * barrier);
+		ContactSettings settings   = conservative();
+		settings.barrier           = barrier;
+		pair.centre2               = Vector3(0, 0, 11 - 2 * barrier);
 		const ContactResult result = query(pair, settings);
 		ASSERT_TRUE(result.inContact);
 		EXPECT_NEAR(result.rockingArm, 8 / (64 * barrier * barrier), (2e-3 + 5 * barrier) * result.rockingArm);
@@ -473,8 +491,8 @@ TEST(ConservativeContactOf, AWallIsAPlane)
 			Real lowest      = 0;
 			for (const Vector3& v : wall.shape[1]->polyhedron().vertices)
 				lowest = std::min(lowest, (wall.rotation[1] * v).y());
-			wall.centre2 = Vector3(0, -lowest - decades(random, -2, -1), 0);
-			Pair other   = wall;
+			wall.centre2   = Vector3(0, -lowest - decades(random, -2, -1), 0);
+			Pair other     = wall;
 			other.shape[0] = block;
 			other.centre2.y() += 1000;
 			const ContactResult result = query(wall, conservative()), same = query(other, conservative());
@@ -482,7 +500,8 @@ TEST(ConservativeContactOf, AWallIsAPlane)
 			EXPECT_EQ(result.status, ContactStatus::Contact);
 			EXPECT_NEAR(result.depth, same.depth, 1e-7);
 			EXPECT_LE((result.normal - same.normal).norm(), 1e-6);
-			EXPECT_LE((result.point + Vector3(0, 1000, 0) - same.point).norm(), 1e-3); // a face's point is as soft as its rocking arm is long
+			EXPECT_LE((result.point + Vector3(0, 1000, 0) - same.point).norm(),
+			        1e-3); // a face's point is as soft as its rocking arm is long
 			EXPECT_LE((result.normal - Vector3::UnitY()).norm(), 1e-6);
 			EXPECT_EQ(query(swapped(wall), conservative()).depth, result.depth);
 		}
@@ -496,8 +515,8 @@ TEST(ConservativeContactOf, DeepOverlapAndCoincidentBodiesHaveAnEnergyAndNoForce
 		Pair pair;
 		pair.shape[0] = pair.shape[1] = ConvexShape::shared(regularSolid(faces, 1), Real(0.1));
 		pair.rotation[0] = pair.rotation[1] = randomRotation(random);
-		const Real          inner = pair.inscribedRadius();
-		const ContactResult top   = query(pair, conservative());
+		const Real          inner           = pair.inscribedRadius();
+		const ContactResult top             = query(pair, conservative());
 		EXPECT_TRUE(top.inContact);
 		EXPECT_EQ(top.status, ContactStatus::NoDirection);
 		EXPECT_NEAR(top.depth, 0, 1e-14);
@@ -549,12 +568,16 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 {
 	// With weights λ of the planes that meet, Φ = −|n| overlap + 2μ (Σ √λ − √2): first force at an overlap of
 	// 2μ (Σ √λ − √2)/|n|, stiffness (2|n|)².
-	const Real  half = std::sqrt(Real(0.5)), third = std::sqrt(Real(1) / 3);
-	const auto  cube = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
-	const auto  tetrahedron = ConvexShape::shared(regularSolid(4, 3), Real(0.1)); // inscribed radius 1
-	const auto  upright = [](const Vector3& down) { return Eigen::Quaternion<Real>::FromTwoVectors(down, -Vector3::UnitZ()).toRotationMatrix(); };
+	const Real half = std::sqrt(Real(0.5)), third = std::sqrt(Real(1) / 3);
+	const auto cube        = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	const auto tetrahedron = ConvexShape::shared(regularSolid(4, 3), Real(0.1)); // inscribed radius 1
+	const auto upright
+	        = [](const Vector3& down) { return Eigen::Quaternion<Real>::FromTwoVectors(down, -Vector3::UnitZ()).toRotationMatrix(); };
 	const Matrix3 edgeDown = upright(Vector3(0, -1, -1)), vertexDown = upright(Vector3(-1, -1, -1));
-	const Matrix3 turnedEdge = (Eigen::AngleAxis<Real>(Real(M_PI), Vector3::UnitX()) * Eigen::AngleAxis<Real>(Real(M_PI) / 2, Vector3::UnitZ())).toRotationMatrix() * edgeDown;
+	const Matrix3 turnedEdge
+	        = (Eigen::AngleAxis<Real>(Real(M_PI), Vector3::UnitX()) * Eigen::AngleAxis<Real>(Real(M_PI) / 2, Vector3::UnitZ()))
+	                  .toRotationMatrix()
+	        * edgeDown;
 	struct Case {
 		const char*                        name;
 		std::shared_ptr<const ConvexShape> upper, lower;
@@ -562,15 +585,15 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 		std::vector<Real>                  weights;
 		Real                               n;
 	};
-	const Real  f = 1 / (1 + 1 / half), v = 1 / (1 + 1 / third);
+	const Real    f = 1 / (1 + 1 / half), v = 1 / (1 + 1 / third);
 	const Matrix3 straight = Matrix3::Identity();
 	const Matrix3 apexDown = upright(tetrahedron->polyhedron().vertices[0]);
-	const Case cases[] = {
-		{ "face on face", cube, cube, straight, straight, { 0.5, 0.5 }, 0.5 },
-		{ "edge on face", cube, cube, edgeDown, straight, { f, f * half, f * half }, f },
-		{ "edge on edge", cube, cube, edgeDown, turnedEdge, { 0.25, 0.25, 0.25, 0.25 }, half / 2 },
-		{ "vertex on face", cube, cube, vertexDown, straight, { v, v * third, v * third, v * third }, v },
-		{ "tetrahedron's vertex on face", tetrahedron, cube, apexDown, straight, { 0.25, 0.25, 0.25, 0.25 }, 0.25 },
+	const Case    cases[]  = {
+                { "face on face", cube, cube, straight, straight, { 0.5, 0.5 }, 0.5 },
+                { "edge on face", cube, cube, edgeDown, straight, { f, f * half, f * half }, f },
+                { "edge on edge", cube, cube, edgeDown, turnedEdge, { 0.25, 0.25, 0.25, 0.25 }, half / 2 },
+                { "vertex on face", cube, cube, vertexDown, straight, { v, v * third, v * third, v * third }, v },
+                { "tetrahedron's vertex on face", tetrahedron, cube, apexDown, straight, { 0.25, 0.25, 0.25, 0.25 }, 0.25 },
 	};
 	const Real mu = 1e-3;
 	for (const Case& c : cases) {
@@ -587,8 +610,8 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 		ContactSettings settings = acrossGap();
 		settings.barrier         = mu;
 		const auto at            = [&](Real overlap) {
-			pair.centre2 = Vector3(0, 0, top - bottom - overlap);
-			return query(pair, settings);
+                        pair.centre2 = Vector3(0, 0, top - bottom - overlap);
+                        return query(pair, settings);
 		};
 		Real low = -mu, high = 10 * mu;
 		for (int halving = 0; halving < 50; ++halving)
@@ -599,8 +622,9 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 		const Real          first = high / mu, expected = 2 * sum / c.n;
 		const ContactResult in = at(0.01), deeper = at(0.0101);
 		const Real          stiffness = (deeper.depth - in.depth) / Real(0.0001);
-		std::printf("%s: first force at an overlap of %.3f μ (weights alone %.3f μ), stiffness %.4f k (weights alone %.4f k), rocking arm %.3g\n", c.name, double(first), double(expected),
-			double(stiffness), double(4 * c.n * c.n), double(in.rockingArm));
+		std::printf("%s: first force at an overlap of %.3f μ (weights alone %.3f μ), stiffness %.4f k (weights alone %.4f k), "
+		            "rocking arm %.3g\n",
+		        c.name, double(first), double(expected), double(stiffness), double(4 * c.n * c.n), double(in.rockingArm));
 		EXPECT_NEAR(first, expected, 0.12);
 		EXPECT_NEAR(stiffness, 4 * c.n * c.n, 0.01);
 	}

@@ -33,7 +33,7 @@ ContactResult backTurned(ContactResult result, const Matrix3& rotation)
 /// The status names where the normal comes from.
 void expectDocumentedStatus(const Pair& pair, const PrecisePair& exact, const Allowance& allowed, const ContactResult& result)
 {
-	const QuadVector x     = precise(result.point);
+	const QuadVector x = precise(result.point);
 	Vector3          direction[2];
 	bool             has[2];
 	for (int body = 0; body < 2; ++body) {
@@ -70,8 +70,8 @@ TEST_P(RandomPairs, SwapAndRigidMotionChangeNothing)
 	std::map<ContactStatus, int> count;
 	for (int trial = 0; trial < trials && !HasFailure(); ++trial) {
 		SCOPED_TRACE("trial " + std::to_string(trial));
-		const Pair          pair   = randomPair(shapes, random);
-		ContactSettings     settings;
+		const Pair      pair = randomPair(shapes, random);
+		ContactSettings settings;
 		settings.section           = true;
 		const ContactResult result = query(pair, settings), back = query(swapped(pair), settings);
 		++count[result.status];
@@ -101,14 +101,15 @@ TEST_P(RandomPairs, SwapAndRigidMotionChangeNothing)
 	EXPECT_GT(count[ContactStatus::Contact], 0.3 * trials);
 	EXPECT_GT(count[ContactStatus::NormalFromOneBody], 0.02 * trials);
 	EXPECT_GT(count[ContactStatus::NormalFromDual], 0.01 * trials);
-	for (ContactStatus failure : { ContactStatus::CentreNotConverged, ContactStatus::LpNotConverged, ContactStatus::Failed, ContactStatus::NoDirection })
+	for (ContactStatus failure :
+	        { ContactStatus::CentreNotConverged, ContactStatus::LpNotConverged, ContactStatus::Failed, ContactStatus::NoDirection })
 		EXPECT_EQ(count[failure], 0) << statusName(failure);
 }
 
 TEST_P(RandomPairs, ScaledByAPowerOfTwoTheAnswerIsScaledToTheLastBit)
 {
 	for (int exponent : { -30, 13 }) {
-		const Real                                                         factor = std::ldexp(Real(1), exponent);
+		const Real                                                       factor = std::ldexp(Real(1), exponent);
 		std::map<const ConvexShape*, std::shared_ptr<const ConvexShape>> larger;
 		for (const auto& shape : shapes)
 			larger[shape.get()] = scaled(*shape, factor);
@@ -119,7 +120,7 @@ TEST_P(RandomPairs, ScaledByAPowerOfTwoTheAnswerIsScaledToTheLastBit)
 				shape = larger[shape.get()];
 			other.centre2 *= factor;
 			ContactSettings settings;
-			settings.section       = true;
+			settings.section        = true;
 			const ContactResult one = query(pair, settings), two = query(other, settings);
 			EXPECT_EQ(two.status, one.status);
 			EXPECT_EQ(two.infeasibility, factor * one.infeasibility);
@@ -162,19 +163,19 @@ TEST(ContactQuery, ThePlaneContactOfPrismsIsThatOfTheirSections)
 	for (int trial = 0; trial < 500; ++trial) {
 		Pair flat, solid;
 		for (int body = 0; body < 2; ++body) {
-			HalfSpaces set = randomPlanes(4 + int(random() % 12), random, 2);
+			HalfSpaces set   = randomPlanes(4 + int(random() % 12), random, 2);
 			flat.shape[body] = ConvexShape::shared(set, Real(0.3));
 			for (int side = -1; side <= 1; side += 2) {
 				set.normals.push_back(side * Vector3::UnitZ());
 				set.offsets.push_back(2);
 			}
-			set.dimension      = 3;
-			solid.shape[body]  = ConvexShape::shared(set, Real(0.3));
+			set.dimension       = 3;
+			solid.shape[body]   = ConvexShape::shared(set, Real(0.3));
 			flat.rotation[body] = solid.rotation[body] = randomRotation(random, 2);
 		}
 		const Vector3 direction = randomDirection(random, 2);
 		moveTo(flat, direction, -decades(random, -10, -1));
-		solid.centre2              = flat.centre2;
+		solid.centre2           = flat.centre2;
 		const ContactResult one = query(flat), two = query(solid);
 		ASSERT_TRUE(one.inContact && two.inContact);
 		++contacts;
@@ -201,13 +202,14 @@ TEST(ContactQuery, WhatTheBuffersHeldBeforeDoesNotMatter)
 			const Pair      pair = randomPair(shapes, random);
 			ContactSettings settings;
 			settings.section = settings.geometryAcrossGap = true;
-			settings.contactPoint = ContactPoint(trial % 3);
+			settings.contactPoint                         = ContactPoint(trial % 3);
 			ContactWorkspace fresh;
 			PairMemory       memory[2];
 			ContactResult    result[2];
 			for (int again = 0; again < 2; ++again)
 				for (int k = 0; k < 2; ++k)
-					contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memory[k], k ? used : fresh, result[k]);
+					contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2,
+					        settings, memory[k], k ? used : fresh, result[k]);
 			EXPECT_EQ(result[0].point, result[1].point);
 			EXPECT_EQ(result[0].normal, result[1].normal);
 			EXPECT_EQ(result[0].depth, result[1].depth);
@@ -225,12 +227,14 @@ TEST(ContactQuery, NormalsAreWeightedAsAsked)
 		const Pair        pair = regularPair(6, 20, Real(0.05), random);
 		const PrecisePair exact(pair);
 		ContactSettings   settings;
-		const QuadVector  x = precise(query(pair).point);
-		const Vector3     first = rounded(exact.innerGradient(0, x)).normalized(), second = -rounded(exact.innerGradient(1, x)).normalized();
+		const QuadVector  x     = precise(query(pair).point);
+		const Vector3     first = rounded(exact.innerGradient(0, x)).normalized(),
+		              second    = -rounded(exact.innerGradient(1, x)).normalized();
 		for (const auto& weights : { std::pair<Real, Real>(1, 0), { 0, 1 }, { 3, 1 }, { 1e-3, 2e-3 } }) {
 			settings.normalWeight[0] = weights.first;
 			settings.normalWeight[1] = weights.second;
-			EXPECT_LE((query(pair, settings).normal - (weights.first * first + weights.second * second).normalized()).norm(), 1e-9);
+			EXPECT_LE((query(pair, settings).normal - (weights.first * first + weights.second * second).normalized()).norm(),
+			        1e-9);
 		}
 	}
 }

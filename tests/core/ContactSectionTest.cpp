@@ -41,7 +41,8 @@ Cut cornersInOrder(const HalfSpaces& set1, const HalfSpaces& set2, const Vector3
 	Long3              middle = Long3::Zero();
 	for (std::size_t i = 0; i < normals.size(); ++i)
 		for (std::size_t j = 0; j < i; ++j) {
-			const long double a = normals[i].dot(u), b = normals[i].dot(v), c = normals[j].dot(u), d = normals[j].dot(v), det = a * d - b * c;
+			const long double a = normals[i].dot(u), b = normals[i].dot(v), c = normals[j].dot(u), d = normals[j].dot(v),
+			                  det = a * d - b * c;
 			if (std::abs(det) < 1e-12L) continue;
 			const Long3 corner((offsets[i] * d - b * offsets[j]) / det, (a * offsets[j] - offsets[i] * c) / det, 0);
 			bool        inside = true;
@@ -56,7 +57,7 @@ Cut cornersInOrder(const HalfSpaces& set1, const HalfSpaces& set2, const Vector3
 	std::sort(corners.begin(), corners.end(), [](const Long3& p, const Long3& q) { return p[2] < q[2]; });
 	long double area = 0, first[2] = { 0, 0 };
 	for (std::size_t k = 0; k < corners.size(); ++k) {
-		const Long3 p = corners[k] - middle, q = corners[(k + 1) % corners.size()] - middle;
+		const Long3       p = corners[k] - middle, q = corners[(k + 1) % corners.size()] - middle;
 		const long double twice = p[0] * q[1] - p[1] * q[0];
 		area += twice / 2;
 		for (int c = 0; c < 2; ++c)
@@ -108,8 +109,8 @@ TEST(ContactSection, RandomPolygonsAgreeWithTheirCorners)
 	for (int trial = 0; trial < 400; ++trial) {
 		const int        planes = 4 + int(random() % 20);
 		const HalfSpaces set1 = randomPlanes(planes, random), own = randomPlanes(8, random);
-		const Vector3    centre2 = randomDirection(random), normal = randomDirection(random), origin = uniform(random, 0, 1) * normal;
-		const HalfSpaces set2 = moved(own, Matrix3::Identity(), centre2);
+		const Vector3 centre2 = randomDirection(random), normal = randomDirection(random), origin = uniform(random, 0, 1) * normal;
+		const HalfSpaces set2    = moved(own, Matrix3::Identity(), centre2);
 		const Cut        clipped = cut<3>(set1, set2, origin, normal), expected = cornersInOrder(set1, set2, origin, normal);
 		EXPECT_NEAR(clipped.area, expected.area, 1e-13);
 		if (expected.area < 1e-3) continue;

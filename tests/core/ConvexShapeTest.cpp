@@ -72,7 +72,7 @@ TEST(ConvexShape, InscribedBallIsHeldByItsBasis)
 			Eigen::Matrix<Real, 4, 4> system = Eigen::Matrix<Real, 4, 4>::Identity();
 			Eigen::Matrix<Real, 4, 1> right  = Eigen::Matrix<Real, 4, 1>::Zero();
 			for (int k = 0; k <= dimension; ++k) {
-				const int plane                  = shape->inscribedBasis()[k];
+				const int plane = shape->inscribedBasis()[k];
 				ASSERT_LT(plane, shape->planeCount());
 				system.row(k).setZero();
 				system.row(k).head(dimension) = set.normals[plane].head(dimension).transpose();

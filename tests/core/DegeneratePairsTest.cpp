@@ -12,7 +12,10 @@ using namespace polytope::samples;
 
 namespace {
 
-std::shared_ptr<const ConvexShape> box(Real x, Real y, Real z, Real cornerRadius = 0.1) { return ConvexShape::shared(cuboid(x, y, z), cornerRadius); }
+std::shared_ptr<const ConvexShape> box(Real x, Real y, Real z, Real cornerRadius = 0.1)
+{
+	return ConvexShape::shared(cuboid(x, y, z), cornerRadius);
+}
 
 Pair pairOf(std::shared_ptr<const ConvexShape> one, std::shared_ptr<const ConvexShape> two, const Vector3& centre2)
 {
@@ -44,7 +47,8 @@ TEST(DegeneratePairs, CoincidentBodies)
 				expectUsable(result);
 				EXPECT_LE(result.point.norm(), 1e-14);
 				EXPECT_NEAR(result.infeasibility, -solid->inscribedRadius(), 1e-14);
-				EXPECT_TRUE(result.status == ContactStatus::NoDirection || result.status == ContactStatus::NormalFromDual) << statusName(result.status);
+				EXPECT_TRUE(result.status == ContactStatus::NoDirection || result.status == ContactStatus::NormalFromDual)
+				        << statusName(result.status);
 			}
 }
 
@@ -53,8 +57,9 @@ TEST(DegeneratePairs, OneInsideTheOther)
 	std::mt19937_64 random(401);
 	for (int trial = 0; trial < 200; ++trial) {
 		const Real size  = decades(random, -3, 0);
-		const auto outer = ConvexShape::shared(regularSolid(12, 10), 1), inner = ConvexShape::shared(regularSolid(20, size), Real(0.1) * size);
-		Pair       pair  = pairOf(outer, inner, trial % 3 ? 5 * randomDirection(random) : Vector3(Vector3::Zero()));
+		const auto outer = ConvexShape::shared(regularSolid(12, 10), 1),
+		           inner = ConvexShape::shared(regularSolid(20, size), Real(0.1) * size);
+		Pair pair        = pairOf(outer, inner, trial % 3 ? 5 * randomDirection(random) : Vector3(Vector3::Zero()));
 		for (Matrix3& rotation : pair.rotation)
 			rotation = randomRotation(random);
 		for (const Pair& order : { pair, swapped(pair) }) {
@@ -89,7 +94,8 @@ TEST(DegeneratePairs, TouchingExactlyIsNoContact)
 {
 	const auto      cube = box(1, 1, 1);
 	std::mt19937_64 random(402);
-	for (const Vector3& centre2 : { Vector3(2, 2, 2), Vector3(2, 2, 0), Vector3(2, 2, 0.5), Vector3(0, 0, 2), Vector3(0.5, -0.25, -2), Vector3(-2, 2, -2) }) {
+	for (const Vector3& centre2 :
+	        { Vector3(2, 2, 2), Vector3(2, 2, 0), Vector3(2, 2, 0.5), Vector3(0, 0, 2), Vector3(0.5, -0.25, -2), Vector3(-2, 2, -2) }) {
 		Pair pair = pairOf(cube, cube, centre2);
 		EXPECT_EQ(query(pair).status, ContactStatus::Separated);
 		EXPECT_EQ(infeasibility(pair), 0);
@@ -114,7 +120,8 @@ TEST(DegeneratePairs, DeeperThanTheCornerRadiusTheDualGivesTheNormal)
 {
 	for (Real overlap : { 0.5, 0.25, 1e-3 })
 		for (Real cornerRadius : { 0., overlap / 8, overlap / 4 }) {
-			const ContactResult result = query(pairOf(box(1, 1, 1, cornerRadius), box(1, 1, 1, cornerRadius), Vector3(0.125, 0, 2 - overlap)));
+			const ContactResult result
+			        = query(pairOf(box(1, 1, 1, cornerRadius), box(1, 1, 1, cornerRadius), Vector3(0.125, 0, 2 - overlap)));
 			expectUsable(result);
 			EXPECT_EQ(result.status, ContactStatus::NormalFromDual);
 			EXPECT_LE((result.normal - Vector3::UnitZ()).norm(), 1e-14);
@@ -126,7 +133,7 @@ TEST(DegeneratePairs, DeeperThanTheCornerRadiusTheDualGivesTheNormal)
 	EXPECT_LE((one.normal - Vector3::UnitZ()).norm(), 1e-14);
 	// no body has a say, and the one that has a gradient has no weight
 	ContactSettings settings;
-	settings.normalWeight[0] = 0;
+	settings.normalWeight[0]       = 0;
 	const ContactResult weightless = query(pairOf(box(1, 1, 1, 0.5), box(1, 1, 1, 0), Vector3(0.125, 0, 1.75)), settings);
 	expectUsable(weightless);
 	EXPECT_LE((weightless.normal - Vector3::UnitZ()).norm(), 1e-14);
@@ -180,7 +187,8 @@ TEST(DegeneratePairs, BlocksOfAWallMeetAlongTheirEdges)
 				const Matrix3       rotation = randomRotation(random);
 				const ContactResult result   = query(turned(pair, rotation));
 				expectUsable(result);
-				EXPECT_LE((rotation.transpose() * result.point - pair.centre2 / 2).norm(), 1e-9 + 1e-15 / std::min(overlap1, overlap2));
+				EXPECT_LE((rotation.transpose() * result.point - pair.centre2 / 2).norm(),
+				        1e-9 + 1e-15 / std::min(overlap1, overlap2));
 			}
 		}
 }

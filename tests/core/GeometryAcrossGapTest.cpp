@@ -54,10 +54,10 @@ TEST(GeometryAcrossGap, IsContinuousThroughTouchingAndBeyond)
 	const int       faces[] = { 4, 6, 8, 12, 20 };
 	int             smooth = 0, crossings = 0;
 	for (int trial = 0; trial < 200; ++trial) {
-		Pair          pair   = regularPair(faces[trial % 5], faces[trial / 5 % 5], Real(0.02), random);
-		const Vector3 from   = pair.centre2, aside = Real(0.02) * randomDirection(random);
-		const Vector3 to     = Real(1.05) * from + aside;
-		const auto    first  = at(pair, from, to, 0), last = at(pair, from, to, 1);
+		Pair          pair = regularPair(faces[trial % 5], faces[trial / 5 % 5], Real(0.02), random);
+		const Vector3 from = pair.centre2, aside = Real(0.02) * randomDirection(random);
+		const Vector3 to    = Real(1.05) * from + aside;
+		const auto    first = at(pair, from, to, 0), last = at(pair, from, to, 1);
 		ASSERT_TRUE(first.inContact);
 		crossings += !last.inContact;
 		ASSERT_TRUE(last.hasGeometry && finite(last));
@@ -137,11 +137,11 @@ TEST(GeometryAcrossGap, IsGivenForEveryPairAndChangesNoContact)
 	std::mt19937_64 random(202);
 	for (int dimension = 2; dimension <= 3; ++dimension) {
 		const Shapes shapes = randomShapes(60, random, dimension);
-		int          open = 0;
+		int          open   = 0;
 		for (int trial = 0; trial < 3000 && !HasFailure(); ++trial) {
-			const Pair          pair   = randomPair(shapes, random);
-			ContactSettings     settings = acrossGap();
-			settings.section             = true;
+			const Pair      pair       = randomPair(shapes, random);
+			ContactSettings settings   = acrossGap();
+			settings.section           = true;
 			const ContactResult result = query(pair, settings), plain = query(pair);
 			ASSERT_TRUE(finite(result) && result.hasGeometry);
 			ASSERT_EQ(result.inContact, plain.inContact);

@@ -26,8 +26,8 @@ TEST(HalfSpaces, normalisedGivesUnitNormalsOfTheSamePlanes)
 			set.normals[i] *= length;
 			set.offsets[i] *= length;
 		}
-		set.normals[1] = Vector3(3, 4, 12) * length;
-		set.offsets[1] = 26 * length;
+		set.normals[1]        = Vector3(3, 4, 12) * length;
+		set.offsets[1]        = 26 * length;
 		const HalfSpaces unit = normalised(set);
 		ASSERT_EQ(unit.size(), 6u);
 		for (const Vector3& normal : unit.normals)
@@ -59,7 +59,7 @@ TEST(HalfSpaces, normalisedRefusesByName)
 	set.offsets.pop_back();
 	EXPECT_EQ(normalisedSays(set), "offsets: 5 values for 6 normals; give one offset per normal");
 
-	set = box(1, 1, 1);
+	set           = box(1, 1, 1);
 	set.dimension = 4;
 	EXPECT_EQ(normalisedSays(set), "dimension: 4; give 2 or 3");
 
@@ -75,10 +75,10 @@ TEST(HalfSpaces, normalisedRefusesByName)
 	EXPECT_EQ(normalisedSays(HalfSpaces()), "normals: 0 planes cannot bound a body in 3-D; give at least 4");
 
 	for (Real bad : { nan_, infinity, -infinity }) {
-		set = box(1, 1, 1);
+		set                = box(1, 1, 1);
 		set.normals[2].y() = bad;
 		EXPECT_EQ(normalisedSays(set), "normals: entry 2 (counted from 0) is not finite; remove NaN and infinite values");
-		set = box(1, 1, 1);
+		set            = box(1, 1, 1);
 		set.offsets[4] = bad;
 		EXPECT_EQ(normalisedSays(set), "offsets: entry 4 (counted from 0) is not finite; remove NaN and infinite values");
 	}
@@ -93,8 +93,8 @@ TEST(HalfSpaces, normalisedRefusesByName)
 
 TEST(HalfSpaces, inTwoDimensionsNormalsStayInThePlane)
 {
-	HalfSpaces set      = regularPolygon(5, 1);
-	set.normals[1].z()  = 1e-6;
+	HalfSpaces set     = regularPolygon(5, 1);
+	set.normals[1].z() = 1e-6;
 	EXPECT_EQ(normalisedSays(set), "normals: entry 1 (counted from 0) leaves the xy plane; in 2-D every normal needs z = 0");
 	set.normals[1].z() = 1e-15; // a rotation's rounding
 	EXPECT_EQ(normalised(set).normals[1].z(), 0);
@@ -142,13 +142,11 @@ TEST(HalfSpaces, movedKeepsThePointsSlacks)
 		const HalfSpaces set         = tangentPlanes(6, Vector3(1, 2, 3), random);
 		const Matrix3    rotation    = someRotation(random);
 		const Vector3    translation = 10 * someDirection(random), point = someDirection(random);
-		const HalfSpaces result      = moved(set, rotation, translation);
+		const HalfSpaces result = moved(set, rotation, translation);
 		ASSERT_EQ(result.size(), set.size());
 		for (std::size_t k = 0; k < set.size(); ++k)
-			EXPECT_NEAR(
-			        result.offsets[k] - result.normals[k].dot(rotation * point + translation),
-			        set.offsets[k] - set.normals[k].dot(point),
-			        2e-14);
+			EXPECT_NEAR(result.offsets[k] - result.normals[k].dot(rotation * point + translation),
+			        set.offsets[k] - set.normals[k].dot(point), 2e-14);
 	}
 }
 

@@ -39,7 +39,8 @@ void expectAttainable(const Pair& given)
 		EXPECT_NEAR(result.infeasibility, s, 1e-13 * size);
 		ASSERT_EQ(result.inContact, s < -tolerance::contact * size) << statusName(result.status) << ' ' << s;
 		if (!result.inContact) continue;
-		ASSERT_TRUE(result.status == ContactStatus::Contact || result.status == ContactStatus::RoundingLimited) << statusName(result.status) << ' ' << s;
+		ASSERT_TRUE(result.status == ContactStatus::Contact || result.status == ContactStatus::RoundingLimited)
+		        << statusName(result.status) << ' ' << s;
 		const PrecisePair exact(pair);
 		QuadVector        centre = precise(result.point), normal;
 		ASSERT_TRUE(exact.analyticCentre(centre));
@@ -81,7 +82,8 @@ TEST(HarderCases, SmallerTilts)
 		for (int exponent : { 10, 24, 33, 38 })
 			for (int trial = 0; trial < 3; ++trial) {
 				const Vector3 turn = std::pow(Real(10), Real(-digits)) * randomDirection(random);
-				expectAttainable(pairOf(cube, tilted(cube, turn), Vector3(0.25, -0.125, 1 - std::ldexp(Real(1), -exponent)), 0.125));
+				expectAttainable(
+				        pairOf(cube, tilted(cube, turn), Vector3(0.25, -0.125, 1 - std::ldexp(Real(1), -exponent)), 0.125));
 			}
 }
 
@@ -106,7 +108,8 @@ TEST(HarderCases, VerticesAndEdgesOfAnySharpness)
 		// a vertex, an edge or another shape of the second body into a face of the first, by 1e-1 … 1e-12
 		const HalfSpaces solid = regularSolid(trial % 2 ? 4 : 8, 1);
 		const Matrix3    turn  = randomRotation(random);
-		Pair             pair  = pairOf(cuboid(1, 1, 1), tilted(moved(solid, turn, Vector3::Zero()), Vector3(0, 0, 1e-3)), Vector3::UnitZ(), 0.3);
+		Pair             pair
+		        = pairOf(cuboid(1, 1, 1), tilted(moved(solid, turn, Vector3::Zero()), Vector3(0, 0, 1e-3)), Vector3::UnitZ(), 0.3);
 		moveTo(pair, Vector3(Real(0.2), Real(0.1), 1).normalized(), -decades(random, -12, -1));
 		expectAttainable(pair);
 	}

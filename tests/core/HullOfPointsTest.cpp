@@ -68,7 +68,7 @@ TEST(HullOfPoints, givesBackThePlanesTheVerticesCameFrom)
 	for (int count : { 30, 100, 200 }) {
 		HalfSpaces set;
 		for (int i = 0; i < count; ++i) {
-			const Real z = 1 - (2 * i + Real(1)) / count, angle = i * Real(M_PI) * (3 - std::sqrt(Real(5)));
+			const Real    z = 1 - (2 * i + Real(1)) / count, angle = i * Real(M_PI) * (3 - std::sqrt(Real(5)));
 			const Vector3 even(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
 			add(set, (even + Real(0.3) / std::sqrt(Real(count)) * someDirection(random)).normalized(), 1);
 		}
@@ -88,7 +88,9 @@ TEST(HullOfPoints, aSphereMeshGivesItsFacets)
 		for (int i = 0; i <= rings; ++i)
 			for (int k = 0; k < sectors; ++k) {
 				const Real polar = Real(M_PI) * i / rings, azimuth = 2 * Real(M_PI) * k / sectors;
-				points.push_back(length * Vector3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+				points.push_back(length
+				        * Vector3(
+				                std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)));
 			}
 		const HalfSpaces planes = hullOf(points);
 		EXPECT_EQ(int(planes.size()), rings * sectors);
@@ -187,14 +189,15 @@ TEST(HullOfPoints, polygons)
 		for (int sides : { 3, 4, 9 })
 			for (int turn = 0; turn < 5; ++turn) {
 				const Matrix3    rotation = Eigen::AngleAxis<Real>(turn, Vector3::UnitZ()).toRotationMatrix();
-				const HalfSpaces set      = moved(regularPolygon(sides, length), rotation, Vector3(turn * length, length, 0));
+				const HalfSpaces set = moved(regularPolygon(sides, length), rotation, Vector3(turn * length, length, 0));
 				std::vector<Vector3> points;
 				for (const Vector3& vertex : polyhedron(set).vertices)
 					points.emplace_back(vertex.x(), vertex.y(), 0); // each corner twice
 				const std::size_t corners = points.size();
 				for (int i = 0; i < 10; ++i) {
 					const Real t = along(random);
-					points.push_back(t * points[std::size_t(i) % corners] + (1 - t) * points[std::size_t(i * 7 + 1) % corners]);
+					points.push_back(
+					        t * points[std::size_t(i) % corners] + (1 - t) * points[std::size_t(i * 7 + 1) % corners]);
 				}
 				const HalfSpaces planes = hullOf(points, 2);
 				EXPECT_EQ(planes.dimension, 2);
@@ -206,7 +209,7 @@ TEST(HullOfPoints, polygons)
 
 TEST(HullOfPoints, refusesByName)
 {
-	const Real           nan = std::numeric_limits<Real>::quiet_NaN();
+	const Real           nan  = std::numeric_limits<Real>::quiet_NaN();
 	std::vector<Vector3> cube = boxCorners(Vector3(1, 1, 1));
 	EXPECT_EQ(hullSays({}), "points: 0 cannot span a body in 3-D; give at least 4");
 	EXPECT_EQ(hullSays({ cube[0], cube[1], cube[2] }), "points: 3 cannot span a body in 3-D; give at least 4");
@@ -246,7 +249,9 @@ TEST(HullOfPoints, flatPointsAreRefusedAtEverySize)
 
 TEST(HullOfPoints, lengthsNobodyHasAreRefused)
 {
-	const auto corners = [](Real size) { return std::vector<Vector3> { Vector3::Zero(), size * Vector3::UnitX(), size * Vector3::UnitY(), size * Vector3::UnitZ() }; };
+	const auto corners = [](Real size) {
+		return std::vector<Vector3> { Vector3::Zero(), size * Vector3::UnitX(), size * Vector3::UnitY(), size * Vector3::UnitZ() };
+	};
 	EXPECT_TRUE(says(hullSays(corners(Real(1e300))), "points: entry 1 (counted from 0) is beyond 1e50"));
 	EXPECT_TRUE(says(hullSays(corners(std::numeric_limits<Real>::denorm_min())), "points: they are less than 1e-50 apart"));
 	EXPECT_EQ(hullSays(corners(Real(1e49))), "");

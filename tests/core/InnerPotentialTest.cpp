@@ -28,25 +28,27 @@ template <int D> void expectGradientOfPotential()
 	std::mt19937_64 random(42);
 	int             curved = 0;
 	for (int trial = 0; trial < 200; ++trial) {
-		const HalfSpaces   set1 = randomPlanes(4 + trial % 40, random, D), set2 = randomPlanes(12, random, D);
-		PlaneRows<R, D>    rows(set1, set2);
-		const int          body         = trial % 2;
-		const R            cornerRadius = uniform(random, 0, 1);
-		R                  x[D], gradient[D];
-		const Vector3      direction = randomDirection(random, D), at = uniform(random, 0, Real(1.5)) * direction;
+		const HalfSpaces set1 = randomPlanes(4 + trial % 40, random, D), set2 = randomPlanes(12, random, D);
+		PlaneRows<R, D>  rows(set1, set2);
+		const int        body         = trial % 2;
+		const R          cornerRadius = uniform(random, 0, 1);
+		R                x[D], gradient[D];
+		const Vector3    direction = randomDirection(random, D), at = uniform(random, 0, Real(1.5)) * direction;
 		for (int k = 0; k < D; ++k)
 			x[k] = at[k];
 		innerPotentialGradient<R, D, 1>(rows.planes, body, x, cornerRadius, gradient);
 		R length = 0;
 		for (int k = 0; k < D; ++k) {
-			const R h      = 1e-6L;
+			const R h = 1e-6L;
 			R       ahead[D], back[D];
 			for (int j = 0; j < D; ++j)
 				ahead[j] = back[j] = x[j];
 			ahead[k] += h;
 			back[k] -= h;
 			// f is quadratic in pieces: a central difference is exact but where a piece changes within h
-			const R difference = (potential(rows.planes, body, ahead, cornerRadius) - potential(rows.planes, body, back, cornerRadius)) / (2 * h);
+			const R difference
+			        = (potential(rows.planes, body, ahead, cornerRadius) - potential(rows.planes, body, back, cornerRadius))
+			        / (2 * h);
 			EXPECT_NEAR(double(gradient[k]), double(difference), 60 * 1e-6);
 			length += gradient[k] * gradient[k];
 		}

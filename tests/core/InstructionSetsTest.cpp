@@ -15,12 +15,14 @@ namespace {
 
 using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
 
-template <int D> void scalar(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+template <int D>
+void scalar(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 1>(in, settings, memory, workspace, out);
 }
 
-template <int D> void twoLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+template <int D>
+void twoLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 2>(in, settings, memory, workspace, out);
 }
@@ -37,7 +39,8 @@ void expectSameValue(const Pair& pair, const Kernel kernel)
 	const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
 	const ContactResult result = query(pair, settings);
 	kernel(in, settings, memory, workspace, other);
-	EXPECT_NEAR(other.barrierValue, result.barrierValue, 1e-10 * settings.barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
+	EXPECT_NEAR(other.barrierValue, result.barrierValue,
+	        1e-10 * settings.barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
 	const Vector3 f = result.depth * result.normal, g = other.depth * other.normal;
 	const Real    loose = 1e-7 + 100 * tolerance::rounding * pair.reach() / (settings.barrier * pair.inscribedRadius());
 	EXPECT_LE((f - g).norm(), loose * std::abs(result.barrierValue) + 32 * tolerance::rounding * pair.reach());
@@ -48,14 +51,15 @@ void expectSameFrom(const Kernel* kernels)
 {
 	std::mt19937_64 random(600);
 	for (int dimension = 2; dimension <= 3; ++dimension) {
-		const Shapes shapes = randomShapes(60, random, dimension);
+		const Shapes shapes   = randomShapes(60, random, dimension);
 		int          contacts = 0;
 		for (int trial = 0; trial < 1500 && !testing::Test::HasFailure(); ++trial) {
 			const Pair          pair = randomPair(shapes, random);
 			ContactWorkspace    workspace;
 			PairMemory          memory;
 			ContactResult       other;
-			const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
+			const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] },
+                                &pair.centre2 };
 			const ContactResult result = query(pair);
 			kernels[dimension - 2](in, {}, memory, workspace, other);
 			ASSERT_EQ(result.inContact, other.inContact);
@@ -84,8 +88,8 @@ TEST(InstructionSets, TwoLanesGiveTheSame)
 }
 
 template <int D>
-__attribute__((target("arch=x86-64-v3"))) void
-fourLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+__attribute__((target("arch=x86-64-v3"))) void fourLanes(
+        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 4>(in, settings, memory, workspace, out);
 }

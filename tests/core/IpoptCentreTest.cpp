@@ -16,7 +16,7 @@ using namespace polytope::samples;
 
 namespace {
 
-#define NEEDS_IPOPT() \
+#define NEEDS_IPOPT()                                                                                                                      \
 	if (!ipoptVersion()) GTEST_SKIP() << "this build has no Ipopt"
 
 ContactSettings byIpopt()
@@ -50,9 +50,10 @@ struct Agreement {
 		ASSERT_TRUE(exact.analyticCentre(centre));
 		// each plane of the overlap adds its own rounding
 		const Real rounding = 8 * tolerance::rounding * pair.reach() / -newton.infeasibility;
-		const auto distance = [&](const QuadVector& a, const QuadVector& b) { return Real(exact.localLength(centre, minus(a, b))) - rounding; };
-		fromNewton          = std::max(fromNewton, distance(precise(ipopt.point), precise(newton.point)) - rounding);
-		fromPrecise         = std::max(fromPrecise, distance(precise(ipopt.point), centre));
+		const auto distance
+		        = [&](const QuadVector& a, const QuadVector& b) { return Real(exact.localLength(centre, minus(a, b))) - rounding; };
+		fromNewton  = std::max(fromNewton, distance(precise(ipopt.point), precise(newton.point)) - rounding);
+		fromPrecise = std::max(fromPrecise, distance(precise(ipopt.point), centre));
 		iterations += ipopt.ipoptIterations;
 		++checked;
 		thin += -newton.infeasibility < 1e-9 * pair.size();
@@ -63,9 +64,10 @@ struct Agreement {
 		EXPECT_LE(lpNotConverged, 1);
 		EXPECT_LE(fromNewton, allowed);
 		EXPECT_LE(fromPrecise, allowed);
-		std::cout << checked << " centres, " << thin << " of overlaps below 1e-9 of the size: beyond rounding, " << std::max(fromNewton, Real(0))
-		          << " from Newton's and " << std::max(fromPrecise, Real(0)) << " from the precise one in the local norm; " << Real(iterations) / checked
-		          << " iterations and " << microseconds / checked << " µs each\n";
+		std::cout << checked << " centres, " << thin << " of overlaps below 1e-9 of the size: beyond rounding, "
+		          << std::max(fromNewton, Real(0)) << " from Newton's and " << std::max(fromPrecise, Real(0))
+		          << " from the precise one in the local norm; " << Real(iterations) / checked << " iterations and "
+		          << microseconds / checked << " µs each\n";
 	}
 };
 
@@ -179,12 +181,13 @@ TEST(IpoptCentre, PrintsNothing)
 			query(randomPair(shapes, random), byIpopt());
 		// no inside: fails, as quietly
 		const Real  normal[3][4] = { { 1, -1, 0, 0 }, { 0, 0, 1, -1 }, { 0, 0, 0, 0 } }, offset[4] = { 1, -2, 1, 1 };
-		const Real* rows[3]      = { normal[0], normal[1], normal[2] };
-		Real        x[3]         = { 0.5, 0, 0 };
-		int         iterations   = 0;
+		const Real* rows[3]    = { normal[0], normal[1], normal[2] };
+		Real        x[3]       = { 0.5, 0, 0 };
+		int         iterations = 0;
 		EXPECT_EQ(ipoptCentre(2, 4, rows, offset, x, iterations), IpoptOutcome::Failed);
 		EXPECT_EQ(x[0], 0.5);
-	}).join();
+	})
+	        .join();
 	EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 	EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

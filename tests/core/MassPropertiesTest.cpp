@@ -38,7 +38,8 @@ TEST(MassProperties, regularSolidsAgreeWithTheTextbook)
 				EXPECT_LT((unit - Matrix3::Identity()).cwiseAbs().maxCoeff(), 1e-13) << solid.faces << " edge " << edge;
 				EXPECT_LT(mass.centroid.norm(), 1e-14 * edge);
 				const PrincipalAxes axes = principalAxes(mass.inertia);
-				EXPECT_EQ(axes.rotation, Matrix3(Matrix3::Identity())); // equal moments in any orientation: no axes to turn to
+				EXPECT_EQ(axes.rotation,
+				        Matrix3(Matrix3::Identity())); // equal moments in any orientation: no axes to turn to
 			}
 }
 
@@ -50,10 +51,11 @@ TEST(MassProperties, boxesInAnyOrientationAndPlace)
 			const Vector3 half        = length * Vector3(1, 2, 3);
 			const Matrix3 rotation    = someRotation(random);
 			const Vector3 translation = 5 * length * someDirection(random);
-			const auto    mass        = massProperties(polyhedron(moved(box(half.x(), half.y(), half.z()), rotation, translation)));
-			const Real    volume      = 8 * half.prod();
-			const Vector3 squares     = half.cwiseAbs2();
-			const Vector3 moments = volume / 3 * Vector3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
+			const auto    mass    = massProperties(polyhedron(moved(box(half.x(), half.y(), half.z()), rotation, translation)));
+			const Real    volume  = 8 * half.prod();
+			const Vector3 squares = half.cwiseAbs2();
+			const Vector3 moments
+			        = volume / 3 * Vector3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
 			const Matrix3 expected = rotation * moments.asDiagonal() * rotation.transpose();
 			EXPECT_NEAR(mass.volume / volume, 1, 1e-13);
 			EXPECT_LT((mass.centroid - translation).norm(), 1e-14 * 6 * length);
@@ -70,16 +72,20 @@ TEST(MassProperties, thinBoxesKeepTheDigitsTheirVerticesHave)
 			for (int turn = 0; turn < 10; ++turn) {
 				const Vector3 half     = length * thin;
 				const Matrix3 rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
-				const auto    mass     = massProperties(polyhedron(moved(box(half.x(), half.y(), half.z()), rotation, Vector3::Zero())));
-				const Vector3 squares  = half.cwiseAbs2();
-				const Real    volume   = 8 * half.prod();
-				const Vector3 moments  = volume / 3 * Vector3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
+				const auto    mass
+				        = massProperties(polyhedron(moved(box(half.x(), half.y(), half.z()), rotation, Vector3::Zero())));
+				const Vector3 squares = half.cwiseAbs2();
+				const Real    volume  = 8 * half.prod();
+				const Vector3 moments = volume / 3
+				        * Vector3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
 				// corners of a turned box are rounded by 1e-16 of its length, 1e-8 of its thickness
 				EXPECT_NEAR(mass.volume / volume, 1, turn == 0 ? 1e-14 : 3e-7);
 				if (turn == 0) {
-					EXPECT_LT((mass.inertia.diagonal().cwiseQuotient(moments) - Vector3::Ones()).cwiseAbs().maxCoeff(), 1e-14);
+					EXPECT_LT((mass.inertia.diagonal().cwiseQuotient(moments) - Vector3::Ones()).cwiseAbs().maxCoeff(),
+					        1e-14);
 				} else {
-					EXPECT_LT((rotation.transpose() * mass.inertia * rotation - Matrix3(moments.asDiagonal())).norm(), 1e-6 * moments.norm());
+					EXPECT_LT((rotation.transpose() * mass.inertia * rotation - Matrix3(moments.asDiagonal())).norm(),
+					        1e-6 * moments.norm());
 				}
 			}
 }
@@ -107,7 +113,8 @@ TEST(MassProperties, prismsInTwoDimensions)
 			for (int sides : { 3, 4, 6, 31 }) {
 				const Real inradius = length, angle = Real(M_PI) / sides;
 				const auto mass = massProperties(
-				        polyhedron(moved(regularPolygon(sides, inradius), Matrix3::Identity(), Vector3(length, -length, 0)), thickness));
+				        polyhedron(moved(regularPolygon(sides, inradius), Matrix3::Identity(), Vector3(length, -length, 0)),
+				                thickness));
 				const Real area   = sides * inradius * inradius * std::tan(angle);
 				const Real volume = area * thickness;
 				// polar second moment of a regular polygon per area: r²/2 (1 + tan²(π/n)/3), half of it about each axis
@@ -175,11 +182,11 @@ TEST(PrincipalAxes, aDiagonalTensorKeepsItsAxesAndOrder)
 {
 	Matrix3 inertia = Vector3(3, 1, 2).asDiagonal();
 	inertia(0, 1) = inertia(1, 0) = 1e-14; // rounding
-	const auto axes = principalAxes(inertia);
+	const auto axes               = principalAxes(inertia);
 	EXPECT_EQ(axes.rotation, Matrix3(Matrix3::Identity()));
 	EXPECT_EQ(axes.moments, Vector3(3, 1, 2));
 	inertia(0, 1) = inertia(1, 0) = 1e-10; // not rounding
-	const auto turned = principalAxes(inertia);
+	const auto turned             = principalAxes(inertia);
 	expectPrincipal(turned, inertia);
 	EXPECT_NEAR(turned.moments[0], 1, 1e-9);
 	EXPECT_NEAR(std::abs(turned.rotation(1, 0)), 1, 1e-9);

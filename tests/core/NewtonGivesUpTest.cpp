@@ -20,7 +20,7 @@ namespace {
 TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgrammeSeesBoth)
 {
 	HalfSpaces set;
-	set.dimension           = 2;
+	set.dimension          = 2;
 	const double rows[][3] = {
 		{ 0x1p+0, 0x0p+0, 0x1p+0 },
 		{ -0x1p+0, -0x0p+0, 0x1p+0 },
@@ -52,7 +52,8 @@ TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgrammeSeesBoth)
 		const ContactResult result = query(pair, settings);
 		EXPECT_NEAR(result.infeasibility, least, tolerance::rounding);
 		ASSERT_TRUE(result.inContact);
-		EXPECT_TRUE(result.status == ContactStatus::RoundingLimited || result.status == ContactStatus::Contact) << statusName(result.status);
+		EXPECT_TRUE(result.status == ContactStatus::RoundingLimited || result.status == ContactStatus::Contact)
+		        << statusName(result.status);
 		EXPECT_LT(exact.violation(precise(result.point)), 0);
 	}
 }
@@ -60,8 +61,8 @@ TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgrammeSeesBoth)
 // POLYTOPE_SEARCH=n in the environment: n pairs, forty queries each while they move by parts of their overlap.
 TEST(NewtonGivesUp, Search)
 {
-	const char* asked = std::getenv("POLYTOPE_SEARCH");
-	const long  pairs = asked ? std::atol(asked) : 400;
+	const char* asked    = std::getenv("POLYTOPE_SEARCH");
+	const long  pairs    = asked ? std::atol(asked) : 400;
 	long        contacts = 0, gaveUp = 0, byIpopt = 0;
 	for (long trial = 0; trial < pairs; ++trial) {
 		std::mt19937_64 random(900 + trial);
@@ -74,16 +75,19 @@ TEST(NewtonGivesUp, Search)
 			const ContactResult result = query(pair, settings, &memory);
 			contacts += result.inContact;
 			const bool rescue = result.status == ContactStatus::CentreByIpopt;
-			if (rescue || result.status == ContactStatus::CentreNotConverged || result.status == ContactStatus::IpoptNotAvailable) {
+			if (rescue || result.status == ContactStatus::CentreNotConverged
+			        || result.status == ContactStatus::IpoptNotAvailable) {
 				++gaveUp;
 				byIpopt += rescue;
-				std::cout << "pair " << trial << ", step " << step << ": " << statusName(result.status) << ", s* " << result.infeasibility << "\n";
+				std::cout << "pair " << trial << ", step " << step << ": " << statusName(result.status) << ", s* "
+				          << result.infeasibility << "\n";
 			}
-			pair.centre2 += std::abs(result.infeasibility) * decades(random, -4, Real(0.7)) * randomDirection(random, pair.dimension());
+			pair.centre2 += std::abs(result.infeasibility) * decades(random, -4, Real(0.7))
+			        * randomDirection(random, pair.dimension());
 		}
 	}
-	std::cout << pairs << " pairs, " << 40 * pairs << " queries, " << contacts << " contacts: Newton gave up on " << gaveUp << ", Ipopt found " << byIpopt
-	          << " of these\n";
+	std::cout << pairs << " pairs, " << 40 * pairs << " queries, " << contacts << " contacts: Newton gave up on " << gaveUp
+	          << ", Ipopt found " << byIpopt << " of these\n";
 	EXPECT_GT(contacts, 10 * pairs);
 }
 

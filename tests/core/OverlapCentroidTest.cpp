@@ -56,13 +56,14 @@ TEST(OverlapCentroid, TriangleOfARectangleTurnedIntoAWall)
 	pair.shape[1] = ConvexShape::shared(rectangle(Real(1.5), Real(0.5)), Real(0.1));
 	for (Real degrees : { 2., 6.7469, 30., 60. })
 		for (Real depth : { 0.03, 1e-5, 1e-9 }) {
-			const Real theta = degrees * Real(M_PI) / 180;
-			pair.rotation[1] = Eigen::AngleAxis<Real>(theta, Vector3::UnitZ()).toRotationMatrix();
-			const Vector3 corner = pair.rotation[1] * Vector3(Real(-1.5), Real(-0.5), 0);
-			pair.centre2         = Vector3(0, 1 - depth - corner.y(), 0);
-			const Real aside     = depth * (1 / std::tan(theta) - std::tan(theta)) / 3;
+			const Real theta       = degrees * Real(M_PI) / 180;
+			pair.rotation[1]       = Eigen::AngleAxis<Real>(theta, Vector3::UnitZ()).toRotationMatrix();
+			const Vector3 corner   = pair.rotation[1] * Vector3(Real(-1.5), Real(-0.5), 0);
+			pair.centre2           = Vector3(0, 1 - depth - corner.y(), 0);
+			const Real    aside    = depth * (1 / std::tan(theta) - std::tan(theta)) / 3;
 			const Vector3 expected = pair.centre2 + corner + Vector3(aside, depth * 2 / 3, 0);
-			EXPECT_LE((centroidQuery(pair).point - expected).norm(), 1e-14 + 1e-15 / std::sin(theta)) << degrees << ' ' << depth;
+			EXPECT_LE((centroidQuery(pair).point - expected).norm(), 1e-14 + 1e-15 / std::sin(theta))
+			        << degrees << ' ' << depth;
 		}
 }
 

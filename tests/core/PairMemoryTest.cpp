@@ -12,7 +12,7 @@ namespace {
 
 void expectSameAsCold(const Pair& pair, const ContactResult& warm)
 {
-	const ContactResult cold = query(pair);
+	const ContactResult cold     = query(pair);
 	const Real          rounding = 32 * tolerance::rounding * pair.reach();
 	ASSERT_TRUE(finite(warm));
 	for (ContactStatus failure : { ContactStatus::CentreNotConverged, ContactStatus::LpNotConverged, ContactStatus::Failed })
@@ -89,7 +89,7 @@ TEST(PairMemory, AnyBasisAndPointAreAGoodEnoughStart)
 {
 	std::mt19937_64 random(102);
 	const Shapes    shapes = randomShapes(60, random);
-	int             kept = 0;
+	int             kept   = 0;
 	for (int trial = 0; trial < 3000 && !HasFailure(); ++trial) {
 		const Pair pair = randomPair(shapes, random);
 		PairMemory memory;
@@ -128,8 +128,8 @@ TEST(PairMemory, IsNotReadWhereWarmStartIsOff)
 	ContactSettings settings;
 	settings.warmStart = false;
 	for (int trial = 0; trial < 100; ++trial) {
-		const Pair          pair = regularPair(20, 4, Real(0.05), random);
-		PairMemory          memory;
+		const Pair pair = regularPair(20, 4, Real(0.05), random);
+		PairMemory memory;
 		query(pair, {}, &memory);
 		const ContactResult again = query(pair, settings, &memory), cold = query(pair);
 		EXPECT_EQ(again.simplexPivots, cold.simplexPivots);

@@ -55,7 +55,8 @@ inline ContactResult query(const Pair& pair, const ContactSettings& settings = {
 	static thread_local ContactWorkspace workspace;
 	PairMemory                           fresh;
 	ContactResult                        result;
-	contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memory ? *memory : fresh, workspace, result);
+	contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memory ? *memory : fresh,
+	        workspace, result);
 	return result;
 }
 
@@ -75,8 +76,8 @@ inline void moveTo(Pair& pair, const Vector3& direction, Real target)
 {
 	Real near = 0, far = pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius() + 2 * std::abs(target);
 	for (int step = 0; step < 60 && near < far; ++step) {
-		const Real middle = (near + far) / 2;
-		pair.centre2      = middle * direction;
+		const Real middle                           = (near + far) / 2;
+		pair.centre2                                = middle * direction;
 		(infeasibility(pair) < target ? near : far) = middle;
 	}
 }
@@ -128,7 +129,7 @@ inline Pair scaled(Pair pair, Real factor)
 inline HalfSpaces stretched(HalfSpaces set, const Vector3& factors)
 {
 	for (std::size_t i = 0; i < set.size(); ++i) {
-		Vector3&   normal = set.normals[i];
+		Vector3& normal   = set.normals[i];
 		normal            = normal.cwiseQuotient(factors);
 		const Real length = normal.norm();
 		normal /= length;
@@ -206,8 +207,7 @@ inline Shapes randomShapes(int count, std::mt19937_64& random, int dimension = 3
 	for (int i = 0; i < count; ++i) {
 		HalfSpaces set;
 		if (i % 3 == 0 && dimension == 3) set = regularSolid(faces[i / 3 % 5], 1);
-		else
-			set = randomPlanes(4 + int(random() % 57), random, dimension);
+		else set = randomPlanes(4 + int(random() % 57), random, dimension);
 		if (i % 3 == 2) {
 			const Real aspect = decades(random, -4, 0);
 			const int  kind   = int(random() % 3);
@@ -238,7 +238,8 @@ inline Pair randomPair(const Shapes& shapes, std::mt19937_64& random)
 	const Vector3 direction = randomDirection(random, pair.dimension());
 	if (random() % 4 == 0) moveTo(pair, direction, decades(random, -12, 0) * inner);
 	else
-		moveTo(pair, direction, -std::max(decades(random, -12, std::log10(Real(0.5))) * inner, 2000 * tolerance::rounding * pair.reach()));
+		moveTo(pair, direction,
+		        -std::max(decades(random, -12, std::log10(Real(0.5))) * inner, 2000 * tolerance::rounding * pair.reach()));
 	return pair;
 }
 
@@ -249,7 +250,9 @@ inline Pair nearlyParallelPair(std::mt19937_64& random, int dimension = 3)
 	Pair      pair;
 	for (auto& shape : pair.shape) {
 		HalfSpaces set = rectangle(1, decades(random, -3, 0));
-		if (dimension == 3) set = random() % 2 ? cuboid(1, decades(random, -3, 0), decades(random, -3, 0)) : regularSolid(faces[random() % 5], 1);
+		if (dimension == 3)
+			set = random() % 2 ? cuboid(1, decades(random, -3, 0), decades(random, -3, 0))
+			                   : regularSolid(faces[random() % 5], 1);
 		const Matrix3 turn = random() % 2 ? randomRotation(random, dimension) : Matrix3(Matrix3::Identity());
 		for (Vector3& normal : set.normals)
 			normal = turn * normal;

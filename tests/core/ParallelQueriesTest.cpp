@@ -20,9 +20,9 @@ constexpr int steps = 12;
 
 std::vector<Pair> scene(int count)
 {
-	std::mt19937_64 random(106);
-	Shapes          shapes = randomShapes(12, random, 3, Real(-0.3));
-	const Shapes    flat   = randomShapes(6, random, 2, Real(-0.3));
+	std::mt19937_64   random(106);
+	Shapes            shapes = randomShapes(12, random, 3, Real(-0.3));
+	const Shapes      flat   = randomShapes(6, random, 2, Real(-0.3));
 	std::vector<Pair> pairs;
 	for (int k = 0; k < count; ++k)
 		pairs.push_back(randomPair(k % 4 == 3 ? flat : shapes, random));
@@ -32,8 +32,9 @@ std::vector<Pair> scene(int count)
 /// All numbers of an answer.
 std::vector<Real> numbers(const ContactResult& r)
 {
-	std::vector<Real> all { Real(int(r.status)), Real(r.inContact), Real(r.hasGeometry), Real(r.dismissed), Real(r.simplexPivots), Real(r.newtonIterations),
-		Real(r.ipoptIterations), r.infeasibility, r.depth, r.area, r.barrierValue, r.energy, r.rockingArm, r.decrement };
+	std::vector<Real> all { Real(int(r.status)), Real(r.inContact), Real(r.hasGeometry), Real(r.dismissed), Real(r.simplexPivots),
+		Real(r.newtonIterations), Real(r.ipoptIterations), r.infeasibility, r.depth, r.area, r.barrierValue, r.energy, r.rockingArm,
+		r.decrement };
 	for (const Vector3* v : { &r.point, &r.normal, &r.dualDirection, &r.sectionCentroid })
 		all.insert(all.end(), v->data(), v->data() + 3);
 	all.insert(all.end(), r.weights.begin(), r.weights.end());
@@ -56,7 +57,8 @@ History run(const std::vector<Pair>& pairs, const ContactSettings& settings, int
                         ContactResult    result;
                         for (std::size_t i = next++; i < now.size(); i = next++) {
                                 Pair& pair = now[i];
-                                contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memories[i], workspace, result);
+                                contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings,
+				                      memories[i], workspace, result);
                                 const std::vector<Real> own = numbers(result);
                                 history[i].insert(history[i].end(), own.begin(), own.end());
                                 pair.centre2 *= 1 - Real(1e-3) * Real(1 + i % 5);
@@ -78,7 +80,8 @@ void expectSameBits(const History& one, const History& other)
 	for (std::size_t i = 0; i < one.size(); ++i) {
 		ASSERT_EQ(one[i].size(), other[i].size());
 		for (std::size_t k = 0; k < one[i].size(); ++k)
-			ASSERT_EQ(std::memcmp(&one[i][k], &other[i][k], sizeof(Real)), 0) << "pair " << i << " number " << k << ": " << one[i][k] << ", " << other[i][k];
+			ASSERT_EQ(std::memcmp(&one[i][k], &other[i][k], sizeof(Real)), 0)
+			        << "pair " << i << " number " << k << ": " << one[i][k] << ", " << other[i][k];
 	}
 }
 
@@ -132,7 +135,7 @@ TEST(ParallelQueries, Ipopt)
 
 TEST(ParallelQueries, SharedShapesAreMadeOnce)
 {
-	const auto              make = [](int k) { return ConvexShape::shared(cuboid(1, 1 + Real(k % 3), 2), Real(0.1)); };
+	const auto               make = [](int k) { return ConvexShape::shared(cuboid(1, 1 + Real(k % 3), 2), Real(0.1)); };
 	std::vector<std::thread> team;
 	std::vector<Shapes>      made(4);
 	for (Shapes& own : made)

@@ -17,7 +17,7 @@ Real bracketedExit(const PrecisePair& pair, int body, const QuadVector& x, const
 	EXPECT_LT(pair.violation(body, x), 0);
 	EXPECT_GT(pair.violation(body, along(x, outside, direction)), 0);
 	for (int step = 0; step < 64; ++step) {
-		const Quad middle = (inside + outside) / 2;
+		const Quad middle                                                          = (inside + outside) / 2;
 		(pair.violation(body, along(x, middle, direction)) < 0 ? inside : outside) = middle;
 	}
 	return Real(inside);
@@ -36,9 +36,10 @@ void expectClosedFormIsBracketed(int dimension)
 		const PrecisePair exact(pair);
 		const QuadVector  x = precise(result.point), n = precise(result.normal), back = minus(QuadVector {}, n);
 		if (!(exact.violation(x) < 0)) continue; // thinner than the point's own digits
-		const Real exit1 = bracketedExit(exact, 0, x, n, pair.reach() * 4), exit2 = bracketedExit(exact, 1, x, back, pair.reach() * 4);
+		const Real exit1 = bracketedExit(exact, 0, x, n, pair.reach() * 4),
+		           exit2 = bracketedExit(exact, 1, x, back, pair.reach() * 4);
 		// point and planes are known to a rounding of the pair; a plane met at a glancing angle lengthens it
-		const Real depth = exit1 + exit2;
+		const Real depth  = exit1 + exit2;
 		const Real glance = Real(1 / exact.exit(0, x, n, 1).rate + 1 / exact.exit(1, x, n, -1).rate);
 		EXPECT_NEAR(result.depth, depth, 16 * tolerance::rounding * pair.reach() * glance) << "trial " << trial;
 		EXPECT_GT(result.depth, 0);

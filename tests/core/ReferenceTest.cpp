@@ -72,18 +72,18 @@ Pair pairOf(const Json& entry)
 
 /// What the file says, moved with the pair: point from body 1's centre, normal from body 1 to body 2.
 struct Expected {
-	Real                s;
-	bool                inContact, normalDefined, pointUnique;
-	QuadVector          centre, lpPoint, normal;
-	Real                depth;
+	Real       s;
+	bool       inContact, normalDefined, pointUnique;
+	QuadVector centre, lpPoint, normal;
+	Real       depth;
 
 	explicit Expected(const Json& entry)
 	{
-		const Json& out  = entry["out"];
-		s                = number(out["lp_s"]);
-		inContact        = out["intersects"];
-		pointUnique      = out["lp_x_unique"];
-		normalDefined    = inContact && !out["normal"].is_null();
+		const Json& out   = entry["out"];
+		s                 = number(out["lp_s"]);
+		inContact         = out["intersects"];
+		pointUnique       = out["lp_x_unique"];
+		normalDefined     = inContact && !out["normal"].is_null();
 		const auto origin = precise(vector(entry["A"]["pos"]));
 		if (pointUnique) lpPoint = minus(quadVector(out["lp_x"]), origin);
 		if (inContact) centre = minus(quadVector(out["ac"]), origin);
@@ -135,7 +135,8 @@ void expectAnswer(const Pair& pair, const Expected& expected, Real size, const C
 		EXPECT_GT(result.depth, 0);
 		return;
 	}
-	EXPECT_TRUE(result.status == ContactStatus::Contact || result.status == ContactStatus::RoundingLimited) << statusName(result.status);
+	EXPECT_TRUE(result.status == ContactStatus::Contact || result.status == ContactStatus::RoundingLimited)
+	        << statusName(result.status);
 	const Real slip = Real(exact.normalSlip(0, expected.centre, loosened) + exact.normalSlip(1, expected.centre, loosened));
 	EXPECT_LE(Real(norm(minus(precise(result.normal), expected.normal))), 1e-14 + slip);
 	EXPECT_NEAR(result.depth, expected.depth, 1e-13 * size);
@@ -188,7 +189,8 @@ TEST_P(Reference, LpPoint)
 	EXPECT_LE(Real(PrecisePair(pair).violation(precise(result.point))), expected.s + 1e-13 * size);
 	if (!expected.pointUnique) return;
 	// the basis' weights say how far the point moves when a plane does
-	EXPECT_LE(Real(norm(minus(precise(result.point), expected.lpPoint))), 1e-13 * size / *std::min_element(result.weights.begin(), result.weights.end()));
+	EXPECT_LE(Real(norm(minus(precise(result.point), expected.lpPoint))),
+	        1e-13 * size / *std::min_element(result.weights.begin(), result.weights.end()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Reference, testing::ValuesIn(caseNames()), [](const auto& info) {

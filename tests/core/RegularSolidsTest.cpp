@@ -58,7 +58,8 @@ TEST_P(RegularSolid, IsTheSameAtEverySize)
 	}
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, RegularSolid, testing::ValuesIn(solids), [](const auto& info) { return "Faces" + std::to_string(info.param.faces); });
+INSTANTIATE_TEST_SUITE_P(
+        Solids, RegularSolid, testing::ValuesIn(solids), [](const auto& info) { return "Faces" + std::to_string(info.param.faces); });
 
 std::string refusal(int faces, Real circumradius)
 {

@@ -26,8 +26,8 @@ struct Allowance {
 		roundings          = 32 * tolerance::rounding * pair.reach();
 		local              = 2e-9 + roundings / -result.infeasibility;
 		const QuadVector x = precise(result.point), n = precise(result.normal);
-		normal             = 1e-14;
-		Vector3 sum        = Vector3::Zero();
+		normal      = 1e-14;
+		Vector3 sum = Vector3::Zero();
 		for (int body = 0; body < 2; ++body) {
 			const Vector3 gradient = rounded(exact.innerGradient(body, x));
 			if (!(gradient.norm() > 0)) continue;

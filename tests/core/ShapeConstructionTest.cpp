@@ -73,7 +73,7 @@ TEST(ShapeConstruction, planesThatTouchInAnEdgeOrACornerOwnNoFace)
 			add(set, Vector3(1, 1, 0).normalized(), std::sqrt(Real(2)) * length);  // along an edge
 			add(set, Vector3(1, 1, -1).normalized(), std::sqrt(Real(3)) * length); // in a corner
 			add(set, Vector3(1, 0, 0), 2 * length);                                // clear of it
-			set = moved(set, someRotation(random), length * someDirection(random));
+			set                    = moved(set, someRotation(random), length * someDirection(random));
 			const Polyhedron shape = polyhedron(set);
 			EXPECT_EQ(shape.vertices.size(), 8u);
 			EXPECT_EQ(shape.faces.size(), 6u);
@@ -125,7 +125,7 @@ TEST(ShapeConstruction, shortEdgesAreKept)
 	for (Real length : lengths)
 		for (Real edge : { 1e-3, 1e-6, 1e-9 }) {
 			HalfSpaces set = box(length, length, length);
-			add(set, Vector3(1, 1, 1).normalized(), (3 - edge) * length / std::sqrt(Real(3))); // a corner cut off
+			add(set, Vector3(1, 1, 1).normalized(), (3 - edge) * length / std::sqrt(Real(3)));   // a corner cut off
 			add(set, Vector3(-1, -1, 0).normalized(), (2 - edge) * length / std::sqrt(Real(2))); // an edge bevelled
 			for (int turn = 0; turn < 5; ++turn) {
 				const HalfSpaces turned = turn == 0 ? set : moved(set, someRotation(random), Vector3::Zero());
@@ -143,10 +143,10 @@ TEST(ShapeConstruction, platesAndNeedlesOfAspect1e8)
 	for (Real length : lengths)
 		for (const Vector3& half : { Vector3(1, 1, 1e-8), Vector3(1e-8, 1e-8, 1), Vector3(1, 1e-4, 1e-8) })
 			for (int turn = 0; turn < 10; ++turn) {
-				const Matrix3 rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
-				const Vector3 corner   = length * half;
-				const HalfSpaces set   = moved(box(corner.x(), corner.y(), corner.z()), rotation, Vector3::Zero());
-				const Polyhedron shape = polyhedron(set);
+				const Matrix3    rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
+				const Vector3    corner   = length * half;
+				const HalfSpaces set      = moved(box(corner.x(), corner.y(), corner.z()), rotation, Vector3::Zero());
+				const Polyhedron shape    = polyhedron(set);
 				ASSERT_EQ(shape.vertices.size(), 8u);
 				ASSERT_EQ(facesByCorners(shape), (std::map<int, int> { { 4, 6 } }));
 				expectSound(shape, set, 1e-15);
@@ -164,7 +164,7 @@ TEST(ShapeConstruction, stretchedOctahedraAndBipyramids)
 		HalfSpaces set;
 		for (const Vector3& normal : regularSolid(8, 1).normals)
 			add(set, Vector3(normal.x(), normal.y(), normal.z() / stretch).normalized(),
-			    (normal.cwiseAbs().x()) / Vector3(normal.x(), normal.y(), normal.z() / stretch).norm());
+			        (normal.cwiseAbs().x()) / Vector3(normal.x(), normal.y(), normal.z() / stretch).norm());
 		for (int turn = 0; turn < 10; ++turn) {
 			const HalfSpaces turned = turn == 0 ? set : moved(set, someRotation(random), Vector3::Zero());
 			const Polyhedron shape  = polyhedron(turned);
@@ -237,7 +237,7 @@ TEST(ShapeConstruction, fewRandomPlanesCloseAsOftenAsWendelSays)
 
 TEST(ShapeConstruction, powersOfTwoScaleExactly)
 {
-	std::mt19937_64 random(21);
+	std::mt19937_64  random(21);
 	const HalfSpaces set   = moved(tangentPlanes(50, Vector3(1, 2, 3), random), Matrix3::Identity(), Vector3(1, 2, 3));
 	const Polyhedron shape = polyhedron(set);
 	for (int power : { -40, -30, -1, 13, 30 }) {
@@ -289,10 +289,10 @@ TEST(ShapeConstruction, redundantPlanesOwnNoFace)
 {
 	std::mt19937_64 random(24);
 	for (int i = 0; i < 20; ++i) {
-		HalfSpaces                            set = tangentPlanes(30, Vector3(1, 1, 1), random);
-		const std::size_t                     own = set.size();
+		HalfSpaces                             set = tangentPlanes(30, Vector3(1, 1, 1), random);
+		const std::size_t                      own = set.size();
 		std::uniform_real_distribution<double> looser(1, 3);
-		const Real                            reach = extentOf(polyhedron(set));
+		const Real                             reach = extentOf(polyhedron(set));
 		for (int k = 0; k < 30; ++k)
 			add(set, someDirection(random), reach * looser(random));
 		const HalfSpaces kept = withoutRedundant(set);
@@ -311,7 +311,8 @@ TEST(ShapeConstruction, polygonsBecomePrisms)
 	for (Real length : lengths)
 		for (Real thickness : { 1e-9, 1., 1e4 })
 			for (int sides : { 3, 4, 7, 200 }) {
-				const HalfSpaces set   = moved(regularPolygon(sides, length), Matrix3::Identity(), Vector3(length, 2 * length, 0));
+				const HalfSpaces set
+				        = moved(regularPolygon(sides, length), Matrix3::Identity(), Vector3(length, 2 * length, 0));
 				const Polyhedron shape = polyhedron(set, thickness);
 				ASSERT_EQ(int(shape.vertices.size()), 2 * sides);
 				ASSERT_EQ(int(shape.faces.size()), sides + 2);
@@ -376,13 +377,14 @@ TEST(ShapeConstruction, unboundedSetsAreRefusedWithADirection)
 		HalfSpaces set = box(length, length, length);
 		set.normals.pop_back();
 		set.offsets.pop_back(); // no upper z plane
-		EXPECT_TRUE(says(polyhedronSays(set), "normals: the set is unbounded (it extends without end along (0, 0, 1)); add planes that close it"))
+		EXPECT_TRUE(says(polyhedronSays(set),
+		        "normals: the set is unbounded (it extends without end along (0, 0, 1)); add planes that close it"))
 		        << polyhedronSays(set);
 	}
 	std::mt19937_64 random(26);
 	for (int i = 0; i < 50; ++i) { // a tube, its walls parallel to the axis but for rounding
-		HalfSpaces prism = regularPolygon(6, 1);
-		prism.dimension  = 3;
+		HalfSpaces prism     = regularPolygon(6, 1);
+		prism.dimension      = 3;
 		const HalfSpaces set = moved(prism, someRotation(random), 10 * someDirection(random));
 		EXPECT_TRUE(says(polyhedronSays(set), "normals: the set is unbounded")) << polyhedronSays(set);
 	}
@@ -415,7 +417,8 @@ TEST(ShapeConstruction, badNumbersAreRefusedHereToo)
 	set.normals[2].setZero();
 	EXPECT_TRUE(says(polyhedronSays(set), "normals: entry 2"));
 	for (Real thickness : { Real(0), Real(-1), std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity() }) {
-		EXPECT_EQ(polyhedronSays(regularPolygon(4, 1), thickness), "thickness: it must be positive and finite; give the body's length along z");
+		EXPECT_EQ(polyhedronSays(regularPolygon(4, 1), thickness),
+		        "thickness: it must be positive and finite; give the body's length along z");
 		EXPECT_EQ(polyhedronSays(box(1, 1, 1), thickness), ""); // not used in 3-D
 	}
 }

@@ -54,7 +54,7 @@ inline HalfSpaces pyramid(int sides, Real radius, Real height)
 	HalfSpaces set;
 	add(set, -Vector3::UnitZ(), 0);
 	for (int k = 0; k < sides; ++k) {
-		const Real angle = 2 * Real(M_PI) * (k + Real(0.3)) / sides;
+		const Real    angle  = 2 * Real(M_PI) * (k + Real(0.3)) / sides;
 		const Vector3 normal = Vector3(height * std::cos(angle), height * std::sin(angle), radius).normalized();
 		add(set, normal, normal.dot(Vector3(0, 0, height)));
 	}

@@ -67,7 +67,7 @@ TEST(SimplexLp, RandomPairsAgreeWithTheExactOptimum)
 TEST(SimplexLp, DegeneratePairsAgreeWithTheExactOptimum)
 {
 	std::mt19937_64 random(301);
-	const auto      eighths = [&] { return Real(int(random() % 33) - 16) / 8; };
+	const auto      eighths  = [&] { return Real(int(random() % 33) - 16) / 8; };
 	int             touching = 0, overlapping = 0;
 	for (int trial = 0; trial < 400; ++trial) {
 		// aligned boxes on a grid: parallel faces, common planes, common edges and vertices, touching exactly
@@ -106,9 +106,9 @@ void expectOptimal(const Pair& pair, Real noise)
 {
 	const ContactResult result = linearProgramme(pair);
 	const PrecisePair   exact(pair);
-	const QuadVector    x = precise(result.point);
+	const QuadVector    x        = precise(result.point);
 	const Real          rounding = tolerance::rounding * pair.reach();
-	const Real          primal = Real(exact.violation(x));
+	const Real          primal   = Real(exact.violation(x));
 	Quad                sum = 0, dual = 0;
 	QuadVector          normal {};
 	Vector3             first = Vector3::Zero();
@@ -165,9 +165,9 @@ TEST(SimplexLp, EveryBasisBoundsTheOptimumFromBelow)
 {
 	std::mt19937_64 random(305);
 	for (int trial = 0; trial < 500; ++trial) {
-		const Pair                 pair = regularPair(6, 12, Real(0.1), random);
-		PlaneRows<long double, 3>  rows(worldPlanes(pair, 0), worldPlanes(pair, 1));
-		LpBasis<long double, 3>    basis;
+		const Pair                pair = regularPair(6, 12, Real(0.1), random);
+		PlaneRows<long double, 3> rows(worldPlanes(pair, 0), worldPlanes(pair, 1));
+		LpBasis<long double, 3>   basis;
 		for (int k = 0; k < 4; ++k)
 			basis.plane[k] = rows.row(0, pair.shape[0]->inscribedBasis()[k]);
 		ASSERT_TRUE((solveBasis<long double, 3>(rows.planes, basis)));
@@ -215,11 +215,8 @@ TEST(SimplexLp, StartFromAStripWithANearlyParallelPlane)
 {
 	HalfSpaces strip;
 	strip.dimension = 2;
-	strip.normals   = { { -3.0881349026828529e-06, 0.99999999999523159, 0 },
-		                { -6.5131567560953825e-05, -0.99999999787893945, 0 },
-		                { 3.0881349026828529e-06, -0.99999999999523159, 0 },
-		                { 1, 0, 0 },
-		                { -1, 0, 0 } };
+	strip.normals   = { { -3.0881349026828529e-06, 0.99999999999523159, 0 }, { -6.5131567560953825e-05, -0.99999999787893945, 0 },
+		  { 3.0881349026828529e-06, -0.99999999999523159, 0 }, { 1, 0, 0 }, { -1, 0, 0 } };
 	strip.offsets   = { 1.42602e-06, 6.54896e-06, 1.42602e-06, 0.1, 0.1 };
 	Pair pair;
 	pair.shape[0] = ConvexShape::shared(strip, 0);

@@ -16,23 +16,19 @@
 namespace polytope::fuzz {
 
 /// Ends the process by a trap: libraries that come along with Ipopt (MPI) take other signals from the fuzzer.
-#define POLYTOPE_REQUIRE(CONDITION, ...)                                                                                                                    \
-	do {                                                                                                                                                  \
-		if (!(CONDITION)) {                                                                                                                               \
-			std::fprintf(stderr, "\nviolated: %s (%s:%d): ", #CONDITION, __FILE__, __LINE__);                                                             \
-			std::fprintf(stderr, __VA_ARGS__);                                                                                                            \
-			std::fprintf(stderr, "\n");                                                                                                                   \
-			__builtin_trap(); \
-		}                                                                                                                                                 \
+#define POLYTOPE_REQUIRE(CONDITION, ...)                                                                                                   \
+	do {                                                                                                                               \
+		if (!(CONDITION)) {                                                                                                        \
+			std::fprintf(stderr, "\nviolated: %s (%s:%d): ", #CONDITION, __FILE__, __LINE__);                                  \
+			std::fprintf(stderr, __VA_ARGS__);                                                                                 \
+			std::fprintf(stderr, "\n");                                                                                        \
+			__builtin_trap();                                                                                                  \
+		}                                                                                                                          \
 	} while (false)
 
 class Bytes {
 public:
-	Bytes(const std::uint8_t* data, std::size_t size)
-	        : next_(data)
-	        , end_(data + size)
-	{
-	}
+	Bytes(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) { }
 
 	bool empty() const { return next_ == end_; }
 
@@ -48,16 +44,11 @@ public:
 		const int kind = byte();
 		Real      value;
 		if (kind < 96) value = Real(word()) / 4096; // −8 … 8
-		else if (kind < 128)
-			value = Real(std::int8_t(byte()));
-		else if (kind < 160)
-			value = special(byte());
-		else if (kind < 176)
-			value = raw();
-		else if (kind < 192)
-			value = std::ldexp(Real(1) + Real(byte()) / 256, word() % 1100) * (kind % 2 ? 1 : -1);
-		else if (numbers_.empty())
-			value = 0;
+		else if (kind < 128) value = Real(std::int8_t(byte()));
+		else if (kind < 160) value = special(byte());
+		else if (kind < 176) value = raw();
+		else if (kind < 192) value = std::ldexp(Real(1) + Real(byte()) / 256, word() % 1100) * (kind % 2 ? 1 : -1);
+		else if (numbers_.empty()) value = 0;
 		else {
 			value = numbers_[byte() % numbers_.size()];
 			if (kind >= 240) value = -value;
@@ -84,7 +75,7 @@ public:
 private:
 	Real raw()
 	{
-		double        value = 0;
+		double       value = 0;
 		std::uint8_t bits[sizeof value];
 		for (std::uint8_t& b : bits)
 			b = byte();
@@ -95,9 +86,10 @@ private:
 	static Real special(int index)
 	{
 		using Limits            = std::numeric_limits<double>;
-		static const Real all[] = { 0, -0.0, 1, -1, Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::denorm_min(), -Limits::denorm_min(),
-			Limits::min(), Limits::max(), Limits::lowest(), Limits::epsilon(), 1 - Limits::epsilon() / 2, 1 + Limits::epsilon(), 1e-9, 1e-12, 1e-15, 1e9, 1e15,
-			1e60, 1e-60, 1e100, 1e-100, 1e154, 1e-154, 1e300, 1e-300, 0.57735026918962573, 0.70710678118654757, 0.1, 3 };
+		static const Real all[] = { 0, -0.0, 1, -1, Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(),
+			Limits::denorm_min(), -Limits::denorm_min(), Limits::min(), Limits::max(), Limits::lowest(), Limits::epsilon(),
+			1 - Limits::epsilon() / 2, 1 + Limits::epsilon(), 1e-9, 1e-12, 1e-15, 1e9, 1e15, 1e60, 1e-60, 1e100, 1e-100, 1e154,
+			1e-154, 1e300, 1e-300, 0.57735026918962573, 0.70710678118654757, 0.1, 3 };
 		return all[std::size_t(index) % (sizeof all / sizeof *all)];
 	}
 

@@ -29,7 +29,8 @@ Real allowance(const Polyhedron& shape)
 
 void checkPolyhedron(const Polyhedron& shape, const HalfSpaces& set)
 {
-	POLYTOPE_REQUIRE(shape.faces.size() == shape.planeOfFace.size() && shape.vertices.size() >= 4, "%zu vertices", shape.vertices.size());
+	POLYTOPE_REQUIRE(
+	        shape.faces.size() == shape.planeOfFace.size() && shape.vertices.size() >= 4, "%zu vertices", shape.vertices.size());
 	for (const Vector3& vertex : shape.vertices)
 		POLYTOPE_REQUIRE(vertex.allFinite(), "vertex %g %g %g", vertex[0], vertex[1], vertex[2]);
 	const Real                         allowed = allowance(shape);
@@ -43,17 +44,21 @@ void checkPolyhedron(const Polyhedron& shape, const HalfSpaces& set)
 			const int plane = shape.planeOfFace[f];
 			if (plane < 0) continue;
 			POLYTOPE_REQUIRE(std::size_t(plane) < set.size(), "plane %d of %zu", plane, set.size());
-			const Real apart = set.normals[std::size_t(plane)].dot(shape.vertices[std::size_t(face[k])]) - set.offsets[std::size_t(plane)];
-			POLYTOPE_REQUIRE(std::abs(apart) <= allowed, "face %zu: a corner is %g from its plane, %g allowed", f, double(apart), double(allowed));
+			const Real apart = set.normals[std::size_t(plane)].dot(shape.vertices[std::size_t(face[k])])
+			        - set.offsets[std::size_t(plane)];
+			POLYTOPE_REQUIRE(std::abs(apart) <= allowed, "face %zu: a corner is %g from its plane, %g allowed", f,
+			        double(apart), double(allowed));
 		}
 	}
 	for (const auto& edge : edges)
-		POLYTOPE_REQUIRE(edge.second == 1 && edges.count({ edge.first.second, edge.first.first }) == 1, "edge %d–%d", edge.first.first, edge.first.second);
+		POLYTOPE_REQUIRE(edge.second == 1 && edges.count({ edge.first.second, edge.first.first }) == 1, "edge %d–%d",
+		        edge.first.first, edge.first.second);
 	POLYTOPE_REQUIRE(shape.vertices.size() + shape.faces.size() == edges.size() / 2 + 2, "not closed");
 	for (const Vector3& vertex : shape.vertices)
 		for (std::size_t i = 0; i < set.size(); ++i) {
 			const Real outside = set.normals[i].dot(vertex) - set.offsets[i];
-			POLYTOPE_REQUIRE(outside <= allowed, "a vertex is %g outside of plane %zu, %g allowed", double(outside), i, double(allowed));
+			POLYTOPE_REQUIRE(
+			        outside <= allowed, "a vertex is %g outside of plane %zu, %g allowed", double(outside), i, double(allowed));
 		}
 }
 
@@ -61,7 +66,8 @@ void checkShape(const ConvexShape& shape)
 {
 	const HalfSpaces& set = shape.planes();
 	for (std::size_t i = 0; i < set.size(); ++i) {
-		POLYTOPE_REQUIRE(std::abs(set.normals[i].norm() - 1) <= 2 * construction::unitLength, "normal %zu has length %.17g", i, double(set.normals[i].norm()));
+		POLYTOPE_REQUIRE(std::abs(set.normals[i].norm() - 1) <= 2 * construction::unitLength, "normal %zu has length %.17g", i,
+		        double(set.normals[i].norm()));
 		POLYTOPE_REQUIRE(std::isfinite(set.offsets[i]), "offset %zu", i);
 	}
 	checkPolyhedron(shape.polyhedron(), set);
@@ -69,17 +75,18 @@ void checkShape(const ConvexShape& shape)
 	const MassProperties& mass    = shape.mass();
 	POLYTOPE_REQUIRE(std::isfinite(mass.volume) && mass.volume > 0, "volume %g", double(mass.volume));
 	POLYTOPE_REQUIRE(mass.centroid.allFinite(), "centroid");
-	POLYTOPE_REQUIRE(mass.inertia.allFinite() && mass.inertia.diagonal().minCoeff() > 0, "inertia %g", double(mass.inertia.diagonal().minCoeff()));
+	POLYTOPE_REQUIRE(mass.inertia.allFinite() && mass.inertia.diagonal().minCoeff() > 0, "inertia %g",
+	        double(mass.inertia.diagonal().minCoeff()));
 	for (std::size_t i = 0; i < set.size(); ++i)
 		POLYTOPE_REQUIRE(set.normals[i].dot(mass.centroid) - set.offsets[i] <= allowed, "the centroid is outside of plane %zu", i);
 	POLYTOPE_REQUIRE(std::isfinite(shape.boundingRadius()), "bounding radius");
-	POLYTOPE_REQUIRE(
-	        shape.inscribedRadius() > 0 && shape.inscribedRadius() <= shape.boundingRadius() + allowed, "inscribed radius %g, bounding %g",
-	        double(shape.inscribedRadius()), double(shape.boundingRadius()));
+	POLYTOPE_REQUIRE(shape.inscribedRadius() > 0 && shape.inscribedRadius() <= shape.boundingRadius() + allowed,
+	        "inscribed radius %g, bounding %g", double(shape.inscribedRadius()), double(shape.boundingRadius()));
 	std::set<int> basis;
 	for (int k = 0; k <= shape.dimension(); ++k) {
 		const int plane = shape.inscribedBasis()[std::size_t(k)];
-		POLYTOPE_REQUIRE(plane >= 0 && plane < shape.planeCount() && basis.insert(plane).second, "inscribed basis: plane %d", plane);
+		POLYTOPE_REQUIRE(
+		        plane >= 0 && plane < shape.planeCount() && basis.insert(plane).second, "inscribed basis: plane %d", plane);
 	}
 }
 
@@ -115,9 +122,10 @@ void construct(Bytes& bytes)
 			size = std::max({ size, point.norm(), (point - cloud.front()).norm() });
 		for (const Vector3& point : cloud)
 			for (std::size_t i = 0; i < set.size(); ++i)
-				POLYTOPE_REQUIRE(set.normals[i].dot(point) - set.offsets[i] <= (construction::flatness + 10 * coplanar) * size, "a point is cut off");
-	} else
-		set = planes(bytes, dimension);
+				POLYTOPE_REQUIRE(
+				        set.normals[i].dot(point) - set.offsets[i] <= (construction::flatness + 10 * coplanar) * size,
+				        "a point is cut off");
+	} else set = planes(bytes, dimension);
 	checkShape(ConvexShape(set, cornerRadius, thickness));
 	HalfSpaces unit = withoutDuplicates(normalised(set));
 	if (!redundant) unit = withoutRedundant(unit);

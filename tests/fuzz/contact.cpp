@@ -28,11 +28,10 @@ Shape knownShape(int kind, int seed, int decade, int dimension)
 	std::mt19937_64 random(static_cast<unsigned long>(seed));
 	const int       faces[] = { 4, 6, 8, 12, 20 };
 	HalfSpaces      set     = dimension == 2 ? samples::rectangle(1, Real(1) / (1 + seed % 7)) : regularSolid(faces[seed % 5], 1);
-	if (kind == 1 && dimension == 3) set = samples::cuboid(1, samples::decades(random, -seed % 4, 0), samples::decades(random, -seed % 8, 0));
-	else if (kind == 2)
-		set = samples::randomPlanes(4 + seed % 60, random, dimension);
-	else if (kind == 3)
-		set = samples::withNearCopies(set, 1 + seed % 8, random);
+	if (kind == 1 && dimension == 3)
+		set = samples::cuboid(1, samples::decades(random, -seed % 4, 0), samples::decades(random, -seed % 8, 0));
+	else if (kind == 2) set = samples::randomPlanes(4 + seed % 60, random, dimension);
+	else if (kind == 3) set = samples::withNearCopies(set, 1 + seed % 8, random);
 	const Real size = std::pow(Real(10), decade);
 	for (Real& offset : set.offsets)
 		offset *= size;
@@ -98,12 +97,11 @@ Pair readPair(Bytes& bytes, bool& rigid)
 	const Real far  = std::min(pair.shape[0]->boundingRadius(), Real(1e9)) + std::min(pair.shape[1]->boundingRadius(), Real(1e9));
 	const bool both = std::isfinite(pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius());
 	if (kind == 0) pair.centre2 = bytes.vector();
-	else if (kind == 1)
-		pair.centre2.setZero();
-	else if (kind < 5 || !both || !rigid)
-		pair.centre2 = far * Real(bytes.byte()) / 200 * aside.normalized();
+	else if (kind == 1) pair.centre2.setZero();
+	else if (kind < 5 || !both || !rigid) pair.centre2 = far * Real(bytes.byte()) / 200 * aside.normalized();
 	else // to a chosen depth
-		samples::moveTo(pair, aside.normalized(), Real(bytes.flag() ? 1 : -1) * std::pow(Real(10), -Real(bytes.below(17))) * pair.inscribedRadius());
+		samples::moveTo(pair, aside.normalized(),
+		        Real(bytes.flag() ? 1 : -1) * std::pow(Real(10), -Real(bytes.below(17))) * pair.inscribedRadius());
 	if (!pair.centre2.allFinite() || pair.centre2.norm() > 1e12) rigid = false;
 	return pair;
 }
@@ -146,7 +144,7 @@ PairMemory readMemory(Bytes& bytes, const Pair& pair)
 	if (kind < 2) return memory;
 	memory.hasBasis = true;
 	for (int k = 0; k <= pair.dimension(); ++k) {
-		const int body      = bytes.below(2);
+		const int body               = bytes.below(2);
 		memory.basis[std::size_t(k)] = 2 * (bytes.byte() % pair.shape[body]->planeCount()) + body;
 	}
 	if (kind < 3) return memory;
@@ -171,21 +169,27 @@ void checkResult(const ContactResult& result, const Pair& pair, bool proper)
 	const int status = int(result.status);
 	POLYTOPE_REQUIRE(status >= 0 && status < contactStatusCount, "status %d", status);
 	const int planes = pair.shape[0]->paddedCount() + pair.shape[1]->paddedCount();
+	POLYTOPE_REQUIRE(result.simplexPivots >= 0
+	                && result.simplexPivots <= 2
+	                                * std::max(tolerance::pivotsAtLeast,
+	                                        tolerance::pivotsPerPlane * planes), // twice: also with more digits
+	        "%d pivots", result.simplexPivots);
 	POLYTOPE_REQUIRE(
-	        result.simplexPivots >= 0 && result.simplexPivots <= 2 * std::max(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes), // twice: also with more digits
-	        "%d pivots",
-	        result.simplexPivots);
-	POLYTOPE_REQUIRE(
-	        result.newtonIterations >= 0 && result.newtonIterations <= (1 + tolerance::turns) * (tolerance::newtonIterations + 1), "%d iterations",
-	        result.newtonIterations);
-	if (result.status == ContactStatus::Failed) POLYTOPE_REQUIRE(!result.inContact && !result.hasGeometry, "failed, but there is an answer");
-	if (result.inContact) POLYTOPE_REQUIRE(result.hasGeometry && std::isfinite(result.infeasibility), "%s: s* = %g", statusName(result.status), result.infeasibility);
+	        result.newtonIterations >= 0 && result.newtonIterations <= (1 + tolerance::turns) * (tolerance::newtonIterations + 1),
+	        "%d iterations", result.newtonIterations);
+	if (result.status == ContactStatus::Failed)
+		POLYTOPE_REQUIRE(!result.inContact && !result.hasGeometry, "failed, but there is an answer");
+	if (result.inContact)
+		POLYTOPE_REQUIRE(result.hasGeometry && std::isfinite(result.infeasibility), "%s: s* = %g", statusName(result.status),
+		        result.infeasibility);
 	if (!result.hasGeometry) return;
 	POLYTOPE_REQUIRE(result.point.allFinite() && std::isfinite(result.depth), "%s: point or depth", statusName(result.status));
 	POLYTOPE_REQUIRE(result.dualDirection.allFinite(), "%s: dual direction", statusName(result.status));
-	POLYTOPE_REQUIRE(std::isfinite(result.area) && result.area >= 0 && result.sectionCentroid.allFinite(), "%s: area %g", statusName(result.status), result.area);
+	POLYTOPE_REQUIRE(std::isfinite(result.area) && result.area >= 0 && result.sectionCentroid.allFinite(), "%s: area %g",
+	        statusName(result.status), result.area);
 	if (!proper) return; // a barrier of 1e257 overflows what follows
-	POLYTOPE_REQUIRE(std::isfinite(result.barrierValue) && std::isfinite(result.energy) && result.energy >= 0, "%s: energy", statusName(result.status));
+	POLYTOPE_REQUIRE(std::isfinite(result.barrierValue) && std::isfinite(result.energy) && result.energy >= 0, "%s: energy",
+	        statusName(result.status));
 	POLYTOPE_REQUIRE(std::isfinite(result.rockingArm), "%s: rocking arm", statusName(result.status));
 }
 
@@ -200,7 +204,8 @@ struct Planes {
 				std::array<long double, 4> row { { 0, 0, 0, pair.shape[body]->planes().offsets[std::size_t(i)] } };
 				for (int j = 0; j < 3; ++j) {
 					for (int k = 0; k < 3; ++k)
-						row[std::size_t(j)] += static_cast<long double>(pair.rotation[body](j, k)) * pair.shape[body]->planes().normals[std::size_t(i)][k];
+						row[std::size_t(j)] += static_cast<long double>(pair.rotation[body](j, k))
+						        * pair.shape[body]->planes().normals[std::size_t(i)][k];
 					row[3] += body * row[std::size_t(j)] * pair.centre2[j];
 				}
 				rows[body].push_back(row);
@@ -251,15 +256,14 @@ void checkOptimum(const Pair& pair)
 	const Real   below = Real(result.infeasibility - planes.bound(result, pair.dimension(), pair.reach()));
 	if (!(above <= allowed && below <= allowed)) {
 		const Real exact = exactInfeasibility(pair);
-		POLYTOPE_REQUIRE(
-		        std::abs(result.infeasibility - exact) <= allowed, "s* = %.17g, exactly %.17g: %g apart, %g allowed (point %g, weights %g)",
-		        result.infeasibility, exact, std::abs(result.infeasibility - exact), allowed, above, below);
+		POLYTOPE_REQUIRE(std::abs(result.infeasibility - exact) <= allowed,
+		        "s* = %.17g, exactly %.17g: %g apart, %g allowed (point %g, weights %g)", result.infeasibility, exact,
+		        std::abs(result.infeasibility - exact), allowed, above, below);
 	}
 	const ContactResult other = samples::linearProgramme(samples::swapped(pair));
 	if (!other.hasGeometry || other.status == ContactStatus::LpNotConverged) return;
-	POLYTOPE_REQUIRE(
-	        std::abs(other.infeasibility - result.infeasibility) <= allowed, "s* = %.17g, with the bodies exchanged %.17g", result.infeasibility,
-	        other.infeasibility);
+	POLYTOPE_REQUIRE(std::abs(other.infeasibility - result.infeasibility) <= allowed, "s* = %.17g, with the bodies exchanged %.17g",
+	        result.infeasibility, other.infeasibility);
 }
 
 void checkPair(Bytes& bytes)
@@ -275,9 +279,12 @@ void checkPair(Bytes& bytes)
 		checkResult(result, pair, proper);
 		checkMemory(memory, pair);
 		if (rigid && proper) {
-			POLYTOPE_REQUIRE(std::isfinite(result.infeasibility), "%s: s* = %g", statusName(result.status), result.infeasibility);
-			if (result.hasGeometry) POLYTOPE_REQUIRE(std::abs(result.normal.norm() - 1) <= 1e-14, "|n| − 1 = %g", result.normal.norm() - 1);
-			if (result.inContact) POLYTOPE_REQUIRE(result.infeasibility < 0, "%s: s* = %g", statusName(result.status), result.infeasibility);
+			POLYTOPE_REQUIRE(
+			        std::isfinite(result.infeasibility), "%s: s* = %g", statusName(result.status), result.infeasibility);
+			if (result.hasGeometry)
+				POLYTOPE_REQUIRE(std::abs(result.normal.norm() - 1) <= 1e-14, "|n| − 1 = %g", result.normal.norm() - 1);
+			if (result.inContact)
+				POLYTOPE_REQUIRE(result.infeasibility < 0, "%s: s* = %g", statusName(result.status), result.infeasibility);
 			if (bounded) checkOptimum(pair);
 		}
 		if (bytes.empty()) return;

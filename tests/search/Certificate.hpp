@@ -20,10 +20,7 @@ inline Real allowedError(const samples::Pair& pair) { return 8 * tolerance::roun
 
 class Certificate {
 public:
-	explicit Certificate(const samples::Pair& pair)
-	        : pair_(pair)
-	        , dimension_(pair.dimension())
-	        , reach_(pair.reach())
+	explicit Certificate(const samples::Pair& pair) : pair_(pair), dimension_(pair.dimension()), reach_(pair.reach())
 	{
 		for (int body = 0; body < 2; ++body) {
 			begin_[body]          = int(planes_.size());
@@ -113,7 +110,7 @@ public:
 	/// A lower bound of Φ: −Σ λ d + 2 μ (Σ √λ − √2) by weak duality, from the answer's weights.
 	Extended barrierBound(const ContactResult& result, Extended mu) const
 	{
-		Extended sum = 0, value = 0, roots = -std::sqrt(Extended(2));
+		Extended       sum = 0, value = 0, roots = -std::sqrt(Extended(2));
 		ExtendedVector balance {};
 		for (int k = 0; k <= dimension_; ++k) {
 			const Plane&   plane  = basisPlane(result, k);
@@ -184,7 +181,10 @@ private:
 		return largest;
 	}
 
-	const Plane& basisPlane(const ContactResult& result, int k) const { return planes_[std::size_t(begin_[result.basis[k] & 1] + (result.basis[k] >> 1))]; }
+	const Plane& basisPlane(const ContactResult& result, int k) const
+	{
+		return planes_[std::size_t(begin_[result.basis[k] & 1] + (result.basis[k] >> 1))];
+	}
 
 	/// The weights of the answer's basis once more, by elimination with pivoting; the answer's own if it is singular.
 	void weightsOf(const ContactResult& solved, Extended (&weights)[4]) const
@@ -232,7 +232,7 @@ private:
 	static void orthonormalise(std::vector<Extended>* columns, int count, Extended (*r)[4] = nullptr)
 	{
 		for (int k = 0; k < count; ++k) {
-			std::vector<Extended>& column = columns[k];
+			std::vector<Extended>& column   = columns[k];
 			Extended               along[4] = { 0, 0, 0, 0 };
 			for (int twice = 0; twice < 2; ++twice)
 				for (int j = 0; j < k; ++j) {

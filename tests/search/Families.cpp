@@ -142,7 +142,9 @@ namespace {
 		Shape      one = made.shape[0], two = made.shape[1];
 		if (random() % 2) {
 			one = shapeOf(withNearCopies(someSet(random, D), 1 + int(random() % 6), random), 1, random);
-			two = random() % 3 ? shapeOf(withNearCopies(someSet(random, D), 1 + int(random() % 6), random), decades(random, -3, 0), random) : one;
+			two = random() % 3
+			        ? shapeOf(withNearCopies(someSet(random, D), 1 + int(random() % 6), random), decades(random, -3, 0), random)
+			        : one;
 		}
 		return [=](Random& r) {
 			Pair    pair      = anyOrientation(one, two, r);
@@ -167,18 +169,19 @@ namespace {
 		const Polyhedron&    body = shape.polyhedron();
 		std::vector<Feature> all;
 		const auto           add = [&](const std::vector<int>& corner) {
-            Feature feature;
-            for (std::size_t f = 0; f < body.faces.size(); ++f) {
-                if (body.planeOfFace[f] < 0) continue;
-                const auto& face = body.faces[f];
-                const bool  has  = std::all_of(corner.begin(), corner.end(), [&](int v) { return std::find(face.begin(), face.end(), v) != face.end(); });
-                if (has) feature.normals.push_back(shape.planes().normals[std::size_t(body.planeOfFace[f])]);
-            }
-            for (int v : corner) {
-                feature.points.push_back(body.vertices[std::size_t(v)]);
-                if (shape.dimension() == 2) feature.points.back().z() = 0;
-            }
-            if (!feature.normals.empty()) all.push_back(feature);
+                        Feature feature;
+                        for (std::size_t f = 0; f < body.faces.size(); ++f) {
+                                if (body.planeOfFace[f] < 0) continue;
+                                const auto& face = body.faces[f];
+                                const bool  has  = std::all_of(corner.begin(), corner.end(),
+				                    [&](int v) { return std::find(face.begin(), face.end(), v) != face.end(); });
+                                if (has) feature.normals.push_back(shape.planes().normals[std::size_t(body.planeOfFace[f])]);
+                        }
+                        for (int v : corner) {
+                                feature.points.push_back(body.vertices[std::size_t(v)]);
+                                if (shape.dimension() == 2) feature.points.back().z() = 0;
+                        }
+                        if (!feature.normals.empty()) all.push_back(feature);
 		};
 		if (corners == 1)
 			for (std::size_t v = 0; v < body.vertices.size(); ++v)
@@ -198,7 +201,10 @@ namespace {
 	Matrix3 turning(const Vector3& a, const Vector3& b, Real twist, int dimension)
 	{
 		// between nearly opposite vectors Eigen's quaternion is not quite unit
-		if (dimension == 3) return (Quaternion(Eigen::AngleAxis<Real>(twist, b)) * Quaternion::FromTwoVectors(a, b)).normalized().toRotationMatrix();
+		if (dimension == 3)
+			return (Quaternion(Eigen::AngleAxis<Real>(twist, b)) * Quaternion::FromTwoVectors(a, b))
+			        .normalized()
+			        .toRotationMatrix();
 		return Eigen::AngleAxis<Real>(std::atan2(b.y(), b.x()) - std::atan2(a.y(), a.x()), Vector3::UnitZ()).toRotationMatrix();
 	}
 
@@ -208,7 +214,8 @@ namespace {
 		const std::vector<Feature> features[2] = { featuresOf(*one, corners1), featuresOf(*two, corners2) };
 		return [=](Random& random) {
 			Pair          pair  = anyOrientation(one, two, random);
-			const Vector3 along = random() % 4 ? randomDirection(random, one->dimension()) : Vector3(Vector3::Unit(int(random() % one->dimension())));
+			const Vector3 along = random() % 4 ? randomDirection(random, one->dimension())
+			                                   : Vector3(Vector3::Unit(int(random() % one->dimension())));
 			Vector3       meet[2];
 			for (int body = 0; body < 2; ++body) {
 				const Feature& feature = features[body][random() % features[body].size()];
@@ -222,9 +229,10 @@ namespace {
 					sum += weight;
 				}
 				// edges of both bodies parallel, now and then
-				const Real twist    = random() % 3 ? uniform(random, 0, 6) : Real(0);
-				pair.rotation[body] = turning(out.normalized(), body == 0 ? along : Vector3(-along), twist, one->dimension());
-				meet[body]          = pair.rotation[body] * (point / sum);
+				const Real twist = random() % 3 ? uniform(random, 0, 6) : Real(0);
+				pair.rotation[body]
+				        = turning(out.normalized(), body == 0 ? along : Vector3(-along), twist, one->dimension());
+				meet[body] = pair.rotation[body] * (point / sum);
 			}
 			Real gap = 0;
 			if (random() % 3) gap = (random() % 2 ? 1 : -1) * decades(random, -15, -1) * pair.inscribedRadius();
@@ -245,8 +253,11 @@ namespace {
 	/// Boxes stacked on a grid: parallel faces, common planes, edges and vertices; tilted by 0 or 1e-16 … 1e-3.
 	template <int D> Poses stacked(Random& random)
 	{
-		const Real  half[] = { Real(0.25), Real(0.5), 1, 2 };
-		const auto  make   = [&] { return D == 3 ? cuboid(half[random() % 4], half[random() % 4], half[random() % 4]) : rectangle(half[random() % 4], half[random() % 4]); };
+		const Real half[] = { Real(0.25), Real(0.5), 1, 2 };
+		const auto make   = [&] {
+                        return D == 3 ? cuboid(half[random() % 4], half[random() % 4], half[random() % 4])
+			                : rectangle(half[random() % 4], half[random() % 4]);
+		};
 		const Shape one = shapeOf(make(), 1, random), two = random() % 3 ? shapeOf(make(), 1, random) : one;
 		return [=](Random& r) {
 			Pair pair;
@@ -337,7 +348,7 @@ void approach(Pair& pair, const Vector3& direction, Real target)
 	for (int step = 0; step < 30; ++step) {
 		pair.centre2               = way * direction;
 		const ContactResult result = query(pair, settings, &memory);
-		const Real          slope  = result.dualDirection.dot(direction), over = result.infeasibility - target;
+		const Real          slope = result.dualDirection.dot(direction), over = result.infeasibility - target;
 		if (!(slope > 0) || !(std::abs(over) > tolerance::rounding * pair.reach())) return;
 		way -= over / slope;
 		if (way < 0) way = 0; // from the centre on the way leads out again

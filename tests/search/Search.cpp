@@ -24,18 +24,17 @@ namespace {
 struct Options {
 	long          pairs   = 1000000;
 	unsigned long seed    = 1;
-	unsigned      threads = 0; ///< 0: as many as the machine has
+	unsigned      threads = 0;  ///< 0: as many as the machine has
 	int           family  = -1; ///< -1: all
 	long          trial   = -1; ///< -1: as many as there are pairs for
 	std::string   log;
 };
 
-const char* usage
-        = "polytope_search [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
-          "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
-          "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
-          "  --log      also writes the table to this file\n"
-          "Families:";
+const char* usage = "polytope_search [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
+                    "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
+                    "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
+                    "  --log      also writes the table to this file\n"
+                    "Families:";
 
 [[noreturn]] void refuse(const std::string& why)
 {
@@ -63,20 +62,15 @@ Options optionsOf(int count, char** arguments)
 		if (i + 1 == count) refuse(name + ": give a value");
 		const char* value = arguments[i + 1];
 		if (name == "--pairs") options.pairs = numberOf(name, value);
-		else if (name == "--seed")
-			options.seed = (unsigned long)(numberOf(name, value));
-		else if (name == "--threads")
-			options.threads = unsigned(numberOf(name, value));
-		else if (name == "--trial")
-			options.trial = numberOf(name, value);
-		else if (name == "--log")
-			options.log = value;
+		else if (name == "--seed") options.seed = (unsigned long)(numberOf(name, value));
+		else if (name == "--threads") options.threads = unsigned(numberOf(name, value));
+		else if (name == "--trial") options.trial = numberOf(name, value);
+		else if (name == "--log") options.log = value;
 		else if (name == "--family") {
 			for (std::size_t f = 0; f < families().size(); ++f)
 				if (families()[f].name == std::string(value)) options.family = int(f);
 			if (options.family < 0) refuse("--family: there is no '" + std::string(value) + "'");
-		} else
-			refuse("there is no option " + name);
+		} else refuse("there is no option " + name);
 	}
 	if (options.trial >= 0 && options.family < 0) refuse("--trial: name its --family");
 	return options;
@@ -85,25 +79,25 @@ Options optionsOf(int count, char** arguments)
 /// All trials, dealt out to the threads one by one; each has its own random numbers.
 void run(const Options& options, std::vector<Tally>& tallies, std::vector<Finding>& findings)
 {
-	const long  first = options.family < 0 ? 0 : options.family;
-	const long  chosen = options.family < 0 ? long(families().size()) : 1;
-	const long  perFamily = (options.pairs + chosen * posesPerTrial - 1) / (chosen * posesPerTrial);
-	const long  total     = options.trial >= 0 ? 1 : perFamily * chosen;
-	std::mutex  mutex;
+	const long        first     = options.family < 0 ? 0 : options.family;
+	const long        chosen    = options.family < 0 ? long(families().size()) : 1;
+	const long        perFamily = (options.pairs + chosen * posesPerTrial - 1) / (chosen * posesPerTrial);
+	const long        total     = options.trial >= 0 ? 1 : perFamily * chosen;
+	std::mutex        mutex;
 	std::atomic<long> next { 0 };
-	const bool  shown = isatty(STDERR_FILENO);
-	const auto  work  = [&] {
-        std::vector<Tally>   own(families().size());
-        std::vector<Finding> found;
-        for (long i = next++; i < total; i = next++) {
-            const int family = int(first + i % chosen);
-            walk(family, options.trial >= 0 ? options.trial : i / chosen, options.seed, own[std::size_t(family)], found);
-            if (shown && i % (total / 200 + 1) == 0) std::fprintf(stderr, "\r%3ld %%", 100 * i / total);
-        }
-        const std::lock_guard<std::mutex> lock(mutex);
-        for (std::size_t f = 0; f < own.size(); ++f)
-            tallies[f].add(own[f]);
-        findings.insert(findings.end(), found.begin(), found.end());
+	const bool        shown = isatty(STDERR_FILENO);
+	const auto        work  = [&] {
+                std::vector<Tally>   own(families().size());
+                std::vector<Finding> found;
+                for (long i = next++; i < total; i = next++) {
+                        const int family = int(first + i % chosen);
+                        walk(family, options.trial >= 0 ? options.trial : i / chosen, options.seed, own[std::size_t(family)], found);
+                        if (shown && i % (total / 200 + 1) == 0) std::fprintf(stderr, "\r%3ld %%", 100 * i / total);
+                }
+                const std::lock_guard<std::mutex> lock(mutex);
+                for (std::size_t f = 0; f < own.size(); ++f)
+                        tallies[f].add(own[f]);
+                findings.insert(findings.end(), found.begin(), found.end());
 	};
 	std::vector<std::thread> threads;
 	const unsigned           count = options.threads ? options.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -124,8 +118,8 @@ std::string line(const char* name, const Tally& t)
 	long defects = 0;
 	for (long count : t.defects)
 		defects += count;
-	std::snprintf(text, sizeof text, "%-19s %9ld %9ld %9ld %7ld %7ld %10ld %6.1f %5d %6d %7ld\n", name, t.pairs, t.overlaps, t.gaps, t.undecided, t.exact, t.queries,
-	        double(t.worstInfeasibility), t.mostPivots, t.mostIterations, defects);
+	std::snprintf(text, sizeof text, "%-19s %9ld %9ld %9ld %7ld %7ld %10ld %6.1f %5d %6d %7ld\n", name, t.pairs, t.overlaps, t.gaps,
+	        t.undecided, t.exact, t.queries, double(t.worstInfeasibility), t.mostPivots, t.mostIterations, defects);
 	return text;
 }
 
@@ -138,7 +132,8 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
 	out << "Random pairs against an exact predicate, " << date << "\n";
 	out << "revision " << (revision ? revision : "unknown") << "; " << POLYTOPE_COMPILER << "; " << instructionSet() << "\n";
-	out << "--pairs " << options.pairs << " --seed " << options.seed << (options.family < 0 ? "" : std::string(" --family ") + families()[std::size_t(options.family)].name);
+	out << "--pairs " << options.pairs << " --seed " << options.seed
+	    << (options.family < 0 ? "" : std::string(" --family ") + families()[std::size_t(options.family)].name);
 	out << "; " << posesPerTrial << " pairs a trial\n\n";
 	out << "family                  pairs   overlap     apart  border   exact    queries  error  pivots iterations defects\n";
 	Tally all;
@@ -148,7 +143,8 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	}
 	out << line("all", all);
 	out << "\noverlap, apart: by more than the contact tolerance and rounding; border: between, where either answer will do.\n"
-	       "exact: bounds in long double did not decide, rational arithmetic did. error: largest of s*, in roundings of the pair's reach\n"
+	       "exact: bounds in long double did not decide, rational arithmetic did. error: largest of s*, in roundings of the pair's "
+	       "reach\n"
 	       "(8 are allowed). pivots, iterations: most of one query.\n\n";
 	for (int model = 0; model < 2; ++model) {
 		out << (model == 0 ? "paper:       " : "conservative:");
@@ -164,7 +160,8 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	if (!findings.empty()) out << "\nRecords (again: --seed " << options.seed << " --family FAMILY --trial TRIAL):\n";
 	for (std::size_t i = 0; i < findings.size() && i < 200; ++i) {
 		const Finding& f = findings[i];
-		out << families()[std::size_t(f.family)].name << ' ' << f.trial << " (pose " << f.pose << "), " << defectName(f.defect) << ", " << f.text << "\n";
+		out << families()[std::size_t(f.family)].name << ' ' << f.trial << " (pose " << f.pose << "), " << defectName(f.defect)
+		    << ", " << f.text << "\n";
 	}
 	if (findings.size() > 200) out << "… and " << findings.size() - 200 << " more\n";
 	out << "\n" << long(seconds) << " s, " << (options.threads ? options.threads : std::thread::hardware_concurrency()) << " threads\n";
@@ -180,7 +177,8 @@ int main(int count, char** arguments)
 	std::vector<Finding> findings;
 	const auto           started = std::chrono::steady_clock::now();
 	run(options, tallies, findings);
-	const std::string text = report(options, tallies, findings, std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
+	const std::string text
+	        = report(options, tallies, findings, std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
 	std::fputs(text.c_str(), stdout);
 	if (!options.log.empty()) {
 		std::FILE* file = std::fopen(options.log.c_str(), "w");

@@ -25,30 +25,27 @@ namespace {
 
 	bool finite(const ContactResult& r)
 	{
-		return r.point.allFinite() && r.normal.allFinite() && r.sectionCentroid.allFinite() && r.dualDirection.allFinite() && std::isfinite(r.depth)
-		        && std::isfinite(r.infeasibility) && std::isfinite(r.area) && std::isfinite(r.barrierValue) && std::isfinite(r.energy)
-		        && std::isfinite(r.rockingArm);
+		return r.point.allFinite() && r.normal.allFinite() && r.sectionCentroid.allFinite() && r.dualDirection.allFinite()
+		        && std::isfinite(r.depth) && std::isfinite(r.infeasibility) && std::isfinite(r.area)
+		        && std::isfinite(r.barrierValue) && std::isfinite(r.energy) && std::isfinite(r.rockingArm);
 	}
 
 	/// The questions put to one pose.
 	class Examiner {
 	public:
 		Examiner(int family, long trial, Tally& tally, std::vector<Finding>& findings)
-		        : family_(family)
-		        , trial_(trial)
-		        , tally_(tally)
-		        , findings_(findings)
+		        : family_(family), trial_(trial), tally_(tally), findings_(findings)
 		{
 		}
 
 		/// Of all poses of one pair that moves on; forgets what was remembered.
 		void start(Random& random)
 		{
-			paper_                    = ContactSettings();
-			paper_.geometryAcrossGap  = random() % 4 == 0;
-			paper_.section            = random() % 4 == 0;
-			barrier_                  = paper_;
-			barrier_.contactModel     = ContactModel::Conservative;
+			paper_                   = ContactSettings();
+			paper_.geometryAcrossGap = random() % 4 == 0;
+			paper_.section           = random() % 4 == 0;
+			barrier_                 = paper_;
+			barrier_.contactModel    = ContactModel::Conservative;
 			for (PairMemory& memory : memory_)
 				memory = PairMemory();
 		}
@@ -58,29 +55,31 @@ namespace {
 			pose_ = pose;
 			++tally_.pairs;
 			ContactSettings lp;
-			lp.tolerance              = -1e6; // no dismissal
-			lp.contactPoint           = ContactPoint::ChebyshevCentre;
+			lp.tolerance               = -1e6; // no dismissal
+			lp.contactPoint            = ContactPoint::ChebyshevCentre;
 			const ContactResult solved = query(pair, lp);
 			++tally_.queries;
-			Certificate        certificate(pair);
-			const Real         allowed = allowedError(pair);
+			Certificate certificate(pair);
+			const Real  allowed = allowedError(pair);
 			certificate.bracket(solved);
-			const auto error = [&] { return Real(std::max(certificate.upper - solved.infeasibility, solved.infeasibility - certificate.lower)); };
+			const auto error = [&] {
+				return Real(std::max(certificate.upper - solved.infeasibility, solved.infeasibility - certificate.lower));
+			};
 			if (!(certificate.upper - certificate.lower <= allowed / 4 && error() <= allowed)) {
 				certificate.solveExactly();
 				++tally_.exact;
 			}
-			const Real off = error();
+			const Real off            = error();
 			tally_.worstInfeasibility = std::max(tally_.worstInfeasibility, off / (tolerance::rounding * pair.reach()));
-			if (!(off <= allowed)) report(Defect::Infeasibility, "LP", text("s* %.17g instead of %.17Lg, size %g", solved.infeasibility, certificate.upper, pair.size()));
+			if (!(off <= allowed))
+				report(Defect::Infeasibility, "LP",
+				        text("s* %.17g instead of %.17Lg, size %g", solved.infeasibility, certificate.upper, pair.size()));
 			if (failed(solved.status)) report(Defect::NotConverged, "LP", statusName(solved.status));
 			tally_.mostPivots = std::max(tally_.mostPivots, solved.simplexPivots);
 			const Real level  = -tolerance::contact * pair.size();
 			if (certificate.upper < level - allowed) ++tally_.overlaps;
-			else if (certificate.lower > level + allowed)
-				++tally_.gaps;
-			else
-				++tally_.undecided;
+			else if (certificate.lower > level + allowed) ++tally_.gaps;
+			else ++tally_.undecided;
 
 			PairMemory cold[4];
 			checkPaper(pair, certificate, query(pair, paper_, &cold[0]), "cold");
@@ -98,7 +97,8 @@ namespace {
 		void report(Defect defect, const char* way, const std::string& what)
 		{
 			++tally_.defects[std::size_t(defect)];
-			if (findings_.size() < 1000) findings_.push_back({ family_, trial_, pose_, defect, std::string(way) + ": " + what });
+			if (findings_.size() < 1000)
+				findings_.push_back({ family_, trial_, pose_, defect, std::string(way) + ": " + what });
 		}
 
 	private:
@@ -110,7 +110,10 @@ namespace {
 		ContactSettings       paper_, barrier_;
 		PairMemory            memory_[2];
 
-		static bool failed(ContactStatus status) { return status == ContactStatus::LpNotConverged || status == ContactStatus::Failed; }
+		static bool failed(ContactStatus status)
+		{
+			return status == ContactStatus::LpNotConverged || status == ContactStatus::Failed;
+		}
 
 		/// What holds for both models.
 		void checkAnswer(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
@@ -121,24 +124,30 @@ namespace {
 			if (!finite(result)) report(Defect::NotFinite, way, "a number is none");
 			if (result.hasGeometry && !(std::abs(result.normal.norm() - 1) <= 1e-14))
 				report(Defect::NotFinite, way, text("normal of length 1 + %g", result.normal.norm() - 1));
-			if (result.inContact && !(result.depth >= 0 && result.area >= 0)) report(Defect::NotFinite, way, text("depth %g, area %g", result.depth, result.area));
+			if (result.inContact && !(result.depth >= 0 && result.area >= 0))
+				report(Defect::NotFinite, way, text("depth %g, area %g", result.depth, result.area));
 			// a pair that was dismissed has a bound, no more
 			const bool bound = !result.hasGeometry;
-			if (result.infeasibility > certificate.upper + allowed || (!bound && result.infeasibility < certificate.lower - allowed))
-				report(Defect::Infeasibility, way, text("s* %.17g instead of %.17Lg, size %g", result.infeasibility, certificate.upper, pair.size()));
+			if (result.infeasibility > certificate.upper + allowed
+			        || (!bound && result.infeasibility < certificate.lower - allowed))
+				report(Defect::Infeasibility, way,
+				        text("s* %.17g instead of %.17Lg, size %g", result.infeasibility, certificate.upper, pair.size()));
 		}
 
 		void checkPaper(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
 		{
 			checkAnswer(pair, certificate, result, way);
 			++tally_.paper[std::size_t(result.status)];
-			tally_.mostPivots     = std::max(tally_.mostPivots, result.simplexPivots);
-			tally_.mostIterations = std::max(tally_.mostIterations, result.newtonIterations);
-			const Real allowed = allowedError(pair), level = -paper_.tolerance * pair.size();
-			const std::string s = text("%s, s* %.6Lg (here %.6g), size %g", statusName(result.status), certificate.upper, result.infeasibility, pair.size());
+			tally_.mostPivots         = std::max(tally_.mostPivots, result.simplexPivots);
+			tally_.mostIterations     = std::max(tally_.mostIterations, result.newtonIterations);
+			const Real        allowed = allowedError(pair), level = -paper_.tolerance * pair.size();
+			const std::string s = text("%s, s* %.6Lg (here %.6g), size %g", statusName(result.status), certificate.upper,
+			        result.infeasibility, pair.size());
 			if (!result.inContact && certificate.upper < level - allowed) report(Defect::Miss, way, s);
 			if (result.inContact && certificate.lower > level + allowed) report(Defect::FalseContact, way, s);
-			if (!result.inContact || result.status == ContactStatus::CentreNotConverged || result.status == ContactStatus::IpoptNotAvailable || failed(result.status)) return;
+			if (!result.inContact || result.status == ContactStatus::CentreNotConverged
+			        || result.status == ContactStatus::IpoptNotAvailable || failed(result.status))
+				return;
 			// the point's own rounding and the planes', over the overlap's thickness
 			const Real loose = 2e-9 + 4 * Real(allowed / -certificate.upper);
 			if (!(loose > 0 && loose < 0.1)) return;
@@ -152,20 +161,21 @@ namespace {
 			const Real          level  = memory.level;
 			checkAnswer(pair, certificate, result, way);
 			++tally_.conservative[std::size_t(result.status)];
-			tally_.mostIterations   = std::max(tally_.mostIterations, result.newtonIterations);
+			tally_.mostIterations     = std::max(tally_.mostIterations, result.newtonIterations);
 			const Real        allowed = allowedError(pair);
 			const Extended    mu      = Extended(barrier_.barrier) * pair.inscribedRadius();
-			const std::string s = text("%s, s* %.6Lg, Φ %.6g, μ %Lg, size %g", statusName(result.status), certificate.upper, result.barrierValue, mu, pair.size());
+			const std::string s = text("%s, s* %.6Lg, Φ %.6g, μ %Lg, size %g", statusName(result.status), certificate.upper,
+			        result.barrierValue, mu, pair.size());
 			if (result.inContact && certificate.lower > allowed) report(Defect::ForceAcrossGap, way, s);
 			if (result.status == ContactStatus::CentreNotConverged) report(Defect::Barrier, way, s);
 			const bool solved = result.newtonIterations > 0;
 			if (!solved) { // no contact by a bound of Φ alone: proved by our own, or refuted by a point with Φ < 0
 				if (certificate.lower >= -allowed || certificate.barrierBound(result, mu) >= -allowed) return;
 				PairMemory      own;
-				ContactSettings settings       = barrier_;
-				settings.geometryAcrossGap     = true;
-				const ContactResult all        = query(pair, settings, &own);
-				const Extended      reached    = certificate.barrier(all.point, own.level, mu);
+				ContactSettings settings    = barrier_;
+				settings.geometryAcrossGap  = true;
+				const ContactResult all     = query(pair, settings, &own);
+				const Extended      reached = certificate.barrier(all.point, own.level, mu);
 				if (!(reached >= -allowed)) report(Defect::Miss, way, s + text(", Φ %Lg", reached));
 				return;
 			}
@@ -175,9 +185,11 @@ namespace {
 			const Real far = pair.reach() / Real(mu), loose = 1e-8 + tolerance::rounding * far * (32 + std::sqrt(far));
 			if (!(loose < 0.1)) return;
 			const Extended value = certificate.barrier(result.point, level, mu);
-			if (!(std::abs(value - result.barrierValue) <= 1e-9L * mu + 4 * allowed)) report(Defect::Barrier, way, s + text(", at its point %.9Lg", value));
+			if (!(std::abs(value - result.barrierValue) <= 1e-9L * mu + 4 * allowed))
+				report(Defect::Barrier, way, s + text(", at its point %.9Lg", value));
 			const Extended decrement = certificate.barrierDecrement(result.point, level, mu);
-			if (!(decrement <= loose)) report(Defect::Barrier, way, s + text(", decrement %Lg instead of %g", decrement, loose));
+			if (!(decrement <= loose))
+				report(Defect::Barrier, way, s + text(", decrement %Lg instead of %g", decrement, loose));
 		}
 	};
 
@@ -193,7 +205,8 @@ namespace {
 		if (random() % 2) return;
 		const ContactResult result = linearProgramme(pair);
 		const Real          length = result.dualDirection.norm();
-		if (length > 0.05) pair.centre2 += (someInfeasibility(pair, random) - result.infeasibility) / (length * length) * result.dualDirection;
+		if (length > 0.05)
+			pair.centre2 += (someInfeasibility(pair, random) - result.infeasibility) / (length * length) * result.dualDirection;
 	}
 
 } // namespace

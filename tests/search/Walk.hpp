@@ -37,11 +37,11 @@ struct Finding {
 
 /// Sums of any number of trials; the order does not matter.
 struct Tally {
-	long                              pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
+	long                                 pairs = 0, overlaps = 0, gaps = 0, queries = 0, exact = 0, undecided = 0;
 	std::array<long, contactStatusCount> paper {}, conservative {};
-	std::array<long, defectCount>     defects {};
-	Real                              worstInfeasibility = 0; ///< largest error of s* over rounding × reach
-	int                               mostPivots = 0, mostIterations = 0;
+	std::array<long, defectCount>        defects {};
+	Real                                 worstInfeasibility = 0; ///< largest error of s* over rounding × reach
+	int                                  mostPivots = 0, mostIterations = 0;
 
 	void add(const Tally& other);
 };
