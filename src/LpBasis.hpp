@@ -250,6 +250,19 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>
 	return solveBasis<R, D>([&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA { planes.plane(basis.plane[k], a, d); }, basis);
 }
 
+/// refineBasis() for a basis of little noise, which solveBasis() leaves as it is. Also s. Out of line, for it is rare.
+template <class R, int D> __attribute__((noinline)) bool refineBasis(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
+{
+	R a[D + 1][D], d[D + 1];
+	for (int k = 0; k <= D; ++k)
+		planes.plane(basis.plane[k], a[k], d[k]);
+	if (!refineBasis<R, D>(a, d, basis)) return false;
+	basis.infeasibility = 0;
+	for (int k = 0; k <= D; ++k)
+		basis.infeasibility -= basis.weight[k] * d[k];
+	return true;
+}
+
 /// The solved basis in the planes' frame, of which it knows the frame it was solved in: `turn` and `origin` lead from there.
 /// Turned with it while its s is below `thin`; solved afresh where the overlap is so thin that rounding in the first frame
 /// would show.

@@ -92,6 +92,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 {
 	int            stalled = 0;
 	bool           bland   = false;
+	bool           refined = false; // this basis
 	LpBasis<R, D>  spare;
 	LpBasis<R, D>* now  = &basis;
 	LpBasis<R, D>* next = &spare;
@@ -105,13 +106,20 @@ POLYTOPE_INLINE LpStatus solveLp(
 		R   smallest;
 		int q = mostViolated<R, D, W>(planes, now->point, smallest);
 		// by how much the basis' own planes miss s is what rounding makes of the others
-		R rounding = R(tolerance::violation) * size;
-		for (int k = 0; k <= D; ++k)
-			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
+		R rounding = R(tolerance::violation) * size, mean = 0;
+		for (int k = 0; k <= D; ++k) {
+			const R slack = planes.slack[now->plane[k]];
+			rounding      = maxOf<R>(rounding, 2 * abs(slack + now->infeasibility));
+			mean -= now->weight[k] * slack;
+		}
 		const R bound = -now->infeasibility - rounding;
 		if (!(smallest < bound)) {
-			const bool certain = -smallest - below <= R(tolerance::certain) * (size + reach / 2);
-			return end(certain ? LpStatus::Optimal : LpStatus::Undecided);
+			// −Σ λ d is off by the weights' residual times a point of the overlap; taken at this point it is not
+			now->infeasibility = mean;
+			if (-smallest - lowerBound<R, D>(*now, reach) <= R(tolerance::certain) * (size + reach / 2)) return end(LpStatus::Optimal);
+			if (refined || !refineBasis<R, D>(planes, *now)) return end(LpStatus::Undecided);
+			refined = true;
+			continue;
 		}
 		if (bland) q = firstViolated<R, D>(planes, bound);
 		if (pivots >= pivotLimit || q < 0) return end(LpStatus::Undecided);
@@ -128,6 +136,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 			next->plane[k] = now->plane[k];
 		next->plane[leaving] = q;
 		++pivots;
+		refined = false;
 		if (!solveBasis<R, D>(planes, *next)) {
 			next->plane[leaving]                     = now->plane[leaving];
 			next->plane[steadiestRow<R, D>(*now, w)] = q;
