@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -262,6 +263,56 @@ TEST(SimplexLp, WithTwiceTheDigits)
 			EXPECT_GE(basis.weight[k], -tolerance::rounding * tolerance::rounding); // zero with twice the digits
 		}
 	}
+}
+
+/// D + 1 planes that touch a ball of radius 1e-3 about y, |y| = 1, their normals in a plane (on a line) but for some 0.03: the
+/// longest rows of the inverse are 30 to 64, too short to be refined beforehand. s* against twice the digits.
+template <int D> void valueWhereWeightsAreNoisy(unsigned seed)
+{
+	std::mt19937_64 random(seed);
+	int             noisy = 0, solved = 0;
+	Real            worst = 0;
+	for (int trial = 0; trial < 4000; ++trial) {
+		const Vector3 y = randomDirection(random, D), axis = randomDirection(random, D);
+		Vector3       normals[D + 1], sum = Vector3::Zero();
+		for (int k = 0; k < D; ++k) {
+			normals[k] = randomDirection(random, D);
+			normals[k] -= (normals[k].dot(axis) - Real(0.03) * uniform(random, -1, 1)) * axis;
+			normals[k].normalize();
+			sum += uniform(random, Real(0.2), 1) * normals[k];
+		}
+		normals[D] = -sum.normalized();
+		HalfSpaces one, other;
+		one.dimension = other.dimension = D;
+		for (int k = 0; k <= D; ++k) {
+			HalfSpaces& set = k < 2 ? one : other;
+			set.normals.push_back(normals[(k + trial) % (D + 1)]);
+			set.offsets.push_back(set.normals.back().dot(y) + Real(1e-3));
+		}
+		PlaneRows<Real, D> rows(one, other);
+		LpBasis<Real, D>   basis, precise;
+		for (int k = 0; k <= D; ++k)
+			basis.plane[k] = rows.row(k / 2, k % 2);
+		if (!solveBasis<Real, D>(rows.planes, basis)) continue;
+		const Real noise = *std::max_element(basis.noise, basis.noise + D + 1);
+		if (!(noise > 30 * tolerance::rounding && noise < tolerance::refinedBasis)) continue;
+		++noisy;
+		int pivots = 0;
+		if (solveLp<Real, D, 2>(rows.planes, basis, 1, padOffset, 2, 100, pivots) != LpStatus::Optimal) continue;
+		++solved;
+		ASSERT_TRUE((solveWide<Real, D>(rows.planes, precise, 1, 100, pivots)));
+		worst = std::max(worst, std::abs(basis.infeasibility - precise.infeasibility) / (2 * tolerance::rounding));
+	}
+	EXPECT_LE(worst, tolerance::certain / tolerance::rounding);
+	EXPECT_GT(noisy, 100);
+	EXPECT_GT(solved, noisy * 9 / 10); // without the wider arithmetic
+	std::cout << D << "-D: " << noisy << " noisy bases, " << solved << " solved, s* to " << worst << " roundings\n";
+}
+
+TEST(SimplexLp, ValueIsRightWhereWeightsAreNoisy)
+{
+	valueWhereWeightsAreNoisy<3>(307);
+	valueWhereWeightsAreNoisy<2>(308);
 }
 
 } // namespace
