@@ -330,8 +330,12 @@ POLYTOPE_INLINE void contactKernel(
 		        ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)
 		        : CentreStatus::NotConverged;
 		if (centre == CentreStatus::NotConverged || centre == CentreStatus::Skewed) {
-			const ContactStatus byIpopt = ipoptCentre<R, D>(planes, x, out);
-			if (byIpopt != ContactStatus::CentreByIpopt || settings.solver == CentreSolver::Newton) outcome = byIpopt;
+			// planes are rounded by the larger body's size: an overlap may be thinner, with no inside in this frame
+			R room;
+			mostViolated<R, D, W>(planes, x, room);
+			const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(planes, x, out) : ContactStatus::RoundingLimited;
+			if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching)
+				outcome = byIpopt;
 		} else {
 			if (centre == CentreStatus::RoundingLimited && touching) outcome = ContactStatus::RoundingLimited;
 			for (int k = 0; k < D; ++k)
@@ -347,7 +351,8 @@ POLYTOPE_INLINE void contactKernel(
 	R                   n[D];
 	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
-	if (touching) out.depth = exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1);
+	// (an overlap thinner than the planes' rounding may have its point outside)
+	if (touching) out.depth = maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
 	else {
 		// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
 		const R apart = maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));

@@ -58,6 +58,50 @@ TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgrammeSeesBoth)
 	}
 }
 
+// A small body that just touches a large one: by default −s* is 45 roundings of the small one's size at the least, but the planes
+// are rounded by the large one's; with no tolerance any pair may. In the frame of the centre there may be no inside left, and neither Newton
+// nor Ipopt has anything to look for: depths of −3e-16 were said, and that the centre was not reached.
+TEST(NewtonGivesUp, NotWhereRoundingLeavesNoInside)
+{
+	std::mt19937_64 random(905);
+	int             contacts = 0, limited = 0, flat = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		const int  D    = 2 + trial % 2;
+		const Real size = decades(random, -4, 0);
+		Pair       pair;
+		pair.shape[0] = ConvexShape::shared(D == 2 ? rectangle(1, Real(0.5)) : cuboid(1, Real(0.5), Real(0.1)), Real(0.05));
+		pair.shape[1] = ConvexShape::shared(D == 2 ? rectangle(size, size) : regularSolid(20, size), Real(0.1) * size);
+		for (Matrix3& rotation : pair.rotation)
+			rotation = randomRotation(random, D);
+		const bool usual = trial % 8 > 3;
+		moveTo(pair, randomDirection(random, D), -uniform(random, 0, usual ? 60 : 2) * tolerance::rounding * pair.size());
+		if (trial % 4 > 1) pair = swapped(pair);
+		const PrecisePair exact(pair);
+		const Real        rounding = tolerance::rounding * pair.reach();
+		for (ContactPoint point : { ContactPoint::AnalyticCentre, ContactPoint::ChebyshevCentre, ContactPoint::Centroid })
+			for (CentreSolver solver : { CentreSolver::Newton, CentreSolver::Ipopt }) {
+				ContactSettings settings;
+				settings.tolerance    = usual ? tolerance::contact : Real(0);
+				settings.contactPoint = point;
+				settings.solver       = solver;
+				const ContactResult result = query(pair, settings);
+				if (!result.inContact) continue;
+				++contacts;
+				EXPECT_GE(result.depth, 0) << trial;
+				EXPECT_LT(result.depth, 300 * rounding) << trial;
+				EXPECT_NEAR(result.normal.norm(), 1, 1e-14) << trial;
+				EXPECT_LT(exact.violation(precise(result.point)), 16 * rounding) << trial;
+				EXPECT_NE(result.status, ContactStatus::CentreNotConverged) << trial;
+				limited += result.status == ContactStatus::RoundingLimited;
+				flat += result.depth == 0;
+				if (point != ContactPoint::AnalyticCentre) break;
+			}
+	}
+	EXPECT_GT(limited, 20);
+	EXPECT_GT(flat, 5);
+	std::cout << contacts << " contacts about as thin as rounding: " << limited << " roundingLimited, " << flat << " of depth 0\n";
+}
+
 // POLYTOPE_SEARCH=n in the environment: n pairs, forty queries each while they move by parts of their overlap.
 TEST(NewtonGivesUp, Search)
 {
