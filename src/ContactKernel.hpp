@@ -288,8 +288,8 @@ POLYTOPE_INLINE void contactKernel(
 	R x[D];
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
-	// (where the overlap is thick, the frame of the first basis does: its digits are enough)
-	if (out.simplexPivots > 0 && !(basis.infeasibility < -R(tolerance::thin) * f.size)) {
+	// (where the overlap is thick, the frame of the first basis does: its digits are enough; a far point was not its origin)
+	if ((out.simplexPivots > 0 || away > 1) && !(basis.infeasibility < -R(tolerance::thin) * f.size)) {
 		const Rotation<R, D> turn = aim<R, D>(f, dual, x);
 		placePair<R, D, W>(in, f, planes);
 		R turned[D];
