@@ -630,4 +630,35 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 	}
 }
 
+// Across a gap the linear programme's point lies where both bodies, grown, meet: a sliver's sharp tip, grown by a tenth of its length, may
+// reach a million times that far. Warm, with no pivot, the frame stayed at the body: coordinates were rounded by more than μ.
+TEST(ConservativeContactOf, SharpSliversAcrossAGapAreReachedWarmAsCold)
+{
+	std::mt19937_64 random(610);
+	int             far = 0, queries = 0;
+	for (int trial = 0; trial < 500; ++trial) {
+		Pair pair;
+		for (int body = 0; body < 2; ++body) {
+			HalfSpaces set  = randomPlanes(6 + int(random() % 10), random, 2);
+			const Real size = body == 0 ? Real(1) : decades(random, -6, -3);
+			set             = stretched(set, Vector3(1, decades(random, -8, body == 0 ? 0 : -6), 1));
+			for (Real& offset : set.offsets)
+				offset *= size;
+			pair.shape[body]    = ConvexShape::shared(set, 0);
+			pair.rotation[body] = randomRotation(random, 2);
+		}
+		moveTo(pair, randomDirection(random, 2), uniform(random, Real(0.05), Real(0.5)) * pair.size());
+		if (trial % 2) pair = swapped(pair);
+		PairMemory memory;
+		for (int step = 0; step < 4; ++step) {
+			const ContactResult result = query(pair, acrossGap(), &memory);
+			++queries;
+			EXPECT_NE(result.status, ContactStatus::CentreNotConverged) << trial << ", step " << step;
+			far += step > 0 && result.simplexPivots == 0 && (result.point - (trial % 2 ? Vector3(Vector3::Zero()) : pair.centre2)).norm() > 10 * pair.size();
+			pair.centre2 += decades(random, -12, -9) * pair.size() * randomDirection(random, 2);
+		}
+	}
+	EXPECT_GT(far, queries / 10);
+}
+
 } // namespace
