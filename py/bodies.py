@@ -44,7 +44,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	:param normals: (n, 3) outward normals of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]
 	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
-	    section 2.2). Planes that repeat another one are dropped in any case.
+	    section 2.2) and pull at normals, see :yref:`Polytope`. Planes that repeat another one are dropped in any case.
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""

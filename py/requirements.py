@@ -71,9 +71,10 @@ class Requirements:
 def requirements(O, measure=True):
 	"""Looks at the present scene and says what it needs, and what it pays for without using it.
 
-	Looked at: contact area, third dimension, damping and energy, cohesion, corner radius against the overlaps there are, Newton tolerance
-	against the rounding of positions, time step against stiffness and mass, the collider's verletDist, warm start, solver, contact
-	point, clocks and energy tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen.
+	Looked at: contact area, third dimension, damping and energy (and whether stiffnesses let the conservative contact be that), cohesion,
+	corner radius against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
+	positions, time step against stiffness and mass, the collider's verletDist, warm start, solver, contact point, clocks and energy
+	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen.
 
 	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, steps as it is and with one
 	thing changed at a time (engines that run periodically, as recorders and PyRunner, are left out there). The scene itself is not

@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 import yade.config
-from yade import GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys
+from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
 
 from .requirementsWorker import colliders, laws, prismOutline
 from .timeStep import stableTimeStep
-from .tradeoffWorker import geometryFunctors
+from .tradeoffWorker import geometryFunctors, interactionLoops
 
 __all__ = ['looks']
 
@@ -29,6 +29,10 @@ reach = 0.05
 """verletDist over the smallest body's size that is advised where there is none."""
 muchFiner = 10
 """Times by which the Newton tolerance is finer than rounding, from which on that is worth a word."""
+mostTwins = 50
+"""Contacts that are looked at once more without the planes that own no face."""
+turned, changed = 1.0, 0.05
+"""Angle of a normal [°] and part of a force that such planes may make without a word."""
 epsilon = 2.0 ** (1 - {64: 53, 80: 64, 128: 113}.get(yade.config.highPrecisionBits, yade.config.highPrecisionBits))
 """Rounding of a coordinate of 1 in this YADE's arithmetic."""
 mostPairs = 8
@@ -62,7 +66,7 @@ class Scene:
 
 def looks(O):
 	scene = Scene(O)
-	each = (area, dimension, energy, cohesion, cornerRadius, newtonTolerance, timeStep, verletDist)
+	each = (area, dimension, energy, cohesion, cornerRadius, planes, newtonTolerance, timeStep, verletDist)
 	each += (warmStart, solver, contactPoint, clocks, energyTracking)
 	return [(one.__doc__.strip().rstrip('.'), *(list(found) + ['', None, None][len(found) - 1 :])) for one in each for found in [one(scene)] if found]
 
@@ -96,7 +100,13 @@ def dimension(scene):
 
 def energy(scene):
 	"""damping and energy"""
-	if 'paper' not in scene.values('contactModel'):
+	models = scene.values('contactModel')
+	if 'conservative' in models and _stiffnessPerArea(scene):
+		return (
+			'the conservative contact with stiffnesses per area',
+			'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
+		)
+	if 'paper' not in models:
 		return 'the conservative contact: energy is kept to what the time step allows', ''
 	local = scene.newton.damping if scene.newton else 0
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
@@ -108,6 +118,15 @@ def energy(scene):
 			('contactModel', 'conservative'),
 		)
 	return f'NewtonIntegrator.damping {local:g}, normalDamping {viscous:g} of critical', ''
+
+
+def _stiffnessPerArea(scene):
+	"""Of the joints there are; before the first, of those to come."""
+	joints = [contact.phys for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)]
+	if joints:
+		return any(joint.normalStiffness > 0 for joint in joints)
+	makers = (functor for loop in interactionLoops() for functor in loop.physDispatcher.functors)
+	return any(getattr(functor, 'stiffnessPerArea', False) for functor in makers)
 
 
 def cohesion(scene):
@@ -143,6 +162,46 @@ def _pairs(scene):
 	"""Ids of the contacts' bodies that are both polytopes."""
 	pairs = [(contact.id1, contact.id2) for contact in scene.contacts]
 	return [pair for pair in pairs if all(isinstance(scene.O.bodies[k].shape, Polytope) for k in pair)]
+
+
+def planes(scene):
+	"""planes without a face"""
+	spare = {body.id: len(body.shape.normals) - len(body.shape.faces) + 2 * (body.shape.dimension == 2) for body in scene.bodies}
+	spare = {key: number for key, number in spare.items() if number}
+	if not spare:
+		return 'every plane owns a face', ''
+	seen = f'{sum(spare.values())} planes of {len(spare)} bodies own none'
+	functor = scene.functors[0]
+	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
+	angle = force = 0
+	for pair in [pair for pair in _pairs(scene) if spare.keys() & set(pair)][:mostTwins]:
+		bodies = [scene.O.bodies[key] for key in pair]
+		here, there = (_polytope.contact(*both, **how) for both in (bodies, [_twin(body) for body in bodies]))
+		if here.inContact and there.inContact:
+			one, other = (np.array(found.normal, float) * float(found.depth) for found in (here, there))
+			angle = max(angle, math.degrees(math.acos(min(1, float(here.normal.dot(there.normal))))))
+			force = max(force, np.linalg.norm(one - other) / np.linalg.norm(other))
+	seen += f'; without them normals turn by up to {angle:.2g}° and forces change by up to {100 * force:.2g} %'
+	if angle > turned or force > changed:
+		return seen, 'fromHalfSpaces(…, keepRedundant=False), unless they are wanted: each one pulls at contact point and normal'
+	return seen, ''
+
+
+def _twin(body):
+	"""The body without planes that own no face, where it is."""
+	shape = body.shape
+	central = _polytope.centred(shape.normals, shape.offsets, shape.dimension, shape.thickness, False)
+	twin = Body()
+	twin.shape = Polytope(
+		normals=central['normals'],
+		offsets=central['offsets'],
+		cornerRadius=shape.cornerRadius,
+		dimension=shape.dimension,
+		thickness=shape.thickness,
+	)
+	twin.state.pos = body.state.pos + body.state.ori * central['position']
+	twin.state.ori = body.state.ori * central['orientation']
+	return twin
 
 
 def newtonTolerance(scene):

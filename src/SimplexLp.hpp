@@ -116,7 +116,8 @@ POLYTOPE_INLINE LpStatus solveLp(
 		if (!(smallest < bound)) {
 			// −Σ λ d is off by the weights' residual times a point of the overlap; taken at this point it is not
 			now->infeasibility = mean;
-			if (-smallest - lowerBound<R, D>(*now, reach) <= R(tolerance::certain) * (size + reach / 2)) return end(LpStatus::Optimal);
+			if (-smallest - lowerBound<R, D>(*now, reach) <= R(tolerance::certain) * (size + reach / 2))
+				return end(LpStatus::Optimal);
 			if (refined || !refineBasis<R, D>(planes, *now)) return end(LpStatus::Undecided);
 			refined = true;
 			continue;

@@ -49,6 +49,8 @@ void Polytope::postLoad(Polytope&)
 	planes.offsets   = offsets;
 	planes.dimension = dimension;
 	try {
+		// a plane written twice would pull the contact point as two; once built there are none
+		if (!convex_) planes = polytope::withoutDuplicates(polytope::normalised(planes));
 		auto built = polytope::ConvexShape::shared(planes, cornerRadius, thickness);
 		requireCentralFrame(*built);
 		requireInnerParticle(*built);

@@ -31,6 +31,8 @@ variants = {
 
 planeSets = ('plain', 'touching', 'repeated')
 """Six planes a cube; with planes through all edges and vertices that cut nothing; with the planes that face each other four times."""
+again = 1e-12
+"""Relative distance between these four: nearer ones are one plane to Polytope, which drops the others."""
 
 
 def _turn(axis, angle):
@@ -90,7 +92,7 @@ def _cube(half, planes, facing, cornerRadius):
 				normals.append(tuple(c / length for c in corner))
 				offsets.append(half * length)
 	if planes == 'repeated':
-		normals, offsets = normals + 3 * [facing], offsets + 3 * [half]
+		normals, offsets = normals + 3 * [facing], offsets + [half * (1 + k * again) for k in (1, 2, 3)]
 	body.shape = Polytope(
 		normals=[Vector3(*n) for n in normals], offsets=offsets, cornerRadius=0.05 if cornerRadius is None else cornerRadius
 	)

@@ -166,7 +166,7 @@ class Study:
 		self.findings.table(
 			'redundant_planes',
 			'Planes that cut nothing (touching: through all edges and vertices of both cubes; repeated: the planes that face each other '
-			'four times): largest difference '
+			'four times, 1e-12 apart): largest difference '
 			'of the answer to that of six planes a cube, and largest jump, over all paths less deep than the corner radius.',
 			['planes', 'contact'] + [f'{what} of the {q} [{u}]' for what in ('difference', 'jump') for q, u in units.items()],
 			rows,

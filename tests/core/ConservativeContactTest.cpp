@@ -654,7 +654,8 @@ TEST(ConservativeContactOf, SharpSliversAcrossAGapAreReachedWarmAsCold)
 			const ContactResult result = query(pair, acrossGap(), &memory);
 			++queries;
 			EXPECT_NE(result.status, ContactStatus::CentreNotConverged) << trial << ", step " << step;
-			far += step > 0 && result.simplexPivots == 0 && (result.point - (trial % 2 ? Vector3(Vector3::Zero()) : pair.centre2)).norm() > 10 * pair.size();
+			far += step > 0 && result.simplexPivots == 0
+			        && (result.point - (trial % 2 ? Vector3(Vector3::Zero()) : pair.centre2)).norm() > 10 * pair.size();
 			pair.centre2 += decades(random, -12, -9) * pair.size() * randomDirection(random, 2);
 		}
 	}

@@ -81,9 +81,9 @@ TEST(NewtonGivesUp, NotWhereRoundingLeavesNoInside)
 		for (ContactPoint point : { ContactPoint::AnalyticCentre, ContactPoint::ChebyshevCentre, ContactPoint::Centroid })
 			for (CentreSolver solver : { CentreSolver::Newton, CentreSolver::Ipopt }) {
 				ContactSettings settings;
-				settings.tolerance    = usual ? tolerance::contact : Real(0);
-				settings.contactPoint = point;
-				settings.solver       = solver;
+				settings.tolerance         = usual ? tolerance::contact : Real(0);
+				settings.contactPoint      = point;
+				settings.solver            = solver;
 				const ContactResult result = query(pair, settings);
 				if (!result.inContact) continue;
 				++contacts;

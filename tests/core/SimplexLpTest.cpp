@@ -274,7 +274,7 @@ template <int D> void valueWhereWeightsAreNoisy(unsigned seed)
 	Real            worst = 0;
 	for (int trial = 0; trial < 4000; ++trial) {
 		const Vector3 y = randomDirection(random, D), axis = randomDirection(random, D);
-		Vector3       normals[D + 1], sum = Vector3::Zero();
+		Vector3       normals[D + 1], sum                  = Vector3::Zero();
 		for (int k = 0; k < D; ++k) {
 			normals[k] = randomDirection(random, D);
 			normals[k] -= (normals[k].dot(axis) - Real(0.03) * uniform(random, -1, 1)) * axis;

@@ -76,6 +76,15 @@ def testRedundantPlanesAreKeptOrDroppedAsAsked():
 	assert len(polytope.fromHalfSpaces(normals, offsets, keepRedundant=False).shape.normals) == 6
 
 
+def testShapeDropsPlanesThatRepeatAnother():
+	cube = polytope.cuboid((0, 0, 0), (1, 1, 1)).shape
+	shape = Polytope(normals=list(cube.normals) + [Vector3(2, 0, 0)] * 3 + [Vector3(1, 1, 0)], offsets=list(cube.offsets) + [2] * 3 + [5])
+	assert len(shape.normals) == len(shape.offsets) == 7  # the far plane is redundant and stays
+	assert shape.normals[:6] == cube.normals and shape.offsets[:6] == cube.offsets
+	shape.cornerRadius = 0.1
+	assert len(shape.normals) == 7
+
+
 def testVerticesGiveTheirHull():
 	points = [(i, j, k) for i in (0, 2) for j in (0, 1) for k in (0, 1)] + [(1, .5, .5), (1, .5, 1)]
 	b = polytope.fromVertices(points)

@@ -12,8 +12,10 @@ from yade import (
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	NewtonIntegrator,
 	O,
+	Polytope,
 	PyRunner,
 	RockJointMat,
+	Vector3,
 	polytope,
 )
 from yade.polytope.report import stateHash
@@ -96,6 +98,40 @@ def testEnergyOfTheUndampedPaperModel():
 	assert 'damping and energy' in advised()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
 	assert 'damping and energy' not in advised()
+
+
+@pytest.mark.parametrize('contacts', [True, False])
+def testStiffnessPerAreaIsNotConservative(contacts):
+	row(contactModel='conservative')
+	assert 'damping and energy' not in advised()
+	O.engines[2].physDispatcher.functors[0].stiffnessPerArea = True
+	O.interactions.clear()
+	if contacts:
+		assert 'damping and energy' in advised()
+		O.step()
+		O.step()
+		assert any(contact.isReal and contact.phys.normalStiffness > 0 for contact in O.interactions)
+	found = polytope.requirements(O, measure=False)['damping and energy']
+	assert 'per area' in found.seen and 'stiffnessPerArea = False' in found.advice
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'paper'
+	assert 'damping and energy' not in advised()
+
+
+def testPlanesWithoutAFace():
+	row()
+	assert not polytope.requirements(O, measure=False)['planes without a face'].advice
+	block = O.bodies[1]
+	for extra, offset, word in ((Vector3(0, 0, -1), block.shape.offsets[0] * 100, ''), (Vector3(0.1, 0, -1), None, 'keepRedundant')):
+		row()
+		block = O.bodies[1]
+		touched = max(extra.dot(corner) for corner in block.shape.vertices)
+		block.shape = Polytope(
+			normals=list(block.shape.normals) + [extra],
+			offsets=list(block.shape.offsets) + [offset or touched],
+			cornerRadius=block.shape.cornerRadius,
+		)
+		found = polytope.requirements(O, measure=False)['planes without a face']
+		assert found.seen.startswith('1 planes of 1 bodies') and word in found.advice and bool(word) == bool(found.advice), found
 
 
 def testNewtonToleranceFarFromTheOrigin():
