@@ -84,7 +84,7 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 
 /// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove. At the optimum the
 /// basis is its own certificate: the largest violation at its point bounds s* from above, lowerBound() from below. Undecided
-/// where rounding leaves these two apart, a basis has no digits or pivots run out.
+/// where rounding leaves these two apart once the basis is refined, a basis has no digits or pivots run out.
 /// `size`: what the tolerances of lengths are relative to. `reach`: as lowerBound().
 template <class R, int D, int W>
 POLYTOPE_INLINE LpStatus solveLp(
@@ -106,16 +106,15 @@ POLYTOPE_INLINE LpStatus solveLp(
 		R   smallest;
 		int q = mostViolated<R, D, W>(planes, now->point, smallest);
 		// by how much the basis' own planes miss s is what rounding makes of the others
-		R rounding = R(tolerance::violation) * size, mean = 0;
-		for (int k = 0; k <= D; ++k) {
-			const R slack = planes.slack[now->plane[k]];
-			rounding      = maxOf<R>(rounding, 2 * abs(slack + now->infeasibility));
-			mean -= now->weight[k] * slack;
-		}
+		R rounding = R(tolerance::violation) * size;
+		for (int k = 0; k <= D; ++k)
+			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
 		const R bound = -now->infeasibility - rounding;
 		if (!(smallest < bound)) {
 			// −Σ λ d is off by the weights' residual times a point of the overlap; taken at this point it is not
-			now->infeasibility = mean;
+			now->infeasibility = 0;
+			for (int k = 0; k <= D; ++k)
+				now->infeasibility -= now->weight[k] * planes.slack[now->plane[k]];
 			if (-smallest - lowerBound<R, D>(*now, reach) <= R(tolerance::certain) * (size + reach / 2))
 				return end(LpStatus::Optimal);
 			if (refined || !refineBasis<R, D>(planes, *now)) return end(LpStatus::Undecided);
