@@ -173,15 +173,17 @@ def planes(scene):
 	seen = f'{sum(spare.values())} planes of {len(spare)} bodies own none'
 	functor = scene.functors[0]
 	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
-	angle = force = 0
+	angle = force = compared = 0
 	for pair in [pair for pair in _pairs(scene) if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]
 		here, there = (_polytope.contact(*both, **how) for both in (bodies, [_twin(body) for body in bodies]))
 		if here.inContact and there.inContact:
+			compared += 1
 			one, other = (np.array(found.normal, float) * float(found.depth) for found in (here, there))
 			angle = max(angle, math.degrees(math.acos(min(1, float(here.normal.dot(there.normal))))))
 			force = max(force, np.linalg.norm(one - other) / np.linalg.norm(other))
-	seen += f'; without them normals turn by up to {angle:.2g}° and forces change by up to {100 * force:.2g} %'
+	if compared:
+		seen += f'; without them normals of {compared} contacts turn by up to {angle:.2g}° and forces change by up to {100 * force:.2g} %'
 	if angle > turned or force > changed:
 		return seen, 'fromHalfSpaces(…, keepRedundant=False), unless they are wanted: each one pulls at contact point and normal'
 	return seen, ''

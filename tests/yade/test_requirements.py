@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """polytope.requirements: finds what was put into a scene on purpose, is silent without it, and leaves the scene as it was."""
 
+import math
+
 import pytest
 from yade import (
 	Bo1_Polytope_Aabb,
@@ -14,6 +16,7 @@ from yade import (
 	O,
 	Polytope,
 	PyRunner,
+	Quaternion,
 	RockJointMat,
 	Vector3,
 	polytope,
@@ -118,16 +121,20 @@ def testStiffnessPerAreaIsNotConservative(contacts):
 
 
 def testPlanesWithoutAFace():
-	row()
-	assert not polytope.requirements(O, measure=False)['planes without a face'].advice
-	block = O.bodies[1]
-	for extra, offset, word in ((Vector3(0, 0, -1), block.shape.offsets[0] * 100, ''), (Vector3(0.1, 0, -1), None, 'keepRedundant')):
-		row()
+	"""A block on its edge, with one more plane: far away, or through that edge and to one side."""
+	for direction, beyond, word in (((0, 0, -1), 1, ''), ((0.3, 0, -1), 0, 'keepRedundant')):
+		row(number=1, steps=0)
 		block = O.bodies[1]
-		touched = max(extra.dot(corner) for corner in block.shape.vertices)
+		block.state.ori = Quaternion((0, 1, 0), math.pi / 4) * block.state.ori
+		block.state.pos = (0, 0, 0.5 * math.sqrt(2) - 1e-3)
+		O.step()
+		O.step()
+		found = polytope.requirements(O, measure=False)['planes without a face']
+		assert found.seen == 'every plane owns a face' and not found.advice
+		extra = block.state.ori.conjugate() * Vector3(*direction)
 		block.shape = Polytope(
 			normals=list(block.shape.normals) + [extra],
-			offsets=list(block.shape.offsets) + [offset or touched],
+			offsets=list(block.shape.offsets) + [max(extra.dot(corner) for corner in block.shape.vertices) + beyond],
 			cornerRadius=block.shape.cornerRadius,
 		)
 		found = polytope.requirements(O, measure=False)['planes without a face']
