@@ -42,7 +42,8 @@ void RockJointMat::postLoad(RockJointMat&)
 	const char* const angleRule = "an angle in radians, at least 0 and below pi/2 (use radians(degrees))";
 	const auto        positive  = [](Real v) { return v > 0 && math::isfinite(v); };
 	const auto        strength  = [](Real v) { return v >= 0 && math::isfinite(v); };
-	const auto        angle     = [](Real v) { return v >= 0 && v < Mathr::HALF_PI; };
+	// in wider precisions, too, Python's pi/2 is a double, and below the true one
+	const auto angle = [](Real v) { return v >= 0 && v < double(Mathr::HALF_PI); };
 	require(positive(normalStiffness), "normalStiffness", normalStiffness, "positive and finite [Pa/m, or N/m for each contact]");
 	require(positive(shearStiffness), "shearStiffness", shearStiffness, "positive and finite [Pa/m, or N/m for each contact]");
 	require(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);

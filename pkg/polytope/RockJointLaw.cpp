@@ -113,8 +113,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	auto&      phys = static_cast<RockJointPhys&>(*iphys);
 	const Pair pair(*contact, geom, scene);
 
-	// an open joint keeps the area it had; one made across a gap starts with what the geometry gives
-	if (geom.contactArea > 0 && (geom.penetrationDepth >= 0 || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
+	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
+	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
+	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
 	if (phys.normalStiffness > 0) phys.kn = phys.normalStiffness * phys.contactArea;
 	if (phys.shearStiffness > 0) phys.ks = phys.shearStiffness * phys.contactArea;
 

@@ -11,11 +11,10 @@ import yade
 from yade import polytope
 
 # In wider precisions than double, the tests of what depends on the numbers' kind: construction, contacts, laws, files,
-# drawing. The others (the paper's simulations, studies, theory) repeat double's and take hours; test_rock_joint is written for
-# double: it compares digit by digit with Python's tangents.
+# drawing. The others (the paper's simulations, studies, theory) repeat double's and take hours.
 widePrecision = (
         'test_precision test_plugin test_bodies test_bounds test_conservative test_contact_physics test_contact_types test_energy test_mixed_pairs '
-        'test_save_load test_threads test_vtk test_ipopt'
+        'test_rock_joint test_save_load test_threads test_vtk test_ipopt'
 ).split()
 if polytope.buildInfo()['precision'] != 'double':
 	# what pytest.approx asks of a number, and the messages of failures
