@@ -16,6 +16,7 @@ import dataclasses
 import math
 
 from yade import InteractionLoop, O, RockJointMat, RockJointPhys
+from yade.math import tan  # of YADE's numbers, in any precision
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
 
@@ -35,7 +36,7 @@ def setFrictionAngle(angle):
 			material.frictionAngle = angle
 	for contact in O.interactions:
 		if contact.isReal and isinstance(contact.phys, RockJointPhys):
-			contact.phys.tangensOfFrictionAngle = math.tan(angle)
+			contact.phys.tangensOfFrictionAngle = tan(angle)
 
 
 @dataclasses.dataclass

@@ -9,6 +9,9 @@ set -euo pipefail
 . "$project/tools/messages.sh"
 
 build=$project/build # of double; those of the other precisions are in it
+ipopt=AUTO
+if [ "${YADE_POLYTOPE_IPOPT:-}" = OFF ]; then build=$project/build-without-ipopt && ipopt=OFF; fi
+widePrecisions="longdouble float128 mpfr150"
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
 # a second clone of the project finds what the first one compiled
 export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
@@ -31,15 +34,17 @@ usePrecision() { # PRECISION
 
 # The build folder belongs to one YADE and one place: with another one it is made anew.
 configure() { # FOLDER PRECISION
-	local options=()
+	local entry options=()
 	[ -e "$1/build.ninja" ] && [ "$(cat "$1/key" 2>/dev/null)" = "$buildKey" ] && return
 	# the core's own tests are about double
 	[ "$2" = double ] || options=(-DPOLYTOPE_TESTS=OFF)
-	rm -rf "$1"
 	mkdir -p "$1"
+	for entry in "$1"/* "$1"/.[!.]*; do
+		case " $widePrecisions overlay " in *" ${entry##*/} "*) ;; *) rm -rf "$entry" ;; esac # double's folder holds the others'
+	done
 	step "configuring" "tools/packages.txt lists what is needed." \
 		cmake -S "$project" -B "$1" -G Ninja -DPOLYTOPE_YADE=ON -DPOLYTOPE_PRECISION="$2" -DPOLYTOPE_OVERLAY="$build/overlay" \
-		-DYADE_SOURCE_DIR="$yadeSource" "${options[@]}"
+		-DPOLYTOPE_IPOPT="$ipopt" -DYADE_SOURCE_DIR="$yadeSource" "${options[@]}"
 	echo "$buildKey" >"$1/key"
 }
 
@@ -102,7 +107,7 @@ tradeoff() {
 	build
 	case " $* " in
 		*" --quick "* | *" --help "* | *" -h "*) ;;
-		*) for other in longdouble float128 mpfr150; do
+		*) for other in $widePrecisions; do
 			if hasPrecision $other; then (buildPrecision $other) || echo "  $other: its rows say that it was not built"; fi
 		done ;;
 	esac
