@@ -13,6 +13,7 @@ from yade import (
 )
 from yade import polytope, utils
 from yade.math import tan  # with all of YADE's digits, whichever they are
+from yade.polytope.precision import real
 
 from scenes import blockOnFloor, contact, driven, joint, law, loop
 
@@ -275,6 +276,18 @@ def testTensionBreaksAndDoesNotHeal(perArea):
 	block.state.vel = (0, 0, 0.02)
 	O.run(110, True)
 	assert i.phys.normalForce.norm() == 0
+
+
+def testOpenJointKeepsTheAreaOfItsLastTouch():
+	"""Also where rounding decides whether the bodies touch; the section of bodies apart is that of bodies grown by 1e-6."""
+	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e5), perArea=True)
+	touching = float(i.phys.contactArea)
+	assert touching == pytest.approx(1, rel=1e-12)
+	for gap in (0, -8 * 2**(1 - polytope.buildInfo()['bits']), 1e-5):
+		block.state.pos = (0, 0, 0.5 + real(gap))
+		O.step()
+		assert i.geom.status == 'separated' and i.geom.contactArea > touching + 1e-7
+		assert float(i.phys.contactArea) == touching
 
 
 @pytest.mark.parametrize('gap', [0, 1e-6])
