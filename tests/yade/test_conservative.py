@@ -226,6 +226,7 @@ def testTowerOfTenStands():
 		assert state.vel.norm() < 1e-6 and state.angVel.norm() < 1e-6
 
 
+@pytest.mark.skipif(polytope.buildInfo()['bits'] > 64, reason='200 bodies for long: takes an hour in arithmetic that no hardware has')
 def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 	"""Frictionless, undamped solids of five kinds fall into a box and fly about (examples/energy.py: for longer, higher, and by other steps)."""
 	worst = {}

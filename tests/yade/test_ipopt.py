@@ -122,3 +122,5 @@ def testWithoutIpoptItIsRefusedWithTheRemedy():
 	with pytest.raises(ValueError, match='solver: this build has no Ipopt.*coinor-libipopt-dev'):
 		geometry.solver = 'ipopt'
 	assert geometry.solver == 'newton'
+	with pytest.raises(ValueError, match='solver: this build has no Ipopt.*coinor-libipopt-dev'):
+		polytope.contact(polytope.cuboid((0, 0, 0), (1, 1, 1)), polytope.cuboid((0, 0, 1), (1, 1, 1)), solver='ipopt')
