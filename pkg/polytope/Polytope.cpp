@@ -5,6 +5,8 @@
 #include <core/Scene.hpp>
 #include <core/State.hpp>
 
+#include <sstream>
+
 namespace yade {
 
 YADE_PLUGIN((Polytope)(Bo1_Polytope_Aabb));
@@ -41,8 +43,25 @@ namespace {
 
 } // namespace
 
+void Polytope::preSave(Polytope&)
+{
+	if (!planesAsText) return;
+	planesText.clear();
+	for (size_t i = 0; i < normals.size(); ++i)
+		for (const Real& number : { normals[i][0], normals[i][1], normals[i][2], offsets[i] })
+			planesText += math::toString(number) + ' ';
+}
+
 void Polytope::postLoad(Polytope&)
 {
+	if (planesAsText && normals.empty()) {
+		std::istringstream text(planesText);
+		std::string        number[4];
+		while (text >> number[0] >> number[1] >> number[2] >> number[3]) {
+			normals.emplace_back(math::fromStringReal(number[0]), math::fromStringReal(number[1]), math::fromStringReal(number[2]));
+			offsets.push_back(math::fromStringReal(number[3]));
+		}
+	}
 	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): planes are still to come from an archive
 	polytope::HalfSpaces planes;
 	planes.normals   = normals;

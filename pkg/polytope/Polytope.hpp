@@ -20,6 +20,11 @@ public:
 	/// the shape is refused. Loose enough for planes typed with six digits, far below what shows in a simulation.
 	static constexpr double frameTolerance = 1e-6;
 
+	/// In YADE's 150-digit build the numbers of a list are written to binary archives as they stand in memory, which is an address:
+	/// there the planes go into archives as text.
+	static constexpr bool planesAsText = std::numeric_limits<Real>::digits > 113;
+	void                  preSave(Polytope&);
+
 	/// Null until planes are given.
 	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
 
@@ -34,8 +39,9 @@ public:
 	R"""(Convex polyhedron (or, with :yref:`dimension<Polytope.dimension>` 2, convex polygon) given by half-spaces $\vec a_i\cdot\vec x\le d_i$ in the body's frame, whose origin is the centroid and whose axes are the principal axes of inertia [Boon2012]_. Usually made by the functions of the module ``yade.polytope`` (*regular*, *cuboid*, *fromHalfSpaces*, *fromVertices*, *fromMesh*, *polygon*), which also set mass, inertia, position and orientation of the body. Planes cannot be changed after construction (mass and inertia would no longer fit): make a new shape.
 
 A plane that repeats another one to rounding is dropped. Planes that own no face are kept, since each one weighs in the analytic centre [Boon2012]_ (section 2.2), and in the other contact points' normals too: planes through all edges and vertices of two cubes turn the contact normal by up to 10° and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with *keepRedundant=False* does, *fromVertices* and *fromMesh* make no such planes, and *polytope.requirements(O)* tells what they do in a scene.)""",
-		((vector<Vector3r>, normals, , Attr::readonly, "Unit outward normals $\\vec a_i$ in the body's frame [-]. Given with any length, they are normalised together with :yref:`offsets<Polytope.offsets>`, and repeated ones dropped."))
-		((vector<Real>, offsets, , Attr::readonly, "Offsets $d_i$ of the half-spaces $\\vec a_i\\cdot\\vec x\\le d_i$ [m]."))
+		((vector<Vector3r>, normals, , (Attr::readonly | planesAsText * Attr::noSave), "Unit outward normals $\\vec a_i$ in the body's frame [-]. Given with any length, they are normalised together with :yref:`offsets<Polytope.offsets>`, and repeated ones dropped."))
+		((vector<Real>, offsets, , (Attr::readonly | planesAsText * Attr::noSave), "Offsets $d_i$ of the half-spaces $\\vec a_i\\cdot\\vec x\\le d_i$ [m]."))
+		((string, planesText, , (Attr::readonly | Attr::hidden), "Normals and offsets in an archive, where they are no lists there"))
 		((Real, cornerRadius, 0, Attr::triggerPostLoad, "Radius $r$ [m] with which corners of the inner potential particle are rounded; the contact normal is the gradient of this particle (Eqs 13-17 of [Boon2012]_). At least 0 and smaller than :yref:`inscribedRadius<Polytope.inscribedRadius>`. Where the contact point lies deeper than $r$ in a body, that body gives no normal, see :yref:`PolytopeGeom.status`."))
 		((int, dimension, 3, Attr::readonly, "3: polyhedron. 2: polygon in the $xy$ plane (normals without $z$ component), a prism of :yref:`thickness<Polytope.thickness>` for mass and drawing; contacts are solved in two dimensions. Polygons meet polygons only."))
 		((Real, thickness, 1, Attr::readonly, "Extent along $z$ of a polygon [m]; multiplies contact lengths to areas. Unused for polyhedra."))

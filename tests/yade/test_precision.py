@@ -9,7 +9,7 @@ import mpmath
 import pytest
 import yade
 from mpmath import mpf
-from yade import Quaternion
+from yade import O, Quaternion
 from yade import polytope
 
 import highPrecisionPair as exact
@@ -46,6 +46,19 @@ def testPythonsNumbersKeepTheirDigits():
 		assert abs(found[0] - third) <= rounding
 		assert abs(found[1] - third) <= rounding
 		assert abs(found[2] - 8 * third) <= 20 * rounding
+
+
+@pytest.mark.parametrize('archive', ['scene.xml', 'scene.yade'])
+def testArchivesKeepAllDigits(archive, tmp_path):
+	O.bodies.append(polytope.fromVertices(points1, material=scenes.joint()))
+	shape, file = O.bodies[0].shape, str(tmp_path / archive)
+	planes = [numbers([*normal, offset]) for normal, offset in zip(shape.normals, shape.offsets, strict=True)]
+	O.save(file)
+	del shape  # the numbers' memory
+	O.reset()
+	O.load(file)
+	loaded = O.bodies[0].shape
+	assert len(planes) > 6 and planes == [numbers([*normal, offset]) for normal, offset in zip(loaded.normals, loaded.offsets, strict=True)]
 
 
 # ------------------------------------------------------------------------------------------------------------ single pairs
