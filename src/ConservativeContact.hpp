@@ -63,6 +63,8 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 		sum += sqrt(maxOf<R>(R(out.weights[k]), 0));
 	if (!settings.geometryAcrossGap && below + 2 * mu * sum >= 0) {
 		memory.hasPoint = false;
+		for (int k = 0; k < D; ++k)
+			memory.dual[k] = out.weights[k];
 		return;
 	}
 
@@ -88,9 +90,8 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	const R length   = norm<R, D>(n);
 	out.barrierValue = value;
 	memory.level     = point.level;
-	for (int body = 0; body < 2; ++body)
-		toBody<R, D>(f, body, point.x, memory.point[body]);
-	memory.hasPoint = solved != BarrierStatus::NotConverged;
+	memory.point     = { toBody<R, D>(f, 0, point.x), toBody<R, D>(f, 1, point.x) };
+	memory.hasPoint  = solved != BarrierStatus::NotConverged;
 	if (!(value < 0) && !settings.geometryAcrossGap) return;
 
 	out.inContact     = value < 0;
@@ -98,7 +99,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	out.depth         = -4 * value * length;
 	out.energy        = value < 0 ? 2 * value * value : R(0);
 	out.rockingArm    = solved == BarrierStatus::NotConverged ? R(0) : rockingArm<R, D>(point, n); // its Hessian is the minimiser's
-	out.dualDirection = worldDirection<R, D>(in, f, n);
+	out.dualDirection = worldDirection<R, D>(f, n);
 	if (out.inContact && solved != BarrierStatus::NotConverged)
 		out.status = solved == BarrierStatus::RoundingLimited ? ContactStatus::RoundingLimited : ContactStatus::Contact;
 	// flat faces of thin bodies: far side planes' barrier is all that holds the point along the face, and planes tilted by their own
@@ -114,8 +115,8 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 		for (int k = 0; k < D; ++k)
 			n[k] = k == D - 1;
 	}
-	out.normal = worldDirection<R, D>(in, f, n);
-	out.point  = worldPoint<R, D>(in, f, point.x);
+	out.normal = worldDirection<R, D>(f, n);
+	out.point  = worldPoint<R, D>(in, f, memory.point[f.home]);
 
 	if (settings.section) {
 		// the point may be outside by as much as s: of bodies grown by that
@@ -125,7 +126,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 		const Section<R, D> section = clipPlane(planes, point.x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
 		out.area                    = section.area;
 		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
-		out.sectionCentroid = worldPoint<R, D>(in, f, section.centroid);
+		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 	}
 	R all = out.depth + out.energy + out.rockingArm;
 	for (int k = 0; k < 3; ++k)

@@ -16,15 +16,16 @@ struct PairInput {
 	const Vector3*     centre2;
 };
 
-/// The frame of one query. It starts in the body frame of the smaller body (so that no coordinate is large against the
-/// contact), then its origin goes to the LP's point and its last axis along the LP's dual direction.
+/// The frame of one query, given in each body's own axes: so a plane that passes near the contact loses no digits to its
+/// body's size, nor to where its body is. It is that of the last step's contact (followContact()) or starts in the smaller
+/// body (homeFrame()) and goes on to the LP's point, last axis along the LP's dual direction (aim()).
 template <class R, int D> struct ContactFrame {
-	int            home;      ///< body whose frame `origin` is given in
-	R              size;      ///< that body's circumradius
-	Rotation<R, D> other;     ///< rotation from the other body's frame to home's
-	R              centre[D]; ///< the other body's centre in home's frame
-	Rotation<R, D> axes;      ///< rows: the frame's axes in home's frame
-	R              origin[D];
+	int            home;         ///< the smaller body
+	R              size;         ///< its circumradius
+	Rotation<R, D> world;        ///< from the frame to world axes
+	Rotation<R, D> own[2];       ///< from the frame to a body's axes
+	R              origin[2][D]; ///< way from the smaller body's centre to the frame's origin, in a body's axes
+	R              centre[2][D]; ///< the smaller body's centre in a body's coordinates
 };
 
 template <class R, int D> POLYTOPE_INLINE R norm(const R* v)
@@ -33,117 +34,178 @@ template <class R, int D> POLYTOPE_INLINE R norm(const R* v)
 	return sqrt(dot<R, D>(v, v));
 }
 
-template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> contactFrame(const PairInput& in)
+/// left·right, `left` a function of row and column. In 3-D a row at a time.
+template <class R, int D, class Left> POLYTOPE_INLINE Rotation<R, D> product(const Left& left, const Rotation<R, D>& right)
+{
+	Rotation<R, D> out;
+	if constexpr (D == 3) {
+		using V = typename Lanes<R, 4>::Type;
+		V row[3];
+		for (int i = 0; i < 3; ++i)
+			row[i] = four<R>(right.m[i][0], right.m[i][1], right.m[i][2], 0);
+		for (int j = 0; j < 3; ++j) {
+			V sum = row[0] * broadcast<R, 4>(left(j, 0));
+			sum += row[1] * broadcast<R, 4>(left(j, 1));
+			sum += row[2] * broadcast<R, 4>(left(j, 2));
+			store<R, 4>(out.m[j], sum);
+		}
+	} else
+		for (int j = 0; j < D; ++j)
+			for (int k = 0; k < D; ++k)
+				out.m[j][k] = left(j, 0) * right.m[0][k] + left(j, 1) * right.m[1][k];
+	return out;
+}
+
+template <class R, int D> POLYTOPE_INLINE Rotation<R, D> transposed(const Rotation<R, D>& t)
+{
+	Rotation<R, D> out;
+	for (int j = 0; j < D; ++j)
+		for (int k = 0; k < D; ++k)
+			out.m[j][k] = t.m[k][j];
+	return out;
+}
+
+/// Bᵀ·v, B a body's rotation: from world axes to the body's.
+template <class R, int D, class V> POLYTOPE_INLINE void toOwnAxes(const Matrix3& rotation, const V& v, R* out)
+{
+	for (int k = 0; k < D; ++k) {
+		out[k] = rotation(0, k) * v[0];
+		for (int i = 1; i < D; ++i)
+			out[k] += rotation(i, k) * v[i];
+	}
+}
+
+template <class R, int D, class V> POLYTOPE_INLINE void toWorldAxes(const Matrix3& rotation, const V& v, R* out)
+{
+	for (int i = 0; i < D; ++i) {
+		out[i] = rotation(i, 0) * v[0];
+		for (int k = 1; k < D; ++k)
+			out[i] += rotation(i, k) * v[k];
+	}
+}
+
+/// Axes (columns: the frame's in world axes) for a frame whose origin stays.
+template <class R, int D> POLYTOPE_INLINE void setAxes(const PairInput& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
+{
+	f.world = world;
+	for (int body = 0; body < 2; ++body) {
+		const Matrix3& b = *in.rotation[body];
+		f.own[body]      = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return b(i, j); }, world);
+	}
+}
+
+/// Whether all numbers of the pose are numbers.
+template <class R, int D> POLYTOPE_INLINE bool finitePose(const PairInput& in)
+{
+	using std::isfinite;
+	R all = 0;
+	for (int j = 0; j < D; ++j) {
+		all += (*in.centre2)[j];
+		for (int k = 0; k < D; ++k)
+			all += (*in.rotation[0])(j, k) + (*in.rotation[1])(j, k);
+	}
+	return isfinite(all);
+}
+
+/// `home` and `size` alone.
+template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> unplacedFrame(const PairInput& in)
 {
 	ContactFrame<R, D> f;
-	f.home              = in.shape[1]->boundingRadius() < in.shape[0]->boundingRadius() ? 1 : 0;
-	f.size              = in.shape[f.home]->boundingRadius();
-	const Matrix3& h    = *in.rotation[f.home];
-	const Matrix3& o    = *in.rotation[1 - f.home];
-	const R        sign = f.home == 0 ? R(1) : R(-1);
-	for (int j = 0; j < D; ++j) {
-		f.centre[j] = 0;
-		for (int i = 0; i < D; ++i)
-			f.centre[j] += h(i, j) * sign * (*in.centre2)[i];
-		for (int k = 0; k < D; ++k) {
-			f.other.m[j][k] = 0;
-			for (int i = 0; i < D; ++i)
-				f.other.m[j][k] += h(i, j) * o(i, k);
-			f.axes.m[j][k] = j == k;
-		}
-		f.origin[j] = 0;
-	}
+	f.home = in.shape[1]->boundingRadius() < in.shape[0]->boundingRadius() ? 1 : 0;
+	f.size = in.shape[f.home]->boundingRadius();
 	return f;
 }
 
-/// One plane of a body in the home frame.
-template <class R, int D> POLYTOPE_INLINE void homePlane(const PairInput& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
+template <class R, int D> POLYTOPE_INLINE void setCentres(const PairInput& in, ContactFrame<R, D>& f)
+{
+	const int other = 1 - f.home;
+	toOwnAxes<R, D>(*in.rotation[other], *in.centre2, f.centre[other]);
+	for (int k = 0; k < D; ++k) {
+		f.centre[other][k]  = f.home == 0 ? -f.centre[other][k] : f.centre[other][k];
+		f.centre[f.home][k] = 0;
+	}
+}
+
+/// The smaller body's own frame.
+template <class R, int D> POLYTOPE_INLINE void homeFrame(const PairInput& in, ContactFrame<R, D>& f)
+{
+	const int      other = 1 - f.home;
+	const Matrix3& h     = *in.rotation[f.home];
+	const Matrix3& o     = *in.rotation[other];
+	for (int k = 0; k < D; ++k) {
+		for (int j = 0; j < D; ++j) {
+			f.world.m[j][k]       = h(j, k);
+			f.own[f.home].m[j][k] = j == k;
+		}
+		f.origin[0][k] = f.origin[1][k] = 0;
+	}
+	f.own[other] = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return o(i, j); }, f.world);
+}
+
+/// One plane of a body in the frame.
+template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
 {
 	R own[D];
 	for (int k = 0; k < D; ++k)
 		own[k] = in.shape[body]->normalArray(k)[index];
-	d = in.shape[body]->offsetArray()[index];
-	if (body == f.home) {
-		for (int k = 0; k < D; ++k)
-			a[k] = own[k];
-	} else {
-		rotate<R, D>(f.other, own, a);
-		d += dot<R, D>(a, f.centre);
-	}
+	rotateBack<R, D>(f.own[body], own, a);
+	d = (in.shape[body]->offsetArray()[index] - dot<R, D>(own, f.centre[body])) - dot<R, D>(own, f.origin[body]);
+}
+
+template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+{
+	for (int body = 0; body < 2; ++body)
+		placePlanes<R, D, W>(
+		        *in.shape[body], f.own[body], f.centre[body], f.origin[body], planes, planes.begin(body), planes.end(body));
 }
 
 /// From the planes' frame to world axes (direction).
-template <class R, int D> POLYTOPE_INLINE Vector3 worldDirection(const PairInput& in, const ContactFrame<R, D>& f, const R* v)
+template <class R, int D> POLYTOPE_INLINE Vector3 worldDirection(const ContactFrame<R, D>& f, const R* v)
 {
-	R home[D];
-	rotateBack<R, D>(f.axes, v, home);
-	const Matrix3& h = *in.rotation[f.home];
-	Vector3        out(0, 0, 0);
-	for (int i = 0; i < D; ++i)
-		for (int j = 0; j < D; ++j)
-			out[i] += h(i, j) * home[j];
-	return out;
-}
-
-/// From the planes' frame to world axes from body 1's centre (point).
-template <class R, int D> POLYTOPE_INLINE Vector3 worldPoint(const PairInput& in, const ContactFrame<R, D>& f, const R* x)
-{
-	R home[D];
-	rotateBack<R, D>(f.axes, x, home);
-	const Matrix3& h = *in.rotation[f.home];
-	Vector3        out(0, 0, 0);
-	for (int i = 0; i < D; ++i) {
-		for (int j = 0; j < D; ++j)
-			out[i] += h(i, j) * (home[j] + f.origin[j]);
-		if (f.home == 1) out[i] += (*in.centre2)[i];
-	}
-	return out;
+	R out[3] = { 0, 0, 0 };
+	rotate<R, D>(f.world, v, out);
+	return Vector3(out[0], out[1], out[2]);
 }
 
 /// A body's own coordinates of a point given in the planes' frame, and back.
-template <class R, int D> POLYTOPE_INLINE void toBody(const ContactFrame<R, D>& f, int body, const R* x, Vector3& out)
+template <class R, int D> POLYTOPE_INLINE Vector3 toBody(const ContactFrame<R, D>& f, int body, const R* x)
 {
-	R home[D], own[D];
-	rotateBack<R, D>(f.axes, x, home);
+	R out[3] = { 0, 0, 0 };
+	rotate<R, D>(f.own[body], x, out);
 	for (int k = 0; k < D; ++k)
-		home[k] += f.origin[k];
-	if (body != f.home) {
-		for (int k = 0; k < D; ++k)
-			home[k] -= f.centre[k];
-		rotateBack<R, D>(f.other, home, own);
-	}
-	for (int k = 0; k < D; ++k)
-		out[k] = body == f.home ? home[k] : own[k];
-	for (int k = D; k < 3; ++k)
-		out[k] = 0;
+		out[k] = (out[k] + f.origin[body][k]) + f.centre[body][k];
+	return Vector3(out[0], out[1], out[2]);
 }
 
 template <class R, int D> POLYTOPE_INLINE void fromBody(const ContactFrame<R, D>& f, int body, const Vector3& own, R* out)
 {
-	R v[D], home[D];
+	R away[D];
 	for (int k = 0; k < D; ++k)
-		v[k] = own[k];
-	if (body == f.home) {
-		for (int k = 0; k < D; ++k)
-			home[k] = v[k] - f.origin[k];
-	} else {
-		rotate<R, D>(f.other, v, home);
-		for (int k = 0; k < D; ++k)
-			home[k] += f.centre[k] - f.origin[k];
-	}
-	rotate<R, D>(f.axes, home, out);
+		away[k] = (own[k] - f.centre[body][k]) - f.origin[body][k];
+	rotateBack<R, D>(f.own[body], away, out);
+}
+
+/// From the smaller body's coordinates to world axes from body 1's centre.
+template <class R, int D> POLYTOPE_INLINE Vector3 worldPoint(const PairInput& in, const ContactFrame<R, D>& f, const Vector3& home)
+{
+	R out[3] = { 0, 0, 0 };
+	toWorldAxes<R, D>(*in.rotation[f.home], home, out);
+	for (int k = 0; k < D; ++k)
+		out[k] += f.home == 1 ? R((*in.centre2)[k]) : R(0);
+	return Vector3(out[0], out[1], out[2]);
 }
 
 /// Turns the frame's axes about its origin.
 template <class R, int D> POLYTOPE_INLINE void turnFrame(ContactFrame<R, D>& f, const Rotation<R, D>& turn)
 {
-	const Rotation<R, D> old = f.axes;
-	for (int j = 0; j < D; ++j)
-		for (int k = 0; k < D; ++k) {
-			f.axes.m[j][k] = 0;
-			for (int i = 0; i < D; ++i)
-				f.axes.m[j][k] += turn.m[j][i] * old.m[i][k];
-		}
+	const Rotation<R, D> back   = transposed<R, D>(turn);
+	const auto           turned = [&](Rotation<R, D>& t) POLYTOPE_INLINE_LAMBDA {
+                const Rotation<R, D> old = t;
+                t = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return old.m[j][i]; }, back);
+	};
+	turned(f.world);
+	turned(f.own[0]);
+	turned(f.own[1]);
 }
 
 /// Turns the frame: last axis along `direction` (if it has one), origin to x; both in the planes' frame.
@@ -154,32 +216,14 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>&
 	for (int k = 0; k < D; ++k)
 		n[k] = length > R(tolerance::direction) ? direction[k] / length : R(k == D - 1);
 	const Rotation<R, D> turn = axesAround<R, D>(n);
-	R                    move[D];
-	rotateBack<R, D>(f.axes, x, move);
-	turnFrame<R, D>(f, turn);
-	for (int k = 0; k < D; ++k)
-		f.origin[k] += move[k];
-	return turn;
-}
-
-template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
-{
-	const R        nowhere[D] = {};
-	R              centre[D], origin[D];
-	Rotation<R, D> turn;
-	rotateBack<R, D>(f.other, f.centre, centre);
-	rotateBack<R, D>(f.other, f.origin, origin);
-	for (int j = 0; j < D; ++j)
-		for (int k = 0; k < D; ++k) {
-			turn.m[j][k] = 0;
-			for (int i = 0; i < D; ++i)
-				turn.m[j][k] += f.axes.m[j][i] * f.other.m[i][k];
-		}
 	for (int body = 0; body < 2; ++body) {
-		const bool home = body == f.home;
-		placePlanes<R, D, W>(*in.shape[body], home ? f.axes : turn, home ? nowhere : centre, home ? f.origin : origin, planes,
-		        planes.begin(body), planes.end(body));
+		R move[D];
+		rotate<R, D>(f.own[body], x, move);
+		for (int k = 0; k < D; ++k)
+			f.origin[body][k] += move[k];
 	}
+	turnFrame<R, D>(f, turn);
+	return turn;
 }
 
 /// A point that both bodies carry along, in the planes' frame: half-way between where each has taken it. `own`: in each body's frame.
@@ -190,6 +234,33 @@ template <class R, int D> POLYTOPE_INLINE void carriedPoint(const ContactFrame<R
 		fromBody<R, D>(f, body, own[body], carried[body]);
 	for (int k = 0; k < D; ++k)
 		out[k] = (carried[0][k] + carried[1][k]) / 2;
+}
+
+/// The frame of the last step's contact: origin half-way between where both bodies have carried the contact point (`own`, in
+/// each body's frame), last axis along `direction` (world axes). False where there is no such frame: the bodies disagree on
+/// the point, having been moved by more than a step.
+template <class R, int D>
+POLYTOPE_INLINE bool followContact(const PairInput& in, ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, const Vector3& direction)
+{
+	R carried[2][D], half[D], n[D], middle[D];
+	for (int body = 0; body < 2; ++body)
+		toWorldAxes<R, D>(*in.rotation[body], own[body], carried[body]);
+	for (int k = 0; k < D; ++k) {
+		half[k] = (carried[1][k] + (*in.centre2)[k] - carried[0][k]) / 2;
+		n[k]    = direction[k];
+	}
+	const R near   = R(tolerance::samePoint) * f.size / 2;
+	const R length = norm<R, D>(n);
+	if (!(dot<R, D>(half, half) < near * near) || !(length > R(tolerance::direction)) || !(length < R(padOffset))) return false;
+	const R scale = 1 / length;
+	for (int k = 0; k < D; ++k)
+		n[k] *= scale;
+	setAxes<R, D>(in, f, transposed<R, D>(axesAround<R, D>(n)));
+	for (int k = 0; k < D; ++k)
+		middle[k] = f.home == 0 ? carried[0][k] + half[k] : carried[1][k] - half[k];
+	for (int body = 0; body < 2; ++body)
+		toOwnAxes<R, D>(*in.rotation[body], middle, f.origin[body]);
+	return dot<R, D>(middle, middle) < 2 * f.size * f.size;
 }
 
 /// v ← T·v

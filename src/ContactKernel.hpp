@@ -23,14 +23,14 @@ inline long nanoseconds()
 	return long(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
 }
 
-/// Solves the basis given by codes (2 × index + body) in the home frame; false if it cannot serve.
+/// Solves the basis given by codes (2 × index + body) in the frame; false if it cannot serve.
 template <class R, int D>
 POLYTOPE_INLINE bool startFrom(
         const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
 {
 	R          normals[D + 1][D];
 	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
-		homePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a, d);
+		framePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a, d);
 		for (int j = 0; j < D; ++j)
 			normals[k][j] = a[j];
 	};
@@ -43,13 +43,48 @@ POLYTOPE_INLINE bool startFrom(
 	return true;
 }
 
+/// Whether the last step's weights alone still hold the bodies apart, without a basis: any λ ≥ 0 with Σ λ = 1 bounds s within
+/// L of the smaller body's centre from below by −Σ λ d − |Σ λ a| L. A point of both would be within the body's size. Where s* is
+/// taken on, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
+/// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
+template <class R, int D> POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, int home, R size, R reach, R& bound)
+{
+	using std::sqrt;
+	R sum[2][D] = {}, world[2][D];
+	R least = 0, square = 0, rest = 1;
+	for (int k = 0; k <= D; ++k) {
+		const int          body = memory.basis[k] & 1, index = memory.basis[k] >> 1;
+		const ConvexShape& shape  = *in.shape[body];
+		const R            weight = maxOf<R>(k < D ? R(memory.dual[k]) : rest, 0);
+		rest -= weight;
+		least -= weight * shape.offsetArray()[index];
+		for (int j = 0; j < D; ++j)
+			sum[body][j] += weight * shape.normalArray(j)[index];
+	}
+	for (int body = 0; body < 2; ++body)
+		toWorldAxes<R, D>(*in.rotation[body], sum[body], world[body]);
+	for (int j = 0; j < D; ++j) {
+		const R residual = world[0][j] + world[1][j];
+		square += residual * residual;
+		least += (home == 0 ? -world[1][j] : world[0][j]) * (*in.centre2)[j];
+	}
+	least -= R(tolerance::contact) * reach;
+	R apart = size;
+	for (int j = 0; j < D; ++j)
+		apart += abs((*in.centre2)[j]);
+	const R left = sqrt(square);
+	if (!(least > left * size)) return false;
+	bound = maxOf<R>(least - left * 2 * size * (2 + apart / in.shape[home]->inscribedRadius()), 0);
+	return true;
+}
+
 /// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
 /// included, above `least`.
-template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const ContactFrame<R, D>& f, R least)
+template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
 {
 	R noise = 0;
 	for (int k = 0; k < D; ++k)
-		reach += abs(f.centre[k]);
+		reach += abs((*in.centre2)[k]);
 	for (int k = 0; k <= D; ++k)
 		noise += basis.noise[k];
 	return maxOf<R>(lowerBound<R, D>(basis, reach) - noise * reach, least);
@@ -58,11 +93,33 @@ template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& 
 /// n_λ = Σ over body 1 of λ_k a_k in the planes' frame.
 template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, R* dual)
 {
+	R share[D + 1];
+	for (int k = 0; k <= D; ++k)
+		share[k] = basis.plane[k] < planes.first ? basis.weight[k] : R(0);
 	for (int j = 0; j < D; ++j) {
-		dual[j] = 0;
-		for (int k = 0; k <= D; ++k)
-			dual[j] += R(basis.plane[k] < planes.first) * basis.weight[k] * planes.normal[j][basis.plane[k]];
+		dual[j] = share[0] * basis.normal[j][0];
+		for (int k = 1; k <= D; ++k)
+			dual[j] += share[k] * basis.normal[j][k];
 	}
+}
+
+/// Whether an overlap that is `thin` (over the bodies' size) stands so aslant in the frame that its Hessian is not graded there.
+template <class R, int D> POLYTOPE_INLINE bool leans(const R* dual, R thin)
+{
+	const R steep  = R(tolerance::lean) * thin * dual[D - 1];
+	R       across = 0;
+	for (int k = 0; k + 1 < D; ++k)
+		across += dual[k] * dual[k];
+	return !(across < steep * steep);
+}
+
+/// Slack of the frame's origin.
+template <class R, int D, int W> POLYTOPE_INLINE R smallestOffset(const PairPlanes<R, D>& planes)
+{
+	auto least = load<R, W>(planes.offset);
+	for (int i = W; i < planes.total; i += W)
+		least = minOf(least, load<R, W>(planes.offset + i));
+	return horizontalMin<R, W>(least);
 }
 
 /// Goes from x (inside) towards `target` as far as it stays inside.
@@ -90,12 +147,6 @@ template <class R, int D, int W> POLYTOPE_INLINE void moveInside(const PairPlane
 	if (!(t > 0)) return;
 	for (int k = 0; k < D; ++k)
 		x[k] += t * (target[k] - x[k]);
-}
-
-POLYTOPE_INLINE bool finite(const Vector3& v)
-{
-	using std::isfinite;
-	return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
 /// Newton from `start`, in axes turned to the overlap's own where those of the contact do not do; x and dual turn with them.
@@ -162,18 +213,30 @@ POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSe
 		status = ContactStatus::NoDirection;
 		R line[D];
 		for (int k = 0; k < D; ++k)
-			line[k] = f.home == 0 ? f.centre[k] : -f.centre[k];
-		rotate<R, D>(f.axes, line, n);
+			line[k] = (*in.centre2)[k];
+		rotateBack<R, D>(f.world, line, n);
 		length = norm<R, D>(n);
 		if (!(length > R(tolerance::direction) * f.size)) {
 			for (int k = 0; k < D; ++k)
-				n[k] = f.axes.m[k][D - 1];
+				n[k] = f.own[f.home].m[D - 1][k];
 			length = norm<R, D>(n);
 		}
 	}
 	for (int k = 0; k < D; ++k)
 		n[k] /= length;
 	return status;
+}
+
+template <class R, int D> POLYTOPE_INLINE void rememberWeights(const LpBasis<R, D>& basis, PairMemory& memory)
+{
+	for (int k = 0; k < D; ++k)
+		memory.dual[k] = basis.weight[k];
+}
+
+template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)
+{
+	for (int k = 0; k <= D; ++k)
+		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
 }
 
 template <class R, int D>
@@ -207,7 +270,7 @@ POLYTOPE_INLINE void contactKernel(
         const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	const long         started   = settings.timed ? nanoseconds() : 0;
-	ContactFrame<R, D> f         = contactFrame<R, D>(in);
+	ContactFrame<R, D> f         = unplacedFrame<R, D>(in);
 	const bool         paper     = settings.contactModel == ContactModel::Paper; // the conservative contact begins where Φ = 0
 	const R            tolerance = paper ? settings.tolerance * f.size : R(0);
 	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
@@ -215,56 +278,82 @@ POLYTOPE_INLINE void contactKernel(
 	const R larger = in.shape[1 - f.home]->boundingRadius();
 	const R reach  = 2 * (larger < R(padOffset) ? larger : f.size);
 
-	// 1. a first basis: the last step's, or the smaller inscribed ball's
-	LpBasis<R, D> basis;
-	R             dual[D];
-	const bool    warm
-	        = settings.warmStart && memory.hasBasis && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
-	if (!warm) {
-		int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
-		memory.hasPoint = memory.hasBasis = false;
-		// the other one, where turning a basis of nearly parallel planes has made it singular
-		for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
-			if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
-			for (int k = 0; k <= D; ++k)
-				memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-			memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
-		}
-		if (!memory.hasBasis) { // or both: then solveWide() finds one
-			for (int k = 0; k < D; ++k)
-				basis.point[k] = dual[k] = 0;
-			basis.infeasibility = -R(padOffset);
-		}
-	}
-	const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
-	if (least > dismiss) {
-		out.status        = ContactStatus::Separated;
-		out.infeasibility = separatedBound<R, D>(basis, reach, f, -tolerance);
+	const bool known = settings.warmStart && memory.hasBasis;
+	R          bound;
+	if (known && !memory.hasPoint && !settings.geometryAcrossGap && heldApart<R, D>(in, memory, f.home, f.size, reach, bound)) {
+		out.infeasibility = bound;
 		out.dismissed     = true;
-		memory.hasPoint   = false;
 		return;
 	}
 
-	// 2. all planes, in a frame turned and moved by what that basis knows
-	// (its point may be far outside both bodies: there every plane would lose digits)
+	// 1. the last step's contact, where both bodies have carried it along: its frame and basis
+	LpBasis<R, D>    basis;
 	PairPlanes<R, D> planes = pairRows<R, D>(in, workspace);
-	const R          away   = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
-	R                origin[D];
-	for (int k = 0; k < D; ++k)
-		origin[k] = basis.point[k] / away;
-	const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
-	placePair<R, D, W>(in, f, planes);
-	for (int k = 0; k <= D; ++k)
-		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
+	R                dual[D];
+	setCentres<R, D>(in, f);
+	bool followed = known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dual);
+	bool solved   = followed;
+	bool far      = false;
+	if (followed) {
+		placePair<R, D, W>(in, f, planes);
+		recallBasis<R, D>(planes, memory, basis);
+		followed = solved = solveBasis<R, D>(planes, basis) && dualFeasible<R, D>(basis);
+	}
+	if (!followed) {
+		if (!finitePose<R, D>(in)) { // planes that are no numbers hold nobody off
+			out.status      = ContactStatus::Failed;
+			memory.hasBasis = memory.hasPoint = false;
+			return;
+		}
+		homeFrame<R, D>(in, f);
+		// else a first basis, the last step's or the smaller inscribed ball's, in the smaller body's frame
+		const bool warm = known && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
+		if (!warm) {
+			int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
+			memory.hasPoint = memory.hasBasis = false;
+			// the other one, where turning a basis of nearly parallel planes has made it singular
+			for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
+				if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
+				for (int k = 0; k <= D; ++k)
+					memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+				memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
+			}
+			if (!memory.hasBasis) { // or both: then solveWide() finds one
+				for (int k = 0; k < D; ++k)
+					basis.point[k] = dual[k] = 0;
+				basis.infeasibility = -R(padOffset);
+			}
+		}
+		const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
+		if (least > dismiss) {
+			out.status        = ContactStatus::Separated;
+			out.infeasibility = separatedBound<R, D>(basis, reach, in, -tolerance);
+			out.dismissed     = true;
+			memory.hasPoint   = false;
+			rememberWeights<R, D>(basis, memory);
+			return;
+		}
+
+		// 2. all planes, in a frame turned and moved by what that basis knows
+		// (its point may be far outside both bodies: there every plane would lose digits)
+		const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
+		far          = away > 1;
+		R origin[D];
+		for (int k = 0; k < D; ++k)
+			origin[k] = basis.point[k] / away;
+		const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
+		placePair<R, D, W>(in, f, planes);
+		recallBasis<R, D>(planes, memory, basis);
+		solved = memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis);
+	}
 
 	// 3. LP
 	const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
 	LpStatus  lp    = LpStatus::Undecided;
-	if (memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis))
-		lp = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
+	if (solved) lp = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
 	if (lp == LpStatus::Undecided) {
 		if (solveWide<R, D>(planes, basis, f.size, limit, out.simplexPivots)) lp = LpStatus::Optimal;
-		else if (!memory.hasBasis) { // a pose that is not a number
+		else if (!memory.hasBasis) { // no basis at all
 			out.status = ContactStatus::Failed;
 			return;
 		}
@@ -272,15 +361,17 @@ POLYTOPE_INLINE void contactKernel(
 	rememberBasis<R, D>(planes, basis, memory, out);
 	const long lpDone   = settings.timed ? nanoseconds() : 0;
 	out.lpNanoseconds   = lpDone - started;
-	out.infeasibility   = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, f, -tolerance) : basis.infeasibility;
+	out.infeasibility   = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, in, -tolerance) : basis.infeasibility;
 	const bool touching = basis.infeasibility < -tolerance;
 	dualDirection<R, D>(planes, basis, dual);
-	out.dualDirection = worldDirection<R, D>(in, f, dual);
+	out.dualDirection = worldDirection<R, D>(f, dual);
 	if (!touching && !settings.geometryAcrossGap) {
 		out.status      = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
 		memory.hasPoint = false;
+		rememberWeights<R, D>(basis, memory);
 		return;
 	}
+	memory.dual     = out.dualDirection;
 	out.inContact   = touching;
 	out.hasGeometry = true;
 
@@ -288,8 +379,11 @@ POLYTOPE_INLINE void contactKernel(
 	R x[D];
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
-	// (where the overlap is thick, the frame of the first basis does: its digits are enough; a far point was not its origin)
-	if ((out.simplexPivots > 0 || away > 1) && !(basis.infeasibility < -R(tolerance::thin) * f.size)) {
+	// (where the overlap is thick, or has hardly turned, the frame there is does: its digits are enough; a far point was not its origin)
+	const R    thickness = -basis.infeasibility / f.size;
+	const bool skew      = followed ? leans<R, D>(dual, thickness) : out.simplexPivots > 0 || far;
+	const bool anew      = skew && !(thickness > R(tolerance::thin));
+	if (anew) {
 		const Rotation<R, D> turn = aim<R, D>(f, dual, x);
 		placePair<R, D, W>(in, f, planes);
 		R turned[D];
@@ -321,9 +415,15 @@ POLYTOPE_INLINE void contactKernel(
 		R       start[D], target[D];
 		for (int k = 0; k < D; ++k)
 			start[k] = x[k];
-		if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
-		else simplexCentre<R, D>(basis, deep, x, target);
-		moveInside<R, D, W>(planes, start, target);
+		if (followed && !anew && smallestOffset<R, D, W>(planes) > R(tolerance::carriedRoom) * deep) {
+			// the frame's origin is the carried point
+			for (int k = 0; k < D; ++k)
+				start[k] = 0;
+		} else {
+			if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
+			else simplexCentre<R, D>(basis, deep, x, target);
+			moveInside<R, D, W>(planes, start, target);
+		}
 		// what is left of the way to the centre moves the depth by at most that part of itself
 		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
 		const CentreStatus centre = settings.solver == CentreSolver::Newton
@@ -359,22 +459,24 @@ POLYTOPE_INLINE void contactKernel(
 		out.depth     = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -apart);
 	}
 
-	out.status = outcome;
-	out.normal = worldDirection<R, D>(in, f, n);
-	out.point  = worldPoint<R, D>(in, f, x);
-	for (int body = 0; body < 2; ++body)
-		toBody<R, D>(f, body, x, memory.point[body]);
+	out.status      = outcome;
+	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
 	memory.hasPoint = true;
+	out.normal      = worldDirection<R, D>(f, n);
+	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
 
 	// 7. contact section, for laws that ask for it
 	if (settings.section) {
 		const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
 		out.area                    = section.area;
 		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
-		out.sectionCentroid = worldPoint<R, D>(in, f, section.centroid);
+		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 	}
 	using std::isfinite;
-	if (!finite(out.point) || !finite(out.normal) || !finite(out.dualDirection) || !isfinite(out.depth)) {
+	R all = out.depth;
+	for (int k = 0; k < D; ++k)
+		all += out.point[k] + out.normal[k] + out.dualDirection[k];
+	if (!isfinite(all)) {
 		out.status      = ContactStatus::Failed;
 		out.inContact   = false;
 		out.hasGeometry = false;

@@ -58,7 +58,10 @@ struct PairMemory {
 	bool                   hasPoint = false;
 	std::array<int, 4>     basis { { 0, 0, 0, 0 } };                   ///< 2 × plane index + (0: body 1, 1: body 2)
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
-	Real                   level = 0; ///< last s of the conservative contact's minimiser; any value is safe
+	/// Any value is safe. With a point: last dual direction, world axes. Without: LP dual λ of the basis' first planes (the last
+	/// one's is the rest).
+	Vector3 dual { Vector3::Zero() };
+	Real    level = 0; ///< last s of the conservative contact's minimiser; any value is safe
 };
 
 struct ContactResult {

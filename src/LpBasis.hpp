@@ -18,6 +18,7 @@ namespace polytope {
 
 template <class R, int D> struct LpBasis {
 	int plane[D + 1];      ///< rows of PairPlanes
+	R   normal[D][4];      ///< [j][k]: component j of a_k
 	R   inverse[D + 1][4]; ///< [j][k]: component j of row k of the inverse of the matrix with columns (a_k; 1)
 	R   weight[4];         ///< λ_k, sum 1
 	R   noise[4];          ///< rounding in λ_k, and in component k of any column in this basis: rounding × length of row k
@@ -231,9 +232,14 @@ template <class R, int D, class Plane> POLYTOPE_INLINE bool solveBasis(const Pla
 	if constexpr (D == 3) {
 		const typename Lanes<R, 4>::Type normals[3] = { four<R>(a[0][0], a[1][0], a[2][0], a[3][0]),
 			four<R>(a[0][1], a[1][1], a[2][1], a[3][1]), four<R>(a[0][2], a[1][2], a[2][2], a[3][2]) };
+		for (int j = 0; j < 3; ++j)
+			store<R, 4>(basis.normal[j], normals[j]);
 		if (solveRows<R>(normals, four<R>(d[0], d[1], d[2], d[3]), basis) <= R(tolerance::refinedBasis)) return true;
 		if (!solveNearlyParallel<R, D>(a, d, basis)) return false;
 	} else {
+		for (int k = 0; k <= D; ++k)
+			for (int j = 0; j < D; ++j)
+				basis.normal[j][k] = a[k][j];
 		const int order[3] = { 0, 1, 2 };
 		const R   noise    = solveFromDifferences<R, D>(a, d, order, false, R(tolerance::smallVolume), basis);
 		if (!(noise <= R(tolerance::refinedBasis)) && !solveNearlyParallel<R, D>(a, d, basis)) return false;
@@ -263,6 +269,13 @@ template <class R, int D> __attribute__((noinline)) bool refineBasis(const PairP
 	return true;
 }
 
+template <class R, int D> POLYTOPE_INLINE void readNormals(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
+{
+	for (int k = 0; k <= D; ++k)
+		for (int j = 0; j < D; ++j)
+			basis.normal[j][k] = planes.normal[j][basis.plane[k]];
+}
+
 /// The solved basis in the planes' frame, of which it knows the frame it was solved in: `turn` and `origin` lead from there.
 /// Turned with it while its s is below `thin`; solved afresh where the overlap is so thin that rounding in the first frame
 /// would show.
@@ -274,6 +287,7 @@ POLYTOPE_INLINE bool moveBasis(const PairPlanes<R, D>& planes, const Rotation<R,
 	for (int j = 0; j < D; ++j)
 		moved[j] = basis.point[j] - origin[j];
 	rotate<R, D>(turn, moved, basis.point);
+	readNormals<R, D>(planes, basis);
 	basis.infeasibility = 0;
 	for (int k = 0; k <= D; ++k) {
 		R row[D], turned[D];

@@ -42,6 +42,7 @@ inline void exchangeBodies(PairMemory& memory)
 	const Vector3 first = memory.point[0];
 	memory.point[0]     = memory.point[1];
 	memory.point[1]     = first;
+	if (memory.hasPoint) memory.dual = -memory.dual;
 }
 
 /// The answer for the pair under exchanged names; `centre2` as the caller of the exchanged pair has it.

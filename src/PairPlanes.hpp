@@ -11,7 +11,7 @@ namespace polytope {
 /// Rotation of D dimensions, row-major plain numbers: the kernel's own, since kernel code is compiled for several
 /// instruction sets and must not emit Eigen's functions.
 template <class R, int D> struct Rotation {
-	R m[D][D];
+	R m[D][D == 3 ? 4 : D]; ///< rows of whole lanes
 };
 
 template <class R, int D> POLYTOPE_INLINE R dot(const R* a, const R* b)
@@ -59,12 +59,12 @@ template <class R, int D> struct PairPlanes {
 	}
 };
 
-/// Planes of `shape` into pair rows from `begin` on: a ← T·a, d ← d + a·centre − a·origin with the body's own a. `centre`
-/// (the body's, in the home frame) and `origin` (of the rows' frame, in the home frame) are given in the body's axes: so a
-/// normal's rounding acts over the overlap only, and a plane that passes near the contact loses no digits to its body's size.
+/// Planes of `shape` into pair rows from `begin` on: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes
+/// `centre` (of the smaller body) and from there `origin` (of the rows' frame) are given: so a normal's rounding acts over the
+/// overlap only. `own`: T, from the rows' frame to the body's axes.
 template <class R, int D, int W>
 POLYTOPE_INLINE void placePlanes(
-        const ConvexShape& shape, const Rotation<R, D>& t, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
+        const ConvexShape& shape, const Rotation<R, D>& own, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
 {
 	using V = typename Lanes<R, W>::Type;
 	V T[D][D], C[D], O[D];
@@ -72,7 +72,7 @@ POLYTOPE_INLINE void placePlanes(
 		C[j] = broadcast<R, W>(centre[j]);
 		O[j] = broadcast<R, W>(origin[j]);
 		for (int k = 0; k < D; ++k)
-			T[j][k] = broadcast<R, W>(t.m[j][k]);
+			T[j][k] = broadcast<R, W>(own.m[k][j]);
 	}
 	const R* source[D];
 	for (int k = 0; k < D; ++k)
@@ -83,7 +83,7 @@ POLYTOPE_INLINE void placePlanes(
 		V d = load<R, W>(offsets + i);
 		for (int k = 0; k < D; ++k) {
 			a[k] = load<R, W>(source[k] + i);
-			d += a[k] * C[k];
+			d -= a[k] * C[k];
 		}
 		for (int k = 0; k < D; ++k)
 			d -= a[k] * O[k];

@@ -148,6 +148,17 @@ constexpr Real barrierRoom = 1.4;
 /// × μ: a carried start may be this much above it.
 constexpr Real barrierDetour = 20;
 
+/// × size: how far apart two bodies may have carried the last contact point and still be followed to it. Steps of DEM move
+/// bodies against each other by a ten-thousandth.
+constexpr Real samePoint = 0.05;
+
+/// × thickness of the overlap over the size: the tangent up to which it may stand aslant in the frame. Across it the
+/// Hessian then loses no more than three digits, and its gradient none that the planes have.
+constexpr Real lean = 30;
+
+/// × −s: a carried point with this much slack to every plane is a good enough start of Newton's iterations as it is.
+constexpr Real carriedRoom = 0.25;
+
 /// A carried starting point may go at most this fraction of the way from the LP's point to the nearest plane.
 constexpr Real interiorStep = 0.9;
 

@@ -77,6 +77,7 @@ public:
 		for (int j = 0; j < D; ++j)
 			out.point[j] = R(basis_.point[j]);
 		out.infeasibility = R(basis_.infeasibility);
+		readNormals<R, D>(planes_, out);
 	}
 
 private:

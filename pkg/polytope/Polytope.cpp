@@ -58,7 +58,8 @@ void Polytope::postLoad(Polytope&)
 		std::istringstream text(planesText);
 		std::string        number[4];
 		while (text >> number[0] >> number[1] >> number[2] >> number[3]) {
-			normals.emplace_back(math::fromStringReal(number[0]), math::fromStringReal(number[1]), math::fromStringReal(number[2]));
+			normals.emplace_back(
+			        math::fromStringReal(number[0]), math::fromStringReal(number[1]), math::fromStringReal(number[2]));
 			offsets.push_back(math::fromStringReal(number[3]));
 		}
 	}

@@ -21,6 +21,7 @@ polytope::PairMemory PolytopeGeom::memory() const
 	memory.hasPoint = basis[5];
 	memory.point    = { point1, point2 };
 	memory.level    = level;
+	memory.dual     = dual;
 	return memory;
 }
 
@@ -30,6 +31,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point1 = memory.point[0];
 	point2 = memory.point[1];
 	level  = memory.level;
+	dual   = memory.dual;
 }
 
 namespace {

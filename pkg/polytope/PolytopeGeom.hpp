@@ -33,6 +33,7 @@ public:
 		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
 		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, for the next step's start"))
+		((Vector3r, dual, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear programme if the points are known, else the weights of its basis' first planes"))
 		((int, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
 		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear programme's last basis (2 × plane + body), whether it is known, and whether the points are"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, for the next step's start"))

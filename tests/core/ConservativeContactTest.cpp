@@ -288,6 +288,7 @@ TEST_P(ConservativeContact, AnyBasisPointAndLevelAreAGoodEnoughStart)
 		for (Vector3& point : memory.point)
 			point = decades(random, -3, 3) * pair.size() * randomDirection(random, dimension);
 		memory.level             = uniform(random, -1, 1) * decades(random, -6, 3) * pair.size();
+		memory.dual              = decades(random, -3, 3) * randomDirection(random, dimension);
 		const ContactResult warm = query(pair, conservative(), &memory), cold = query(pair, conservative());
 		ASSERT_TRUE(usable(warm.status)) << statusName(warm.status);
 		EXPECT_NEAR(warm.barrierValue, cold.barrierValue,

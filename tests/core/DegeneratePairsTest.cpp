@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -213,6 +214,29 @@ TEST(DegeneratePairs, HalfSpaceAsAWall)
 		EXPECT_LE((result.point.head<2>() - pair.centre2.head<2>()).norm(), 1e-14);
 	}
 	EXPECT_EQ(query(movedApart(pair, 2 * delta * Vector3::UnitZ())).status, ContactStatus::Separated);
+}
+
+TEST(DegeneratePairs, PosesThatAreNoNumbersAreNoContact)
+{
+	for (ContactModel model : { ContactModel::Paper, ContactModel::Conservative })
+		for (Real gap : { Real(0.05), Real(-0.05) })
+			for (Real none : { std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity() })
+				for (int spoiled = 0; spoiled < 3; ++spoiled)
+					for (bool warm : { false, true }) {
+						ContactSettings settings;
+						settings.contactModel = model;
+						Pair       pair       = pairOf(box(1, 1, 1), box(1, 1, 1), Vector3(0.25, -0.5, 2 + gap));
+						PairMemory memory;
+						if (warm) query(pair, settings, &memory);
+						if (spoiled < 2) pair.rotation[spoiled](2, 1) = none;
+						else pair.centre2[1] = none;
+						for (int step = 0; step < 2; ++step) {
+							const ContactResult result = query(pair, settings, &memory);
+							EXPECT_EQ(result.status, ContactStatus::Failed);
+							EXPECT_FALSE(result.inContact || result.hasGeometry || memory.hasBasis
+							        || memory.hasPoint);
+						}
+					}
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace polytope;
 using namespace polytope::samples;
 
@@ -93,7 +95,10 @@ TEST(PairMemory, AnyBasisAndPointAreAGoodEnoughStart)
 	for (int trial = 0; trial < 3000 && !HasFailure(); ++trial) {
 		const Pair pair = randomPair(shapes, random);
 		PairMemory memory;
-		memory.hasBasis = memory.hasPoint = true;
+		memory.hasBasis = true;
+		memory.hasPoint = trial % 2 == 0;
+		memory.dual     = decades(random, -3, 3) * randomDirection(random);
+		if (trial % 16 < 2) memory.dual[trial % 3] = std::numeric_limits<Real>::quiet_NaN();
 		for (int& code : memory.basis) {
 			const int body = int(random() % 2);
 			code           = 2 * int(random() % pair.shape[body]->planeCount()) + body;
@@ -106,6 +111,25 @@ TEST(PairMemory, AnyBasisAndPointAreAGoodEnoughStart)
 		EXPECT_EQ(memory.hasPoint, result.inContact);
 	}
 	EXPECT_GT(kept, 2000);
+}
+
+TEST(PairMemory, AnyDirectionIsAGoodEnoughStart)
+{
+	std::mt19937_64 random(104);
+	const Shapes    shapes = randomShapes(60, random);
+	int             kept   = 0;
+	for (int trial = 0; trial < 3000 && !HasFailure(); ++trial) {
+		Pair pair = randomPair(shapes, random);
+		moveTo(pair, randomDirection(random), -decades(random, -9, -1));
+		PairMemory memory;
+		query(pair, {}, &memory);
+		memory.dual = decades(random, -3, 3) * randomDirection(random);
+		if (trial % 16 < 2) memory.dual *= std::numeric_limits<Real>::infinity();
+		const ContactResult result = query(pair, {}, &memory);
+		expectSameAsCold(pair, result);
+		kept += result.inContact;
+	}
+	EXPECT_EQ(kept, 3000);
 }
 
 TEST(PairMemory, HoldsTheContactPointInBothBodies)

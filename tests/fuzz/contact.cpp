@@ -147,6 +147,7 @@ PairMemory readMemory(Bytes& bytes, const Pair& pair)
 		const int body               = bytes.below(2);
 		memory.basis[std::size_t(k)] = 2 * (bytes.byte() % pair.shape[body]->planeCount()) + body;
 	}
+	memory.dual = bytes.vector();
 	if (kind < 3) return memory;
 	memory.hasPoint = true;
 	for (Vector3& point : memory.point)
