@@ -3,10 +3,10 @@
 
 #include "AnalyticCentre.hpp"
 #include "BarrierValue.hpp"
-#include "ContactFrame.hpp"
 #include "ContactQuery.hpp"
 #include "ContactSection.hpp"
 #include "SimplexLp.hpp"
+#include "WarmStart.hpp"
 
 #include <cmath>
 

@@ -226,43 +226,6 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> aim(ContactFrame<R, D>&
 	return turn;
 }
 
-/// A point that both bodies carry along, in the planes' frame: half-way between where each has taken it. `own`: in each body's frame.
-template <class R, int D> POLYTOPE_INLINE void carriedPoint(const ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, R* out)
-{
-	R carried[2][D];
-	for (int body = 0; body < 2; ++body)
-		fromBody<R, D>(f, body, own[body], carried[body]);
-	for (int k = 0; k < D; ++k)
-		out[k] = (carried[0][k] + carried[1][k]) / 2;
-}
-
-/// The frame of the last step's contact: origin half-way between where both bodies have carried the contact point (`own`, in
-/// each body's frame), last axis along `direction` (world axes). False where there is no such frame: the bodies disagree on
-/// the point, having been moved by more than a step.
-template <class R, int D>
-POLYTOPE_INLINE bool followContact(const PairInput& in, ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, const Vector3& direction)
-{
-	R carried[2][D], half[D], n[D], middle[D];
-	for (int body = 0; body < 2; ++body)
-		toWorldAxes<R, D>(*in.rotation[body], own[body], carried[body]);
-	for (int k = 0; k < D; ++k) {
-		half[k] = (carried[1][k] + (*in.centre2)[k] - carried[0][k]) / 2;
-		n[k]    = direction[k];
-	}
-	const R near   = R(tolerance::samePoint) * f.size / 2;
-	const R length = norm<R, D>(n);
-	if (!(dot<R, D>(half, half) < near * near) || !(length > R(tolerance::direction)) || !(length < R(padOffset))) return false;
-	const R scale = 1 / length;
-	for (int k = 0; k < D; ++k)
-		n[k] *= scale;
-	setAxes<R, D>(in, f, transposed<R, D>(axesAround<R, D>(n)));
-	for (int k = 0; k < D; ++k)
-		middle[k] = f.home == 0 ? carried[0][k] + half[k] : carried[1][k] - half[k];
-	for (int body = 0; body < 2; ++body)
-		toOwnAxes<R, D>(*in.rotation[body], middle, f.origin[body]);
-	return dot<R, D>(middle, middle) < 2 * f.size * f.size;
-}
-
 /// v ← T·v
 template <class R, int D> POLYTOPE_INLINE void turnVector(const Rotation<R, D>& turn, R* v)
 {

@@ -3,13 +3,12 @@
 
 #include "AnalyticCentre.hpp"
 #include "ConservativeContact.hpp"
-#include "ContactFrame.hpp"
-#include "ContactQuery.hpp"
-#include "InnerPotential.hpp"
+#include "ContactNormal.hpp"
 #include "IpoptCentre.hpp"
 #include "OverlapCentroid.hpp"
 #include "PenetrationDepth.hpp"
 #include "SimplexLp.hpp"
+#include "WarmStart.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -43,41 +42,6 @@ POLYTOPE_INLINE bool startFrom(
 	return true;
 }
 
-/// Whether the last step's weights alone still hold the bodies apart, without a basis: any λ ≥ 0 with Σ λ = 1 bounds s within
-/// L of the smaller body's centre from below by −Σ λ d − |Σ λ a| L. A point of both would be within the body's size. Where s* is
-/// taken on, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
-/// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
-template <class R, int D> POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, int home, R size, R reach, R& bound)
-{
-	using std::sqrt;
-	R sum[2][D] = {}, world[2][D];
-	R least = 0, square = 0, rest = 1;
-	for (int k = 0; k <= D; ++k) {
-		const int          body = memory.basis[k] & 1, index = memory.basis[k] >> 1;
-		const ConvexShape& shape  = *in.shape[body];
-		const R            weight = maxOf<R>(k < D ? R(memory.dual[k]) : rest, 0);
-		rest -= weight;
-		least -= weight * shape.offsetArray()[index];
-		for (int j = 0; j < D; ++j)
-			sum[body][j] += weight * shape.normalArray(j)[index];
-	}
-	for (int body = 0; body < 2; ++body)
-		toWorldAxes<R, D>(*in.rotation[body], sum[body], world[body]);
-	for (int j = 0; j < D; ++j) {
-		const R residual = world[0][j] + world[1][j];
-		square += residual * residual;
-		least += (home == 0 ? -world[1][j] : world[0][j]) * (*in.centre2)[j];
-	}
-	least -= R(tolerance::contact) * reach;
-	R apart = size;
-	for (int j = 0; j < D; ++j)
-		apart += abs((*in.centre2)[j]);
-	const R left = sqrt(square);
-	if (!(least > left * size)) return false;
-	bound = maxOf<R>(least - left * 2 * size * (2 + apart / in.shape[home]->inscribedRadius()), 0);
-	return true;
-}
-
 /// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
 /// included, above `least`.
 template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
@@ -101,25 +65,6 @@ template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R,
 		for (int k = 1; k <= D; ++k)
 			dual[j] += share[k] * basis.normal[j][k];
 	}
-}
-
-/// Whether an overlap that is `thin` (over the bodies' size) stands so aslant in the frame that its Hessian is not graded there.
-template <class R, int D> POLYTOPE_INLINE bool leans(const R* dual, R thin)
-{
-	const R steep  = R(tolerance::lean) * thin * dual[D - 1];
-	R       across = 0;
-	for (int k = 0; k + 1 < D; ++k)
-		across += dual[k] * dual[k];
-	return !(across < steep * steep);
-}
-
-/// Slack of the frame's origin.
-template <class R, int D, int W> POLYTOPE_INLINE R smallestOffset(const PairPlanes<R, D>& planes)
-{
-	auto least = load<R, W>(planes.offset);
-	for (int i = W; i < planes.total; i += W)
-		least = minOf(least, load<R, W>(planes.offset + i));
-	return horizontalMin<R, W>(least);
 }
 
 /// Goes from x (inside) towards `target` as far as it stays inside.
@@ -173,82 +118,6 @@ template <class R, int D> POLYTOPE_INLINE ContactStatus ipoptCentre(const PairPl
 	if (outcome == IpoptOutcome::NotAvailable) return ContactStatus::IpoptNotAvailable;
 	out.ipoptSolved = true;
 	return outcome == IpoptOutcome::Converged ? ContactStatus::CentreByIpopt : ContactStatus::CentreNotConverged;
-}
-
-/// Normal at x (Eq. 17) from both gradients, or what stands in for it. Leaves slacks for the depth.
-template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
-        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
-{
-	R   weight[2];
-	R   g[2][D];
-	int directed = 0;
-	for (int body = 0; body < 2; ++body) {
-		innerPotentialGradient<R, D, W>(planes, body, x, in.shape[body]->cornerRadius(), g[body]);
-		const R    length = norm<R, D>(g[body]);
-		const bool has    = length > R(tolerance::direction) * f.size;
-		directed += has;
-		weight[body] = has ? (body == 0 ? R(1) : R(-1)) * settings.normalWeight[body] / length : R(0);
-	}
-	for (int k = 0; k < D; ++k)
-		n[k] = weight[0] * g[0][k] + weight[1] * g[1][k];
-	R length = norm<R, D>(n);
-	// a body of weight zero cannot be the only one that has a gradient
-	if (directed == 1 && !(length > 0)) {
-		const int body = norm<R, D>(g[0]) > norm<R, D>(g[1]) ? 0 : 1;
-		for (int k = 0; k < D; ++k)
-			n[k] = (body == 0 ? R(1) : R(-1)) * g[body][k];
-		length = norm<R, D>(n);
-	}
-	ContactStatus status = directed == 2 ? ContactStatus::Contact : ContactStatus::NormalFromOneBody;
-	if (directed == 0
-	        || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
-		status = ContactStatus::NormalFromDual;
-		for (int k = 0; k < D; ++k)
-			n[k] = dual[k];
-		length = norm<R, D>(n);
-	}
-	if (!(length > R(tolerance::direction) * R(directed == 0))) {
-		// concentric bodies: along the line of centres, or the last axis
-		status = ContactStatus::NoDirection;
-		R line[D];
-		for (int k = 0; k < D; ++k)
-			line[k] = (*in.centre2)[k];
-		rotateBack<R, D>(f.world, line, n);
-		length = norm<R, D>(n);
-		if (!(length > R(tolerance::direction) * f.size)) {
-			for (int k = 0; k < D; ++k)
-				n[k] = f.own[f.home].m[D - 1][k];
-			length = norm<R, D>(n);
-		}
-	}
-	for (int k = 0; k < D; ++k)
-		n[k] /= length;
-	return status;
-}
-
-template <class R, int D> POLYTOPE_INLINE void rememberWeights(const LpBasis<R, D>& basis, PairMemory& memory)
-{
-	for (int k = 0; k < D; ++k)
-		memory.dual[k] = basis.weight[k];
-}
-
-template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)
-{
-	for (int k = 0; k <= D; ++k)
-		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
-}
-
-template <class R, int D>
-POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
-{
-	for (int k = 0; k <= D; ++k) {
-		const bool second = basis.plane[k] >= planes.first;
-		memory.basis[k]   = 2 * (basis.plane[k] - (second ? planes.first : 0)) + second;
-		out.weights[k]    = basis.weight[k];
-	}
-	memory.hasBasis = true;
-	out.basis       = memory.basis;
 }
 
 template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairInput& in, ContactWorkspace& workspace)

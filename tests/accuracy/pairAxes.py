@@ -149,6 +149,6 @@ axes = {
 		'Units',
 		'one size in metres',
 		[*depths, Limit('difference to the answer in metres, scaled', 'deviation', 1e-11)],
-		'From 1e-60 to 1e45 m. Planes 1e60 m away are what the kernel fills its vectors with: bodies of that size fail.',
+		'From 1e-45 to 1e45 m; lengths outside 1e-50 … 1e50 m, here at 1e-60, are refused (planes 1e60 m away are what the kernel fills its vectors with).',
 	),
 }

@@ -54,8 +54,7 @@ class Sample:
 		"""An error beyond what rounding of the planes explains, with a status that raises no doubt."""
 		if self.status not in (*quiet, 'separated'):
 			return False
-		# s*: the weights of nearly parallel planes carry rounding of their own (allowed: tolerance::twinViolation, 1024 roundings), so twice
-		# as much (1.2 was seen). 2e-14: what the depth's definition leaves to a centre accepted at newtonTolerance
+		# s*: the programme's certificate has roundings of its own (tolerance::certain), so twice as much. 2e-14: what the depth's definition leaves to a centre accepted at newtonTolerance
 		pairs = [(self.infeasibilityError, 2 * self.infeasibilityRounding)]
 		if self.compared:
 			pairs += [

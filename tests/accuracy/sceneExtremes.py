@@ -2,7 +2,8 @@
 """Scenes in YADE taken along six axes from easy to the point of breaking, each beside its closed form, with both contact models.
 
 Stiffness ratio to 1e6, mass ratio to 1e9, time step to past the critical one, a tower of 50 blocks, 1e6 steps at rest and a slide of 1e6
-steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that the README states.
+steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that the
+README states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
 
 	./run python tests/accuracy/sceneExtremes.py --quick
 	./run python tests/accuracy/sceneExtremes.py --axes tower rest
@@ -64,9 +65,9 @@ def stiffness(findings, quick):
 	ratios = (1, 1e2, 1e4) if quick else (1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6)
 	results = [(model, ratio, stack(model, stiffnessRatio=ratio)) for model in models for ratio in ratios]
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
-	findings.row(f'{title}: normal forces at rest, worst relative error', worst(x for _, _, r in results for x in (r.lowerForce, r.upperForce)), accept=(0, 1e-6))
+	findings.row(f'{title}: normal forces at rest, worst relative error', worst(x for _, _, r in results for x in (r.lowerForce, r.upperForce)), accept=(0, 1e-7))
 	heights = worst(x for _, _, r in results for x in (r.lowerHeight, r.upperHeight))
-	findings.row(f'{title}: heights at rest over the softer overlap (paper), worst error', heights, accept=(0, 1e-6))
+	findings.row(f'{title}: heights at rest over the softer overlap (paper), worst error', heights, accept=(0, 2e-7))
 	findings.text(
 		f'{title}. A block on a block on a floor; the joint below is up to a million times as stiff as the one between the blocks. The time step '
 		'follows the stiff joint, the settling the soft one. Each rounding of a position (1e-16 m) is a force of the stiff joint’s stiffness times that.'
@@ -137,7 +138,7 @@ def towers(findings, quick):
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
 	last = {model: next(r for m, n, r in results if (m, n) == (model, steps[-1])) for model in models}
 	for model, r in last.items():
-		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 1e-2))
+		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 5e-3 if quick else 5e-5))
 		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 2e-2))
 	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
 	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
@@ -157,8 +158,8 @@ def atRest(findings, quick):
 		failures.append(failed)
 		finite.append(good)
 	sound(findings, title, failures, finite)
-	findings.row(f'{title}: way of a block of 1 m in {steps} steps', worst(r.position for _, _, r in results), 'm', accept=(0, 1e-9))
-	findings.row(f'{title}: its turn', worst(r.turn for _, _, r in results), 'rad', accept=(0, 1e-9))
+	findings.row(f'{title}: way of a block of 1 m in {steps} steps', worst(r.position for _, _, r in results), 'm', accept=(0, 1e-11))
+	findings.row(f'{title}: its turn', worst(r.turn for _, _, r in results), 'rad', accept=(0, 1e-11))
 	findings.row(f'{title}: its kinetic energy over weight × overlap', worst(r.energy for _, _, r in results), accept=(0, 1e-15))
 	findings.text(f'{title}. A block on a floor, both turned in space, has come to rest; then all damping is taken away.')
 	findings.table('rest', f'{title}; value: steps', *cells(results))
@@ -177,8 +178,8 @@ def slides(findings, quick):
 		finite.append(good)
 	sound(findings, title, failures, finite)
 	# the first millimetre is given to the shear that the joint had stored
-	findings.row(f'{title}: distance after {steps} steps, worst relative error', worst(r.distanceError for _, n, r in results if n == steps), accept=(0, 1e-4))
-	findings.row(f'{title}: speed, worst relative error', worst(r.speedError for _, _, r in results), accept=(0, 1e-4))
+	findings.row(f'{title}: distance after {steps} steps, worst relative error', worst(r.distanceError for _, n, r in results if n == steps), accept=(0, 1e-4 if quick else 1e-5))
+	findings.row(f'{title}: speed, worst relative error', worst(r.speedError for _, _, r in results), accept=(0, 1e-4 if quick else 1e-5))
 	findings.row(f'{title}: tilt of the block', worst(r.tilt for _, _, r in results), 'rad', accept=(0, 1e-5))
 	findings.text(f'{title}. A flat block slides down a slope half a degree steeper than its friction angle, with normal and rocking damping.')
 	findings.table('slide', f'{title}; value: steps', *cells(results))
@@ -191,7 +192,7 @@ axes = {'stiffness': stiffness, 'mass': mass, 'timeStep': timeStep, 'tower': tow
 
 def options(arguments=None):
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-	parser.add_argument('--quick', action='store_true', help='fewer values and steps, the same limits')
+	parser.add_argument('--quick', action='store_true', help='fewer values and steps')
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
 	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output/sceneExtremes'), help='folder for all files')
 	return parser.parse_args(arguments)

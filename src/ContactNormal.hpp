@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "ContactFrame.hpp"
+#include "ContactQuery.hpp"
+#include "InnerPotential.hpp"
+
+/// Contact normal (Boon et al. 2012, Eq. 17), and what stands in for it where a body has no gradient.
+namespace polytope {
+
+/// Normal at x (Eq. 17) from both gradients, or what stands in for it. Leaves slacks for the depth.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+{
+	R   weight[2];
+	R   g[2][D];
+	int directed = 0;
+	for (int body = 0; body < 2; ++body) {
+		innerPotentialGradient<R, D, W>(planes, body, x, in.shape[body]->cornerRadius(), g[body]);
+		const R    length = norm<R, D>(g[body]);
+		const bool has    = length > R(tolerance::direction) * f.size;
+		directed += has;
+		weight[body] = has ? (body == 0 ? R(1) : R(-1)) * settings.normalWeight[body] / length : R(0);
+	}
+	for (int k = 0; k < D; ++k)
+		n[k] = weight[0] * g[0][k] + weight[1] * g[1][k];
+	R length = norm<R, D>(n);
+	// a body of weight zero cannot be the only one that has a gradient
+	if (directed == 1 && !(length > 0)) {
+		const int body = norm<R, D>(g[0]) > norm<R, D>(g[1]) ? 0 : 1;
+		for (int k = 0; k < D; ++k)
+			n[k] = (body == 0 ? R(1) : R(-1)) * g[body][k];
+		length = norm<R, D>(n);
+	}
+	ContactStatus status = directed == 2 ? ContactStatus::Contact : ContactStatus::NormalFromOneBody;
+	if (directed == 0
+	        || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
+		status = ContactStatus::NormalFromDual;
+		for (int k = 0; k < D; ++k)
+			n[k] = dual[k];
+		length = norm<R, D>(n);
+	}
+	if (!(length > R(tolerance::direction) * R(directed == 0))) {
+		// concentric bodies: along the line of centres, or the last axis
+		status = ContactStatus::NoDirection;
+		R line[D];
+		for (int k = 0; k < D; ++k)
+			line[k] = (*in.centre2)[k];
+		rotateBack<R, D>(f.world, line, n);
+		length = norm<R, D>(n);
+		if (!(length > R(tolerance::direction) * f.size)) {
+			for (int k = 0; k < D; ++k)
+				n[k] = f.own[f.home].m[D - 1][k];
+			length = norm<R, D>(n);
+		}
+	}
+	for (int k = 0; k < D; ++k)
+		n[k] /= length;
+	return status;
+}
+
+} // namespace polytope
