@@ -24,8 +24,8 @@ namespace {
 	using Kernel
 	        = std::conditional_t<isDouble, CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<CGAL::Gmpq>>;
 
-	/// Templates only so that the branch not taken is not compiled.
-	template <class Value> Number toNumber(Value value)
+	/// Templates only so that the branch not taken is not compiled; what it names must depend on the parameters, or clang checks it.
+	template <class Value, class Result = Number> Result toNumber(Value value)
 	{
 		if constexpr (isDouble) {
 			return value;
@@ -33,14 +33,14 @@ namespace {
 			using std::frexp;
 			int    exponent = 0;
 			Value  rest     = frexp(value, &exponent); // of size one: no part of it is beyond a double's range
-			Number sum(0);
+			Result sum(0);
 			while (rest != 0) {
 				const double part = double(rest);
-				sum += Number(part);
+				sum += Result(part);
 				rest -= Value(part);
 			}
-			const Number scale(CGAL::Gmpz(1) << long(exponent < 0 ? -exponent : exponent));
-			return exponent < 0 ? Number(sum / scale) : Number(sum * scale);
+			const Result scale(CGAL::Gmpz(1) << long(exponent < 0 ? -exponent : exponent));
+			return exponent < 0 ? Result(sum / scale) : Result(sum * scale);
 		}
 	}
 
