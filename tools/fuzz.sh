@@ -8,39 +8,78 @@
 export UCX_ERROR_SIGNALS='' OMPI_MCA_opal_signal=''
 export ASAN_OPTIONS=allow_addr2line=1 UBSAN_OPTIONS=print_stacktrace=1:allow_addr2line=1
 
+fuzzUsage() {
+	cat <<'END'
+./run fuzz [OPTIONS]: feeds construction and contact with whatever libFuzzer thinks of, under AddressSanitizer and UBSan
+
+  --seconds N      for each target (default: 60)
+  --target NAME    construction or contact; may be repeated (default: both)
+  --dry-run        configures and says what would be built, nothing more
+  --help           shows this
+
+Ends with 1 if there is a crash; prints how to see it again. What was found stays in build/fuzz and is where the next run starts.
+END
+}
+
+sanitizeUsage() {
+	cat <<'END'
+./run sanitize [OPTIONS]: the core, the fuzz targets and the plug-in under checkers of memory, arithmetic and threads
+
+  --only PART      core      the core's tests under AddressSanitizer and UBSan
+                   threads   queries from many threads under ThreadSanitizer
+                   fuzz      ./run fuzz, 60 s a target
+                   valgrind  a scene of YADE under valgrind's memcheck
+                   may be repeated (default: all of them)
+  --dry-run        configures and says what would be built, nothing more
+  --help           shows this
+
+All parts run, whatever one says; ends with 1 if any finds an error.
+END
+}
+
+dryRun=()
+
 # checkedBuild FOLDER SANITIZERS TARGETS…
 checkedBuild() {
 	local folder=$1 sanitizers=$2
 	shift 2
 	(
 		flock 9
-		configure # makes the build folder anew where it is another YADE's
+		configure "$build" double # makes the build folder anew where it is another YADE's
 		step "configuring for ${sanitizers//,/, }" "tools/packages.txt lists what is needed." \
 			cmake -S "$project" -B "$folder" -G Ninja -DPOLYTOPE_YADE=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-			-DPOLYTOPE_SANITIZE="$sanitizers" -DPOLYTOPE_FUZZ="$([ "$sanitizers" = thread ] && echo OFF || echo ON)"
-		step "building for ${sanitizers//,/, }" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
+			-DPOLYTOPE_IPOPT="$ipopt" -DPOLYTOPE_SANITIZE="$sanitizers" -DPOLYTOPE_FUZZ="$([ "$sanitizers" = thread ] && echo OFF || echo ON)"
+		if [ ${#dryRun[@]} -gt 0 ]; then
+			echo "for ${sanitizers//,/, }:"
+			ninja "${dryRun[@]}" -C "$folder" "$@"
+		else
+			step "building for ${sanitizers//,/, }" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
+		fi
 	) 9>"$cache/build.lock"
 }
 
 checkedMemory() { checkedBuild "$build/checked" address,undefined,float-cast-overflow "$@"; }
 
-# fuzz [--seconds N] [--target construction|contact]
+# fuzz OPTIONS…: see fuzzUsage
 fuzz() {
 	local seconds=60 targets=() target result=0
 	while [ $# -gt 0 ]; do
 		case $1 in
-			--seconds) seconds=${2:?--seconds needs a number} ;;
-			--target) targets+=("${2:?--target needs construction or contact}") ;;
-			*) fail "fuzz: there is no option '$1'." "./run fuzz [--seconds N] [--target construction|contact]" ;;
+			--help | -h) fuzzUsage && return ;;
+			--dry-run) dryRun=(-n) && shift && continue ;;
+			--seconds | --target) [ $# -gt 1 ] || fail "fuzz: $1 needs a value." "./run fuzz --help lists the options." ;;
+			*) fail "fuzz: there is no option '$1'." "./run fuzz --help lists the options." ;;
 		esac
+		case $1 in --seconds) seconds=$2 ;; --target) targets+=("$2") ;; esac
 		shift 2
 	done
 	[ ${#targets[@]} -gt 0 ] || targets=(construction contact)
-	[[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "fuzz: --seconds $seconds is not a number of seconds."
+	[[ $seconds =~ ^[1-9][0-9]{0,8}$ ]] || fail "fuzz: --seconds '$seconds' is not a number of seconds."
 	for target in "${targets[@]}"; do
 		case $target in construction | contact) ;; *) fail "fuzz: there is no target '$target'." "They are: construction, contact." ;; esac
 	done
-	checkedMemory "${targets[@]/#/polytope_fuzz_}" "${targets[@]/#/polytope_replay_}"
+	checkedMemory "${targets[@]/#/polytope_fuzz_}" "${targets[@]/#/polytope_replay_}" || return 1
+	[ ${#dryRun[@]} -eq 0 ] || return 0
 	printf '\n%-14s %8s %12s %10s %10s %8s\n' target seconds executions coverage 'new units' crashes
 	for target in "${targets[@]}"; do fuzzTarget "$target" "$seconds" || result=1; done
 	return $result
@@ -68,19 +107,55 @@ fuzzTarget() {
 	return 1
 }
 
-# The core's tests under ASan and UBSan, threads under TSan, the fuzz targets, a scene of YADE under valgrind. All run, whatever one says.
-sanitize() {
-	[ $# -eq 0 ] || fail "sanitize: there is no option '$1'."
-	local result=0
-	checkedMemory
-	checkedBuild "$build/checked-threads" thread polytope_core_tests
-	printf '\nTests of the core under AddressSanitizer and UBSan\n'
-	ctest --test-dir "$build/checked" --output-on-failure -j "$(nproc)" -E '^(Instructions|Allocation)' || result=1
-	printf '\nThreads under ThreadSanitizer\n'
+# The parts of sanitize; each builds what it needs.
+
+checkCore() {
+	checkedMemory || return 1
+	[ ${#dryRun[@]} -eq 0 ] || return 0
+	ctest --test-dir "$build/checked" --output-on-failure -j "$(nproc)" -E '^(Instructions|Allocation|Clang)'
+}
+
+checkThreads() {
+	checkedBuild "$build/checked-threads" thread polytope_core_tests || return 1
+	[ ${#dryRun[@]} -eq 0 ] || return 0
 	TSAN_OPTIONS=halt_on_error=1:allow_addr2line=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
-		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*' || result=1
-	fuzz || result=1
-	printf '\nA scene of YADE under valgrind\n'
-	python3 "$project/tests/yade/memcheck.py" || result=1
+		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*'
+}
+
+checkFuzz() { fuzz; }
+
+checkValgrind() {
+	[ ${#dryRun[@]} -eq 0 ] || return 0
+	(build) && python3 "$project/tests/yade/memcheck.py"
+}
+
+# sanitize OPTIONS…: see sanitizeUsage
+sanitize() {
+	local parts=() part result=0 verdicts=()
+	while [ $# -gt 0 ]; do
+		case $1 in
+			--help | -h) sanitizeUsage && return ;;
+			--dry-run) dryRun=(-n) && shift && continue ;;
+			--only) [ $# -gt 1 ] || fail "sanitize: --only needs a value." "./run sanitize --help lists the parts." ;;
+			*) fail "sanitize: there is no option '$1'." "./run sanitize --help lists the options." ;;
+		esac
+		case $2 in
+			core | threads | fuzz | valgrind) parts+=("$2") ;;
+			*) fail "sanitize: there is no part '$2'." "They are: core, threads, fuzz, valgrind." ;;
+		esac
+		shift 2
+	done
+	[ ${#parts[@]} -gt 0 ] || parts=(core threads fuzz valgrind)
+	for part in "${parts[@]}"; do
+		printf '\n%s: ' "$part"
+		case $part in
+			core) echo "tests of the core under AddressSanitizer and UBSan" ;;
+			threads) echo "queries from many threads under ThreadSanitizer" ;;
+			fuzz) echo "construction and contact under libFuzzer" ;;
+			valgrind) echo "a scene of YADE under valgrind" ;;
+		esac
+		if ("check${part^}"); then verdicts+=("$part: sound"); else verdicts+=("$part: ERRORS") && result=1; fi
+	done
+	[ ${#dryRun[@]} -gt 0 ] || { echo && printf '%s\n' "${verdicts[@]}"; }
 	return $result
 }

@@ -137,7 +137,7 @@ case $command in
 	search) build && search "$@" ;;
 	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
-	sanitize) build && . "$project/tools/fuzz.sh" && sanitize "$@" ;;
+	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;
 	shell) build && exec bash "$@" ;;
 	format) format "$@" ;;
 	*) fail "inside.sh: no command $command" ;;

@@ -8,6 +8,8 @@
 
 #include "RockJoint.hpp"
 
+#include <sstream>
+
 namespace yade {
 
 YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
@@ -189,7 +191,13 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	else settings_.solver = polytope::CentreSolver::Ipopt;
 	if (!(tolerance >= 0 && tolerance < 1))
 		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
-	if (!(newtonTolerance > 0 && newtonTolerance < 1)) refuse("newtonTolerance: must be above 0 and below 1");
+	// a finer centre than rounding cannot be reached; a coarser one than 0.1 is anywhere in the overlap
+	if (!(newtonTolerance >= polytope::tolerance::rounding && newtonTolerance <= 0.1)) {
+		std::ostringstream message;
+		message << "newtonTolerance: must lie between " << polytope::tolerance::rounding
+		        << " (the rounding of this precision's numbers) and 0.1 (a fraction of the overlap's own size)";
+		refuse(message.str());
+	}
 	settings_.tolerance       = tolerance;
 	settings_.newtonTolerance = newtonTolerance;
 	settings_.barrier         = barrier;

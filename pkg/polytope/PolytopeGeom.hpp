@@ -86,7 +86,7 @@ public:
 		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it gives up on a contact, Ipopt takes over if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
-		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]."))
+		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in double) to 0.1."))
 		((bool, computeArea, false, , "Compute :yref:`PolytopeGeom.contactArea` for every contact (laws that need it ask by themselves)."))
 		((bool, timing, false, , "Measure the time of the linear programme and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -30,47 +33,74 @@ struct Options {
 	std::string   log;
 };
 
-const char* usage = "polytope_search [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
-                    "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
-                    "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
-                    "  --log      also writes the table to this file\n"
-                    "Families:";
+const char* usage
+        = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
+          "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
+          "  --quick    250 000 pairs: seconds to a minute\n"
+          "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
+          "  --seed     of the random numbers (1)\n"
+          "  --threads  how many (0: as many as the machine has)\n"
+          "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
+          "  --log      also writes the table to this file (./run search: one in output/search)\n"
+          "  --help     shows this\n"
+          "Families:";
+
+void printUsage(std::FILE* where)
+{
+	std::fputs(usage, where);
+	for (const Family& family : families())
+		std::fprintf(where, " %s", family.name);
+	std::fprintf(where, "\n");
+}
 
 [[noreturn]] void refuse(const std::string& why)
 {
-	std::fprintf(stderr, "%s\n%s", why.c_str(), usage);
-	for (const Family& family : families())
-		std::fprintf(stderr, " %s", family.name);
-	std::fprintf(stderr, "\n");
+	std::fprintf(stderr, "%s\n\n", why.c_str());
+	printUsage(stderr);
 	std::exit(2);
 }
 
-long numberOf(const std::string& name, const char* value)
+/// Months of a machine's work: more is a slip of the finger.
+constexpr long mostPairs  = 1000000000000;
+constexpr long quickPairs = 250000; // as the tests
+
+long numberOf(const std::string& name, const char* value, long least, long most)
 {
-	char*      end    = nullptr;
+	char* end         = nullptr;
+	errno             = 0;
 	const long number = std::strtol(value, &end, 10);
-	if (*end || end == value || number < 0) refuse(name + ": give a number, not '" + value + "'");
+	if (*end || end == value || errno || number < least || number > most)
+		refuse(name + ": must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not '" + value + "'");
 	return number;
 }
 
 Options optionsOf(int count, char** arguments)
 {
 	Options options;
-	for (int i = 1; i < count; i += 2) {
+	for (int i = 1; i < count; ++i) {
 		const std::string name = arguments[i];
-		if (name == "--help") refuse("");
-		if (i + 1 == count) refuse(name + ": give a value");
-		const char* value = arguments[i + 1];
-		if (name == "--pairs") options.pairs = numberOf(name, value);
-		else if (name == "--seed") options.seed = (unsigned long)(numberOf(name, value));
-		else if (name == "--threads") options.threads = unsigned(numberOf(name, value));
-		else if (name == "--trial") options.trial = numberOf(name, value);
+		if (name == "--help" || name == "-h") {
+			printUsage(stdout);
+			std::exit(0);
+		}
+		if (name == "--quick") {
+			options.pairs = quickPairs;
+			continue;
+		}
+		const char* known[] = { "--pairs", "--seed", "--threads", "--trial", "--log", "--family" };
+		if (std::find(std::begin(known), std::end(known), name) == std::end(known)) refuse("there is no option " + name);
+		if (++i == count) refuse(name + ": give a value");
+		const char* value = arguments[i];
+		if (name == "--pairs") options.pairs = numberOf(name, value, 1, mostPairs);
+		else if (name == "--seed") options.seed = (unsigned long)(numberOf(name, value, 0, LONG_MAX));
+		else if (name == "--threads") options.threads = unsigned(numberOf(name, value, 0, 1024));
+		else if (name == "--trial") options.trial = numberOf(name, value, 0, mostPairs);
 		else if (name == "--log") options.log = value;
 		else if (name == "--family") {
 			for (std::size_t f = 0; f < families().size(); ++f)
 				if (families()[f].name == std::string(value)) options.family = int(f);
 			if (options.family < 0) refuse("--family: there is no '" + std::string(value) + "'");
-		} else refuse("there is no option " + name);
+		}
 	}
 	if (options.trial >= 0 && options.family < 0) refuse("--trial: name its --family");
 	return options;

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from yade import Body, FrictMat, O, Polytope, Quaternion, Vector3, polytope
+from yade import Body, FrictMat, Ig2_Polytope_Polytope_PolytopeGeom, O, Polytope, Quaternion, Vector3, polytope
 
 SIZES = [1e-9, 1e-3, 1, 1e3]
 
@@ -203,6 +203,25 @@ def testContactOfTwoCubes():
 	assert not apart.inContact and apart.status == 'separated' and apart.depth == pytest.approx(-.5) and apart.infeasibility == pytest.approx(.25)
 
 
+@pytest.mark.parametrize('value', [1e-300, 0., -1e-10, 0.5, 1., nan])
+def testNewtonToleranceHasARange(value):
+	"""Below rounding nothing can be reached, and above a tenth the point is anywhere in the overlap."""
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(newtonTolerance=1e-6)
+	with pytest.raises(ValueError, match='newtonTolerance: must lie between .* and 0.1'):
+		functor.newtonTolerance = value
+	assert float(functor.newtonTolerance) == pytest.approx(1e-6, rel=0)
+	cube = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	with pytest.raises(ValueError, match='newtonTolerance'):
+		polytope.contact(cube, polytope.cuboid((.1, .2, .99), (.5, .5, .5)), newtonTolerance=value)
+
+
+@pytest.mark.parametrize('value', [3e-16, 0.1])
+def testEndsOfNewtonTolerancesRange(value):
+	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .99), (.5, .5, .5))
+	c = polytope.contact(one, two, newtonTolerance=value)
+	assert c.inContact and c.depth == pytest.approx(0.01, rel=1e-12)
+
+
 def testContactRefusesWhatIsNoPolytope():
 	cube = polytope.cuboid((0, 0, 0), (.5, .5, .5))
 	with pytest.raises(ValueError, match='b2'):
@@ -212,6 +231,9 @@ def testContactRefusesWhatIsNoPolytope():
 	astray = polytope.cuboid((0, 0, 0), (.5, .5, .5))
 	astray.state.pos = (nan, 0, 0)
 	with pytest.raises(ValueError, match='b2.*finite'):
+		polytope.contact(cube, astray)
+	astray.state.pos = (1e300, 0, 0)  # a number, but its square is none
+	with pytest.raises(ValueError, match='b2.*too large.*squares'):
 		polytope.contact(cube, astray)
 	with pytest.raises(ValueError, match='contactPoint'):
 		polytope.contact(cube, cube, contactPoint='middle')

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`./run fuzz`, `./run sanitize` and `./run search`: that they start, and what they say of their options. What they find is their own matter."""
+import os
+import subprocess
+
+import pytest
+
+if 'buildKey' not in os.environ:
+	pytest.skip('not started by ./run', allow_module_level=True)
+
+project = os.environ['project']
+build = os.path.dirname(os.environ['YADE_PREFIX'])
+
+
+def inside(*arguments):
+	"""As `./run` calls it, in the place where we are."""
+	return subprocess.run(['bash', os.path.join(project, 'tools', 'inside.sh'), *arguments], capture_output=True, text=True, timeout=600)
+
+
+def search(*arguments):
+	return subprocess.run([os.path.join(build, 'tests', 'search', 'polytope_search'), *arguments], capture_output=True, text=True, timeout=300)
+
+
+@pytest.mark.parametrize('verb, options', [('fuzz', ['--seconds', '--target', '--dry-run']), ('sanitize', ['--only', 'core', 'threads', 'fuzz', 'valgrind', '--dry-run'])])
+def testHelpNamesTheOptions(verb, options):
+	done = inside(verb, '--help')
+	assert done.returncode == 0 and not done.stderr
+	assert f'./run {verb}' in done.stdout and all(option in done.stdout for option in options)
+
+
+@pytest.mark.parametrize('arguments, named', [
+        (['fuzz', '--seconds'], '--seconds'),
+        (['fuzz', '--seconds', '0'], '--seconds'),
+        (['fuzz', '--seconds', '99999999999999999999'], '--seconds'),
+        (['fuzz', '--target', 'nothing'], 'nothing'),
+        (['fuzz', '--nonsense'], '--nonsense'),
+        (['sanitize', '--only', 'nothing'], 'nothing'),
+        (['sanitize', '--only'], '--only'),
+        (['sanitize', 'core'], 'core'),
+])  # yapf: disable
+def testRefusals(arguments, named):
+	done = inside(*arguments)
+	assert done.returncode == 1 and named in done.stderr and not done.stdout
+	assert 'unbound' not in done.stderr
+
+
+@pytest.mark.parametrize('arguments, folders', [
+        (['fuzz'], {'checked': ['polytope_fuzz_construction', 'polytope_fuzz_contact']}),
+        (['sanitize'], {'checked': ['polytope_fuzz_construction', 'polytope_core_tests'], 'checked-threads': ['polytope_core_tests']}),
+])  # yapf: disable
+def testTheyConfigure(arguments, folders):
+	"""A dry run goes the whole way to the compiler."""
+	done = inside(*arguments, '--dry-run')
+	assert done.returncode == 0, done.stdout + done.stderr
+	for folder, targets in folders.items():
+		with open(os.path.join(build, folder, 'build.ninja')) as rules:
+			text = rules.read()
+		assert 'clang++' in text and '-fsanitize=' in text
+		for target in targets:
+			assert f'build {target}: phony' in text or f'/{target}:' in text, target
+
+
+def testSearchHelps():
+	done = search('--help')
+	assert done.returncode == 0 and not done.stderr
+	assert '--pairs' in done.stdout and '--quick' in done.stdout and 'Families:' in done.stdout
+
+
+@pytest.mark.parametrize('arguments', [
+        ['--pairs', '0'], ['--pairs', '-1'], ['--pairs', '99999999999999999999'], ['--pairs', '1e6'], ['--pairs', '1000000000001'], ['--pairs'],
+        ['--seed', '99999999999999999999'], ['--threads', '-1'], ['--threads', '4294967296'], ['--trial', '1'], ['--family', 'none'], ['--nonsense'],
+        ['--quick', '--pairs', '0']
+])  # yapf: disable
+def testSearchRefuses(arguments):
+	done = search(*arguments)
+	assert done.returncode == 2 and not done.stdout
+	assert arguments[-1 if len(arguments) == 1 else -2] in done.stderr.splitlines()[0]
+
+
+def testSearchLooksAtAsManyPairsAsItSays():
+	done = search('--pairs', '1', '--threads', '1', '--family', search('--help').stdout.split('Families:')[1].split()[0])
+	assert done.returncode == 0
+	assert int(next(line for line in done.stdout.splitlines() if line.startswith('all ')).split()[1]) >= 1
