@@ -78,9 +78,9 @@ const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body,
 	const auto& state = *body->state;
 	if (!yade::math::isfinite(state.pos.squaredNorm() + state.ori.squaredNorm())) {
 		const bool far = state.pos.allFinite() && state.ori.coeffs().allFinite();
-		throw std::invalid_argument(
-		        std::string(name)
-		        + (far ? ": its position (or orientation) is too large: the squares of the coordinates, too, must be finite numbers; move "
+		throw std::invalid_argument(std::string(name)
+		        + (far ? ": its position (or orientation) is too large: the squares of the coordinates, too, must be finite "
+		                 "numbers; move "
 		                 "the bodies nearer to the origin"
 		               : ": its position and orientation must be finite"));
 	}

@@ -33,17 +33,16 @@ struct Options {
 	std::string   log;
 };
 
-const char* usage
-        = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
-          "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
-          "  --quick    250 000 pairs: seconds to a minute\n"
-          "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
-          "  --seed     of the random numbers (1)\n"
-          "  --threads  how many (0: as many as the machine has)\n"
-          "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
-          "  --log      also writes the table to this file (./run search: one in output/search)\n"
-          "  --help     shows this\n"
-          "Families:";
+const char* usage = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
+                    "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
+                    "  --quick    250 000 pairs: seconds to a minute\n"
+                    "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
+                    "  --seed     of the random numbers (1)\n"
+                    "  --threads  how many (0: as many as the machine has)\n"
+                    "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
+                    "  --log      also writes the table to this file (./run search: one in output/search)\n"
+                    "  --help     shows this\n"
+                    "Families:";
 
 void printUsage(std::FILE* where)
 {
@@ -70,7 +69,8 @@ long numberOf(const std::string& name, const char* value, long least, long most)
 	errno             = 0;
 	const long number = std::strtol(value, &end, 10);
 	if (*end || end == value || errno || number < least || number > most)
-		refuse(name + ": must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not '" + value + "'");
+		refuse(name + ": must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not '" + value
+		        + "'");
 	return number;
 }
 

@@ -37,7 +37,7 @@ def testHelpNamesTheOptions(verb, options):
         (['sanitize', '--only', 'nothing'], 'nothing'),
         (['sanitize', '--only'], '--only'),
         (['sanitize', 'core'], 'core'),
-])  # yapf: disable
+])
 def testRefusals(arguments, named):
 	done = inside(*arguments)
 	assert done.returncode == 1 and named in done.stderr and not done.stdout
@@ -47,7 +47,7 @@ def testRefusals(arguments, named):
 @pytest.mark.parametrize('arguments, folders', [
         (['fuzz'], {'checked': ['polytope_fuzz_construction', 'polytope_fuzz_contact']}),
         (['sanitize'], {'checked': ['polytope_fuzz_construction', 'polytope_core_tests'], 'checked-threads': ['polytope_core_tests']}),
-])  # yapf: disable
+])
 def testTheyConfigure(arguments, folders):
 	"""A dry run goes the whole way to the compiler."""
 	done = inside(*arguments, '--dry-run')
@@ -70,7 +70,7 @@ def testSearchHelps():
         ['--pairs', '0'], ['--pairs', '-1'], ['--pairs', '99999999999999999999'], ['--pairs', '1e6'], ['--pairs', '1000000000001'], ['--pairs'],
         ['--seed', '99999999999999999999'], ['--threads', '-1'], ['--threads', '4294967296'], ['--trial', '1'], ['--family', 'none'], ['--nonsense'],
         ['--quick', '--pairs', '0']
-])  # yapf: disable
+])
 def testSearchRefuses(arguments):
 	done = search(*arguments)
 	assert done.returncode == 2 and not done.stdout
