@@ -76,14 +76,11 @@ const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body,
 	if (!shape || !shape->convex())
 		throw std::invalid_argument(std::string(name) + ": must be a body with a Polytope shape that has planes");
 	const auto& state = *body->state;
-	if (!yade::math::isfinite(state.pos.squaredNorm() + state.ori.squaredNorm())) {
-		const bool far = state.pos.allFinite() && state.ori.coeffs().allFinite();
-		throw std::invalid_argument(std::string(name)
-		        + (far ? ": its position (or orientation) is too large: the squares of the coordinates, too, must be finite "
-		                 "numbers; move "
-		                 "the bodies nearer to the origin"
-		               : ": its position and orientation must be finite"));
-	}
+	using yade::math::isfinite;
+	const std::string what = std::string(name) + ": its position and orientation ";
+	if (!isfinite(state.pos.sum() + state.ori.coeffs().sum())) throw std::invalid_argument(what + "must be finite");
+	if (!isfinite(state.pos.squaredNorm() + state.ori.squaredNorm()))
+		throw std::invalid_argument(what + "are too large to be squared; move the bodies nearer to the origin");
 	return *shape->convex();
 }
 
