@@ -17,27 +17,44 @@ import pathlib
 import sys
 
 here = pathlib.Path(__file__).resolve().parent
+letters = ('pair', 'B', 'C', 'D', 'F', 'rest', 'A')
+
+
+def options(arguments=None):
+	parser = argparse.ArgumentParser(prog='./run tradeoff', description=__doc__.splitlines()[0])
+	parser.add_argument('--quick', action='store_true', help='fewer settings, and each timed once')
+	parser.add_argument('--only', nargs='+', choices=letters, default=letters, metavar='SCENE', help=f'of {", ".join(letters)}')
+	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)')
+	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run asks before it builds: reads the options only
+	parser.add_argument('--precisions', action='store_true', help=argparse.SUPPRESS)  # and then: prints the builds that this run asks for
+	given = parser.parse_args(arguments)
+	given.output = (given.output or pathlib.Path('output/tradeoff-quick' if given.quick else 'output/tradeoff')).resolve()
+	return given
+
+
+if __name__ == '__main__':  # before YADE is loaded, or even built
+	given = options()
+	if given.check:
+		sys.exit()
+
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the processes
 os.environ.setdefault('POLYTOPE_GEOMETRY', str(here / 'paper/geometry'))
 
 from yade.polytope import tradeoff
 from yade.polytope.studies.tradeoffAxes import allScenes, default, scatter
 from yade.polytope.studies.tradeoffReport import ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
+from yade.polytope.tradeoffPrecision import precisions
 
 
-def options(letters, arguments=None):
-	parser = argparse.ArgumentParser(prog='./run tradeoff', description=__doc__.splitlines()[0])
-	parser.add_argument('--quick', action='store_true', help='fewer settings, and each timed once')
-	parser.add_argument('--only', nargs='+', choices=letters, default=letters, metavar='SCENE', help=f'of {", ".join(letters)}')
-	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)')
-	given = parser.parse_args(arguments)
-	given.output = (given.output or pathlib.Path('output/tradeoff-quick' if given.quick else 'output/tradeoff')).resolve()
-	return given
+def printPrecisions(given):
+	"""Those that the settings name. The quick run takes what happens to be built."""
+	scenes = {} if given.quick else {letter: scene for letter, scene in allScenes().items() if letter in given.only}
+	named = {changes.get('precision', 'double') for scene in scenes.values() for changes in scene.settings.values()}
+	print(end=''.join(f'{name}\n' for name in precisions if name in named - {'double'}))
 
 
-def main(arguments=None):
+def main(given):
 	scenes = allScenes()
-	given = options(list(scenes), arguments)
 	tables, parts, failed = {}, [], False
 	for letter in given.only:
 		scene = scenes[letter]
@@ -68,4 +85,4 @@ def main(arguments=None):
 
 
 if __name__ == '__main__':
-	sys.exit(main())
+	sys.exit(printPrecisions(given) if given.precisions else main(given))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What each setting costs in a scene, and what it does to the answer that matters there: `polytope.tradeoff`."""
 
+import copy
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -11,14 +13,12 @@ import tempfile
 from tqdm import tqdm
 
 from . import tradeoffPrecision as precision
+from .tradeoffArguments import checkedSettings, checkNumbers, checkReference, ofTheScene, placeOf
+from .tradeoffInside import CalledAgain, inside
 from .tradeoffTable import Row, TradeoffTable
 from .tradeoffWorker import settable, takesTheScene
 
 __all__ = ['tradeoff']
-
-ofTheScene = ('timeStep', 'timeStepFactor', 'precision')
-inside = 'POLYTOPE_TRADEOFF'
-"""Environment variable of the processes that are started here."""
 
 
 def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, timeLimit=None):
@@ -28,60 +28,60 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	the setting, calls measure(), and then takes steps for *timedSeconds* from where that left the scene: the times are the least means
 	of many blocks of steps, so that other programs disturb them little. One thread, unless OMP_NUM_THREADS says more.
 
-	In a script, put the call under ``if __name__ == '__main__':``, or the processes would come to it again (they refuse).
+	These processes read the script from its beginning up to this call, no further: *build* and *measure* must stand above it. Put the
+	call, and all that should run once, under ``if __name__ == '__main__':``, and they do not come to it at all. Not after ``from yade
+	import *``, which renames the script ('yade' is among the names it brings, as __name__): the condition is false even in the script
+	itself, and nothing happens. Then either call tradeoff() at the script's end with no condition, or ask before importing::
+
+		isScript = __name__ == '__main__'
+		from yade import *
+		...
+		if isScript:
+			table = polytope.tradeoff(build, settings, measure, reference)
 
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors
-	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …),
+	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …;
+	    a *newtonTolerance* coarser than the default changes next to nothing, for the depth is kept to 2e-14 of the size anyway),
 	    *timeStep* [s], *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds;
 	    a row says so where the plug-in was not built for it), or any argument of *build*
 	:param measure: function that runs the scene and returns the number that matters, or several as a list (their error is that of the
 	    vector), or a dict of such, the first of which is the answer and the others are tabulated. Called without arguments, or with
 	    what *build* returned if it takes one
-	:param reference: the true answer (a number or list), or the name of the setting whose answer counts as true
+	:param reference: the true answer (a number or list as long as measure()'s), or the name of the setting whose answer counts as true;
+	    if that one has no answer, no row has an error, and says so
 	:param int repeats: processes for each setting; the least times count
 	:param float timedSeconds: of each process [s]; 0: the times are means over the steps that measure() itself takes, since it last
 	    made new engines (O.loadTmp does)
 	:param float timeLimit: after which a process is stopped and its row says so [s]
-	:returns: a :yref:`TradeoffTable` with show(), csv(path), plot(path), front(), against(reference)
+	:returns: a :yref:`TradeoffTable` with show(), csv(path), plot(path), front(), against(reference). A row whose answer is not a number,
+	    or whose scene blew up (see TradeoffTable), says so and is never on the front
 	:raises ValueError: naming the argument: functions that cannot be found by another process (lambdas, functions within functions),
-	    a reference that is no setting, an unknown precision
-	:raises RuntimeError: if called within such a process (see above)
+	    a reference that is no setting (or of another length than the first answer), an unknown precision, a time step that is not above 0
+	:raises RuntimeError: if called within such a process by *build* or *measure*
 
 	Example: examples/tradeoff.py.
 	"""
 	if os.environ.get(inside):
-		raise RuntimeError("tradeoff: called by one of its own processes; put the call under `if __name__ == '__main__':`")
-	where = {name: _place(name, function) for name, function in (('build', build), ('measure', measure))}
-	if not settings:
-		raise ValueError('settings: there must be at least one')
-	if isinstance(reference, str) and reference not in settings:
-		raise ValueError(f'reference: {reference!r} is none of the settings, {list(settings)}')
-	if not repeats >= 1:
-		raise ValueError(f'repeats: must be at least 1, got {repeats}')
-	for changes in settings.values():
-		precision.available(changes.get('precision', 'double'))
+		raise CalledAgain("tradeoff: called by one of its own processes; put the call under `if __name__ == '__main__':`")
+	where = {name: placeOf(name, function) for name, function in (('build', build), ('measure', measure))}
+	settings = checkedSettings(settings)
+	checkReference(reference, settings)
+	checkNumbers(repeats, timedSeconds, timeLimit)
 	takesTheScene(measure)
-	rows = {name: Row(name, dict(changes)) for name, changes in settings.items()}
+	rows = {name: Row(name, changes) for name, changes in settings.items()}
+	fits = isinstance(reference, str)
 	with tqdm(total=repeats * len(rows), disable=None, leave=False) as bar:
 		for _ in range(repeats):
 			for row in rows.values():  # round by round: what disturbs one round does not disturb one setting alone
 				bar.set_postfix_str(row.name, refresh=True)
 				if not row.note:
 					row.take(_run(where, row.changes, timedSeconds, timeLimit))
+				if not fits and row.answer is not None:
+					TradeoffTable([copy.copy(row)], reference)  # refuses one of another length now, not after all runs
+					fits = True
 				bar.update()
 	return TradeoffTable(list(rows.values()), reference)
-
-
-def _place(name, function):
-	"""Where another process finds it."""
-	code = getattr(function, '__code__', None)
-	if code is None or function.__qualname__ != function.__name__ or function.__name__ == '<lambda>':
-		raise ValueError(f'{name}: must be a function written with def at the top of a file, got {function!r}')
-	file = pathlib.Path(code.co_filename).resolve()
-	if not file.is_file():
-		raise ValueError(f'{name}: must be written in a file, so that other processes can load it; {code.co_filename} is none')
-	return {'module': function.__module__, 'file': str(file), 'name': function.__name__}
 
 
 def _run(where, changes, timedSeconds, timeLimit):
@@ -107,6 +107,16 @@ def _run(where, changes, timedSeconds, timeLimit):
 			except subprocess.TimeoutExpired:
 				return {'error': f'took longer than {timeLimit:g} s'}
 		if not files[1].is_file():
-			last = files[2].read_text(errors='replace').strip().splitlines()[-1:]
-			return {'error': f'ended with exit code {ended.returncode}: {" ".join(last)}'}
+			return {'error': _howItEnded(ended.returncode, files[2].read_text(errors='replace'))}
 		return json.loads(files[1].read_text())
+
+
+def _howItEnded(code, log):
+	"""A process that left no answer; with the last words of its log that are words."""
+	said = [line.strip() for line in log.splitlines() if any(letter.isalpha() for letter in line)]
+	try:
+		name = signal.Signals(-code).name if code < 0 else ''
+	except ValueError:
+		name = ''
+	how = f'ended by signal {-code}' + (f', {name}' if name else '') if code < 0 else f'ended with exit code {code}'
+	return how + (f'; last words: {said[-1]}' if said else '')

@@ -7,8 +7,11 @@ import math
 
 import mpmath
 
+from .tradeoffEnergy import growth
+
 __all__ = ['Row', 'TradeoffTable']
 
+ofTheRows = object()
 digits = 60
 """Decimal digits in which answers are compared."""
 
@@ -27,13 +30,14 @@ class Row:
 	:ivar float timeStepOfLimit: time step over polytope.stableTimeStep(1) when measure() ended, None without contacts
 	:ivar float cost: µs for as much simulated time as the first setting's step
 	:ivar int fallbacks, failures: of the contact functors over the run, see stats()
-	:ivar str note: why there is no answer, or ''
+	:ivar list energy: what tradeoffEnergy.Energy.created() found
+	:ivar str note: why there is no answer, or why it does not count; '' where it does
 	"""
 
 	def __init__(self, name, changes):
 		self.name, self.changes, self.values, self.note = name, changes, {}, ''
 		self.error = self.stepMicroseconds = self.contactMicroseconds = self.contacts = self.timeStep = self.cost = self.seconds = None
-		self.fallbacks, self.failures, self.timeStepOfLimit = 0, 0, None
+		self.fallbacks, self.failures, self.timeStepOfLimit, self.energy = 0, 0, None, None
 
 	def take(self, answer):
 		"""What a process answered; of several the least times."""
@@ -43,7 +47,7 @@ class Row:
 		self.values = {name: _numbers(text) for name, text in answer['values'].items()}
 		self.timeStep, self.seconds, self.contacts = answer['timeStep'], answer['seconds'], answer.get('contacts')
 		self.fallbacks, self.failures = answer['fallbacks'], answer['failures']
-		self.timeStepOfLimit = answer.get('timeStepOfLimit')
+		self.timeStepOfLimit, self.energy = answer.get('timeStepOfLimit'), answer.get('energy')
 		for name in ('stepMicroseconds', 'contactMicroseconds'):
 			times = [time for time in (getattr(self, name), answer.get(name)) if time is not None]
 			setattr(self, name, min(times, default=None))
@@ -53,27 +57,46 @@ class Row:
 		"""The first of the values; None without."""
 		return next(iter(self.values.values()), None)
 
+	@property
+	def counts(self):
+		"""Whether it has cost and error, and nothing is amiss: only then it can be on the front."""
+		return self.error is not None and self.cost is not None and not self.note
+
 
 class TradeoffTable:
-	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see :yref:`Row`."""
+	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see :yref:`Row`.
 
-	def __init__(self, rows, reference, true=None):
+	Two kinds of answer do not count, and their row's *note* says why: one that is not a number (nan, inf), and one of a scene that blew up.
+	That is taken from the energy of motion after measure() against what was there before it and what gravity gave (tradeoffEnergy.py): a
+	row of which more came from nowhere than twice that, and ten times as much as in the calmest row. Where all rows blow up, none does
+	by this rule: look at *dt·ω*.
+	"""
+
+	def __init__(self, rows, reference, true=ofTheRows):
 		"""
 		:param list rows: of Row
 		:param reference: number, list, or name of a row
 		:param true: the answer of *reference*, where its row is not among these
+		:ivar str remark: why no row has an error; '' where they have
 		"""
 		self.rows, self.reference = rows, reference
-		true = self._true(reference) if true is None else true
+		for row, grown in zip(rows, growth([row.energy for row in rows]), strict=True):
+			if not row.note and row.answer is not None and not _isFinite(row.answer):
+				row.note = f'the answer is {_shown(row.answer)}'
+			elif not row.note and grown:
+				row.note = f'blew up: energy of motion from nowhere, {grown:.2g} times what there was'
+		true = self._true(reference) if true is ofTheRows else true
+		self.remark = f'no error: the reference, {reference!r}, has no answer that counts' if true is None else ''
 		first = next((row.timeStep for row in rows if row.timeStep), None)
 		for row in rows:
-			row.error = None if row.answer is None or true is None else _difference(row.answer, true)
+			known = row.answer is not None and _isFinite(row.answer) and true is not None
+			row.error = _difference(row.answer, true) if known else None
 			if row.cost is None and row.stepMicroseconds is not None:
 				row.cost = row.stepMicroseconds * (first / row.timeStep if row.timeStep else 1)
 
 	def _true(self, reference):
 		if isinstance(reference, str):
-			return self[reference].answer
+			return None if self[reference].note else self[reference].answer
 		return _numbers([repr(float(x)) for x in reference] if hasattr(reference, '__len__') else repr(float(reference)))
 
 	def __getitem__(self, name):
@@ -89,8 +112,9 @@ class TradeoffTable:
 		return TradeoffTable(rows, reference, self._true(reference))
 
 	def front(self):
-		"""Rows that no other one beats in both cost and error, cheapest first; an error less by under a tenth is no gain."""
-		measured = [row for row in self.rows if row.error is not None and row.cost is not None]
+		"""Rows that no other one beats in both cost and error, cheapest first; an error less by under a tenth is no gain. Without rows that do
+		not count (see the class)."""
+		measured = [row for row in self.rows if row.counts]
 		measured.sort(key=lambda row: (row.cost, row.error))
 		best, kept = math.inf, []
 		for row in measured:
@@ -110,13 +134,13 @@ class TradeoffTable:
 		rows = []
 		for row in self.rows:
 			answer = row.answer
-			shown = '' if answer is None else f'{len(answer)} numbers' if isinstance(answer, list) else float(answer)
+			shown = '' if answer is None else _shown(answer) if isinstance(answer, list) else float(answer)
 			more = [float(row.values[name]) if name in row.values else '' for name in others]
 			times = [row.stepMicroseconds, row.contactMicroseconds, row.contacts, row.timeStepOfLimit, row.cost / cheapest if row.cost and cheapest else None]
 			rows.append(
 				[row.name, shown, *more]
 				+ ['' if value is None else value for value in (row.error, *times)]
-				+ ['yes' if row in front else '', row.fallbacks, row.failures, row.note]
+				+ ['yes' if row in front else '', row.fallbacks, row.failures, row.note or self.remark]
 			)
 		return columns, rows
 
@@ -154,10 +178,21 @@ def _numbers(text):
 		return [_numbers(one) for one in text] if isinstance(text, list) else mpmath.mpf(text)
 
 
+def _isFinite(answer):
+	return all(mpmath.isfinite(one) for one in (answer if isinstance(answer, list) else [answer]))
+
+
+def _shown(answer):
+	if not isinstance(answer, list):
+		return f'{float(answer):g}'
+	return f'{len(answer)} numbers' + ('' if _isFinite(answer) else ', some of them nan or inf')
+
+
 def _difference(value, true):
 	"""|value − true| over |true|, or as it is where that is 0; of lists the Euclidean norms."""
 	if isinstance(true, list) != isinstance(value, list) or isinstance(true, list) and len(true) != len(value):
-		raise ValueError('reference: must have as many numbers as measure() returns')
+		there, wanted = (f'{len(one)} numbers' if isinstance(one, list) else 'a single number' for one in (value, true))
+		raise ValueError(f'reference: must have as many numbers as measure() returns: that is {there}, the reference {wanted}')
 	pairs = list(zip(value, true, strict=True)) if isinstance(true, list) else [(value, true)]
 	with mpmath.workdps(digits):
 		off, scale = (mpmath.sqrt(sum(x**2 for x in part)) for part in ([a - b for a, b in pairs], [b for _, b in pairs]))

@@ -101,17 +101,20 @@ search() {
 		"$build/tests/search/polytope_search" --log "$logFile" "$@"
 }
 
-# The full run looks at every precision that is installed; the quick one at those that happen to be built.
+# The full run looks at every precision that its scenes name and that is installed; the quick one at those that happen to be built.
 tradeoff() {
-	local other
+	local script=$project/examples/tradeoffPaper.py said other needed
+	# options first: a mistake, or --help, has its answer before anything is built
+	said=$(python3 "$script" --check "$@") || exit
+	[ -z "$said" ] || { echo "$said" && exit; }
 	build
-	case " $* " in
-		*" --quick "* | *" --help "* | *" -h "*) ;;
-		*) for other in $widePrecisions; do
-			if hasPrecision $other; then (buildPrecision $other) || echo "  $other: its rows say that it was not built"; fi
-		done ;;
-	esac
-	exec python3 "$project/examples/tradeoffPaper.py" "$@"
+	needed=$(python3 "$script" --precisions "$@") || exit
+	for other in longdouble float128 mpfr150; do
+		if grep -qx $other <<<"$needed" && hasPrecision $other; then
+			(buildPrecision $other) || echo "  $other: its rows say that it was not built"
+		fi
+	done
+	exec python3 "$script" "$@"
 }
 
 format() {

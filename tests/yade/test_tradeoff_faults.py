@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.tradeoff: answers that do not count are never on the front, bad arguments are refused before anything runs, and scripts of
+any shape work."""
+
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from yade import NewtonIntegrator, O, RockJointMat, polytope
+from yade.polytope.tradeoffPlot import plotTradeoff
+from yade.polytope.tradeoffTable import Row, TradeoffTable
+
+here = pathlib.Path(__file__).resolve()
+
+
+def tableOf(reference=1.0, **results):
+	"""name → (cost, answer, energy)."""
+	rows = [Row(name, {}) for name in results]
+	for row, (cost, value, *energy) in zip(rows, results.values(), strict=True):
+		times = {'stepMicroseconds': cost, 'contactMicroseconds': cost, 'contacts': 1, 'timeStep': 1, 'seconds': 1, 'fallbacks': 0, 'failures': 0}
+		row.take({'values': {'x': repr(value)}, 'energy': energy[0] if energy else None, **times})
+	return TradeoffTable(rows, reference)
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def testAnAnswerThatIsNoNumberIsNotOnTheFront(value, tmp_path):
+	table = tableOf(good=(2, 1.5), diverged=(1, value), better=(3, 1.1))
+	assert [row.name for row in table.front()] == ['good', 'better']
+	assert table['diverged'].error is None and repr(value) in table['diverged'].note
+	table.plot(tmp_path / 'plot.png')
+	assert (tmp_path / 'plot.png').stat().st_size > 1000
+
+
+def testASceneThatBlewUpIsNotOnTheFront():
+	"""Energies of motion from nowhere, and what there was."""
+	table = tableOf(calm=(2, 1.5, [-100, 100]), paper=(2, 1.2, [120, 100]), blown=(1, 0.03, [1800, 400]), lost=(1, 0.03, [math.inf, 100]))
+	assert [row.name for row in table.front()] == ['paper']
+	assert 'blew up' in table['blown'].note and 'blew up' in table['lost'].note and not table['paper'].note
+	driven = tableOf(one=(2, 1.5, [1800, 0]), other=(1, 1.6, [2000, 0]))  # a motor does the same in both
+	assert [row.name for row in driven.front()] == ['other', 'one']
+
+
+def testAReferenceWithoutAnswerIsNamed():
+	table = tableOf('lost', good=(2, 1.5), lost=(1, math.nan))
+	columns, rows = table.cells()
+	assert table['good'].error is None and "'lost'" in rows[0][columns.index('note')] and not table.front()
+	assert "'lost'" in table.against('lost', ['good']).remark
+
+
+def testEveryPointHasItsOwnNumber(tmp_path):
+	names = {f'setting {k}': (1 + k * 1e-4, 1.1) for k in range(12)}
+	drawn = []
+	import yade.polytope.tradeoffPlot as module
+	from matplotlib.text import Text  # its own box, without the line to the point
+
+	class Kept(module.Figure):
+		def savefig(self, path, **options):
+			super().savefig(path, **options)
+			drawn.extend((text.get_text(), Text.get_window_extent(text)) for text in self.axes[0].texts if text.get_text().isdigit())
+
+	original, module.Figure = module.Figure, Kept
+	try:
+		plotTradeoff(tmp_path / 'plot.png', [('', tableOf(**names))])
+	finally:
+		module.Figure = original
+	assert sorted(int(text) for text, _ in drawn) == list(range(1, 13))
+	boxes = [box.shrunk(0.8, 0.6) for _, box in drawn]
+	assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
+
+
+def build(edge=1):
+	O.reset()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (edge, 1, 1), material=RockJointMat(density=1000)))
+	O.engines = [NewtonIntegrator(gravity=(0, 0, -10), damping=0)]
+	O.dt = 1e-3
+
+
+def measure():
+	O.step()
+	return [1.0, float(O.bodies[0].state.mass)]
+
+
+def measureAndBlowUp():
+	O.step()
+	if O.dt > 2e-3:
+		O.bodies[0].state.vel = (0, 0, 1e3)
+	return 1.0
+
+
+def measureAndDie():
+	import signal
+
+	os.kill(os.getpid(), signal.SIGKILL)
+
+
+def measureNothing():
+	(pathlib.Path(os.environ['POLYTOPE_TEST']) / str(os.getpid())).touch()
+	return 1.0
+
+
+def run(settings, reference, function=measure, **options):
+	return polytope.tradeoff(build, settings, function, reference, **{'timedSeconds': 0, **options})
+
+
+def testEnergyOfARealScene():
+	table = run({'a': {}, 'blown': {'timeStepFactor': 4}}, 1, measureAndBlowUp)
+	assert 'blew up' in table['blown'].note and not table['a'].note
+
+
+def testNumbersOfNumpyReachTheProcess():
+	table = run({'a': {'edge': np.int64(2), 'timeStep': np.float64(2e-3)}}, [1, 16000])
+	assert table['a'].error < 1e-12 and table['a'].timeStep == 2e-3
+
+
+def testASignalIsNamed():
+	assert 'SIGKILL' in run({'a': {}}, 1, measureAndDie)['a'].note
+
+
+def testALengthThatDoesNotFitIsRefusedAfterTheFirstRun(monkeypatch, tmp_path):
+	monkeypatch.setenv('POLYTOPE_TEST', str(tmp_path))
+	with pytest.raises(ValueError, match='reference: .*a single number.*3 numbers'):
+		run({'a': {}, 'b': {}, 'c': {}}, [1, 2, 3], measureNothing)
+	assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize(
+	('settings', 'reference', 'options', 'word'),
+	[
+		([{}], 1, {}, 'settings'),
+		({'a': None}, 1, {}, "settings.'a'"),
+		({1: {}}, 1, {}, 'settings'),
+		({'a': {'warmStart': None}}, 1, {}, 'warmStart'),
+		({'a': {'edge': object()}}, 1, {}, 'edge'),
+		({'a': {'timeStep': 0}}, 1, {}, 'timeStep'),
+		({'a': {'timeStep': None}}, 1, {}, 'timeStep'),
+		({'a': {'timeStepFactor': math.nan}}, 1, {}, 'timeStepFactor'),
+		({'a': {'timeStepFactor': -1}}, 1, {}, 'timeStepFactor'),
+		({'a': {}}, None, {}, 'reference'),
+		({'a': {}}, math.nan, {}, 'reference'),
+		({'a': {}}, [], {}, 'reference'),
+		({'a': {}}, {'x': 1}, {}, 'reference'),
+		({'a': {}}, 1, {'repeats': 1.5}, 'repeats'),
+		({'a': {}}, 1, {'repeats': 0}, 'repeats'),
+		({'a': {}}, 1, {'timedSeconds': -1}, 'timedSeconds'),
+		({'a': {}}, 1, {'timedSeconds': math.nan}, 'timedSeconds'),
+		({'a': {}}, 1, {'timeLimit': -3}, 'timeLimit'),
+		({'a': {}}, 1, {'timeLimit': math.nan}, 'timeLimit'),
+	],
+)
+def testRefusedBeforeAnythingRuns(settings, reference, options, word, monkeypatch, tmp_path):
+	monkeypatch.setenv('POLYTOPE_TEST', str(tmp_path))
+	with pytest.raises(ValueError, match=word):
+		run(settings, reference, measureNothing, **options)
+	assert not list(tmp_path.iterdir())
+
+
+script = '''
+{before}
+from yade import *
+from yade import polytope
+def build():
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), material=RockJointMat()))
+	O.engines, O.dt = [NewtonIntegrator()], 1e-3
+def measure():
+	O.step()
+	return len(O.bodies)
+{condition}
+	print('errors', [row.error for row in polytope.tradeoff(build, {{'a': {{}}, 'b': {{}}}}, measure, 1, timedSeconds=0).rows])
+	print('done')
+'''
+
+
+@pytest.mark.parametrize(('before', 'condition'), [('', 'if True:'), ("isScript = __name__ == '__main__'", 'if isScript:')])
+def testScriptsThatImportEverything(before, condition, tmp_path):
+	"""What the docstring of tradeoff prescribes: after `from yade import *` __name__ is no longer '__main__'."""
+	file = tmp_path / 'script.py'
+	file.write_text(script.format(before=before, condition=condition))
+	said = subprocess.run([sys.executable, str(file)], capture_output=True, text=True).stdout
+	assert 'errors [0.0, 0.0]' in said and said.count('done') == 1, said
+
+
+paperScript = here.parents[2] / 'examples/tradeoffPaper.py'
+
+
+@pytest.mark.parametrize(('arguments', 'code', 'word'), [(['--only', 'Z'], 2, 'invalid choice'), (['--help'], 0, 'usage'), (['--only', 'B'], 1, 'configur')])
+def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
+	"""In a folder where building fails: only good options get as far as that."""
+	for name in ('examples', 'tools'):
+		(tmp_path / name).symlink_to(here.parents[2] / name)
+	own = {name: str(tmp_path / name) for name in ('cache', 'logs', 'yadeSource')}
+	for folder in own.values():
+		pathlib.Path(folder).mkdir()
+	environment = {**os.environ, **own, 'project': str(tmp_path), 'buildKey': 'none'}
+	ended = subprocess.run(['bash', str(tmp_path / 'tools/inside.sh'), 'tradeoff', *arguments], env=environment, capture_output=True, text=True)
+	assert ended.returncode == code and word in (ended.stdout + ended.stderr).lower(), ended.stdout + ended.stderr
+	assert (tmp_path / 'build').exists() == (code == 1)
+
+
+@pytest.mark.parametrize(('arguments', 'precisions'), [('--only A', 'longdouble'), ('--only B', 'longdouble float128 mpfr150'), ('--quick', '')])
+def testOnlyThePrecisionsThatAreAskedForAreBuilt(arguments, precisions):
+	command = [sys.executable, str(paperScript), *arguments.split(), '--precisions']
+	said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+	assert [line for line in said if not line.startswith('Using python')] == precisions.split()
+
+
+def testLettersAreThoseOfTheScenes(monkeypatch):
+	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(here.parents[2] / 'examples/paper/geometry'))
+	monkeypatch.syspath_prepend(str(paperScript.parent))
+	import tradeoffPaper
+	from yade.polytope.studies.tradeoffAxes import allScenes
+
+	assert list(tradeoffPaper.letters) == list(allScenes())
