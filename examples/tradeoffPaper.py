@@ -42,7 +42,7 @@ os.environ.setdefault('POLYTOPE_GEOMETRY', str(here / 'paper/geometry'))
 
 from yade.polytope import tradeoff
 from yade.polytope.studies.tradeoffAxes import allScenes, default, scatter
-from yade.polytope.studies.tradeoffReport import ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
+from yade.polytope.studies.tradeoffReport import notRun, ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
 from yade.polytope.tradeoffPrecision import precisions
 
 
@@ -73,7 +73,7 @@ def main(given):
 		tables[letter] = table
 		parts.append((scene, findings))
 	columns, rows = writeSummary(summary(tables, scenes), given.only, given.output / 'summary.csv')
-	print('\nAll scenes: cost over the default\'s, and error of the answer')
+	print(f'\nAll scenes: cost over the default\'s, and error of the answer ({notRun}: not run there)')
 	show(columns, rows)
 	ranks = [[name, *(format(value, '.3g') for value in values)] for name, *values in ranking(tables, scenes)]
 	if ranks:

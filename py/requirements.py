@@ -34,18 +34,20 @@ class Requirements:
 	"""What polytope.requirements() returns; printing it shows all.
 
 	:ivar list findings: of Finding
+	:ivar list notSeen: (what, why): what could not be looked at as the scene is now
 	:ivar float stepMicroseconds: of all engines, as the scene is; None if it was not measured
 	"""
 
-	def __init__(self, findings, stepMicroseconds=None):
-		self.findings, self.stepMicroseconds = findings, stepMicroseconds
+	def __init__(self, findings, stepMicroseconds=None, notSeen=()):
+		self.findings, self.stepMicroseconds, self.notSeen = findings, stepMicroseconds, list(notSeen)
 
 	def __getitem__(self, what):
 		"""The finding of that name."""
 		for finding in self.findings:
 			if finding.what == what:
 				return finding
-		raise KeyError(f'{what!r} was not looked at; there are {[finding.what for finding in self.findings]}')
+		why = f' ({dict(self.notSeen)[what]})' if what in dict(self.notSeen) else ''
+		raise KeyError(f'{what!r} was not looked at{why}; there are {[finding.what for finding in self.findings]}')
 
 	@property
 	def advice(self):
@@ -61,7 +63,9 @@ class Requirements:
 			cost = '' if finding.cost is None else f'{finding.cost:+.3g}' + (f' ({100 * finding.cost / whole:+.0f} %)' if whole else '')
 			rows.append([finding.what, finding.seen, finding.advice or 'as it should be', cost])
 		head = f'{len(self.advice)} of {len(rows)} things to change' + (f'; a step takes {whole:.4g} µs' if whole else '')
-		return head + '\n' + tabulate(rows, ['', 'seen', 'advice', 'saves [µs a step]'], maxcolwidths=[18, 48, 56, 16], disable_numparse=True)
+		table = tabulate(rows, ['', 'seen', 'advice', 'saves [µs a step]'], maxcolwidths=[18, 48, 56, 16], disable_numparse=True)
+		missing = [f'{what}: {why}' for what, why in self.notSeen]
+		return '\n'.join([head, table, *(['Not looked at: ' + '; '.join(missing)] if missing else [])])
 
 	def show(self):
 		"""Prints it."""
@@ -74,7 +78,10 @@ def requirements(O, measure=True):
 	Looked at: contact area, third dimension, damping and energy (and whether stiffnesses let the conservative contact be that), cohesion,
 	corner radius against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
 	positions, time step against stiffness and mass, the collider's verletDist, warm start, solver, contact point, clocks and energy
-	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen.
+	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen. What could not be looked at is named
+	at the end. Overlaps are those of the present state (what was before is known only where a counter of the functor tells: contact points
+	deeper than the corner radius): look at the moment of the hardest blow, too. A time step is near the limit above 1/ω of the fastest body,
+	up to which stableTimeStep calls any heap stable.
 
 	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, steps as it is and with one
 	thing changed at a time (engines that run periodically, as recorders and PyRunner, are left out there). The scene itself is not
@@ -85,10 +92,11 @@ def requirements(O, measure=True):
 	:returns: a :yref:`Requirements`
 	:raises ValueError: naming *O*: nothing to look at (no engines with a polytope's contact functor), or the simulation is running
 	"""
-	findings = [Finding(*found) for found in looks(O)]
+	found, notSeen = looks(O)
+	findings = [Finding(*one) for one in found]
 	trials = [finding.trial for finding in findings if finding.trial]
 	if not measure:
-		return Requirements(findings)
+		return Requirements(findings, None, notSeen)
 	times = _timed(O, trials)
 	whole = times.get('')
 	if isinstance(whole, float):
@@ -96,7 +104,7 @@ def requirements(O, measure=True):
 			time = times.get(finding.trial[0]) if finding.trial else None
 			if isinstance(time, float):
 				finding.cost = whole - time
-	return Requirements(findings, whole if isinstance(whole, float) else None)
+	return Requirements(findings, whole if isinstance(whole, float) else None, notSeen)
 
 
 def _timed(O, trials):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The looks of polytope.requirements() at a scene. Each gives (what, seen, advice, cost, trial): see requirements.Finding.
+"""The looks of polytope.requirements() at a scene. Each gives (seen, advice, cost, trial), see requirements.Finding, or why it cannot be made.
 
 They read and change nothing.
 """
@@ -7,34 +7,25 @@ They read and change nothing.
 import math
 
 import numpy as np
-import yade.config
 from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
 
+from .requirementsOverlaps import cornerRadius, newtonTolerance
+from .requirementsPlane import staysInPlane
 from .requirementsWorker import colliders, laws, prismOutline
 from .timeStep import stableTimeStep
 from .tradeoffWorker import geometryFunctors, interactionLoops
 
 __all__ = ['looks']
 
-deepest = 0.5
-"""Overlap over corner radius from which on the radius is too small: a contact point lies up to half the overlap's depth in each body,
-and the next blow may be twice as deep."""
-roomiest = 200
-"""Corner radius over overlap up to which it is as small as need be."""
-wideEnough = 10
-"""Times the deepest overlap: the corner radius that is advised."""
-usual, most, least = 0.2, 0.5, 0.05
-"""Time step over 1/ω of the fastest body: as advised, and where advice begins."""
+usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
+"""Time step over 1/ω of the fastest body: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
+below which steps are many."""
 reach = 0.05
 """verletDist over the smallest body's size that is advised where there is none."""
-muchFiner = 10
-"""Times by which the Newton tolerance is finer than rounding, from which on that is worth a word."""
 mostTwins = 50
 """Contacts that are looked at once more without the planes that own no face."""
 turned, changed = 1.0, 0.05
 """Angle of a normal [°] and part of a force that such planes may make without a word."""
-epsilon = 2.0 ** (1 - {64: 53, 80: 64, 128: 113}.get(yade.config.highPrecisionBits, yade.config.highPrecisionBits))
-"""Rounding of a coordinate of 1 in this YADE's arithmetic."""
 mostPairs = 8
 """Pairs looked at for each contact, above which the reach is too far."""
 
@@ -56,19 +47,40 @@ class Scene:
 		self.dampers = laws()
 		self.newton = next((engine for engine in O.engines if isinstance(engine, NewtonIntegrator)), None)
 
+	def count(self, *statuses):
+		"""Queries that ended so since the start, or the last resetStats()."""
+		return sum(functor.stats()['statuses'].get(status, 0) for functor in self.functors for status in statuses)
+
 	def any(self, name):
 		"""Whether a contact functor has this switched on."""
 		return any(getattr(functor, name) for functor in self.functors)
+
+	def pairs(self):
+		"""Ids of the contacts' bodies that are both polytopes."""
+		pairs = [(contact.id1, contact.id2) for contact in self.contacts]
+		return [pair for pair in pairs if all(isinstance(self.O.bodies[k].shape, Polytope) for k in pair)]
+
+	def size(self):
+		"""Of the smallest polytope [m]."""
+		return min(float(body.shape.inscribedRadius) for body in self.bodies)
 
 	def values(self, name):
 		return sorted({getattr(functor, name) for functor in self.functors})
 
 
 def looks(O):
+	"""(what was found, [(what could not be looked at, why)])."""
 	scene = Scene(O)
 	each = (area, dimension, energy, cohesion, cornerRadius, planes, newtonTolerance, timeStep, verletDist)
 	each += (warmStart, solver, contactPoint, clocks, energyTracking)
-	return [(one.__doc__.strip().rstrip('.'), *(list(found) + ['', None, None][len(found) - 1 :])) for one in each for found in [one(scene)] if found]
+	found, missing = [], []
+	for one in each:
+		name, answer = one.__doc__.strip().rstrip('.'), one(scene)
+		if isinstance(answer, str):
+			missing.append((name, answer))
+		else:
+			found.append((name, *answer, *['', None, None][len(answer) - 1 :]))
+	return found, missing
 
 
 def area(scene):
@@ -87,10 +99,12 @@ def area(scene):
 
 def dimension(scene):
 	"""third dimension"""
-	if not scene.moving or any(body.shape.dimension == 2 for body in scene.bodies):
-		return ('polygons: contacts are solved in the plane', '') if scene.moving else None
+	if not scene.moving:
+		return 'no body can move'
+	if any(body.shape.dimension == 2 for body in scene.bodies):
+		return 'polygons: contacts are solved in the plane', ''
 	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in scene.moving)
-	still = all(body.state.vel[2] == 0 and body.state.angVel[0] == body.state.angVel[1] == 0 for body in scene.moving)
+	still = staysInPlane(scene.O, scene.moving)
 	if len(scene.bodies) == len(scene.O.bodies) and (inPlane or still) and all(prismOutline(body) is not None for body in scene.bodies):
 		words = 'blocked out of the xy plane' if inPlane else 'moving in the xy plane'
 		advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
@@ -140,30 +154,6 @@ def cohesion(scene):
 	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; it takes no time without', ''
 
 
-def cornerRadius(scene):
-	"""corner radius"""
-	if not scene.depths or 'paper' not in scene.values('contactModel'):
-		return None
-	radii = [float(min(scene.O.bodies[k].shape.cornerRadius for k in pair)) for pair in _pairs(scene)]
-	if not radii:
-		return None
-	lost = sum(contact.geom.status in ('normalFromOneBody', 'normalFromDual') for contact in scene.contacts)
-	depth, radius = max(scene.depths), min(radii)
-	ratio = depth / radius if radius > 0 else math.inf
-	seen = f'deepest overlap {depth:.3g} m, smallest corner radius {radius:.3g} m; {lost} contact points deeper than it'
-	if lost or ratio > deepest:
-		return seen, f'cornerRadius at least {wideEnough * depth:.2g} m, or stiffer contacts: a point deeper than the radius gets no gradient'
-	if ratio < 1 / roomiest:
-		return seen, f'cornerRadius {wideEnough * depth:.2g} m would do; larger ones round corners more than the overlaps ask for'
-	return seen, ''
-
-
-def _pairs(scene):
-	"""Ids of the contacts' bodies that are both polytopes."""
-	pairs = [(contact.id1, contact.id2) for contact in scene.contacts]
-	return [pair for pair in pairs if all(isinstance(scene.O.bodies[k].shape, Polytope) for k in pair)]
-
-
 def planes(scene):
 	"""planes without a face"""
 	spare = {body.id: len(body.shape.normals) - len(body.shape.faces) + 2 * (body.shape.dimension == 2) for body in scene.bodies}
@@ -174,7 +164,7 @@ def planes(scene):
 	functor = scene.functors[0]
 	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
-	for pair in [pair for pair in _pairs(scene) if spare.keys() & set(pair)][:mostTwins]:
+	for pair in [pair for pair in scene.pairs() if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]
 		here, there = (_polytope.contact(*both, **how) for both in (bodies, [_twin(body) for body in bodies]))
 		if here.inContact and there.inContact:
@@ -206,25 +196,6 @@ def _twin(body):
 	return twin
 
 
-def newtonTolerance(scene):
-	"""Newton tolerance"""
-	thin = [-float(contact.geom.infeasibility) for contact in scene.contacts if contact.geom.infeasibility < 0]
-	if not thin or scene.values('contactModel') != ['paper'] or scene.values('contactPoint') != ['analyticCentre']:
-		return None
-	far = max(max(abs(float(x)) for x in body.state.pos) for body in scene.bodies)
-	rounding = epsilon * far / float(np.median(thin))
-	tolerance = float(min(scene.values('newtonTolerance')))
-	seen = f'{tolerance:.1g}; positions are rounded by {rounding:.1g} of the overlaps (median)'
-	if tolerance < rounding / muchFiner:
-		nearer = 'move the scene nearer to the origin' if far > 1e3 * _size(scene) else 'stiffness gives such thin overlaps'
-		return seen, f'newtonTolerance finer than {rounding:.0g} gains no digit here ({nearer})', None, ('newtonTolerance', min(rounding, 0.1))
-	return seen, ''
-
-
-def _size(scene):
-	return min(float(body.shape.inscribedRadius) for body in scene.bodies)
-
-
 def timeStep(scene):
 	"""time step"""
 	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
@@ -232,11 +203,14 @@ def timeStep(scene):
 	try:
 		limit = float(stableTimeStep(1))
 	except ValueError:
-		return None
+		return 'no contact limits it now'
 	fraction = float(scene.O.dt) / limit
-	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (stable below 2 without damping)'
-	if fraction > most:
-		return seen, f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual})): near the limit of stability'
+	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (any heap is stable up to 1, one body up to 2)'
+	smaller = f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual}))'
+	if fraction > stable:
+		return seen, f'{smaller}: beyond the limit of stability of one body, 2/ω, unless damping and luck hold a heap together'
+	if fraction > safe:
+		return seen, f'{smaller}: near the limit of stability, beyond what is safe for any heap, stableTimeStep(1)'
 	if fraction < least:
 		return seen, f'O.dt = {usual * limit:.2g} takes {fraction / usual:.2g} of the steps, unless a stiffer contact is still to come'
 	return seen, ''
@@ -245,7 +219,7 @@ def timeStep(scene):
 def verletDist(scene):
 	"""verletDist"""
 	if not colliders() or not scene.moving:
-		return None
+		return 'no InsertionSortCollider, or no body that can move'
 	present = float(colliders()[0].verletDist)
 	size = min(float(body.shape.inscribedRadius) for body in scene.moving)
 	length = abs(present) * (size if present < 0 else 1)
@@ -279,7 +253,7 @@ def contactPoint(scene):
 	"""contact point"""
 	points = scene.values('contactPoint')
 	if 'paper' not in scene.values('contactModel'):
-		return None
+		return 'the conservative contact has its own'
 	trial = ('contactPoint', 'analyticCentre')
 	if 'chebyshevCentre' in points:
 		return 'chebyshevCentre, not unique on faces: it jumps', "contactPoint = 'analyticCentre' where faces meet faces", None, trial

@@ -13,7 +13,7 @@ from ..theory.wedges import roofWedgeFrictionAngle
 from . import tradeoffScenes as scenes
 from .slidingWedge import limitEquilibrium
 
-__all__ = ['Scene', 'allScenes', 'default', 'isNumerical']
+__all__ = ['Scene', 'allScenes', 'coarse', 'default', 'isNumerical', 'scatter']
 
 default = 'default'
 
@@ -28,6 +28,9 @@ tolerances = {
 	'Newton tolerance 1e-6': {'newtonTolerance': 1e-6},
 	'Newton tolerance 1e-14': {'newtonTolerance': 1e-14},
 }
+coarse = {name for name, changes in tolerances.items() if changes['newtonTolerance'] > 1e-10}
+"""Tolerances that are not in effect where overlaps are deeper than 2e-4 of the size: the kernel takes the centre as far as a depth to 2e-14
+of the size needs (tolerance::depth in src/Tolerances.hpp), whatever the setting says. They are run to show that."""
 cold = {'cold start': {'warmStart': False}}
 ipopt = {'Ipopt': {'solver': 'ipopt'}}
 wide = {name: {'precision': name} for name in precision.precisions if name != 'double'}

@@ -12,7 +12,7 @@ from ..findings import Findings
 from ..tradeoffPlot import plotTradeoff
 from .paperReport import section
 from .paperRuns import Run
-from .tradeoffAxes import default, isNumerical, scatter
+from .tradeoffAxes import coarse, default, isNumerical, scatter
 
 __all__ = ['ranking', 'rankingColumns', 'reportScene', 'show', 'summary', 'writePage', 'writeSummary']
 
@@ -22,6 +22,8 @@ leastError = 1e-4
 """Smaller errors of a scene's answer count as this in the ranking: no input is known better."""
 mostDeviations = 3
 """Of a heap's coordination number, over the scatter between seeds, for it to be the same heap."""
+notRun = '–'
+"""In the summary, for a setting that is not run in that scene."""
 rankingColumns = ('setting', 'mean cost', 'mean error', 'largest error over the default\'s')
 
 
@@ -41,6 +43,12 @@ def reportScene(scene, table, folder, finest):
 		findings.text(
 			f'A heap is chaotic: any change of setting, even of rounding, gives another heap. Over seeds the coordination number is '
 			f'{mean:.3f} ± {deviation:.3f} (standard deviation); an error below {deviation / mean:.2g} means nothing.'
+		)
+	if coarse & {row.name for row in table.rows}:
+		findings.text(
+			f'{", ".join(sorted(coarse))}: hardly in effect. The kernel takes the centre as far as a depth right to 2e-14 of the size needs, '
+			'whatever newtonTolerance says: in overlaps deeper than 2e-4 of the size that is finer than the default, 1e-10, and the answer is '
+			'the default\'s to the last digit; in thinner ones it differs in the last digits (which makes another heap, in A).'
 		)
 	same = [row.name for row in table.rows if isNumerical(row.name)]
 	bySolver = table.against(finest, same) if finest and scene.letter != 'A' and table[finest].answer is not None else None
@@ -95,7 +103,7 @@ def ranking(tables, scenes):
 			if row is not None and row.error is not None and row.cost and base.error is not None and base.cost:
 				costs.append(row.cost / base.cost)
 				errors.append(max(row.error, leastError) / max(base.error, leastError))
-		stands = all(table[name].answer is not None for table in tables.values() if name in [row.name for row in table.rows])
+		stands = all(table[name].answer is not None and not table[name].note for table in tables.values() if name in [row.name for row in table.rows])
 		if stands and heap and name in [row.name for row in heap.rows]:
 			mean, deviation = scatter(heap)
 			stands = not abs(float(heap[name].answer) - mean) > mostDeviations * deviation
@@ -109,13 +117,14 @@ def _mean(values):
 
 
 def writeSummary(lines, letters, path):
-	"""Writes the summary as CSV and returns (columns, rows of text)."""
+	"""Writes the summary as CSV and returns (columns, rows of text), with *notRun* where a scene does not have the setting."""
 	columns = ['setting', 'cost: least', 'median', 'most', *(f'error {letter}' for letter in letters)]
 	rows = [[name, *costs, *('' if errors.get(letter) is None else errors[letter] for letter in letters)] for name, costs, errors in lines]
 	with open(path, 'w', newline='') as file:
 		writer = csv.writer(file)
 		writer.writerow(columns)
 		writer.writerows(rows)
+	rows = [[name, *costs, *(errors.get(letter, notRun) for letter in letters)] for name, costs, errors in lines]
 	short = [[_short(cell, '.2f' if 0 < k < 4 else '.2g') for k, cell in enumerate(row)] for row in rows]
 	return columns, short
 
@@ -123,6 +132,8 @@ def writeSummary(lines, letters, path):
 def _short(cell, form):
 	if isinstance(cell, float):
 		return '' if math.isnan(cell) else format(cell, form)
+	if cell is None:
+		return 'no error'
 	return {'RuntimeError': 'does not stand', 'not built for': 'not built'}.get(cell, cell)
 
 
@@ -152,18 +163,22 @@ _page = '''<!DOCTYPE html>
 <style>
 body { margin: 0 auto; max-width: 1180px; padding: 2rem 1.5rem 4rem; color: #1c2430; font: 15px/1.5 "DejaVu Sans", Arial, sans-serif; }
 h1, h2 { color: #1d4e79; } h2 { border-top: 2px solid #1d4e79; padding-top: .8rem; margin-top: 3rem; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: .8rem; }
+.wide { overflow-x: auto; } .wide table { width: 100%; } table { border-collapse: collapse; font-size: .8rem; }
 th, td { padding: .25rem .55rem; border-bottom: 1px solid #d9dee6; text-align: right; white-space: nowrap; }
+th, .words { white-space: normal; }
 th:first-child, td:first-child, td:last-child { text-align: left; } th { color: #687385; vertical-align: bottom; }
+th:first-child, td:first-child { position: sticky; left: 0; background: #fff; } .parts td:last-child { min-width: 11rem; }
 figure { margin: 1.2rem 0; } img { max-width: 100%; border: 1px solid #d9dee6; } .quiet, figcaption { color: #687385; }
 </style></head><body>
 <h1>Accuracy for speed: what each setting costs, and what it does to the answer</h1>
 <p class="quiet">{{ about.date }}{% if about.quick %} · quick variant: fewer settings{% endif %}. One setting is changed at a time. Costs
 are times for as much simulated time as the default's step, over the default's; errors are relative, against closed forms (B, C, D, F,
-rest), the finest arithmetic (pair) or the mean over seeds (A).</p>
+rest), the finest arithmetic (pair) or the mean over seeds (A). –: the setting is not run in that scene (too slow there, of no
+meaning, or left out of the quick variant); blank costs: no run of it gave an answer. Settings named in words instead of a figure have no
+answer that counts; the table of the scene says why.</p>
 <h2>All scenes</h2>
 <div class="wide"><table><tr>{% for title in columns %}<th>{{ title }}</th>{% endfor %}</tr>
-{% for row in rows %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>
+{% for row in rows %}<tr>{% for cell in row %}<td{% if ' ' in cell and not loop.first %} class="words"{% endif %}>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>
 {% if ranks %}<h2>What polytope.settings() rests on</h2>
 <p>Settings that have an answer in every scene with a closed form that holds for any law (C, D, F, rest): geometric means of cost and
 error over the default's; errors below 1e-4 count as 1e-4.</p>
@@ -173,9 +188,9 @@ error over the default's; errors below 1e-4 count as 1e-4.</p>
 {% for item in part.parts %}
 {% if item.kind == 'text' %}<p>{{ item.text }}</p>
 {% elif item.kind == 'figure' %}<figure><img src="{{ item.url }}" alt="{{ item.caption }}"><figcaption>{{ item.caption }}</figcaption></figure>
-{% else %}<p class="quiet">{{ item.caption }}</p><div class="wide"><table>
+{% else %}<p class="quiet">{{ item.caption }}. Blank: not measured.</p><div class="wide parts"><table>
 <tr>{% for title, number in item.columns %}<th>{{ title }}</th>{% endfor %}</tr>
-{% for row in item.rows %}<tr>{% for text, number in row %}<td>{{ text }}</td>{% endfor %}</tr>{% endfor %}</table></div>
+{% for row in item.rows %}<tr>{% for text, number in row %}<td{% if not number and not loop.first %} class="words"{% endif %}>{{ text }}</td>{% endfor %}</tr>{% endfor %}</table></div>
 {% endif %}{% endfor %}{% endfor %}
 </body></html>
 '''

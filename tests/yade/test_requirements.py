@@ -77,18 +77,73 @@ def testAreaThatIsNeededIsNotBlamed():
 def testTimeStep():
 	row()
 	limit = polytope.stableTimeStep(1)
-	for fraction, word in ((0.2, ''), (0.9, 'stability'), (0.01, 'of the steps')):
+	for fraction, word in ((0.2, ''), (0.99, ''), (1.5, 'near the limit'), (3.3, 'beyond the limit'), (0.01, 'of the steps')):
 		O.dt = fraction * limit
 		found = polytope.requirements(O, measure=False)['time step']
 		assert bool(found.advice) == bool(word) and word in found.advice
 
 
+def testWhatCannotBeLookedAtIsNamed():
+	row()
+	for body in O.bodies:
+		if body.dynamic:
+			body.state.pos += (0, 0, 5 * body.id)  # blown apart
+	O.step()
+	O.step()
+	found = polytope.requirements(O, measure=False)
+	missing = dict(found.notSeen)
+	assert {'time step', 'corner radius', 'Newton tolerance'} <= set(missing) and 'no contact' in missing['time step']
+	assert 'time step: no contact' in repr(found)
+	with pytest.raises(KeyError, match='no contact'):
+		found['time step']
+
+
+def testCornerRadiusStaysBelowTheInscribedRadius():
+	"""Contacts so soft that no radius is large enough, and so hard that any is."""
+	row(material={'normalStiffness': 3e4, 'shearStiffness': 3e4}, cornerRadius=0.1, steps=400)
+	found = polytope.requirements(O, measure=False)['corner radius']
+	assert found.advice.startswith('stiffer contacts, and cornerRadius up to 0.36 m')
+	assert ('gets no gradient' in found.advice) == (' 0 contact points' not in found.seen)
+	row(material={'normalStiffness': 1e13, 'shearStiffness': 1e13}, cornerRadius=0.1, steps=0)
+	O.bodies[1].state.pos -= (0, 0, 0.5 - 1e-6 - 0.4995)
+	O.dt = 1e-7
+	for body in O.bodies:
+		body.state.pos += (0, 0, 0.5 - 1e-9 - 0.4995 if body.dynamic else 0)
+	O.step()
+	O.step()
+	assert 'would do' in polytope.requirements(O, measure=False)['corner radius'].advice
+
+
+def testOrdinaryBlocksAtRestKeepTheirDefaultCorner():
+	row(cornerRadius=None, steps=3000)
+	assert 'corner radius' not in advised()
+
+
+def testCornersThatWereLostAreReported():
+	row(number=1, cornerRadius=1e-4, steps=0, spin=0.5)
+	O.bodies[1].state.pos += (0, 0, 0.2)
+	O.bodies[1].state.vel = (0, 0, -5)
+	for _ in range(4000):
+		O.step()
+	statuses = O.engines[2].geomDispatcher.functors[0].stats()['statuses']
+	lost = sum(statuses.get(name, 0) for name in ('normalFromOneBody', 'normalFromDual'))
+	assert lost > 0
+	for body in O.bodies:
+		body.shape.cornerRadius = 0.02  # what lies deeper now is none of it
+	O.step()
+	found = polytope.requirements(O, measure=False)['corner radius']
+	assert f'{lost} since the start' in found.seen and 'no gradient' in found.advice
+	O.engines[2].geomDispatcher.functors[0].resetStats()
+	assert not polytope.requirements(O, measure=False)['corner radius'].advice
+
+
 def testCornerRadiusAgainstOverlaps():
 	row(cornerRadius=0.015)
 	depth = max(float(contact.geom.penetrationDepth) for contact in O.interactions if contact.isReal)
-	for radius, word in ((1.1 * depth, 'at least'), (300 * depth, 'would do'), (10 * depth, '')):
+	for radius, word in ((1.1 * depth, 'at least'), (300 * depth, ''), (10 * depth, '')):
 		for body in O.bodies:
 			body.shape.cornerRadius = radius
+		O.engines[2].geomDispatcher.functors[0].resetStats()
 		O.step()
 		found = polytope.requirements(O, measure=False)['corner radius']
 		assert word in found.advice and bool(word) == bool(found.advice), found
@@ -146,7 +201,17 @@ def testNewtonToleranceFarFromTheOrigin():
 	assert 'Newton tolerance' not in advised()
 	for body in O.bodies:
 		body.state.pos += (1e7, 0, 0)
-	assert 'origin' in polytope.requirements(O, measure=False)['Newton tolerance'].advice
+	found = polytope.requirements(O, measure=False)['Newton tolerance']
+	assert 'origin' in found.advice and 'gains no digit' not in found.advice and found.trial is None  # the depth needs what there is
+
+
+def testNewtonToleranceFinerThanTheDepthNeeds():
+	row(newtonTolerance=1e-15)
+	for body in O.bodies:
+		body.state.pos += (1e7, 0, 0)
+	found = polytope.requirements(O, measure=False)['Newton tolerance']
+	name, coarser = found.trial
+	assert 'gains no digit' in found.advice and name == 'newtonTolerance' and 1e-13 < coarser < 1e-9
 
 
 def testColliderThatSortsInEveryStep():
@@ -182,6 +247,26 @@ def testThirdDimensionAndItsPrice():
 	assert 'polygon' in found.advice and found.cost is not None
 	O.bodies[1].state.blockedDOFs = ''
 	O.bodies[1].state.angVel = (0.1, 0, 0)
+	assert 'third dimension' not in advised()
+
+
+def testThirdDimensionUpToRounding():
+	flatRow()
+	for body in O.bodies:
+		if body.dynamic:
+			body.state.blockedDOFs = ''
+			body.state.vel, body.state.angVel = (0.1, 0, 2e-18), (1e-18, 0, 0.1)
+	assert 'third dimension' in advised()
+	for engine, gravity in ((O.engines[3], (0, -10, -10)), (O.engines[3], (0, 0, -10))):
+		engine.gravity = gravity
+		assert 'third dimension' not in advised()
+	O.engines[3].gravity = (0, -10, 0)
+	O.forces.setPermF(1, (0, 0, 5))
+	assert 'third dimension' not in advised()
+
+
+def testBlocksThatAreAboutToFallAreNoPolygons():
+	row(steps=0, spin=0)
 	assert 'third dimension' not in advised()
 
 
