@@ -25,8 +25,9 @@ def options(arguments=None):
 	parser.add_argument('--quick', action='store_true', help='fewer settings, and each timed once')
 	parser.add_argument('--only', nargs='+', choices=letters, default=letters, metavar='SCENE', help=f'of {", ".join(letters)}')
 	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)')
-	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run asks before it builds: reads the options only
-	parser.add_argument('--precisions', action='store_true', help=argparse.SUPPRESS)  # and then: prints the builds that this run asks for
+	# for ./run: only reads the options; prints the builds that this run asks for
+	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)
+	parser.add_argument('--precisions', action='store_true', help=argparse.SUPPRESS)
 	given = parser.parse_args(arguments)
 	given.output = (given.output or pathlib.Path('output/tradeoff-quick' if given.quick else 'output/tradeoff')).resolve()
 	return given

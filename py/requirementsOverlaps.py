@@ -43,7 +43,7 @@ def cornerRadius(scene):
 	seen = f'now the deepest overlap is {depth:.3g} m, the smallest corner radius {radius:.3g} m; {lost} contact points lie deeper than it'
 	seen += f', {since} since the start (or resetStats)' if since else ''
 	if lost or since or ratio > deepest:
-		why = 'a point deeper than the radius gets no gradient' if lost or since else 'the next blow may bring points deeper than the radius, which get no gradient'
+		why = 'a point deeper than the radius gets no gradient' if lost or since else 'the next blow may bring points deeper than it, without gradient'
 		wanted = wideEnough * depth
 		if not lost and ratio <= deepest:  # it was deeper before, nobody knows how deep
 			wanted = max(wanted, 2 * radius)
@@ -53,7 +53,8 @@ def cornerRadius(scene):
 		return seen, f'stiffer contacts{largest if inside * room > radius else ""}: {why}'
 	if max(depth, blow) * roomiest < radius:
 		seen += f'; a fall from the bodies\' own height makes {blow:.2g} m'
-		return seen, f'cornerRadius {wideEnough * max(depth, blow):.2g} m would do, unless harder blows come; larger ones round corners more than need be'
+		smaller = f'cornerRadius {wideEnough * max(depth, blow):.2g} m would do'
+		return seen, f'{smaller}, unless harder blows come; larger ones round corners more than need be'
 	return seen, ''
 
 

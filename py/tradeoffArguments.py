@@ -74,7 +74,7 @@ def checkReference(reference, settings):
 			raise ValueError(f'reference: {reference!r} is none of the settings, {list(settings)}')
 		return
 	if isinstance(reference, dict):
-		raise ValueError('reference: must be a number, a list of numbers, or the name of a setting; of a dict that measure() returns the first entry counts')
+		raise ValueError('reference: must be a number or list; of a dict that measure() returns the first entry is what it is compared with')
 	try:
 		values = [float(one) for one in reference] if hasattr(reference, '__len__') else [float(reference)]
 	except (TypeError, ValueError):

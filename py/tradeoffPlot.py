@@ -70,9 +70,14 @@ def _number(axes, points):
 	frame = axes.get_window_extent().extents * 72 / axes.figure.dpi
 	for k, (place, point) in enumerate(zip(places, points, strict=True)):
 		size = np.array([digitSize[0] * len(str(k + 1)), digitSize[1]])
-		offset = min(_offsets(size), key=lambda offset: _covered([*(place + offset - size / 2), *(place + offset + size / 2)], taken, frame))
+
+		def cost(offset, size=size, place=place):
+			others = np.linalg.norm(places - place - offset, axis=1).min() < 0.99 * math.hypot(*offset)  # it would seem another's
+			return _covered([*(place + offset - size / 2), *(place + offset + size / 2)], taken, frame) + others * size.prod()
+
+		offset = min(_offsets(size), key=cost)
 		taken.append((*(place + offset - size / 2), *(place + offset + size / 2)))
-		far = math.hypot(*offset) > 2 * max(size)
+		far = cost(offset) > 0 or math.hypot(*offset) > 0.5 * max(size) + 2 * clear
 		line = {'arrowstyle': '-', 'color': '0.6', 'linewidth': 0.6, 'shrinkA': 0, 'shrinkB': 2} if far else None
 		text = {'fontsize': 8.5, 'ha': 'center', 'va': 'center', 'zorder': 3}
 		axes.annotate(str(k + 1), point, offset, textcoords='offset points', arrowprops=line, **text)

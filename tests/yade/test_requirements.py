@@ -115,7 +115,7 @@ def testCornerRadiusStaysBelowTheInscribedRadius():
 
 
 def testOrdinaryBlocksAtRestKeepTheirDefaultCorner():
-	row(cornerRadius=None, steps=3000)
+	row(cornerRadius=None, material={'normalStiffness': 1e8, 'shearStiffness': 1e8}, steps=2000)
 	assert 'corner radius' not in advised()
 
 

@@ -72,6 +72,22 @@ def testEveryPointHasItsOwnNumber(tmp_path):
 	assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
 
 
+def testACoarseNewtonToleranceIsNotInEffectAndTheReportSaysSo(monkeypatch, tmp_path):
+	cubes = [polytope.cuboid((0.1 * k, 0.2 * k, 0.98 * k), (0.5, 0.5, 0.5), material=RockJointMat()) for k in range(2)]
+	fine, coarse = (polytope.contact(*cubes, newtonTolerance=tolerance) for tolerance in (1e-10, 1e-2))
+	assert fine.point == coarse.point and fine.newtonIterations == coarse.newtonIterations
+	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(here.parents[2] / 'examples/paper/geometry'))
+	from yade.polytope.studies.tradeoffAxes import allScenes
+	from yade.polytope.studies.tradeoffReport import notRun, reportScene, summary, writeSummary
+
+	scenes, table = allScenes(), tableOf(**{'default': (1, 2.0), 'Newton tolerance 1e-2': (1, 2.0)})
+	findings, _ = reportScene(scenes['B'], table, tmp_path, None)
+	assert any('hardly in effect' in part['text'] for part in findings.content['parts'] if part['kind'] == 'text')
+	tables = {'B': table, 'C': tableOf(default=(1, 2.0))}
+	_, rows = writeSummary(summary(tables, scenes), 'BC', tmp_path / 'summary.csv')
+	assert [row[-1] == notRun for row in rows] == [False, True]
+
+
 def build(edge=1):
 	O.reset()
 	O.bodies.append(polytope.cuboid((0, 0, 0), (edge, 1, 1), material=RockJointMat(density=1000)))
@@ -186,7 +202,9 @@ def testScriptsThatImportEverything(before, condition, tmp_path):
 paperScript = here.parents[2] / 'examples/tradeoffPaper.py'
 
 
-@pytest.mark.parametrize(('arguments', 'code', 'word'), [(['--only', 'Z'], 2, 'invalid choice'), (['--help'], 0, 'usage'), (['--only', 'B'], 1, 'configur')])
+@pytest.mark.parametrize(
+	('arguments', 'code', 'word'), [(['--only', 'Z'], 2, 'invalid choice'), (['--help'], 0, 'usage'), (['--only', 'B'], 1, 'configur')]
+)
 def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
 	"""In a folder where building fails: only good options get as far as that."""
 	for name in ('examples', 'tools'):
@@ -200,7 +218,9 @@ def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
 	assert (tmp_path / 'build').exists() == (code == 1)
 
 
-@pytest.mark.parametrize(('arguments', 'precisions'), [('--only A', 'longdouble'), ('--only B', 'longdouble float128 mpfr150'), ('--quick', '')])
+@pytest.mark.parametrize(
+	('arguments', 'precisions'), [('--only A', 'longdouble'), ('--only B', 'longdouble float128 mpfr150'), ('--quick', '')]
+)
 def testOnlyThePrecisionsThatAreAskedForAreBuilt(arguments, precisions):
 	command = [sys.executable, str(paperScript), *arguments.split(), '--precisions']
 	said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
