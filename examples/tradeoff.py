@@ -53,7 +53,7 @@ settings = {
 	'conservative': {'contactModel': 'conservative', 'timeStepFactor': 0.5},
 }
 
-if __name__ == '__main__':
+if __name__ == '__main__':  # true no more after `from yade import *`, which brings a __name__ of its own: see polytope.tradeoff
 	weight = 9.81 * 2600 * 0.2**3
 	atRest = 0.5 - (3 + 2 + 1) * weight / 1e7  # each contact yields by what it bears
 	table = polytope.tradeoff(build, settings, measure, reference=atRest)

@@ -32,12 +32,12 @@ def cornerRadius(scene):
 	"""corner radius"""
 	if 'paper' not in scene.values('contactModel'):
 		return 'the conservative contact has none'
-	pairs = scene.pairs()
-	if not scene.depths or not pairs:
+	since, pairs = scene.count(*deeper), scene.pairs()
+	if not (scene.depths and pairs or since):
 		return 'no polytopes overlap now'
-	shapes = [scene.O.bodies[k].shape for pair in pairs for k in pair]
-	lost, since = (contact.geom.status in deeper for contact in scene.contacts), scene.count(*deeper)
-	lost, depth, blow = sum(lost), max(scene.depths), _ofABlow(scene)
+	shapes = [scene.O.bodies[k].shape for pair in pairs for k in pair] or [body.shape for body in scene.bodies]
+	lost = sum(contact.geom.status in deeper for contact in scene.contacts)
+	depth, blow = max(scene.depths, default=0), _ofABlow(scene)
 	radius, room = (min(float(getattr(shape, name)) for shape in shapes) for name in ('cornerRadius', 'inscribedRadius'))
 	ratio = depth / radius if radius > 0 else math.inf
 	seen = f'now the deepest overlap is {depth:.3g} m, the smallest corner radius {radius:.3g} m; {lost} contact points lie deeper than it'
@@ -46,7 +46,7 @@ def cornerRadius(scene):
 		why = 'a point deeper than the radius gets no gradient' if lost or since else 'the next blow may bring points deeper than it, without gradient'
 		wanted = wideEnough * depth
 		if not lost and ratio <= deepest:  # it was deeper before, nobody knows how deep
-			wanted = max(wanted, 2 * radius)
+			wanted = max(wanted, 2 * radius, 2 * blow)
 		if wanted <= inside * room:
 			return seen, f'cornerRadius at least {wanted:.2g} m, or stiffer contacts: {why}'
 		largest = f', and cornerRadius up to {inside * room:.2g} m (it must stay below the inscribed radius, {room:.3g} m)'

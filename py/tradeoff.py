@@ -112,11 +112,9 @@ def _run(where, changes, timedSeconds, timeLimit):
 
 
 def _howItEnded(code, log):
-	"""A process that left no answer; with the last words of its log that are words."""
+	"""A process that left no answer: the signal by name, or the last words of its log that are words (after a signal these are a backtrace)."""
+	if code < 0:
+		names = {one.value: f', {one.name}' for one in signal.Signals}
+		return f'ended by signal {-code}{names.get(-code, "")}'
 	said = [line.strip() for line in log.splitlines() if any(letter.isalpha() for letter in line)]
-	try:
-		name = signal.Signals(-code).name if code < 0 else ''
-	except ValueError:
-		name = ''
-	how = f'ended by signal {-code}' + (f', {name}' if name else '') if code < 0 else f'ended with exit code {code}'
-	return how + (f'; last words: {said[-1]}' if said else '')
+	return f'ended with exit code {code}' + (f': {said[-1]}' if said else '')

@@ -113,6 +113,12 @@ def measureAndDie():
 	os.kill(os.getpid(), signal.SIGKILL)
 
 
+def measureAndExit():
+	print('what happened')
+	print('=====', flush=True)
+	os._exit(3)
+
+
 def measureNothing():
 	(pathlib.Path(os.environ['POLYTOPE_TEST']) / str(os.getpid())).touch()
 	return 1.0
@@ -134,6 +140,7 @@ def testNumbersOfNumpyReachTheProcess():
 
 def testASignalIsNamed():
 	assert 'SIGKILL' in run({'a': {}}, 1, measureAndDie)['a'].note
+	assert run({'a': {}}, 1, measureAndExit)['a'].note == 'ended with exit code 3: what happened'
 
 
 def testALengthThatDoesNotFitIsRefusedAfterTheFirstRun(monkeypatch, tmp_path):
