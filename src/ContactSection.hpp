@@ -79,6 +79,7 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 		moment[0] += twice * (u1 + u2) / 6;
 		moment[1] += twice * (v1 + v2) / 6;
 	}
+	if (section.area < 0) section.area = 0; // rounding of a sliver
 	const bool some = section.area > 0;
 	const R    u    = count > 0 ? here[0] + (some ? moment[0] / section.area : R(0)) : R(0);
 	const R    v    = count > 0 ? here[1] + (some ? moment[1] / section.area : R(0)) : R(0);

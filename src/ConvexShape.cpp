@@ -81,11 +81,9 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	const int D = dimension();
 	for (const Vector3& v : polyhedron_.vertices)
 		boundingRadius_ = std::max(boundingRadius_, Real(D == 2 ? v.head<2>().norm() : v.norm()));
-	// artificial planes must lie outside every ball that touches the set's planes
-	Real reach = boundingRadius_;
-	for (const Real& d : planes_.offsets)
-		reach = std::max(reach, Real(abs(d)));
-	reach *= 16;
+	// artificial planes must lie outside the ball: it is inside the body. Not as far as the farthest plane: one that no corner of
+	// the body reaches may be anywhere, and rounding is a part of the reach
+	const Real reach = 16 * boundingRadius_;
 	inscribedRadius_ = D == 3 ? inscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_)
 	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
 	if (!isfinite(cornerRadius) || cornerRadius < 0 || cornerRadius >= boundingRadius_)

@@ -6,7 +6,10 @@
 
 # Ipopt's libraries (MPI) bring handlers of crashes along that would take them from the sanitizers.
 export UCX_ERROR_SIGNALS='' OMPI_MCA_opal_signal=''
-export ASAN_OPTIONS=allow_addr2line=1 UBSAN_OPTIONS=print_stacktrace=1:allow_addr2line=1
+# stacks with names; clang's own tool for it is another package
+symbols=external_symbolizer_path=$(command -v addr2line)
+export ASAN_OPTIONS=$symbols UBSAN_OPTIONS=print_stacktrace=1:$symbols
+export LSAN_OPTIONS=print_suppressions=0:suppressions=$project/tests/fuzz/leaks.txt
 
 fuzzUsage() {
 	cat <<'END'
@@ -90,7 +93,7 @@ fuzzTarget() {
 	local target=$1 seconds=$2 programs=$build/checked/tests/fuzz work=$build/fuzz/$1 log=$logs/fuzz-$1.log crashed=0 file
 	rm -rf "$work/crashes"
 	mkdir -p "$work/corpus" "$work/crashes" "$logs"
-	"$programs/polytope_replay_$target" --unpack "$work/seeds" "$project/tests/fuzz/$target.corpus"
+	"$programs/polytope_replay_$target" --unpack "$work/seeds" "$project/tests/fuzz/$target.corpus" || return 1
 	"$programs/polytope_fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=60 -print_final_stats=1 \
 		-artifact_prefix="$work/crashes/" "$work/corpus" "$work/seeds" >"$log" 2>&1 </dev/null || crashed=1
 	awk -v target="$target" -v seconds="$seconds" -v crashes=$crashed '
@@ -118,7 +121,7 @@ checkCore() {
 checkThreads() {
 	checkedBuild "$build/checked-threads" thread polytope_core_tests || return 1
 	[ ${#dryRun[@]} -eq 0 ] || return 0
-	TSAN_OPTIONS=halt_on_error=1:allow_addr2line=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+	TSAN_OPTIONS=halt_on_error=1:$symbols OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
 		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*'
 }
 

@@ -33,6 +33,20 @@ TEST(ConvexShape, RefusesACornerRadiusThatFitsNoBody)
 		EXPECT_EQ(refusal(cuboid(1, 1, 1), bad).rfind("cornerRadius", 0), 0u) << bad;
 }
 
+TEST(ConvexShape, AFarPlaneDoesNotBlurTheInscribedBall)
+{
+	std::mt19937_64 random(5);
+	for (int repeat = 0; repeat < 20; ++repeat) {
+		HalfSpaces set    = randomPlanes(20, random, 2 + repeat % 2);
+		const Real radius = ConvexShape(set, 0).inscribedRadius();
+		for (Real far : { 1e8, 1e14, 1e46 }) {
+			set.normals.push_back(randomDirection(random, set.dimension));
+			set.offsets.push_back(far);
+			EXPECT_NEAR(ConvexShape(set, 0).inscribedRadius(), radius, 1e-14 * radius) << far;
+		}
+	}
+}
+
 TEST(ConvexShape, RefusesWhatIsNoBody)
 {
 	HalfSpaces open = cuboid(1, 1, 1);
