@@ -44,9 +44,10 @@ def reportScene(scene, table, folder, finest):
 			f'A heap is chaotic: any change of setting, even of rounding, gives another heap. Over seeds the coordination number is '
 			f'{mean:.3f} ± {deviation:.3f} (standard deviation); an error below {deviation / mean:.2g} means nothing.'
 		)
-	if coarse & {row.name for row in table.rows}:
+	coarser = [row.name for row in table.rows if row.name in coarse]
+	if coarser:
 		findings.text(
-			f'{", ".join(sorted(coarse))}: hardly in effect. The kernel takes the centre as far as a depth right to 2e-14 of the size needs, '
+			f'{", ".join(coarser)}: hardly in effect. The kernel takes the centre as far as a depth right to 2e-14 of the size needs, '
 			'whatever newtonTolerance says: in overlaps deeper than 2e-4 of the size that is finer than the default, 1e-10, and the answer is '
 			'the default\'s to the last digit; in thinner ones it differs in the last digits (which makes another heap, in A).'
 		)
@@ -164,10 +165,10 @@ _page = '''<!DOCTYPE html>
 body { margin: 0 auto; max-width: 1180px; padding: 2rem 1.5rem 4rem; color: #1c2430; font: 15px/1.5 "DejaVu Sans", Arial, sans-serif; }
 h1, h2 { color: #1d4e79; } h2 { border-top: 2px solid #1d4e79; padding-top: .8rem; margin-top: 3rem; }
 .wide { overflow-x: auto; } .wide table { width: 100%; } table { border-collapse: collapse; font-size: .8rem; }
-th, td { padding: .25rem .55rem; border-bottom: 1px solid #d9dee6; text-align: right; white-space: nowrap; }
+th, td { padding: .25rem .4rem; border-bottom: 1px solid #d9dee6; text-align: right; white-space: nowrap; }
 th, .words { white-space: normal; }
-th:first-child, td:first-child, td:last-child { text-align: left; } th { color: #687385; vertical-align: bottom; }
-th:first-child, td:first-child { position: sticky; left: 0; background: #fff; } .parts td:last-child { min-width: 11rem; }
+th:first-child, td:first-child, .parts td:last-child, .parts th:last-child { text-align: left; } th { color: #687385; vertical-align: bottom; }
+th:first-child, td:first-child { position: sticky; left: 0; background: #fff; } .parts td:last-child { min-width: 6rem; }
 figure { margin: 1.2rem 0; } img { max-width: 100%; border: 1px solid #d9dee6; } .quiet, figcaption { color: #687385; }
 </style></head><body>
 <h1>Accuracy for speed: what each setting costs, and what it does to the answer</h1>
