@@ -78,7 +78,7 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
 		exchangeBodies(memory);
 		kernel(in, settings, memory, workspace, result);
 		exchangeBodies(memory);
-		exchangeBodies(result, centre2);
+		exchangeBodies(result, centre2, shape1.dimension());
 		return;
 	}
 	const PairInput in { { &shape1, &shape2 }, { &rotation1, &rotation2 }, &centre2 };

@@ -45,16 +45,18 @@ inline void exchangeBodies(PairMemory& memory)
 	if (memory.hasPoint) memory.dual = -memory.dual;
 }
 
-/// The answer for the pair under exchanged names; `centre2` as the caller of the exchanged pair has it.
-inline void exchangeBodies(ContactResult& result, const Vector3& centre2)
+/// The answer for the pair under exchanged names; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
+inline void exchangeBodies(ContactResult& result, const Vector3& centre2, int dimension)
 {
 	for (int& code : result.basis)
 		code ^= 1;
 	result.normal        = -result.normal;
 	result.dualDirection = -result.dualDirection;
 	if (!result.hasGeometry) return;
-	result.point += centre2;
-	result.sectionCentroid += centre2;
+	for (int k = 0; k < dimension; ++k) {
+		result.point[k] += centre2[k];
+		result.sectionCentroid[k] += centre2[k];
+	}
 }
 
 } // namespace polytope

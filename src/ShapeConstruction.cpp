@@ -76,10 +76,15 @@ namespace {
 	Real checkedExtent(const HalfSpaces& set, const LocalPlanes& local, const Triangles& triangles)
 	{
 		if (mayBeOpen(local, triangles)) refuseIfOpen(set);
-		Real extent = 0;
-		for (const exact::Triangle& t : triangles)
-			extent = std::max(extent, meeting(local, Indices(t.begin(), t.end())).point.norm());
-		if (!(local.inradius > construction::flatness * local.size(extent))) refuseFlat(set);
+		Real extent = 0, misfit = 0;
+		for (const exact::Triangle& t : triangles) {
+			const Meeting vertex = meeting(local, Indices(t.begin(), t.end()));
+			extent               = std::max(extent, vertex.point.norm());
+			misfit               = std::max(misfit, vertex.misfit);
+		}
+		// three planes that miss each other meet far out, where rounding does not tell
+		const Real least = construction::flatness * local.size(extent);
+		if (!(local.inradius > least && misfit <= least)) refuseFlat(set);
 		return extent;
 	}
 
