@@ -29,7 +29,7 @@ sanitizeUsage() {
 ./run sanitize [OPTIONS]: the core, the fuzz targets and the plug-in under checkers of memory, arithmetic and threads
 
   --only PART      core      the core's tests under AddressSanitizer and UBSan
-                   threads   queries from many threads under ThreadSanitizer
+                   threads   queries and shapes from many threads under ThreadSanitizer
                    fuzz      ./run fuzz, 60 s a target
                    valgrind  a scene of YADE under valgrind's memcheck
                    may be repeated (default: all of them)
@@ -122,7 +122,7 @@ checkThreads() {
 	checkedBuild "$build/checked-threads" thread polytope_core_tests || return 1
 	[ ${#dryRun[@]} -eq 0 ] || return 0
 	TSAN_OPTIONS=halt_on_error=1:$symbols OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
-		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*'
+		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*:ConvexShape.SharingIsThreadSafe'
 }
 
 checkFuzz() { fuzz; }
@@ -153,7 +153,7 @@ sanitize() {
 		printf '\n%s: ' "$part"
 		case $part in
 			core) echo "tests of the core under AddressSanitizer and UBSan" ;;
-			threads) echo "queries from many threads under ThreadSanitizer" ;;
+			threads) echo "queries and shapes from many threads under ThreadSanitizer" ;;
 			fuzz) echo "construction and contact under libFuzzer" ;;
 			valgrind) echo "a scene of YADE under valgrind" ;;
 		esac

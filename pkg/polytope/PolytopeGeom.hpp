@@ -38,7 +38,7 @@ public:
 		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear programme's last basis (2 × plane + body), whether it is known, and whether the points are"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, for the next step's start"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
-		, /*ctor*/ createIndex();
+		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear programme's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
