@@ -232,8 +232,9 @@ def testContactRefusesWhatIsNoPolytope():
 	astray.state.pos = (nan, 0, 0)
 	with pytest.raises(ValueError, match='b2.*finite'):
 		polytope.contact(cube, astray)
-	astray.state.pos = (1e300, 0, 0)  # a number, but its square is none
-	with pytest.raises(ValueError, match='b2.*too large to be squared'):
-		polytope.contact(cube, astray)
+	if polytope.buildInfo()['precision'] == 'double':  # wider numbers reach farther than Python's
+		astray.state.pos = (1e300, 0, 0)  # a number, but its square is none
+		with pytest.raises(ValueError, match='b2.*too large to be squared'):
+			polytope.contact(cube, astray)
 	with pytest.raises(ValueError, match='contactPoint'):
 		polytope.contact(cube, cube, contactPoint='middle')

@@ -92,5 +92,5 @@ def testEnergiesAreResumed(tmp_path):
 @pytest.mark.parametrize('scene', ['heap', 'conservativeHeap'])
 def testHeapIsResumed(scene, tmp_path):
 	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
-	assert len(uninterrupted) >= 13 * 16 + 10 * 9  # ten contacts or more
+	assert len(uninterrupted) >= 13 * 16 + 6 * 9  # six contacts or more; how many there are just then differs with the numbers' rounding
 	assert resumed == uninterrupted
