@@ -66,14 +66,18 @@ Collision randomCollision(std::mt19937_64& random)
 	Collision collision;
 	const int faces[] = { 4, 6, 8, 12, 20 };
 	for (Body& body : collision.body) {
-		HalfSpaces set   = random() % 2 ? regularSolid(faces[random() % 5], 1) : randomPlanes(5 + int(random() % 16), random);
-		set              = stretched(set, Vector3(1, uniform(random, Real(0.5), 1), uniform(random, Real(0.3), 1)));
+		HalfSpaces set = random() % 2 ? regularSolid(faces[random() % 5], 1) : randomPlanes(5 + int(random() % 16), random);
+		// named: compilers differ in which argument they draw first
+		const Real third = uniform(random, Real(0.3), 1), second = uniform(random, Real(0.5), 1);
+		set              = stretched(set, Vector3(1, second, third));
 		body.shape       = balanced(set);
 		body.mass        = body.shape->mass().volume;
 		body.inertia     = body.shape->mass().inertia.diagonal();
 		body.orientation = Quaternion(randomRotation(random));
 		body.position = body.velocity = Vector3::Zero();
-		body.spin                     = uniform(random, 0, 1) * body.inertia.cwiseProduct(randomDirection(random));
+		const Vector3 about           = randomDirection(random);
+		const Real    turning         = uniform(random, 0, 1);
+		body.spin                     = turning * body.inertia.cwiseProduct(about);
 	}
 	// just apart, towards each other at unit speed
 	Pair pair;

@@ -6,11 +6,15 @@ until then), pairs that do not touch (their memory of the last basis starts anew
 pairs again at once, so a body that has turned may be found in contact some steps earlier than without the break), and what scripts hold.
 None of it enters the motion here: the scenes look for pairs in each step.
 """
+import math
 import os
 import subprocess
 import sys
 
 import pytest
+from yade import O, Quaternion, Vector3, polytope
+
+from scenes import joint, loop
 
 # runs in a process of its own with one thread; prints the states in full precision
 program = r'''
@@ -94,3 +98,16 @@ def testHeapIsResumed(scene, tmp_path):
 	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
 	assert len(uninterrupted) >= 13 * 16 + 6 * 9  # six contacts or more; how many there are just then differs with the numbers' rounding
 	assert resumed == uninterrupted
+
+
+def testAPairApartHasNoJunk():
+	"""Its geometry is saved, too; YADE leaves normal and contact point as they lie in memory."""
+	joint()
+	loop()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (.5, .5, .5)))
+	O.bodies.append(polytope.cuboid((1, 1, 0), (.5, .5, .5), Quaternion((0, 0, 1), math.pi / 4)))  # boxes overlap, bodies do not
+	O.dt = 1e-4
+	O.step()
+	(pair,) = O.interactions.all(onlyReal=False)
+	assert not pair.isReal
+	assert pair.geom.normal == Vector3.Zero and pair.geom.contactPoint == Vector3.Zero
