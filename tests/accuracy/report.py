@@ -6,7 +6,7 @@ these come report.html, with all figures and tables, and results.csv. A study th
 options, is not run again. Ends with 1, and says why, if a limit was missed or a script failed.
 
 	./run accuracy                        # all studies
-	./run accuracy --quick                # fewer samples and steps, the same limits
+	./run accuracy --quick                # fewer samples and steps
 	./run accuracy --only pairs scenes    # these two
 """
 
