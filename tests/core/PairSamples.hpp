@@ -243,6 +243,13 @@ inline Pair randomPair(const Shapes& shapes, std::mt19937_64& random)
 	return pair;
 }
 
+/// Draws are named where two meet: compilers differ in which argument comes first.
+inline HalfSpaces randomCuboid(std::mt19937_64& random)
+{
+	const Real third = decades(random, -3, 0), second = decades(random, -3, 0);
+	return cuboid(1, second, third);
+}
+
 /// Boxes and regular solids (rectangles) with near copies of their planes, every third pair with its axes aligned.
 inline Pair nearlyParallelPair(std::mt19937_64& random, int dimension = 3)
 {
@@ -250,9 +257,7 @@ inline Pair nearlyParallelPair(std::mt19937_64& random, int dimension = 3)
 	Pair      pair;
 	for (auto& shape : pair.shape) {
 		HalfSpaces set = rectangle(1, decades(random, -3, 0));
-		if (dimension == 3)
-			set = random() % 2 ? cuboid(1, decades(random, -3, 0), decades(random, -3, 0))
-			                   : regularSolid(faces[random() % 5], 1);
+		if (dimension == 3) set = random() % 2 ? randomCuboid(random) : regularSolid(faces[random() % 5], 1);
 		const Matrix3 turn = random() % 2 ? randomRotation(random, dimension) : Matrix3(Matrix3::Identity());
 		for (Vector3& normal : set.normals)
 			normal = turn * normal;
@@ -294,8 +299,9 @@ inline Pair thinPair(int trial, std::mt19937_64& random)
 		pair.shape[1]   = ConvexShape::shared(cuboid(1, thin, trial % 2 ? thin * decades(random, -1, 0) : Real(0.5)), 0);
 		pair.centre2    = Real(0.3) * randomDirection(random);
 	} else {
-		pair.shape[1] = pair.shape[0];
-		pair.centre2  = Vector3(uniform(random, -1, 1), 2 - decades(random, -11, -1), 2 - decades(random, -11, -1));
+		pair.shape[1]    = pair.shape[0];
+		const Real third = decades(random, -11, -1), second = decades(random, -11, -1);
+		pair.centre2 = Vector3(uniform(random, -1, 1), 2 - second, 2 - third);
 		if (trial % 3 == 2) pair.centre2[0] = 2 - decades(random, -11, -1);
 	}
 	return turned(pair, randomRotation(random));
