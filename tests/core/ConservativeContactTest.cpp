@@ -291,7 +291,8 @@ TEST_P(ConservativeContact, AnyBasisPointAndLevelAreAGoodEnoughStart)
 		memory.dual              = decades(random, -3, 3) * randomDirection(random, dimension);
 		const ContactResult warm = query(pair, conservative(), &memory), cold = query(pair, conservative());
 		ASSERT_TRUE(usable(warm.status)) << statusName(warm.status);
-		EXPECT_NEAR(warm.barrierValue, cold.barrierValue,
+		// a positive Φ is no force, and is not computed where the optimum's weights (of one basis or another) show its sign
+		EXPECT_NEAR(std::min(warm.barrierValue, Real(0)), std::min(cold.barrierValue, Real(0)),
 		        1e-9 * tolerance::barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
 	}
 }
