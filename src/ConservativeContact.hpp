@@ -62,9 +62,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	for (int k = 0; k <= D; ++k)
 		sum += sqrt(maxOf<R>(R(out.weights[k]), 0));
 	if (!settings.geometryAcrossGap && below + 2 * mu * sum >= 0) {
-		memory.hasPoint = false;
-		for (int k = 0; k < D; ++k)
-			memory.dual[k] = out.weights[k];
+		rememberWeights<D>(out.weights, memory);
 		return;
 	}
 
@@ -128,15 +126,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
 		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 	}
-	R all = out.depth + out.energy + out.rockingArm;
-	for (int k = 0; k < 3; ++k)
-		all += out.point[k] + out.normal[k] + out.dualDirection[k];
-	if (!isfinite(all)) {
-		out.status      = ContactStatus::Failed;
-		out.inContact   = false;
-		out.hasGeometry = false;
-		memory.hasBasis = memory.hasPoint = false;
-	}
+	failUnlessFinite<D>(memory, out);
 }
 
 } // namespace polytope

@@ -84,14 +84,18 @@ template <class R, int D, class V> POLYTOPE_INLINE void toWorldAxes(const Matrix
 	}
 }
 
+/// The frame's axes in a body's, from those in the world's.
+template <class R, int D> POLYTOPE_INLINE Rotation<R, D> ownAxes(const Matrix3& rotation, const Rotation<R, D>& world)
+{
+	return product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return rotation(i, j); }, world);
+}
+
 /// Axes (columns: the frame's in world axes) for a frame whose origin stays.
 template <class R, int D> POLYTOPE_INLINE void setAxes(const PairInput& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
 {
 	f.world = world;
-	for (int body = 0; body < 2; ++body) {
-		const Matrix3& b = *in.rotation[body];
-		f.own[body]      = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return b(i, j); }, world);
-	}
+	for (int body = 0; body < 2; ++body)
+		f.own[body] = ownAxes<R, D>(*in.rotation[body], world);
 }
 
 /// Whether all numbers of the pose are numbers.
@@ -131,7 +135,6 @@ template <class R, int D> POLYTOPE_INLINE void homeFrame(const PairInput& in, Co
 {
 	const int      other = 1 - f.home;
 	const Matrix3& h     = *in.rotation[f.home];
-	const Matrix3& o     = *in.rotation[other];
 	for (int k = 0; k < D; ++k) {
 		for (int j = 0; j < D; ++j) {
 			f.world.m[j][k]       = h(j, k);
@@ -139,7 +142,7 @@ template <class R, int D> POLYTOPE_INLINE void homeFrame(const PairInput& in, Co
 		}
 		f.origin[0][k] = f.origin[1][k] = 0;
 	}
-	f.own[other] = product<R, D>([&](int j, int i) POLYTOPE_INLINE_LAMBDA -> R { return o(i, j); }, f.world);
+	f.own[other] = ownAxes<R, D>(*in.rotation[other], f.world);
 }
 
 /// One plane of a body in the frame.
@@ -157,6 +160,21 @@ template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput&
 	for (int body = 0; body < 2; ++body)
 		placePlanes<R, D, W>(
 		        *in.shape[body], f.own[body], f.centre[body], f.origin[body], planes, planes.begin(body), planes.end(body));
+}
+
+/// As placePair() in the smaller body's own frame, where its planes stay as they are.
+template <class R, int D, int W>
+POLYTOPE_INLINE void placePairAtHome(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+{
+	const ConvexShape& own   = *in.shape[f.home];
+	const int          begin = planes.begin(f.home), count = own.paddedCount(), other = 1 - f.home;
+	for (int i = 0; i < count; i += W) {
+		for (int k = 0; k < D; ++k)
+			store<R, W>(planes.normal[k] + begin + i, load<R, W>(own.normalArray(k) + i));
+		store<R, W>(planes.offset + begin + i, load<R, W>(own.offsetArray() + i));
+	}
+	placePlanes<R, D, W>(
+	        *in.shape[other], f.own[other], f.centre[other], f.origin[other], planes, planes.begin(other), planes.end(other));
 }
 
 /// From the planes' frame to world axes (direction).

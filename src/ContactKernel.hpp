@@ -42,6 +42,41 @@ POLYTOPE_INLINE bool startFrom(
 	return true;
 }
 
+/// The basis of a pair of which nothing is known: the smaller body's inscribed ball, as the shape has solved it, in the smaller
+/// body's frame. False where that is not the smaller ball, or has no digits.
+template <class R, int D>
+POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis)
+{
+	const LpBasis<R, D>* const ball = in.shape[f.home]->template inscribedBall<D>();
+	if (!ball || !(in.shape[f.home]->inscribedRadius() <= in.shape[1 - f.home]->inscribedRadius())) return false;
+	basis = *ball;
+	for (int k = 0; k <= D; ++k)
+		memory.basis[k] = 2 * ball->plane[k] + f.home;
+	memory.hasBasis = true;
+	memory.hasPoint = false;
+	return true;
+}
+
+/// The same from either body's ball, the smaller one's first: solved in the frame.
+template <class R, int D>
+POLYTOPE_INLINE void startFromBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)
+{
+	int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
+	memory.hasPoint = memory.hasBasis = false;
+	// the other one, where turning a basis of nearly parallel planes has made it singular
+	for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
+		if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
+		for (int k = 0; k <= D; ++k)
+			memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+		memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
+	}
+	if (!memory.hasBasis) { // or both: then solveWide() finds one
+		for (int k = 0; k < D; ++k)
+			basis.point[k] = dual[k] = 0;
+		basis.infeasibility = -R(padOffset);
+	}
+}
+
 /// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
 /// included, above `least`.
 template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
@@ -148,10 +183,9 @@ POLYTOPE_INLINE void contactKernel(
 	const R reach  = 2 * (larger < R(padOffset) ? larger : f.size);
 
 	const bool known = settings.warmStart && memory.hasBasis;
-	R          bound;
-	if (known && !memory.hasPoint && !settings.geometryAcrossGap && heldApart<R, D>(in, memory, f.home, f.size, reach, bound)) {
-		out.infeasibility = bound;
-		out.dismissed     = true;
+	if (known && !memory.hasPoint && !settings.geometryAcrossGap
+	        && heldApart<R, D>(in, memory, f.home, f.size, reach, out.infeasibility)) {
+		out.dismissed = true;
 		return;
 	}
 
@@ -161,7 +195,7 @@ POLYTOPE_INLINE void contactKernel(
 	R                dual[D];
 	setCentres<R, D>(in, f);
 	bool followed = known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dual);
-	bool solved   = followed;
+	bool solved   = false;
 	bool far      = false;
 	if (followed) {
 		placePair<R, D, W>(in, f, planes);
@@ -170,50 +204,39 @@ POLYTOPE_INLINE void contactKernel(
 	}
 	if (!followed) {
 		if (!finitePose<R, D>(in)) { // planes that are no numbers hold nobody off
-			out.status      = ContactStatus::Failed;
-			memory.hasBasis = memory.hasPoint = false;
+			fail(memory, out);
 			return;
 		}
 		homeFrame<R, D>(in, f);
 		// else a first basis, the last step's or the smaller inscribed ball's, in the smaller body's frame
 		const bool warm = known && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
-		if (!warm) {
-			int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
-			memory.hasPoint = memory.hasBasis = false;
-			// the other one, where turning a basis of nearly parallel planes has made it singular
-			for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
-				if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
-				for (int k = 0; k <= D; ++k)
-					memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-				memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
+		if (!warm && startFromOwnBall<R, D>(in, f, memory, basis)) {
+			placePairAtHome<R, D, W>(in, f, planes);
+			recallBasis<R, D>(planes, memory, basis);
+			solved = true;
+		} else {
+			if (!warm) startFromBall<R, D>(in, f, memory, basis, dual);
+			const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
+			if (least > dismiss) {
+				out.status        = ContactStatus::Separated;
+				out.infeasibility = separatedBound<R, D>(basis, reach, in, -tolerance);
+				out.dismissed     = true;
+				rememberWeights<D>(basis.weight, memory);
+				return;
 			}
-			if (!memory.hasBasis) { // or both: then solveWide() finds one
-				for (int k = 0; k < D; ++k)
-					basis.point[k] = dual[k] = 0;
-				basis.infeasibility = -R(padOffset);
-			}
-		}
-		const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
-		if (least > dismiss) {
-			out.status        = ContactStatus::Separated;
-			out.infeasibility = separatedBound<R, D>(basis, reach, in, -tolerance);
-			out.dismissed     = true;
-			memory.hasPoint   = false;
-			rememberWeights<R, D>(basis, memory);
-			return;
-		}
 
-		// 2. all planes, in a frame turned and moved by what that basis knows
-		// (its point may be far outside both bodies: there every plane would lose digits)
-		const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
-		far          = away > 1;
-		R origin[D];
-		for (int k = 0; k < D; ++k)
-			origin[k] = basis.point[k] / away;
-		const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
-		placePair<R, D, W>(in, f, planes);
-		recallBasis<R, D>(planes, memory, basis);
-		solved = memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis);
+			// 2. all planes, in a frame turned and moved by what that basis knows
+			// (its point may be far outside both bodies: there every plane would lose digits)
+			const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
+			far          = away > 1;
+			R origin[D];
+			for (int k = 0; k < D; ++k)
+				origin[k] = basis.point[k] / away;
+			const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
+			placePair<R, D, W>(in, f, planes);
+			recallBasis<R, D>(planes, memory, basis);
+			solved = memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis);
+		}
 	}
 
 	// 3. LP
@@ -223,7 +246,7 @@ POLYTOPE_INLINE void contactKernel(
 	if (lp == LpStatus::Undecided) {
 		if (solveWide<R, D>(planes, basis, f.size, limit, out.simplexPivots)) lp = LpStatus::Optimal;
 		else if (!memory.hasBasis) { // no basis at all
-			out.status = ContactStatus::Failed;
+			fail(memory, out);
 			return;
 		}
 	}
@@ -235,9 +258,8 @@ POLYTOPE_INLINE void contactKernel(
 	dualDirection<R, D>(planes, basis, dual);
 	out.dualDirection = worldDirection<R, D>(f, dual);
 	if (!touching && !settings.geometryAcrossGap) {
-		out.status      = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
-		memory.hasPoint = false;
-		rememberWeights<R, D>(basis, memory);
+		out.status = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
+		rememberWeights<D>(basis.weight, memory);
 		return;
 	}
 	memory.dual     = out.dualDirection;
@@ -341,16 +363,7 @@ POLYTOPE_INLINE void contactKernel(
 		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
 		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 	}
-	using std::isfinite;
-	R all = out.depth;
-	for (int k = 0; k < D; ++k)
-		all += out.point[k] + out.normal[k] + out.dualDirection[k];
-	if (!isfinite(all)) {
-		out.status      = ContactStatus::Failed;
-		out.inContact   = false;
-		out.hasGeometry = false;
-		memory.hasBasis = memory.hasPoint = false;
-	}
+	failUnlessFinite<D>(memory, out);
 }
 
 } // namespace polytope

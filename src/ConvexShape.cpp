@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ConvexShape.hpp"
 
+#include "NumberText.hpp"
 #include "SimplexLp.hpp"
 
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -14,16 +14,10 @@ namespace polytope {
 
 namespace {
 
-	std::string text(Real value)
-	{
-		std::ostringstream stream;
-		stream << value;
-		return stream.str();
-	}
-
 	/// Largest inscribed ball by the same simplex, started from a simplex of artificial planes far outside.
 	template <int D>
-	Real inscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall)
+	Real findInscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall,
+	        std::optional<LpBasis<Real, D>>& ball)
 	{
 		const int           total = padded + padWidth;
 		std::vector<Real>   rows(std::size_t(D + 3) * total, Real(0));
@@ -68,7 +62,10 @@ namespace {
 		}
 		for (int k = 0; k <= D; ++k)
 			planesOfBall[k] = basis.plane[k];
-		return -basis.infeasibility;
+		const Real radius = -basis.infeasibility;
+		// once more, for what refinement has left of the inverse
+		if (solveBasis<Real, D>(planes, basis) && dualFeasible<Real, D>(basis)) ball = basis;
+		return radius;
 	}
 
 } // namespace
@@ -84,12 +81,12 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	// artificial planes must lie outside the ball: it is inside the body. Not as far as the farthest plane: one that no corner of
 	// the body reaches may be anywhere, and rounding is a part of the reach
 	const Real reach = 16 * boundingRadius_;
-	inscribedRadius_ = D == 3 ? inscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_)
-	                          : inscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_);
+	inscribedRadius_ = D == 3 ? findInscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.second)
+	                          : findInscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.first);
 	if (!isfinite(cornerRadius) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
 		throw std::invalid_argument(
 		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius "
-		        + text(inscribedRadius_) + " m; got " + text(cornerRadius));
+		        + numberText(inscribedRadius_) + " m; got " + numberText(cornerRadius));
 }
 
 void ConvexShape::fillArrays()

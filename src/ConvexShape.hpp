@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "LpBasis.hpp"
 #include "MassProperties.hpp"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace polytope {
@@ -41,6 +43,12 @@ public:
 	/// dual feasible whatever the other body does.
 	Real                      inscribedRadius() const { return inscribedRadius_; }
 	const std::array<int, 4>& inscribedBasis() const { return inscribedBasis_; }
+	/// That basis solved, in the body's axes; null where it has too few digits (planes nearly parallel), and for a half-space.
+	template <int D> const LpBasis<Real, D>* inscribedBall() const
+	{
+		const auto& ball = std::get<std::optional<LpBasis<Real, D>>>(inscribedBall_);
+		return ball ? &*ball : nullptr;
+	}
 
 	/// Radius of the smallest ball about the body's origin that holds it.
 	Real boundingRadius() const { return boundingRadius_; }
@@ -63,6 +71,8 @@ private:
 	Real               inscribedRadius_ = 0;
 	Real               boundingRadius_  = 0;
 	std::array<int, 4> inscribedBasis_ { { 0, 0, 0, 0 } };
+
+	std::pair<std::optional<LpBasis<Real, 2>>, std::optional<LpBasis<Real, 3>>> inscribedBall_; ///< of the shape's dimension
 };
 
 } // namespace polytope

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ConstructionTolerances.hpp"
+#include "NumberText.hpp"
 #include "ShapeConstruction.hpp"
 #include "TriangleClusters.hpp"
 
@@ -62,7 +63,9 @@ namespace {
 		const int     used    = dimension; // in 2-D the extent is that of x and y
 		const Real    largest = span.head(used).maxCoeff();
 		if (!(largest > 0)) refuseFlat(dimension);
-		if (largest < construction::smallestLength) refuse("points: they are less than 1e-50 apart; choose another unit of length");
+		if (largest < construction::smallestLength)
+			refuse("points: they are less than " + numberText(construction::smallestLength)
+			        + " apart; choose another unit of length");
 		using std::frexp;
 		using std::ldexp;
 		int exponent = 0;

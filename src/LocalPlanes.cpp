@@ -3,6 +3,7 @@
 
 #include "CgalGeometry.hpp"
 #include "ConstructionTolerances.hpp"
+#include "NumberText.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -96,7 +97,7 @@ LocalPlanes aboutInnerPoint(const HalfSpaces& set)
 	if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
 	if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
 	if (ball.depth * scale < construction::smallestLength)
-		refuse("offsets: the body is smaller than 1e-50; choose another unit of length");
+		refuse("offsets: the body is smaller than " + numberText(construction::smallestLength) + "; choose another unit of length");
 
 	LocalPlanes local;
 	local.centre   = ball.point * scale;

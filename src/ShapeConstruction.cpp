@@ -3,6 +3,7 @@
 
 #include "ConstructionTolerances.hpp"
 #include "LocalPlanes.hpp"
+#include "NumberText.hpp"
 #include "TriangleClusters.hpp"
 
 #include <Eigen/QR>
@@ -200,7 +201,8 @@ Polyhedron polyhedron(const HalfSpaces& unit, Real thickness)
 	if (set.dimension == 2 && !(thickness > 0 && (Eigen::numext::isfinite)(thickness)))
 		throw std::invalid_argument("thickness: it must be positive and finite; give the body's length along z");
 	if (set.dimension == 2 && !(thickness >= construction::smallestLength && thickness <= construction::largestLength))
-		throw std::invalid_argument("thickness: it must lie between 1e-50 and 1e50; choose another unit of length");
+		throw std::invalid_argument("thickness: it must lie between " + numberText(construction::smallestLength) + " and "
+		        + numberText(construction::largestLength) + "; choose another unit of length");
 
 	LocalPlanes local     = aboutInnerPoint(set);
 	Triangles   triangles = dualHull(local);

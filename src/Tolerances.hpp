@@ -91,6 +91,10 @@ constexpr Real leastShare = 1e-3;
 /// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
 constexpr Real newton = 1e-10 * finer;
 
+/// Range of `newtonTolerance` that a script may set: from `rounding`, finer than which no centre can be, to this. A coarser one is
+/// anywhere in the overlap.
+constexpr Real coarsestNewton = 0.1;
+
 /// × size: how far the depth may be off for a centre not yet reached. The remaining step, in the local norm, is kept
 /// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
 constexpr Real depth = 2e-14 * finer;

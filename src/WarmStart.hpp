@@ -1,19 +1,40 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "BasisSolver.hpp"
 #include "ContactFrame.hpp"
 #include "ContactQuery.hpp"
-#include "LpBasis.hpp"
 
 #include <cmath>
 
 /// What a query takes from the pair's last one (PairMemory) and leaves to the next: it makes answers cheaper, never different.
 namespace polytope {
 
-template <class R, int D> POLYTOPE_INLINE void rememberWeights(const LpBasis<R, D>& basis, PairMemory& memory)
+/// Nothing of the answer, and nothing remembered, is to be used.
+POLYTOPE_INLINE void fail(PairMemory& memory, ContactResult& out)
 {
+	out.status      = ContactStatus::Failed;
+	out.inContact   = false;
+	out.hasGeometry = false;
+	memory.hasBasis = memory.hasPoint = false;
+}
+
+/// An answer with numbers that are none, as poses give that are no motions, is none.
+template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, ContactResult& out)
+{
+	using std::isfinite;
+	Real all = out.depth + out.area + out.energy + out.rockingArm;
 	for (int k = 0; k < D; ++k)
-		memory.dual[k] = basis.weight[k];
+		all += out.point[k] + out.normal[k] + out.dualDirection[k] + out.sectionCentroid[k];
+	if (!isfinite(all)) fail(memory, out);
+}
+
+/// Of a pair that is apart; `weights`: of its basis.
+template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weights& weights, PairMemory& memory)
+{
+	memory.hasPoint = false;
+	for (int k = 0; k < D; ++k)
+		memory.dual[k] = weights[k];
 }
 
 template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)
@@ -38,7 +59,8 @@ POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis
 /// L of the smaller body's centre from below by −Σ λ d − |Σ λ a| L. A point of both would be within the body's size. Where s* is
 /// taken on, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
 /// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
-template <class R, int D> POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, int home, R size, R reach, R& bound)
+template <class R, int D>
+POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
 {
 	using std::sqrt;
 	R sum[2][D] = {}, world[2][D];

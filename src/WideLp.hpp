@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "LpBasis.hpp"
+#include "BasisSolver.hpp"
 
 #include <algorithm>
 

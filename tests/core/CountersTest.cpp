@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -136,24 +137,29 @@ TEST(Counters, SeparatedPairsAreDismissedAtOnce)
 	}
 }
 
-/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions> queries 20 pairs
-/// so often, cold.
+/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions>,<cold|warm|apart>
+/// queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left.
 TEST(Counters, DISABLED_Queries)
 {
 	const char* text = std::getenv("POLYTOPE_COUNTED");
 	ASSERT_NE(text, nullptr);
-	int faces = 0, repetitions = 0;
-	ASSERT_EQ(std::sscanf(text, "%d,%d", &faces, &repetitions), 2);
+	int  faces = 0, repetitions = 0;
+	char kind[6] = "";
+	ASSERT_EQ(std::sscanf(text, "%d,%d,%5s", &faces, &repetitions, kind), 3);
+	const bool cold = std::string(kind) == "cold", apart = std::string(kind) == "apart";
 	std::printf("instruction set: %s\n", instructionSet());
 	std::mt19937_64   random(1);
-	std::vector<Pair> pairs;
-	for (int i = 0; i < 20; ++i)
-		pairs.push_back(regularPair(faces, faces, touching, random));
-	Real sum = 0;
-	for (int i = 0; i < repetitions; ++i)
-		for (const Pair& pair : pairs)
-			sum += query(pair).depth;
-	EXPECT_GT(sum, repetitions ? 0 : -1);
+	std::vector<Pair> pairs, moved;
+	for (int i = 0; i < 20; ++i) {
+		pairs.push_back(regularPair(faces, faces, apart ? Real(-0.05) : touching, random));
+		moved.push_back(afterStep(pairs.back(), random));
+	}
+	std::vector<PairMemory> memories(pairs.size());
+	int                     contacts = 0;
+	for (int i = 0; i <= repetitions; ++i)
+		for (std::size_t k = 0; k < pairs.size(); ++k)
+			contacts += query(i % 2 ? moved[k] : pairs[k], {}, cold ? nullptr : &memories[k]).inContact;
+	EXPECT_EQ(contacts, apart ? 0 : (repetitions + 1) * int(pairs.size()));
 }
 
 } // namespace

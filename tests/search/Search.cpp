@@ -36,7 +36,7 @@ struct Options {
 const char* usage = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
                     "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
                     "  --quick    250 000 pairs: seconds to a minute\n"
-                    "  --pairs    how many pairs in all (10^6); what is found depends on this and the seed, not on the threads\n"
+                    "  --pairs    how many pairs (10^6), up to whole trials of each family; what is found depends on this and the seed\n"
                     "  --seed     of the random numbers (1)\n"
                     "  --threads  how many (0: as many as the machine has)\n"
                     "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
