@@ -6,9 +6,9 @@
 from math import radians
 
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
         Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        RockJointMat, polytope
+        PolytopeCollider, RockJointMat, polytope
 )
 
 # stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
@@ -19,7 +19,7 @@ block = O.bodies.append(polytope.cuboid(center=(0, 0, 0.55), extents=(0.5, 0.4, 
 
 O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
+        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
         InteractionLoop(
                 [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
                 [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)]

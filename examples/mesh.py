@@ -7,9 +7,9 @@ import os
 from math import radians
 
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
         Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        RockJointMat, polytope
+        PolytopeCollider, RockJointMat, polytope
 )
 from yade.polytope.pictures import picture
 
@@ -26,7 +26,7 @@ for k in range(20):
 
 O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.002),
+        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.002),
         InteractionLoop(
                 [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
                 [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.3)]

@@ -7,9 +7,9 @@ from math import cos, pi, radians, sin
 from random import Random
 
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
+        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
         Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        RockJointMat, polytope
+        PolytopeCollider, RockJointMat, polytope
 )
 from yade.polytope.pictures import picture
 
@@ -27,7 +27,7 @@ for k in range(72):
 
 O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
+        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
         InteractionLoop(
                 [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
                 [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2)]

@@ -9,12 +9,12 @@ from yade import (
 	Bo1_Polytope_Aabb,
 	ForceResetter,
 	Ig2_Polytope_Polytope_PolytopeGeom,
-	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	NewtonIntegrator,
 	O,
+	PolytopeCollider,
 	RockJointMat,
 	polytope,
 )
@@ -28,7 +28,7 @@ def build():
 		O.bodies.append(polytope.cuboid((0.02 * k, 0, 0.101 + 0.201 * k), (0.1, 0.1, 0.1)))
 	O.engines = [
 		ForceResetter(),
-		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
+		PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
 		InteractionLoop(
 			[Ig2_Polytope_Polytope_PolytopeGeom()],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],

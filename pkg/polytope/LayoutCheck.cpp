@@ -8,6 +8,7 @@
 #include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -77,6 +78,9 @@ namespace {
 		        member("tangensOfFrictionAngle", &FrictPhys::tangensOfFrictionAngle));
 		check<ScGeom>("ScGeom", member("refR1", &ScGeom::refR1), member("refR2", &ScGeom::refR2),
 		        member("penetrationDepth", &ScGeom::penetrationDepth));
+		check<InsertionSortCollider>("InsertionSortCollider", member("dead", &InsertionSortCollider::dead),
+		        member("sortAxis", &InsertionSortCollider::sortAxis), member("numAction", &InsertionSortCollider::numAction),
+		        member("smartInsertErase", &InsertionSortCollider::smartInsertErase));
 		check<InteractionLoop>(
 		        "InteractionLoop", member("dead", &InteractionLoop::dead), member("ompThreads", &InteractionLoop::ompThreads));
 	}

@@ -104,17 +104,12 @@ boost::python::list Polytope::faces() const
 	return all;
 }
 
-namespace {
-
-	/// Whether the body may turn before its box is made anew.
-	bool mayTurn(const Body* body)
-	{
-		if (!body || !body->state || body->isClumpMember()) return true;
-		const State& state = *body->state;
-		return (state.blockedDOFs & State::DOF_RXRYRZ) != State::DOF_RXRYRZ || state.angVel != Vector3r::Zero();
-	}
-
-} // namespace
+bool mayTurn(const Body* body)
+{
+	if (!body || !body->state || body->isClumpMember()) return true;
+	const State& state = *body->state;
+	return (state.blockedDOFs & State::DOF_RXRYRZ) != State::DOF_RXRYRZ || state.angVel != Vector3r::Zero();
+}
 
 void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* body)
 {
@@ -125,9 +120,12 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 	const Vector3r centre  = unshear * se3.position;
 	const auto&    convex  = static_cast<const Polytope&>(*shape).convex();
 	Vector3r       low = Vector3r::Zero(), high = Vector3r::Zero();
-	// along these axes it is the ball's (disc's: a polygon turns about z alone), and the vertices need not be looked at
-	const int rounded = convex && mayTurn(body) ? convex->dimension() : 0;
-	if (convex && rounded < 3) {
+	const Real     any  = std::numeric_limits<Real>::infinity();
+	const bool     told = rooms && body && body->id < Body::id_t(rooms->size());
+	const Real     room = told ? (*rooms)[body->id] : mayTurn(body) ? any : Real(0);
+	// along these axes a turn is felt (a polygon turns about z alone)
+	const int turning = convex && room > 0 ? convex->dimension() : 0;
+	if (convex && (room < any || turning < 3)) {
 		low = high = turn * convex->polyhedron().vertices.front();
 		for (const Vector3r& vertex : convex->polyhedron().vertices) {
 			const Vector3r moved = turn * vertex;
@@ -135,9 +133,11 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 			high                 = high.cwiseMax(moved);
 		}
 	}
-	for (int k = 0; k < rounded; ++k) {
-		high[k] = convex->boundingRadius() * unshear.row(k).head(rounded).norm();
-		low[k]  = -high[k];
+	for (int k = 0; k < turning; ++k) {
+		// the tight box with that room, and never more than the ball's (the disc's)
+		const Real stretch = unshear.row(k).head(turning).norm(), ball = convex->boundingRadius() * stretch;
+		high[k] = room < any ? math::min(ball, Real(high[k] + room * stretch)) : ball;
+		low[k]  = room < any ? math::max(-ball, Real(low[k] - room * stretch)) : -ball;
 	}
 	bound->min = centre + low;
 	bound->max = centre + high;

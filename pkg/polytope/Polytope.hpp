@@ -61,12 +61,20 @@ private:
 };
 REGISTER_SERIALIZABLE(Polytope);
 
+/// Whether the body may turn before its box is made anew.
+bool mayTurn(const Body* body);
+
 class Bo1_Polytope_Aabb : public BoundFunctor {
 public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
+
+	/// By body id, the way of the farthest vertex in a turn that the box needs room for: from a collider that sees bodies turn
+	/// (PolytopeCollider), while it runs.
+	const std::vector<Real>* rooms = nullptr;
+
 	FUNCTOR1D(Polytope);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the :yref:`Aabb` of a :yref:`Polytope`, exact in sheared periodic cells too. A body that cannot turn (rotations blocked and *angVel* zero) gets the tight box of its vertices; one that can gets that of its circumscribed ball (disc), because with :yref:`verletDist<InsertionSortCollider.verletDist>` above 0 the collider makes boxes anew only after a translation, and a body that turns in place would leave a tight one unseen. Set the *angVel* of a body turned by the script before the run.");
+	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the :yref:`Aabb` of a :yref:`Polytope`, exact in sheared periodic cells too. For a :yref:`PolytopeCollider` it is the tight box of the vertices and room for turning. :yref:`InsertionSortCollider` with :yref:`verletDist<InsertionSortCollider.verletDist>` above 0 makes boxes anew only after a translation, and a body that turns in place would leave a tight one unseen: for it a body that can turn gets the box of its circumscribed ball (disc), one that cannot (rotations blocked and *angVel* zero) the tight one. Set the *angVel* of a body turned by the script before the run then.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Bo1_Polytope_Aabb);

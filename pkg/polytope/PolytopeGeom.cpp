@@ -5,10 +5,9 @@
 #include <pkg/common/ElastMat.hpp>
 
 #include <src/IpoptCentre.hpp>
+#include <src/NumberText.hpp>
 
 #include "RockJoint.hpp"
-
-#include <sstream>
 
 namespace yade {
 
@@ -178,7 +177,9 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	else if (contactModel == "conservative") settings_.contactModel = polytope::ContactModel::Conservative;
 	else refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
 	if (!(barrier >= polytope::tolerance::leastBarrier && barrier <= polytope::tolerance::largestBarrier))
-		refuse("barrier: must lie between 1e-9 and 0.05 (a fraction of the smaller body's inscribed radius)");
+		refuse("barrier: must lie between " + polytope::numberText(polytope::tolerance::leastBarrier) + " and "
+		        + polytope::numberText(polytope::tolerance::largestBarrier)
+		        + " (a fraction of the smaller body's inscribed radius)");
 	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
 	else if (contactPoint == "chebyshevCentre") settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
 	else if (contactPoint == "centroid") settings_.contactPoint = polytope::ContactPoint::Centroid;
@@ -191,13 +192,10 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	else settings_.solver = polytope::CentreSolver::Ipopt;
 	if (!(tolerance >= 0 && tolerance < 1))
 		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
-	// a finer centre than rounding cannot be reached; a coarser one than 0.1 is anywhere in the overlap
-	if (!(newtonTolerance >= polytope::tolerance::rounding && newtonTolerance <= 0.1)) {
-		std::ostringstream message;
-		message << "newtonTolerance: must lie between " << polytope::tolerance::rounding
-		        << " (the rounding of this precision's numbers) and 0.1 (a fraction of the overlap's own size)";
-		refuse(message.str());
-	}
+	if (!(newtonTolerance >= polytope::tolerance::rounding && newtonTolerance <= polytope::tolerance::coarsestNewton))
+		refuse("newtonTolerance: must lie between " + polytope::numberText(polytope::tolerance::rounding)
+		        + " (the rounding of this precision's numbers) and " + polytope::numberText(polytope::tolerance::coarsestNewton)
+		        + " (a fraction of the overlap's own size)");
 	settings_.tolerance       = tolerance;
 	settings_.newtonTolerance = newtonTolerance;
 	settings_.barrier         = barrier;

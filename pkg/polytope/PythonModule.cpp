@@ -35,6 +35,16 @@ py::dict buildInfo()
 	return result;
 }
 
+py::dict tolerances()
+{
+	namespace tolerance = polytope::tolerance;
+	py::dict result;
+	result["rounding"]       = double(tolerance::rounding);
+	result["depth"]          = double(tolerance::depth);
+	result["coarsestNewton"] = double(tolerance::coarsestNewton);
+	return result;
+}
+
 py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.normals, set.offsets); }
 
 py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
@@ -142,6 +152,10 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "the precision), and *precision*, the numbers' kind (double, longdouble, float128, mpfr150), with its significant *bits* "
 	        "and decimal "
 	        "*digits*, as a dictionary.");
+	py::def("tolerances", &tolerances,
+	        "Tolerances of the numerical core that the module's advice is about, see src/Tolerances.hpp: *rounding* of this "
+	        "precision's "
+	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
 	        "Normals and offsets of the convex hull of points.");

@@ -21,6 +21,12 @@ print('RESULT', state())
 '''
 
 
+# YADE's integrator makes its energies' names in its parallel loop without a lock: now and then two threads make one twice, and what
+# either has counted is lost. So only the law's are compared
+ofTheIntegrator = '("gravWork", "kinetic", "nonviscDamp")'
+runner = runner.replace('sorted(O.energy.items())', f'sorted(O.energy.items()) if _ not in {ofTheIntegrator}')
+
+
 def run(scene, threads, steps, energy=False):
 	here = os.path.dirname(os.path.abspath(__file__))
 	environment = dict(os.environ, OMP_NUM_THREADS=str(threads))

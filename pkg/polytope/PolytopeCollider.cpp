@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "PolytopeCollider.hpp"
+
+#include <core/Dispatching.hpp>
+#include <core/Scene.hpp>
+
+#include <limits>
+
+namespace yade {
+
+YADE_PLUGIN((PolytopeCollider));
+
+const Body* PolytopeCollider::bodyOf(std::size_t id) const
+{
+	const Body::id_t known = Body::id_t(id); // bodies may have been erased since
+	return scene->bodies->exists(known) ? (*scene->bodies)[known].get() : nullptr;
+}
+
+Real PolytopeCollider::way(const Turn& turn, const Body& body)
+{
+	return 2 * turn.radius * (body.state->ori.conjugate() * turn.from).vec().norm();
+}
+
+bool PolytopeCollider::turnedOutOfBox() const
+{
+	for (std::size_t id = 0; id < turns_.size(); ++id) {
+		const Turn& turn = turns_[id];
+		if (!(turn.room < std::numeric_limits<Real>::infinity()) || !(turn.radius > 0)) continue;
+		const Body* body = bodyOf(id);
+		if (body && !(way(turn, *body) <= turn.room)) return true; // also an orientation that is no number
+	}
+	return false;
+}
+
+void PolytopeCollider::makeRoom()
+{
+	const Real most = math::max(verletDist, Real(0)), least = minSweepDistFactor * most;
+	turns_.resize(scene->bodies->size());
+	for (std::size_t id = 0; id < turns_.size(); ++id) {
+		const Body* body     = bodyOf(id);
+		Turn&       turn     = turns_[id];
+		const auto* polytope = body ? dynamic_cast<const Polytope*>(body->shape.get()) : nullptr;
+		if (!polytope || !polytope->convex()) {
+			turn = Turn();
+			continue;
+		}
+		const bool known = turn.radius > 0;
+		turn.radius      = polytope->convex()->boundingRadius();
+		// twice the last interval's: neither run at each step nor keep the room of a rotation that has ended
+		const Real wanted = known ? 2 * way(turn, *body) : most;
+		turn.from         = body->state->ori;
+		if (!mayTurn(body)) turn.room = 0;
+		else if (wanted <= most) turn.room = math::max(least, wanted);
+		else turn.room = std::numeric_limits<Real>::infinity();
+	}
+}
+
+void PolytopeCollider::action()
+{
+	makeRoom();
+	std::vector<Real> rooms(turns_.size());
+	for (std::size_t id = 0; id < turns_.size(); ++id)
+		rooms[id] = turns_[id].room;
+	const auto give = [&](const std::vector<Real>* given) {
+		for (const auto& functor : boundDispatcher->functors)
+			if (auto* own = dynamic_cast<Bo1_Polytope_Aabb*>(functor.get())) own->rooms = given;
+	};
+	give(&rooms);
+	try {
+		InsertionSortCollider::action();
+	} catch (...) {
+		give(nullptr);
+		throw;
+	}
+	give(nullptr);
+}
+
+} // namespace yade
