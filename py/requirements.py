@@ -77,7 +77,7 @@ def requirements(O, measure=True):
 
 	Looked at: contact area, third dimension, damping and energy (and whether stiffnesses let the conservative contact be that), cohesion,
 	corner radius against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
-	positions, time step against stiffness and mass, the collider's verletDist, warm start, solver, contact point, clocks and energy
+	positions, time step against stiffness and mass, the collider's verletDist and boxes, warm start, solver, contact point, clocks and energy
 	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen. What could not be looked at is named
 	at the end. Overlaps are those of the present state (what was before is known only where a counter of the functor tells: contact points
 	deeper than the corner radius): look at the moment of the hardest blow, too. A time step is near the limit above 1/ω of the fastest body,

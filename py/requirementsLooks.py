@@ -7,11 +7,13 @@ They read and change nothing.
 import math
 
 import numpy as np
+import yade
 from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
 
+from .requirementsBoxes import boxes, verletDist
 from .requirementsOverlaps import cornerRadius, newtonTolerance
 from .requirementsPlane import staysInPlane
-from .requirementsWorker import colliders, laws, prismOutline
+from .requirementsWorker import laws, prismOutline
 from .timeStep import stableTimeStep
 from .tradeoffWorker import geometryFunctors, interactionLoops
 
@@ -20,20 +22,18 @@ __all__ = ['looks']
 usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
 """Time step over 1/ω of the fastest body: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
 below which steps are many."""
-reach = 0.05
-"""verletDist over the smallest body's size that is advised where there is none."""
 mostTwins = 50
 """Contacts that are looked at once more without the planes that own no face."""
 turned, changed = 1.0, 0.05
 """Angle of a normal [°] and part of a force that such planes may make without a word."""
-mostPairs = 8
-"""Pairs looked at for each contact, above which the reach is too far."""
 
 
 class Scene:
 	"""What several looks need."""
 
 	def __init__(self, O):
+		if not isinstance(O, type(yade.O)):
+			raise ValueError(f'O: must be yade.O, got {O!r}')
 		self.O = O
 		self.functors = geometryFunctors()
 		if not self.functors:
@@ -71,8 +71,8 @@ class Scene:
 def looks(O):
 	"""(what was found, [(what could not be looked at, why)])."""
 	scene = Scene(O)
-	each = (area, dimension, energy, cohesion, cornerRadius, planes, newtonTolerance, timeStep, verletDist)
-	each += (warmStart, solver, contactPoint, clocks, energyTracking)
+	each = (numbersOfBodies, area, dimension, energy, cohesion, cornerRadius, planes, newtonTolerance, timeStep)
+	each += (verletDist, boxes, warmStart, solver, contactPoint, clocks, energyTracking)
 	found, missing = [], []
 	for one in each:
 		name, answer = one.__doc__.strip().rstrip('.'), one(scene)
@@ -196,10 +196,23 @@ def _twin(body):
 	return twin
 
 
+def numbersOfBodies(scene):
+	"""numbers of bodies"""
+	states = {body.id: (*body.state.pos, *body.state.ori, *body.state.vel, *body.state.angVel) for body in scene.O.bodies if body is not None}
+	lost = [k for k, numbers in states.items() if not all(math.isfinite(float(x)) for x in numbers)]
+	failed = sum(functor.stats()['failures'] for functor in scene.functors)
+	seen = f'{len(lost)} of {len(states)} bodies have places or velocities that are no numbers' + (f', {failed} queries have failed' if failed else '')
+	if lost:
+		return f'{seen} (body {lost[0]})', 'a run that went wrong before: such a body has no contacts; go back, and take a smaller O.dt'
+	return seen, 'look where: see failures in README' if failed else ''
+
+
 def timeStep(scene):
 	"""time step"""
 	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
 		return 'set by GlobalStiffnessTimeStepper', ''
+	if not 0 < float(scene.O.dt) < math.inf:
+		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
 	try:
 		limit = float(stableTimeStep(1))
 	except ValueError:
@@ -214,24 +227,6 @@ def timeStep(scene):
 	if fraction < least:
 		return seen, f'O.dt = {usual * limit:.2g} takes {fraction / usual:.2g} of the steps, unless a stiffer contact is still to come'
 	return seen, ''
-
-
-def verletDist(scene):
-	"""verletDist"""
-	if not colliders() or not scene.moving:
-		return 'no InsertionSortCollider, or no body that can move'
-	present = float(colliders()[0].verletDist)
-	size = min(float(body.shape.inscribedRadius) for body in scene.moving)
-	length = abs(present) * (size if present < 0 else 1)
-	pairs = sum(functor.stats()['pairs'] for functor in scene.functors)
-	contacts = sum(functor.stats()['contacts'] for functor in scene.functors)
-	ratio = f', {pairs / contacts:.3g} pairs looked at for each contact so far' if contacts else ''
-	if present == 0:
-		return f'0: the collider sorts in every step{ratio}', f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
-	if length > size and (not contacts or pairs > mostPairs * contacts):
-		seen = f'{length:.3g} m, more than the smallest body\'s inscribed radius{ratio}'
-		return seen, f'verletDist = {2 * reach * size:.2g}', None, ('verletDist', 2 * reach * size)
-	return f'{length:.3g} m{ratio}', ''
 
 
 def warmStart(scene):

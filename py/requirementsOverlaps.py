@@ -4,8 +4,7 @@
 import math
 
 import numpy as np
-import yade.config
-from yade import Polytope
+from yade import Polytope, _polytope
 
 __all__ = ['cornerRadius', 'newtonTolerance']
 
@@ -22,10 +21,8 @@ inside = 0.9
 """Largest corner radius that is advised, over the inscribed radius that it must stay below."""
 muchFiner = 10
 """Times by which the Newton tolerance is finer than rounding, from which on that is worth a word."""
-epsilon = 2.0 ** (1 - {64: 53, 80: 64, 128: 113}.get(yade.config.highPrecisionBits, yade.config.highPrecisionBits))
-"""Rounding of a coordinate of 1 in this YADE's arithmetic."""
-depthTolerance = 2e-14 * epsilon / 2.0**-52
-"""× size: to which the kernel keeps the depth, whatever newtonTolerance says (tolerance::depth in src/Tolerances.hpp)."""
+kernel = _polytope.tolerances()
+"""Of the numerical core: *rounding* of a coordinate of 1, *depth* over the size, kept whatever newtonTolerance says, *coarsestNewton*."""
 
 
 def cornerRadius(scene):
@@ -81,10 +78,10 @@ def newtonTolerance(scene):
 		return 'no polytopes overlap now'
 	far = max(max(abs(float(x)) for x in body.state.pos) for body in scene.bodies)
 	overlap = float(np.median(thin))
-	rounding, kept = epsilon * far / overlap, depthTolerance * scene.size() / overlap
+	rounding, kept = kernel['rounding'] * far / overlap, kernel['depth'] * scene.size() / overlap
 	tolerance = float(min(scene.values('newtonTolerance')))
 	seen = f'{tolerance:.1g}, and {kept:.1g} that the depth needs; positions are rounded by {rounding:.1g} of the overlaps (median)'
-	coarsest, tells = min(rounding, kept, 0.1), rounding > muchFiner * tolerance and far > 1e3 * scene.size()
+	coarsest, tells = min(rounding, kept, kernel['coarsestNewton']), rounding > muchFiner * tolerance and far > 1e3 * scene.size()
 	advice = ['move the scene nearer to the origin: the centre is found more finely than positions are known'] if tells else []
 	if tolerance < coarsest / muchFiner:
 		advice.append(f'newtonTolerance finer than {coarsest:.0g} gains no digit here')

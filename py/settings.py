@@ -34,8 +34,8 @@ def settings(name):
 	by 0.41. Where these matter take 'balanced'. `./run tradeoff --quick --only B C F rest pair` prints these figures.
 
 	**Time steps**: polytope.stableTimeStep(1), 1/ω, is safe for any heap, by a bound on ω. 'exact' stays within: 0.80/ω in the roof wedge
-	D, 0.78/ω in the heap A, once at rest. 'balanced' and 'fast' are not held to it. They rest on the answers measured, in scenes with damped
-	contacts, whose heap (A) is at 1.4/ω and 2.6/ω, and is blown apart by twice the step of 'fast'. polytope.requirements(O) names any step
+	D, 0.70/ω in the heap A, once at rest. 'balanced' and 'fast' are not held to it. They rest on the answers measured, in scenes with damped
+	contacts, whose heap (A) is at 1.3/ω and 2.6/ω, and is blown apart by twice the step of 'fast'. polytope.requirements(O) names any step
 	above 1/ω; where nothing damps, or answers look odd, take O.dt = min(O.dt, polytope.stableTimeStep(1)).
 
 	:param str name: 'fast', 'balanced' or 'exact'

@@ -4,6 +4,8 @@ import math
 
 from yade import O
 
+from .precision import isNumber
+
 __all__ = ['stableTimeStep']
 
 
@@ -24,10 +26,10 @@ def stableTimeStep(fraction=0.2, default=None):
 	:returns: the time step [s]; set it with O.dt = …
 	:raises ValueError: naming *fraction*, or *default* where one is needed
 	"""
-	if not 0 < fraction <= 2:
-		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction}')
-	if default is not None and not default > 0:
-		raise ValueError(f'default: must be a time step above 0, got {default}')
+	if not isNumber(fraction) or not 0 < fraction <= 2:
+		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction!r}')
+	if default is not None and not (isNumber(default) and default > 0):
+		raise ValueError(f'default: must be a time step above 0, got {default!r}')
 	translation, rotation = {}, {}
 	for contact in O.interactions:
 		if not contact.isReal:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What each setting costs in a scene, and what it does to the answer that matters there: `polytope.tradeoff`."""
 
-import copy
 import json
 import os
 import pathlib
@@ -13,9 +12,9 @@ import tempfile
 from tqdm import tqdm
 
 from . import tradeoffPrecision as precision
-from .tradeoffArguments import checkedSettings, checkNumbers, checkReference, ofTheScene, placeOf
+from .tradeoffArguments import checkArguments, checkedSettings, checkNumbers, checkReference, ofTheScene, placeOf
 from .tradeoffInside import CalledAgain, inside
-from .tradeoffTable import Row, TradeoffTable
+from .tradeoffTable import Row, TradeoffTable, checkLength
 from .tradeoffWorker import settable, takesTheScene
 
 __all__ = ['tradeoff']
@@ -26,7 +25,8 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 
 	Each setting runs in a Python process of its own, which loads the file *build* and *measure* are written in, calls build(), applies
 	the setting, calls measure(), and then takes steps for *timedSeconds* from where that left the scene: the times are the least means
-	of many blocks of steps, so that other programs disturb them little. One thread, unless OMP_NUM_THREADS says more.
+	of many blocks of steps, so that other programs disturb them less. Settings that do the same work may still differ by a tenth: *repeats*
+	narrows that. One thread, unless OMP_NUM_THREADS says more.
 
 	These processes read the script from its beginning up to this call, no further: *build* and *measure* must stand above it. Put the
 	call, and all that should run once, under ``if __name__ == '__main__':``, and they do not come to it at all. Not after ``from yade
@@ -66,6 +66,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 		raise CalledAgain("tradeoff: called by one of its own processes; put the call under `if __name__ == '__main__':`")
 	where = {name: placeOf(name, function) for name, function in (('build', build), ('measure', measure))}
 	settings = checkedSettings(settings)
+	checkArguments(build, settings)
 	checkReference(reference, settings)
 	checkNumbers(repeats, timedSeconds, timeLimit)
 	takesTheScene(measure)
@@ -78,7 +79,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 				if not row.note:
 					row.take(_run(where, row.changes, timedSeconds, timeLimit))
 				if not fits and row.answer is not None:
-					TradeoffTable([copy.copy(row)], reference)  # refuses one of another length now, not after all runs
+					checkLength(row.answer, reference)  # now, not after all runs
 					fits = True
 				bar.update()
 	return TradeoffTable(list(rows.values()), reference)
@@ -116,5 +117,5 @@ def _howItEnded(code, log):
 	if code < 0:
 		names = {one.value: f', {one.name}' for one in signal.Signals}
 		return f'ended by signal {-code}{names.get(-code, "")}'
-	said = [line.strip() for line in log.splitlines() if any(letter.isalpha() for letter in line)]
+	said = [line.strip() for line in log.splitlines() if any(letter.isalpha() for letter in line) and 'RuntimeWarning' not in line]
 	return f'ended with exit code {code}' + (f': {said[-1]}' if said else '')

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What polytope.tradeoff() is given, looked at before anything runs."""
 
+import inspect
 import json
 import math
 import numbers
@@ -9,9 +10,10 @@ import pathlib
 import numpy as np
 
 from . import tradeoffPrecision as precision
+from .precision import isNumber
 from .tradeoffWorker import settable
 
-__all__ = ['checkedSettings', 'checkNumbers', 'checkReference', 'ofTheScene', 'placeOf']
+__all__ = ['checkArguments', 'checkedSettings', 'checkNumbers', 'checkReference', 'ofTheScene', 'placeOf']
 
 ofTheScene = ('timeStep', 'timeStepFactor', 'precision')
 
@@ -53,9 +55,22 @@ def _checkedChanges(setting, changes):
 			raise ValueError(f'{where}: must be a number above 0, got {value!r}')
 		if name in settable and value is None:
 			raise ValueError(f'{where}: must be what {name} of the contact functor is to be, got None; leave it out to keep what it is')
+	if {'timeStep', 'timeStepFactor'} <= checked.keys():
+		raise ValueError(f'settings[{setting!r}]: has both timeStep and timeStepFactor; one of them says what the step is')
 	if 'precision' in checked:
 		precision.available(checked['precision'])
 	return checked
+
+
+def checkArguments(build, settings):
+	""":raises ValueError: naming the setting: what it changes is neither the contact functor's nor the scene's, and no argument of *build* either"""
+	for setting, changes in settings.items():
+		arguments = [name for name in changes if name not in settable and name not in ofTheScene]
+		try:
+			inspect.signature(build).bind(**dict.fromkeys(arguments))
+		except TypeError as error:
+			known = ', '.join((*settable, *sorted(ofTheScene)))
+			raise ValueError(f'settings[{setting!r}]: build(): {error}; what is not an argument of it must be one of {known}') from None
 
 
 def _plain(value):
@@ -65,7 +80,7 @@ def _plain(value):
 
 
 def _isNumber(value):
-	return isinstance(value, numbers.Real) and not isinstance(value, bool)
+	return isNumber(value) and not isinstance(value, bool)
 
 
 def checkReference(reference, settings):

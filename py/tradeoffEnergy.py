@@ -4,6 +4,7 @@
 import math
 
 from yade import NewtonIntegrator, O, Vector3
+from yade.utils import kineticEnergy
 
 __all__ = ['Energy', 'growth']
 
@@ -16,7 +17,7 @@ class Energy:
 
 	def __init__(self):
 		self.places = {body.id: Vector3(body.state.pos) for body in _moving()}
-		self.before = _kinetic() + _stored()
+		self.before = float(kineticEnergy()) + _stored()
 
 	def created(self):
 		"""(kinetic energy that neither what was there nor gravity accounts for, what was there and what gravity gave), both [J].
@@ -29,7 +30,7 @@ class Energy:
 			return None
 		gravity = sum((engine.gravity for engine in O.engines if isinstance(engine, NewtonIntegrator)), Vector3(0, 0, 0))
 		fallen = sum(float(body.state.mass * gravity.dot(body.state.pos - self.places[body.id])) for body in bodies)
-		kinetic = _kinetic()
+		kinetic = float(kineticEnergy())
 		if not math.isfinite(kinetic + fallen):
 			return [math.inf, self.before]
 		return [kinetic - self.before - fallen, self.before + abs(fallen)]
@@ -53,14 +54,6 @@ def growth(energies):
 
 def _moving():
 	return [body for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember and body.state.mass > 0]
-
-
-def _kinetic():
-	total = 0.0
-	for body in _moving():
-		spin = body.state.ori.conjugate() * body.state.angVel
-		total += float(body.state.mass * body.state.vel.squaredNorm() + sum(body.state.inertia[k] * spin[k] ** 2 for k in range(3))) / 2
-	return total
 
 
 def _stored():

@@ -13,6 +13,8 @@ digitSize = (6.5, 9.5)
 """Width of a digit and height of a number beside a point [pt]."""
 clear = 5
 """Room around a point that numbers keep free, where they can [pt]."""
+leastSpan = 12
+"""Of an axis, end over beginning: more than a decade, so that it has a number at least."""
 
 
 def plotTradeoff(path, panels, floor=1e-17, suptitle=''):
@@ -38,7 +40,8 @@ def _draw(axes, table, floor):
 	points = [(row.cost, max(row.error, floor)) for row in rows]
 	axes.set(xscale='log', yscale='log', xlabel='time for the first setting\'s time step [µs]', ylabel='error of the answer')
 	for values, limit in zip(zip(*points, strict=True), (axes.set_xlim, axes.set_ylim), strict=True):
-		room = max(max(values) / min(values), 3) ** 0.07
+		span = max(values) / min(values)
+		room = max(span**0.07, (leastSpan / span) ** 0.5)
 		limit(min(values) / room, max(values) * room)
 	corners = [points[rows.index(row)] for row in front]
 	ends = [(corners[0][0], axes.get_ylim()[1]), *corners, (axes.get_xlim()[1], corners[-1][1])]

@@ -9,9 +9,10 @@ import mpmath
 
 from .tradeoffEnergy import growth
 
-__all__ = ['Row', 'TradeoffTable']
+__all__ = ['Row', 'TradeoffTable', 'checkLength']
 
 ofTheRows = object()
+"""For *true*, where the reference's row is among the table's (None: it has no answer that counts)."""
 digits = 60
 """Decimal digits in which answers are compared."""
 
@@ -42,7 +43,7 @@ class Row:
 	def take(self, answer):
 		"""What a process answered; of several the least times."""
 		if 'error' in answer:
-			self.note = answer['error']
+			self.note = ' '.join(answer['error'].split())
 			return
 		self.values = {name: _numbers(text) for name, text in answer['values'].items()}
 		self.timeStep, self.seconds, self.contacts = answer['timeStep'], answer['seconds'], answer.get('contacts')
@@ -188,11 +189,16 @@ def _shown(answer):
 	return f'{len(answer)} numbers' + ('' if _isFinite(answer) else ', some of them nan or inf')
 
 
+def checkLength(value, true):
+	""":raises ValueError: naming *reference*: the true answer has not as many numbers as the measured one, or is one number where that is a list"""
+	there, wanted = (f'{len(one)} numbers' if hasattr(one, '__len__') else 'a single number' for one in (value, true))
+	if there != wanted:
+		raise ValueError(f'reference: must have as many numbers as measure() returns: that is {there}, the reference {wanted}')
+
+
 def _difference(value, true):
 	"""|value − true| over |true|, or as it is where that is 0; of lists the Euclidean norms."""
-	if isinstance(true, list) != isinstance(value, list) or isinstance(true, list) and len(true) != len(value):
-		there, wanted = (f'{len(one)} numbers' if isinstance(one, list) else 'a single number' for one in (value, true))
-		raise ValueError(f'reference: must have as many numbers as measure() returns: that is {there}, the reference {wanted}')
+	checkLength(value, true)
 	pairs = list(zip(value, true, strict=True)) if isinstance(true, list) else [(value, true)]
 	with mpmath.workdps(digits):
 		off, scale = (mpmath.sqrt(sum(x**2 for x in part)) for part in ([a - b for a, b in pairs], [b for _, b in pairs]))

@@ -80,13 +80,16 @@ def apply(changes):
 
 def written(value):
 	"""A number, or a sequence of them, as text with all digits."""
-	if isinstance(value, (list, tuple, np.ndarray)):
-		return [written(one) for one in value]
+	if hasattr(value, '__len__') and hasattr(value, '__getitem__') and not isinstance(value, (str, bytes, dict)):
+		return [written(one) for one in value]  # vectors of YADE's, too
 	if isinstance(value, (int, np.integer)):
 		return str(int(value))
 	if isinstance(value, (float, np.floating)):
 		return repr(float(value))
-	return mpmath.nstr(mpmath.mpf(value), digits)
+	try:
+		return mpmath.nstr(mpmath.mpf(value), digits)
+	except (TypeError, ValueError):
+		raise ValueError(f'measure: must return a number, a list of numbers or a dictionary of these, there is {value!r}') from None
 
 
 def resetTimes():
@@ -140,10 +143,16 @@ def answer(task):
 	resetTimes()
 	energy = Energy()
 	timeStep, began = float(O.dt), time.perf_counter()
+	if not 0 < timeStep < math.inf:
+		raise ValueError(f'build: must leave O.dt above 0, it is {timeStep:g}')
 	values = measure(scene) if takesTheScene(measure) else measure()
 	seconds = time.perf_counter() - began
 	if not isinstance(values, dict):
 		values = {'value': values}
+	if not values:
+		raise ValueError('measure: returned a dictionary without an answer')
+	if not O.engines:
+		raise ValueError('measure: left no engines, whose time would be the cost')
 	counts = [functor.stats() for functor in geometryFunctors()]
 	try:
 		ofLimit = float(O.dt) / float(stableTimeStep(1))
@@ -172,6 +181,8 @@ def main(taskFile, answerFile):
 
 		traceback.print_exc()
 		content = {'error': f'{type(error).__name__}: {error}'}
+	except SystemExit as error:
+		content = {'error': f'build or measure called sys.exit({error.code!r})'}
 	pathlib.Path(answerFile).write_text(json.dumps(content))
 	sys.stdout.flush()
 	sys.stderr.flush()

@@ -37,7 +37,7 @@ def reportScene(scene, table, folder, finest):
 	"""
 	findings = Findings(scene.letter, scene.title, folder)
 	truth = scene.because or ('the mean over seeds' if scene.letter == 'A' else f'{finest or default}, the finest arithmetic at hand')
-	findings.text(f'Answer: {scene.answer}. Its error is against {truth}' + (f', {scene.truth:.9g}.' if scene.truth else '.'))
+	findings.text(f'Answer: {scene.answer}. Truth: {truth}' + (f', {scene.truth:.9g}.' if scene.truth else '.'))
 	if scene.letter == 'A':
 		mean, deviation = scatter(table)
 		findings.text(
@@ -120,12 +120,11 @@ def _mean(values):
 def writeSummary(lines, letters, path):
 	"""Writes the summary as CSV and returns (columns, rows of text), with *notRun* where a scene does not have the setting."""
 	columns = ['setting', 'cost: least', 'median', 'most', *(f'error {letter}' for letter in letters)]
-	rows = [[name, *costs, *('' if errors.get(letter) is None else errors[letter] for letter in letters)] for name, costs, errors in lines]
+	rows = [[name, *costs, *(errors.get(letter, notRun) for letter in letters)] for name, costs, errors in lines]
 	with open(path, 'w', newline='') as file:
 		writer = csv.writer(file)
 		writer.writerow(columns)
-		writer.writerows(rows)
-	rows = [[name, *costs, *(errors.get(letter, notRun) for letter in letters)] for name, costs, errors in lines]
+		writer.writerows([['' if cell in (None, notRun) else cell for cell in row] for row in rows])
 	short = [[_short(cell, '.2f' if 0 < k < 4 else '.2g') for k, cell in enumerate(row)] for row in rows]
 	return columns, short
 

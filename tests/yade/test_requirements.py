@@ -15,6 +15,7 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	Polytope,
+	PolytopeCollider,
 	PyRunner,
 	Quaternion,
 	RockJointMat,
@@ -35,7 +36,7 @@ def row(number=3, steps=50, spin=0.01, cornerRadius=0.02, material=None, **funct
 		O.bodies[ids].state.angVel = (spin, 0, 0)
 	O.engines = [
 		ForceResetter(),
-		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.04),
+		PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.04),
 		InteractionLoop(
 			[Ig2_Polytope_Polytope_PolytopeGeom(**functor)],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
@@ -224,6 +225,35 @@ def testColliderThatSortsInEveryStep():
 	assert 'verletDist' in advised()
 
 
+def testColliderThatRunsInNearlyEveryStep():
+	row()
+	O.engines[1].verletDist = 1e-9
+	assert 'verletDist' in advised()
+
+
+@pytest.mark.parametrize('dt', [0, math.nan])
+def testTimeStepThatIsNone(dt):
+	row()
+	O.dt = dt
+	assert 'above 0' in polytope.requirements(O, measure=False)['time step'].advice
+
+
+def testBodyWhosePlaceIsNoNumber():
+	row()
+	O.bodies[2].state.pos = (math.nan, 0, 0)
+	found = polytope.requirements(O, measure=False)['numbers of bodies']
+	assert '1 of 4 bodies' in found.seen and 'body 2' in found.seen and found.advice
+
+
+def testBoxesThatAreNotTight():
+	row()
+	O.engines = [O.engines[0], InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.04), *O.engines[2:]]
+	O.step()
+	found = polytope.requirements(O, measure=False)['boxes']
+	# three blocks on the floor; balls of neighbours overlap
+	assert '2 of 5 pairs' in found.seen and 'PolytopeCollider' in found.advice
+
+
 def testCohesionThatIsLost():
 	row(material={'cohesion': 1e5, 'tensileStrength': 1e4})
 	assert 'cohesion' not in advised()
@@ -297,6 +327,10 @@ def testRefusals():
 	O.reset()
 	with pytest.raises(ValueError, match='O: '):
 		polytope.requirements(O)
+	with pytest.raises(ValueError, match='O: '):
+		polytope.requirements(None)
+	with pytest.raises(ValueError, match='fraction'):
+		polytope.stableTimeStep('x')
 	row()
 	with pytest.raises(KeyError, match='nothing of the sort'):
 		polytope.requirements(O, measure=False)['nothing of the sort']

@@ -5,6 +5,7 @@ any shape work."""
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -124,6 +125,33 @@ def measureNothing():
 	return 1.0
 
 
+def measureNone():
+	O.step()
+
+
+def measureNoAnswer():
+	return {}
+
+
+def measureVector():
+	O.step()
+	return O.bodies[0].state.pos
+
+
+def measureAndReset():
+	O.reset()
+	return 1.0
+
+
+def measureAndLeave():
+	sys.exit('enough')
+
+
+def buildWithoutStep():
+	build()
+	O.dt = 0
+
+
 def run(settings, reference, function=measure, **options):
 	return polytope.tradeoff(build, settings, function, reference, **{'timedSeconds': 0, **options})
 
@@ -143,6 +171,29 @@ def testASignalIsNamed():
 	assert run({'a': {}}, 1, measureAndExit)['a'].note == 'ended with exit code 3: what happened'
 
 
+@pytest.mark.parametrize(
+	('function', 'words'),
+	[
+		(measureNone, 'measure: must return a number.*None'),
+		(measureNoAnswer, 'measure: .*without an answer'),
+		(measureAndReset, 'measure: left no engines'),
+		(measureAndLeave, "sys.exit.'enough'"),
+	],
+)
+def testAMeasureWithoutAnswerIsNamed(function, words):
+	row = run({'a': {}}, 1, function)['a']
+	assert re.search(words, row.note) and row.error is None and '\n' not in row.note
+
+
+def testAVectorOfYadesIsAnAnswer():
+	assert run({'a': {}}, [0, 0, -1e-5], measureVector)['a'].error < 1e-9
+
+
+def testASceneWithoutTimeStepIsNamed():
+	row = polytope.tradeoff(buildWithoutStep, {'a': {}}, measure, [1, 1000], timedSeconds=0)['a']
+	assert 'O.dt above 0' in row.note and row.cost is None
+
+
 def testALengthThatDoesNotFitIsRefusedAfterTheFirstRun(monkeypatch, tmp_path):
 	monkeypatch.setenv('POLYTOPE_TEST', str(tmp_path))
 	with pytest.raises(ValueError, match='reference: .*a single number.*3 numbers'):
@@ -158,6 +209,8 @@ def testALengthThatDoesNotFitIsRefusedAfterTheFirstRun(monkeypatch, tmp_path):
 		({1: {}}, 1, {}, 'settings'),
 		({'a': {'warmStart': None}}, 1, {}, 'warmStart'),
 		({'a': {'edge': object()}}, 1, {}, 'edge'),
+		({'a': {'colour': 3}}, 1, {}, 'colour.*newtonTolerance'),
+		({'a': {'timeStep': 1e-3, 'timeStepFactor': 2}}, 1, {}, 'both'),
 		({'a': {'timeStep': 0}}, 1, {}, 'timeStep'),
 		({'a': {'timeStep': None}}, 1, {}, 'timeStep'),
 		({'a': {'timeStepFactor': math.nan}}, 1, {}, 'timeStepFactor'),
