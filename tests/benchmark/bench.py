@@ -116,7 +116,8 @@ def kernelGroup(run):
 			floor = found['one pass', name].median
 			text = ', '.join(f'{stage} {1000 * cost:.0f} ns ({cost / floor:.1f} passes)' for stage, cost in parts.items())
 			run.say(f'{name}, {start}: one pass {1000 * floor:.0f} ns; {text}')
-	run.say('')
+	flat, solid = found['ours warm', 'squares, 2-D'].median, found['ours warm', 'cube'].median
+	run.say(f'two dimensions instead of three: squares {1000 * flat:.0f} ns, cubes {1000 * solid:.0f} ns, warm\n')
 	plots.costAgainstPlanes(found, run.output / 'cost-against-planes.png')
 	plots.breakdown(found, run.output / 'breakdown.png')
 	plots.costBySet(found, run.output / 'cost-by-set.png')
@@ -145,7 +146,19 @@ def sceneGroup(run):
 	        run, [(name, one) for name, methods in heaps.items() for one in methods.values()] + [('settled cubes, spheres', one) for one in settled.values()]
 	)
 	plots.heaps(heaps, run.output / 'heaps.png')
+	showExtras(run)
 	return targets.sceneRows(heaps) + targets.settledRows(settled)
+
+
+def showExtras(run):
+	"""What is not asked for costs nothing: what it costs where it is."""
+	found = run.scenes.extras()
+	costs = {name: 1e6 * scenes.meanStep(one) for name, one in found.items()}
+	without = costs['nothing']
+	rows = [[name, found[name]['pairs'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()]
+	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'µs/step', 'more', '%']
+	run.say(tabulate(rows, head, floatfmt=('', '', '.0f', '+.0f', '+.1f')) + '\n')
+	plots.extras(costs, run.output / 'asked-for.png')
 
 
 def growthGroup(run):
@@ -197,7 +210,7 @@ def main():
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			rows += group(run)
-	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.2f}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
+	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.3g}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
 	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
 	judged = [row for row in rows if row.met is not None]
 	run.say(f'\n{sum(row.met for row in judged)} of {len(judged)} targets met')

@@ -39,6 +39,14 @@ class Request:
 	"""Where to write the real contacts of the last step, for the kernels' benchmark (.csv)."""
 	area: bool = False
 	"""Ours: also the contact section's area."""
+	perArea: bool = False
+	"""Ours: stiffnesses per contact area, anew in each step."""
+	energy: bool = False
+	"""Ours: with O.trackEnergy."""
+	ballBoxes: bool = False
+	"""Ours: with YADE's own collider, for which bodies that can turn have the boxes of their circumscribed balls."""
+	recorder: str = ''
+	"""Ours: a PolytopeVTKRecorder that writes bodies and contacts in every 100th step, to files that begin so."""
 
 
 class Heap(FallingPolyhedra):
@@ -122,7 +130,7 @@ def replaceByPeer(scene, convert, loop):
 	step = O.dt
 	scene.interactionLoop = scene.geometryFunctor = None
 	O.reset()
-	empty = residentMemory()
+	empty = memoryInUse()
 	material = None
 	for shape, aspherical, (pos, vel, angVel, inertia), ori, mass, blocked in states:
 		new = Body()
@@ -208,15 +216,40 @@ def writePairs(path, scene):
 	np.savetxt(path, rows, fmt='%.17g', delimiter=',')
 
 
-def residentMemory():
-	"""Of this process, without what its allocator keeps for later [bytes]."""
+class MallocInfo(ctypes.Structure):
+	"""struct mallinfo2 of the C library."""
+	_fields_ = [
+	        (name, ctypes.c_size_t)
+	        for name in ('arena', 'ordblks', 'smblks', 'hblks', 'hblkhd', 'usmblks', 'fsmblks', 'uordblks', 'fordblks', 'keepcost')
+	]
+
+
+def memoryInUse():
+	"""What C++ has allocated and not freed [bytes]: neither Python's small objects nor what allocators keep for later."""
 	gc.collect()
-	ctypes.CDLL(None).malloc_trim(0)
-	with open('/proc/self/statm') as file:
-		return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE')
+	library = ctypes.CDLL(None)
+	library.mallinfo2.restype = MallocInfo
+	info = library.mallinfo2()
+	return info.uordblks + info.hblkhd
 
 
 # ------------------------------------------------------------------------------------------------------------------- measuring
+
+
+def askFor(scene, request):
+	"""What a script may want besides."""
+	scene.geometryFunctor.computeArea = request.area
+	if request.perArea:
+		scene.interactionLoop.physDispatcher.functors[0].stiffnessPerArea = True
+		for name in ('normalStiffness', 'shearStiffness'):  # of contacts of a tenth of a cube's face
+			setattr(O.materials[0], name, getattr(O.materials[0], name) / (0.1 * scene.size**2))
+	O.trackEnergy = request.energy
+	if request.ballBoxes:
+		tight = O.engines[1]
+		O.engines = [O.engines[0], InsertionSortCollider(tight.boundDispatcher.functors, verletDist=tight.verletDist), *O.engines[2:]]
+	if request.recorder:
+		from yade import PolytopeVTKRecorder
+		O.engines += [PolytopeVTKRecorder(fileName=request.recorder, iterPeriod=100, recorders=['bodies', 'contacts'])]
 
 
 def measure(scene, request):
@@ -249,7 +282,7 @@ def measure(scene, request):
 
 def main(request):
 	scene = heap(request)
-	empty = residentMemory()
+	empty = memoryInUse()
 	scene.build()
 	if request.load:
 		loadState(request.load)
@@ -259,9 +292,9 @@ def main(request):
 		empty = replaceByPeer(scene, toPolyhedra, polyhedraLoop)
 	elif request.method == 'spheres':
 		replaceBySpheres(scene)
-	elif request.area:
-		scene.geometryFunctor.computeArea = True
-	bodies = residentMemory()
+	else:
+		askFor(scene, request)
+	bodies = memoryInUse()
 	started = time.perf_counter()
 	if request.settle:
 		O.run(request.settle, True)
@@ -283,7 +316,7 @@ def main(request):
 	        'largestSpeed': float(speed),
 	        'emptyBytes': empty,
 	        'bodiesBytes': bodies,
-	        'endBytes': residentMemory(),
+	        'endBytes': memoryInUse(),
 	        'pairs': len(O.interactions),
 	        'contacts': O.interactions.countReal(),
 	}

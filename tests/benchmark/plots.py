@@ -124,3 +124,15 @@ def heaps(found, path):
 	axes.grid(True, axis='y', which='both', alpha=0.25)
 	axes.legend(loc='upper left', bbox_to_anchor=(1.01, 1))
 	save(figure, path)
+
+
+def extras(costs, path):
+	"""*costs*: {what is asked for: µs a step}, the first of nothing."""
+	figure, axes = plt.subplots(figsize=(7, 0.5 * len(costs) + 1.2))
+	bars = axes.barh(list(costs), list(costs.values()), color=['#c2410c'] + ['#f59e0b'] * (len(costs) - 1))
+	without = next(iter(costs.values()))
+	axes.bar_label(bars, [f'{cost:.0f}' if name == 'nothing' else f'{100 * (cost / without - 1):+.0f} %' for name, cost in costs.items()], padding=4)
+	axes.axvline(without, color='#9ca3af', linestyle=':')
+	axes.set(xlabel='µs a step, all engines', title='Settled cubes: what is asked for besides', xlim=(0, 1.15 * max(costs.values())))
+	axes.invert_yaxis()
+	save(figure, path)

@@ -104,6 +104,23 @@ class Scenes:
 		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
+	def extras(self):
+		"""The settled cubes once more from the same state, with what a script may ask for besides: {what: result}."""
+		number, columns = (500, 9) if self.quick else (2000, 18)
+		with tempfile.TemporaryDirectory() as folder:
+			state = f'{folder}/settled.npz'
+			heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'steps': self.steps}
+			self.run(settle=8000, save=state, **dict(heap, steps=10))
+			asked = {
+			        'nothing': {},
+			        'contact area': {'area': True},
+			        'stiffness per area': {'perArea': True},
+			        'energies (O.trackEnergy)': {'energy': True},
+			        "boxes of balls (YADE's own collider)": {'ballBoxes': True},
+			        'recorder every 100 steps': {'recorder': f'{folder}/vtk-'},
+			}
+			return {name: self.run(settle=50, load=state, **request, **heap) for name, request in tqdm(asked.items(), desc='what is asked for')}
+
 	def growth(self):
 		"""Heaps of as many layers on ever larger floors: {number: result}; and Polyhedra's memory, {number: result}."""
 		numbers = (200, 2000) if self.quick else (200, 2000, 20000, 100000)
@@ -133,6 +150,11 @@ class Scenes:
 
 def median(values):
 	return statistics.median(values) if values else float('nan')
+
+
+def meanStep(result):
+	"""All engines' time of a step [s]; the mean, for what happens in some steps only."""
+	return statistics.fmean(row['step'] for row in result['rows'])
 
 
 def memoryPerBody(result):
