@@ -109,7 +109,7 @@ tradeoff() {
 	[ -z "$said" ] || { echo "$said" && exit; }
 	build
 	needed=$(python3 "$script" --precisions "$@") || exit
-	for other in longdouble float128 mpfr150; do
+	for other in $widePrecisions; do
 		if grep -qx $other <<<"$needed" && hasPrecision $other; then
 			(buildPrecision $other) || echo "  $other: its rows say that it was not built"
 		fi
