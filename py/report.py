@@ -86,10 +86,14 @@ class RunWatch:
 			self.untimedPairs += stats['pairs']
 			self.untimedContacts += stats['contacts']
 
+	def _timedMicroseconds(self, seconds, count):
+		"""Mean of undisturbed steps; where none of them had such a query, of the disturbed ones."""
+		timed = self.timed if self.timed[count] else self.disturbed
+		return 1e6 * _ratio(timed[seconds], timed[count])
+
 	def summary(self):
 		"""Counters over the whole run and mean times [µs], as a dictionary."""
 		counts = self.counts
-		timed = self.timed if self.timed['pairs'] else self.disturbed
 		return {
 		        'steps': self.steps,
 		        'pairs': counts['pairs'],
@@ -100,8 +104,8 @@ class RunWatch:
 		        'fallbacks': counts['fallbacks'],
 		        'failures': counts['failures'],
 		        'statuses': {key[len('status '):]: count for key, count in counts.items() if key.startswith('status ') and count},
-		        'lpMicroseconds': 1e6 * _ratio(timed['lpSeconds'], timed['pairs']),
-		        'centreMicroseconds': 1e6 * _ratio(timed['centreSeconds'], timed['timedPairs']),
+		        'lpMicroseconds': self._timedMicroseconds('lpSeconds', 'pairs'),
+		        'centreMicroseconds': self._timedMicroseconds('centreSeconds', 'timedPairs'),
 		        'loopMicrosecondsPerPair': 1e-3 * _ratio(self.loop.execTime, self.untimedPairs),
 		        'loopMicrosecondsPerContact': 1e-3 * _ratio(self.loop.execTime, self.untimedContacts),
 		        'loopMicrosecondsPerStep': 1e-3 * _ratio(self.loop.execTime, self.untimedSteps),

@@ -121,10 +121,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 		const R grown = maxOf<R>(0, point.level + R(tolerance::gapSkin) * f.size);
 		for (int i = 0; i < planes.total; ++i)
 			planes.offset[i] += grown;
-		const Section<R, D> section = clipPlane(planes, point.x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
-		out.area                    = section.area;
-		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
-		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
+		contactSection<R, D>(in, f, planes, point.x, n, workspace, out);
 	}
 	failUnlessFinite<D>(memory, out);
 }

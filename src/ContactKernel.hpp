@@ -4,6 +4,7 @@
 #include "AnalyticCentre.hpp"
 #include "ConservativeContact.hpp"
 #include "ContactNormal.hpp"
+#include "FirstBasis.hpp"
 #include "IpoptCentre.hpp"
 #include "OverlapCentroid.hpp"
 #include "PenetrationDepth.hpp"
@@ -20,61 +21,6 @@ namespace polytope {
 inline long nanoseconds()
 {
 	return long(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
-}
-
-/// Solves the basis given by codes (2 × index + body) in the frame; false if it cannot serve.
-template <class R, int D>
-POLYTOPE_INLINE bool startFrom(
-        const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
-{
-	R          normals[D + 1][D];
-	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
-		framePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a, d);
-		for (int j = 0; j < D; ++j)
-			normals[k][j] = a[j];
-	};
-	if (!solveBasis<R, D>(plane, basis)) return false;
-	for (int j = 0; j < D; ++j) {
-		dual[j] = 0;
-		for (int k = 0; k <= D; ++k)
-			dual[j] += R((codes[k] & 1) == 0) * basis.weight[k] * normals[k][j];
-	}
-	return true;
-}
-
-/// The basis of a pair of which nothing is known: the smaller body's inscribed ball, as the shape has solved it, in the smaller
-/// body's frame. False where that is not the smaller ball, or has no digits.
-template <class R, int D>
-POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis)
-{
-	const LpBasis<R, D>* const ball = in.shape[f.home]->template inscribedBall<D>();
-	if (!ball || !(in.shape[f.home]->inscribedRadius() <= in.shape[1 - f.home]->inscribedRadius())) return false;
-	basis = *ball;
-	for (int k = 0; k <= D; ++k)
-		memory.basis[k] = 2 * ball->plane[k] + f.home;
-	memory.hasBasis = true;
-	memory.hasPoint = false;
-	return true;
-}
-
-/// The same from either body's ball, the smaller one's first: solved in the frame.
-template <class R, int D>
-POLYTOPE_INLINE void startFromBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)
-{
-	int ball        = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
-	memory.hasPoint = memory.hasBasis = false;
-	// the other one, where turning a basis of nearly parallel planes has made it singular
-	for (int attempt = 0; attempt < 2 && !memory.hasBasis; ++attempt, ball = 1 - ball) {
-		if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
-		for (int k = 0; k <= D; ++k)
-			memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-		memory.hasBasis = startFrom<R, D>(in, f, memory.basis, basis, dual);
-	}
-	if (!memory.hasBasis) { // or both: then solveWide() finds one
-		for (int k = 0; k < D; ++k)
-			basis.point[k] = dual[k] = 0;
-		basis.infeasibility = -R(padOffset);
-	}
 }
 
 /// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
@@ -186,6 +132,7 @@ POLYTOPE_INLINE void contactKernel(
 	if (known && !memory.hasPoint && !settings.geometryAcrossGap
 	        && heldApart<R, D>(in, memory, f.home, f.size, reach, out.infeasibility)) {
 		out.dismissed = true;
+		if (settings.timed) out.lpNanoseconds = nanoseconds() - started;
 		return;
 	}
 
@@ -222,6 +169,7 @@ POLYTOPE_INLINE void contactKernel(
 				out.infeasibility = separatedBound<R, D>(basis, reach, in, -tolerance);
 				out.dismissed     = true;
 				rememberWeights<D>(basis.weight, memory);
+				if (settings.timed) out.lpNanoseconds = nanoseconds() - started;
 				return;
 			}
 
@@ -357,12 +305,7 @@ POLYTOPE_INLINE void contactKernel(
 	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
 
 	// 7. contact section, for laws that ask for it
-	if (settings.section) {
-		const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
-		out.area                    = section.area;
-		if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
-		out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
-	}
+	if (settings.section) contactSection<R, D>(in, f, planes, x, n, workspace, out);
 	failUnlessFinite<D>(memory, out);
 }
 

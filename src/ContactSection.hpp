@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "ContactFrame.hpp"
+#include "ContactQuery.hpp"
 #include "PairPlanes.hpp"
 #include "Tolerances.hpp"
 
@@ -110,6 +112,17 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	for (int k = 0; k < 2; ++k)
 		section.centroid[k] = origin[k] + t * axes.m[0][k];
 	return section;
+}
+
+/// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n.
+template <class R, int D>
+POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* x,
+        const R* n, ContactWorkspace& workspace, ContactResult& out)
+{
+	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
+	out.area                    = section.area;
+	if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
+	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 }
 
 } // namespace polytope

@@ -92,6 +92,28 @@ def testWatchCountsWhatTheFunctorCounts():
 	assert summary['deepestOverlap'] >= summary['overlap'] > 0
 
 
+@pytest.mark.parametrize('mostLost', [-1, 2])  # every timed step counts as disturbed; none does
+def testWatchHasTimesHoweverOftenAnotherProgramTakesTheProcessor(monkeypatch, mostLost):
+	monkeypatch.setattr(RunWatch, 'mostLost', mostLost)
+	scene = FallingPolyhedra(number=36).build()
+	watch = RunWatch(scene.geometryFunctor, scene.interactionLoop)
+	watch.run(730)
+	assert (watch.disturbed if mostLost < 0 else watch.timed)['pairs'] > 0
+	assert (watch.timed if mostLost < 0 else watch.disturbed)['pairs'] == 0
+	assert watch.summary()['lpMicroseconds'] > 0 and watch.summary()['centreMicroseconds'] > 0
+
+
+def testDismissedPairsCountForTheTimeOfTheLinearProgramme():
+	"""In free fall nearly all pairs are dismissed by the last step's weights; that takes time too."""
+	scene = FallingPolyhedra(number=36).build()
+	O.run(1, True)
+	scene.geometryFunctor.resetStats()
+	scene.geometryFunctor.timing = True
+	O.step()
+	stats = scene.geometryFunctor.stats()
+	assert stats['dismissed'] == stats['pairs'] > 0 and stats['lpSeconds'] > 0
+
+
 def testWallsAreHigherThanTheHighestLayer():
 	assert FallingPolyhedra().wallHeight == 1.6
 	assert FallingPolyhedra(number=100, columns=2).wallHeight > 25 * FallingPolyhedra().spacing
