@@ -4,7 +4,8 @@
 #include "ContactKernel.hpp"
 #include "PairOrder.hpp"
 
-#include <type_traits>
+#include <memory>
+#include <new>
 
 namespace polytope {
 
@@ -71,7 +72,9 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
         const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
 	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
-	result              = ContactResult();
+	// in place: an assigned one would be made elsewhere first, which takes as long as a dismissal
+	std::destroy_at(&result);
+	new (&result) ContactResult;
 	if (settings.contactModel == ContactModel::Conservative && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
 		const Vector3   centre1 = -centre2;
 		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };

@@ -66,13 +66,19 @@ POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, in
 	R sum[2][D] = {}, world[2][D];
 	R least = 0, square = 0, rest = 1;
 	for (int k = 0; k <= D; ++k) {
-		const int          body = memory.basis[k] & 1, index = memory.basis[k] >> 1;
-		const ConvexShape& shape  = *in.shape[body];
+		const int          index  = memory.basis[k] >> 1;
+		const bool         second = memory.basis[k] & 1;
+		const ConvexShape& shape  = *in.shape[second];
 		const R            weight = maxOf<R>(k < D ? R(memory.dual[k]) : rest, 0);
+		// both sums take it, one as zero: to choose one sends it through memory
+		const R share[2] = { second ? R(0) : weight, second ? weight : R(0) };
 		rest -= weight;
 		least -= weight * shape.offsetArray()[index];
-		for (int j = 0; j < D; ++j)
-			sum[body][j] += weight * shape.normalArray(j)[index];
+		for (int j = 0; j < D; ++j) {
+			const R a = shape.normalArray(j)[index];
+			sum[0][j] += share[0] * a;
+			sum[1][j] += share[1] * a;
+		}
 	}
 	for (int body = 0; body < 2; ++body)
 		toWorldAxes<R, D>(*in.rotation[body], sum[body], world[body]);

@@ -7,6 +7,7 @@
 #include <src/IpoptCentre.hpp>
 #include <src/NumberText.hpp>
 
+#include "LookAhead.hpp"
 #include "RockJoint.hpp"
 
 namespace yade {
@@ -92,6 +93,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
         const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
         const shared_ptr<Interaction>& c)
 {
+	lookAheadOf(*c, *scene);
 	// a thread's own buffers; they grow to the largest pair it has met
 	static thread_local polytope::ContactWorkspace workspace;
 	auto&                                          geom    = geometry(c);

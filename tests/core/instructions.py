@@ -13,7 +13,7 @@ import sys
 bounds = {
         'cold': {4: 3460, 6: 4400, 12: 6190, 20: 9560},
         'warm': {6: 3170, 20: 4370},
-        'apart': {6: 440},
+        'apart': {6: 400},
 }
 """Faces of the regular solids: instructions a pair, measured and a tenth more. Touching pairs without and with what the last step has left,
 and pairs that are apart, with it."""
