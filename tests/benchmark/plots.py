@@ -103,9 +103,11 @@ def costBySet(kernels, path):
 def growth(found, path):
 	numbers = sorted(found)
 	costs = [1e6 * median(found[number]['perBody']) for number in numbers]
+	loops = [1e6 * median([row['loop'] for row in found[number]['rows']]) / found[number]['bodies'] for number in numbers]
 	figure, axes = plt.subplots(figsize=(7, 4.5))
-	axes.plot(numbers, costs, 'o-', color='#c2410c', label='ours')
-	axes.axhline(1.3 * costs[0], color='#9ca3af', linestyle=':', label='1.3 × the smallest heap')
+	axes.plot(numbers, costs, 'o-', color='#374151', label='all engines')
+	axes.plot(numbers, loops, 'o-', color='#c2410c', label='InteractionLoop; the rest is collider and integrator')
+	axes.axhline(1.3 * costs[0], color='#9ca3af', linestyle=':', label='1.3 × all engines of the smallest heap')
 	axes.set(xscale='log', xlabel='bodies', ylabel='µs a body and step', ylim=(0, None), title='Heaps of cubes, as many layers on ever larger floors')
 	axes.grid(True, alpha=0.25)
 	axes.legend()

@@ -108,6 +108,8 @@ def growthRows(found, memory):
 	first = numbers[0]
 	cost = {number: 1e6 * median(found[number]['perBody']) for number in numbers}
 	rows = [atMost(f'time per body and step, {number} bodies', 1.3, f'that of {first}', cost[number], cost[first]) for number in numbers[1:]]
+	pair = {number: 1e6 * median(found[number]['perPair']) for number in numbers}
+	rows += [reported(f'InteractionLoop per pair, {number} bodies', f'that of {first}', pair[number], pair[first]) for number in numbers[1:]]
 	if memory.get('ours') and memory.get('polyhedra'):
 		for measure, bytesOf in (('body', scenes.memoryPerBody), ('contact', scenes.memoryPerContact)):
 			ours, peer = (bytesOf(memory[key]) for key in ('ours', 'polyhedra'))
