@@ -18,6 +18,8 @@ coalPrefix() {
 benchmark() {
 	local programs=$build/bench coal
 	case " $* " in *" --help "* | *" -h "*) exec python3 "$project/tests/benchmark/bench.py" --programs "$programs" --help ;; esac
+	python3 "$project/tests/benchmark/bench.py" --programs "$programs" "$@" --parse || exit
+	build
 	coal=$(coalPrefix)
 	(
 		flock 9

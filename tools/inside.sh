@@ -138,7 +138,7 @@ case $command in
 	python) build && exec python3 "$@" ;;
 	tradeoff) tradeoff "$@" ;;
 	search) build && search "$@" ;;
-	bench) build && . "$project/tools/bench.sh" && benchmark "$@" ;;
+	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;
 	shell) build && exec bash "$@" ;;

@@ -26,15 +26,26 @@ from tabulate import tabulate
 
 here = pathlib.Path(__file__).resolve().parent
 groups = ('kernels', 'scenes', 'growth', 'threads')
+outputs = (
+        'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
+        'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
+)
 
 
 def arguments():
 	parser = argparse.ArgumentParser(prog='./run bench', description=__doc__.split('\n\n')[1].replace('\n', ' '))
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
-	parser.add_argument('--output', default='output/bench', metavar='DIR', help='where results and pictures go (default: %(default)s)')
+	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
+	parser.add_argument('--parse', action='store_true', help=argparse.SUPPRESS)  # ./run's: only look at the options
 	parser.add_argument('--programs', required=True, help=argparse.SUPPRESS)  # ./run gives it: folder of what was built
-	return parser.parse_args()
+	options = parser.parse_args()
+	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{options.only}' if options.only else '')
+	try:
+		pathlib.Path(options.output).mkdir(parents=True, exist_ok=True)
+	except OSError as error:
+		parser.error(f'--output: cannot make the folder: {error}')
+	return options
 
 
 def machine(programs):
@@ -169,6 +180,8 @@ def growthGroup(run):
 			run.say(f'memory, 2000 cubes, {name}: {scenes.memoryPerBody(one):.0f} B a body, {scenes.memoryPerContact(one):.0f} B a contact')
 	run.say('')
 	plots.growth(found, run.output / 'growth.png')
+	if run.quick:
+		run.note('--quick leaves out heaps of 20 000 and 100 000: those are what growth is about.')
 	return targets.growthRows(found, memory)
 
 
@@ -184,7 +197,8 @@ class Run:
 	def __init__(self, options):
 		self.programs, self.quick, self.core = options.programs, options.quick, os.cpu_count() - 1
 		self.output = pathlib.Path(options.output).resolve()
-		self.output.mkdir(parents=True, exist_ok=True)
+		for name in outputs:  # of an earlier run, which may have measured more
+			(self.output / name).unlink(missing_ok=True)
 		self.text, self.notes = [], []
 		self.results = {'quick': options.quick, 'machine': machine(options.programs), 'heaps': []}
 		self.scenes = scenes.Scenes(options.programs, self.core, options.quick, self.results['heaps'], self.note)
@@ -199,6 +213,8 @@ class Run:
 
 def main():
 	options = arguments()
+	if options.parse:
+		return 0
 	run = Run(options)
 	about = run.results['machine']
 	run.say(f"{about['processor']}, {about['cores']} cores; {about['compiler']}; revision {about['revision'][:12]}{' with changes' if about['changed'] else ''}")
@@ -209,7 +225,11 @@ def main():
 	for name, group in zip(groups, (kernelGroup, sceneGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
-			rows += group(run)
+			try:
+				rows += group(run)
+			except KeyboardInterrupt:
+				run.note(f'interrupted in {name}: the results are those of what was measured before.')
+				break
 	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.3g}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
 	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
 	judged = [row for row in rows if row.met is not None]
@@ -231,7 +251,7 @@ def main():
 	        ]
 	)
 	print(f'Results and pictures: {run.output}')
-	return 0
+	return 130 if any(note.startswith('interrupted') for note in run.notes) else 0
 
 
 if __name__ == '__main__':

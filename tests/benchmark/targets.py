@@ -74,6 +74,11 @@ def kernelRows(kernels):
 		compare(atMost, 'whole cold query', 25, 'ours cold', 'one pass', name)
 	for start in ('cold', 'warm'):
 		for name in dict.fromkeys(name for _, name in kernels):
+			ours, peer = time(f'ours {start}', name), time('libccd MPR', name)
+			if ours and peer and name not in solids and not name.endswith(' apart'):
+				rows.append(reported(f'touching, {start}, {name}', 'libccd MPR', ours, peer))
+	for start in ('cold', 'warm'):
+		for name in dict.fromkeys(name for _, name in kernels):
 			found = [kernels.get((f'{model} {start}', name)) for model in ('ours, conservative', 'ours')]
 			if all(found):
 				touching = found[1].contacts
