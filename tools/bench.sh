@@ -16,9 +16,10 @@ coalPrefix() {
 }
 
 benchmark() {
-	local programs=$build/bench coal
-	case " $* " in *" --help "* | *" -h "*) exec python3 "$project/tests/benchmark/bench.py" --programs "$programs" --help ;; esac
-	python3 "$project/tests/benchmark/bench.py" --programs "$programs" "$@" --parse || exit
+	local programs=$build/bench coal said
+	# options first: nothing is built for a wrong one, nor for --help
+	said=$(python3 "$project/tests/benchmark/bench.py" --programs "$programs" "$@" --check) || exit
+	[ -z "$said" ] || { echo "$said" && exit; }
 	build
 	coal=$(coalPrefix)
 	(

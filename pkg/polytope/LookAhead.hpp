@@ -19,7 +19,7 @@ namespace lookAhead {
 	/// tenth in a heap of 10 000 cubes.
 	constexpr int pair = 6, parts = 4, bodyParts = 2;
 
-	/// Never reads what is there: it may be an object which another thread is just giving up.
+	/// Reads nothing at that address: another thread may just be giving up a pair's geometry.
 	inline void fetch(const void* object, std::size_t bytes)
 	{
 		if (!object) return;
@@ -35,12 +35,12 @@ namespace lookAhead {
 /// geometries than ours are smaller.
 inline void lookAheadOf(const Interaction& now, const Scene& scene)
 {
-	const InteractionContainer& pairs  = *scene.interactions;
-	const auto                  beyond = [&](int ahead) -> const Interaction* {
-                const std::size_t index = std::size_t(now.linIx) + std::size_t(ahead);
-                return index < scene.interactions->size() ? pairs[index].get() : nullptr;
-	};
 	if (now.linIx < 0) return; // a pair outside the loop
+	InteractionContainer& pairs  = *scene.interactions;
+	const auto            beyond = [&](int ahead) -> const Interaction* {
+                const std::size_t index = std::size_t(now.linIx) + std::size_t(ahead);
+                return index < pairs.size() ? pairs[index].get() : nullptr;
+	};
 	if (const Interaction* next = beyond(lookAhead::pair)) lookAhead::fetch(next, sizeof(Interaction));
 	if (const Interaction* next = beyond(lookAhead::parts)) {
 		lookAhead::fetch(next->geom.get(), sizeof(PolytopeGeom));

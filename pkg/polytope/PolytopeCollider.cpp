@@ -25,9 +25,9 @@ bool PolytopeCollider::turnedOutOfBox() const
 {
 	for (std::size_t id = 0; id < turns_.size(); ++id) {
 		const Turn& turn = turns_[id];
-		if (!(turn.room < std::numeric_limits<Real>::infinity()) || !(turn.radius > 0)) continue;
+		if (!(rooms_[id] < std::numeric_limits<Real>::infinity()) || !(turn.radius > 0)) continue;
 		const Body* body = bodyOf(id);
-		if (body && !(way(turn, *body) <= turn.room)) return true; // also an orientation that is no number
+		if (body && !(way(turn, *body) <= rooms_[id])) return true; // also an orientation that is no number
 	}
 	return false;
 }
@@ -36,6 +36,7 @@ void PolytopeCollider::makeRoom()
 {
 	const Real most = math::max(verletDist, Real(0)), least = minSweepDistFactor * most;
 	turns_.resize(scene->bodies->size());
+	rooms_.assign(turns_.size(), 0);
 	for (std::size_t id = 0; id < turns_.size(); ++id) {
 		const Body* body     = bodyOf(id);
 		Turn&       turn     = turns_[id];
@@ -49,23 +50,18 @@ void PolytopeCollider::makeRoom()
 		// twice the last interval's: neither run at each step nor keep the room of a rotation that has ended
 		const Real wanted = known ? 2 * way(turn, *body) : most;
 		turn.from         = body->state->ori;
-		if (!mayTurn(body)) turn.room = 0;
-		else if (wanted <= most) turn.room = math::max(least, wanted);
-		else turn.room = std::numeric_limits<Real>::infinity();
+		if (mayTurn(body)) rooms_[id] = wanted <= most ? math::max(least, wanted) : std::numeric_limits<Real>::infinity();
 	}
 }
 
 void PolytopeCollider::action()
 {
 	makeRoom();
-	std::vector<Real> rooms(turns_.size());
-	for (std::size_t id = 0; id < turns_.size(); ++id)
-		rooms[id] = turns_[id].room;
 	const auto give = [&](const std::vector<Real>* given) {
 		for (const auto& functor : boundDispatcher->functors)
 			if (auto* own = dynamic_cast<Bo1_Polytope_Aabb*>(functor.get())) own->rooms = given;
 	};
-	give(&rooms);
+	give(&rooms_);
 	try {
 		InsertionSortCollider::action();
 	} catch (...) {

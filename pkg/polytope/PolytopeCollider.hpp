@@ -18,11 +18,10 @@ public:
 	// clang-format on
 
 private:
-	/// What a polytope's box allows for.
+	/// Where a polytope's turn began.
 	struct Turn {
 		Quaternionr from   = Quaternionr::Identity(); ///< orientation when the box was made
 		Real        radius = 0;                       ///< of the circumscribed ball; 0: no polytope
-		Real        room   = 0;                       ///< way of the farthest vertex that the box has room for
 	};
 
 	/// How far a turn has moved the farthest vertex (the chord).
@@ -33,7 +32,9 @@ private:
 	void makeRoom();
 	bool turnedOutOfBox() const;
 
-	std::vector<Turn> turns_; ///< by body id; not saved: after loading the first step makes all boxes anew
+	// by body id; not saved: after loading the first step makes all boxes anew
+	std::vector<Turn> turns_;
+	std::vector<Real> rooms_; ///< way of the farthest vertex that the box has room for
 };
 REGISTER_SERIALIZABLE(PolytopeCollider);
 

@@ -37,7 +37,7 @@ def arguments():
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
 	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
-	parser.add_argument('--parse', action='store_true', help=argparse.SUPPRESS)  # ./run's: only look at the options
+	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only look at the options
 	parser.add_argument('--programs', required=True, help=argparse.SUPPRESS)  # ./run gives it: folder of what was built
 	options = parser.parse_args()
 	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{options.only}' if options.only else '')
@@ -213,7 +213,7 @@ class Run:
 
 def main():
 	options = arguments()
-	if options.parse:
+	if options.check:
 		return 0
 	run = Run(options)
 	about = run.results['machine']
@@ -221,13 +221,14 @@ def main():
 	load = about['loadAverage'][0]
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times say little, ratios are noisy.')
-	rows = []
+	rows, interrupted = [], False
 	for name, group in zip(groups, (kernelGroup, sceneGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:
 				rows += group(run)
 			except KeyboardInterrupt:
+				interrupted = True
 				run.note(f'interrupted in {name}: the results are those of what was measured before.')
 				break
 	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.3g}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
@@ -251,7 +252,7 @@ def main():
 	        ]
 	)
 	print(f'Results and pictures: {run.output}')
-	return 130 if any(note.startswith('interrupted') for note in run.notes) else 0
+	return 130 if interrupted else 0
 
 
 if __name__ == '__main__':

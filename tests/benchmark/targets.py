@@ -72,13 +72,14 @@ def kernelRows(kernels):
 		compare(atLeast, 'LP alone, cold', 5, 'ours, LP alone cold', 'CLP, one model reused', name)
 	for name in (*solids, 'hull 50', 'hull 200'):
 		compare(atMost, 'whole cold query', 25, 'ours cold', 'one pass', name)
+	sets = list(dict.fromkeys(name for _, name in kernels))
 	for start in ('cold', 'warm'):
-		for name in dict.fromkeys(name for _, name in kernels):
+		for name in sets:
 			ours, peer = time(f'ours {start}', name), time('libccd MPR', name)
 			if ours and peer and name not in solids and not name.endswith(' apart'):
 				rows.append(reported(f'touching, {start}, {name}', 'libccd MPR', ours, peer))
 	for start in ('cold', 'warm'):
-		for name in dict.fromkeys(name for _, name in kernels):
+		for name in sets:
 			found = [kernels.get((f'{model} {start}', name)) for model in ('ours, conservative', 'ours')]
 			if all(found):
 				touching = found[1].contacts
