@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// Ipopt's linear systems for the programme of IpoptCentre.cpp, in its unknowns u (2 or 3), slacks σ and multipliers λ (one a
+/// Ipopt's linear systems for the programme of IpoptProgramme.hpp, in its unknowns u (2 or 3), slacks σ and multipliers λ (one a
 /// plane each):
 ///
 ///     ⎡ E   0   Cᵀ ⎤ ⎡u⎤         E, P, Δ diagonal; σ and λ are eliminated, and what is left for u is

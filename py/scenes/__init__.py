@@ -3,10 +3,12 @@
 
 A builder empties the simulation (O.reset), makes bodies and engines, and returns an object that says what it made.
 """
+from .blockGeometry import BlockGeometry, touchingRoofBlocks
 from .beam import BeamReading, ThreeHingedBeam
 from .collisions import Block, Collision, readBlocks
 from .falling import FallingPolyhedra, circumradiusOfUnitVolume, solids
 from .slope import SlumpingSlope, readSlope
-from .wedges import BlockGeometry, Joint, RoofWedge, WedgeScene, stiffnessFactors, touchingRoofBlocks
+from .roofWedge import RoofWedge
+from .wedge import Joint, WedgeScene, stiffnessFactors
 
 __all__ = ['BeamReading', 'Block', 'BlockGeometry', 'Collision', 'FallingPolyhedra', 'Joint', 'RoofWedge', 'ThreeHingedBeam', 'WedgeScene', 'circumradiusOfUnitVolume', 'readBlocks', 'solids', 'stiffnessFactors', 'touchingRoofBlocks']
