@@ -54,6 +54,23 @@ py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::R
 	return asTuple(polytope::hullOf(points, dimension, coplanar));
 }
 
+/// Corners, planes with a face, volume and inscribed ball of a set of half-spaces where it is.
+py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
+{
+	const polytope::HalfSpaces set
+	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals, offsets })));
+	const auto hull    = polytope::polyhedron(set);
+	const auto mass    = polytope::massProperties(hull);
+	const auto central = polytope::moved(set, yade::Matrix3r::Identity(), -mass.centroid);
+	py::dict   result;
+	result["normals"]         = set.normals;
+	result["offsets"]         = set.offsets;
+	result["vertices"]        = hull.vertices;
+	result["volume"]          = mass.volume;
+	result["inscribedRadius"] = polytope::ConvexShape(central, 0).inscribedRadius();
+	return result;
+}
+
 /// Half-spaces in the frame of centroid and principal axes, and where that frame is.
 py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness,
         bool keepRedundant)
@@ -159,6 +176,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
 	        "Normals and offsets of the convex hull of points.");
+	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
+	        "Half-spaces without redundant ones, their vertices, volume and inscribed ball's radius, as a dictionary.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

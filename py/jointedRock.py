@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A rock mass cut into blocks by sets of joints.
+
+Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (Boon, Houlsby & Utili
+2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
+"""
+
+import dataclasses
+import math
+import numbers
+from collections.abc import Iterable
+
+import numpy as np
+from scipy.stats import vonmises_fisher
+from yade import Vector3, _polytope
+
+from .precision import isNumber, real
+
+__all__ = ['JointSet', 'JointedRock', 'jointedRock']
+
+mostJoints = 10000
+"""Of all sets together: more are refused, for their blocks could not be computed with anyway; a spacing in a wrong unit is likelier."""
+
+smallestFraction = 0.01
+"""Default inscribed radius of the smallest piece over the smallest spacing: thinner ones cost time step and carry nothing."""
+
+touching = 1e-9
+"""Of the block's size: a joint that passes no farther inside a block than this follows a face or corner, and does not cut."""
+
+scatterReach = 3
+"""Over the region's radius: how far from its centre, along the mean normal, scattered joints still start that may cross it."""
+
+
+@dataclasses.dataclass(frozen=True)
+class JointSet:
+	"""Joints (discontinuities) of one family. Each is a plane that cuts through the whole rock mass: fully persistent.
+
+	:param float dip: angle of the planes below the horizontal [rad], 0…π/2
+	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
+	:param float spacing: mean distance between neighbouring joints along the mean normal [m]
+	:param through: a point on one of the joints [m]; default the region's centroid. Not with *exponential*.
+	:param bool exponential: distances drawn from the negative exponential distribution (Priest & Hudson 1976, Int. J. Rock Mech.
+	    Min. Sci. 13:135-148) rather than all equal
+	:param float fisher: constant κ of Fisher's distribution of the normals about the mean one (Fisher 1953, Proc. R. Soc. A
+	    217:295-305): the larger the closer together; None: all parallel
+	:raises ValueError: naming the argument
+	"""
+
+	dip: float
+	dipDirection: float
+	spacing: float
+	through: tuple = None
+	exponential: bool = False
+	fisher: float = None
+
+	def __post_init__(self):
+		if not _finite(self.dip) or not 0 <= self.dip <= math.pi / 2:
+			raise ValueError(f'dip: must be from 0 to π/2 (radians), got {self.dip!r}')
+		if not _finite(self.dipDirection) or abs(self.dipDirection) > 2 * math.pi:
+			raise ValueError(f'dipDirection: must be an azimuth in radians, within ±2π, got {self.dipDirection!r}')
+		if not _finite(self.spacing) or not self.spacing > 0:
+			raise ValueError(f'spacing: must be positive and finite [m], got {self.spacing!r}')
+		if self.through is not None:
+			if self.exponential:
+				raise ValueError('through: random distances (exponential) have no joint at a given point; leave it out')
+			object.__setattr__(self, 'through', tuple(_point(self.through, 'through')))
+		if self.fisher is not None and not (_finite(self.fisher) and self.fisher > 0):
+			raise ValueError(f"fisher: must be positive and finite (Fisher's constant), or None for parallel joints, got {self.fisher!r}")
+
+	@property
+	def normal(self):
+		"""Unit normal of the mean plane, upward."""
+		horizontal = math.sin(self.dip)
+		return np.array([horizontal * math.sin(self.dipDirection), horizontal * math.cos(self.dipDirection), math.cos(self.dip)])
+
+	def planes(self, centre, radius, random):
+		"""Joints that may cross a ball.
+
+		:param centre: of the ball [m]
+		:param float radius: of the ball [m]
+		:param numpy.random.Generator random: for distances and normals
+		:returns: (n, 4) array, rows a_x, a_y, a_z, d of planes a·x = d with unit normals
+		"""
+		reach = radius * (1 if self.fisher is None else scatterReach)
+		if self.exponential:
+			along = random.uniform(-reach, reach, random.poisson(2 * reach / self.spacing))
+		else:
+			first = 0.0 if self.through is None else float(self.normal @ (np.array(self.through) - centre))
+			along = first + self.spacing * np.arange(math.ceil((-reach - first) / self.spacing), math.floor((reach - first) / self.spacing) + 1)
+		if self.fisher is None:
+			normals = np.tile(self.normal, (len(along), 1))
+		else:
+			normals = vonmises_fisher(self.normal, self.fisher, seed=random).rvs(len(along)).reshape(-1, 3)
+		points = centre + np.outer(along, self.normal)
+		return np.column_stack([normals, np.einsum('ij,ij->i', normals, points)])
+
+
+@dataclasses.dataclass
+class JointedRock:
+	"""What :yref:`jointedRock` made."""
+
+	blocks: list
+	"""(normals, offsets) of each block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
+	volumes: np.ndarray
+	"""Of the blocks [m³]."""
+	joints: np.ndarray
+	"""(n, 4) planes a·x = d of all joints that cut a block, unit normals."""
+	uncut: int
+	"""Cuts that were not made, as they would have left a piece below *smallest*."""
+
+
+def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
+	"""Cut a convex region of rock into blocks by sets of joints.
+
+		slope = polytope.jointedRock(normals, offsets, [polytope.JointSet(radians(35), radians(90), spacing=2), …])
+		O.bodies.append([polytope.fromHalfSpaces(*block) for block in slope.blocks])
+
+	The blocks fill the region and touch without overlap. Joints cut one after the other, set by set: where *smallest* keeps a cut from
+	being made, the order matters. For a region that is not convex cut convex parts of it.
+
+	:param normals: (n, 3) outward normals of the region, of any length [-]
+	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}
+	:param jointSets: sequence of :yref:`JointSet`
+	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
+	    of the smallest spacing
+	:param int seed: of the random distances and normals
+	:returns: :yref:`JointedRock`
+	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 10 000 joints,
+	    *smallest* negative or not finite, *seed* negative
+	"""
+	jointSets = list(jointSets) if isinstance(jointSets, Iterable) else []
+	if not jointSets or not all(isinstance(joints, JointSet) for joints in jointSets):
+		raise ValueError('jointSets: must be a sequence of one or more JointSet')
+	if smallest is None:
+		smallest = smallestFraction * min(joints.spacing for joints in jointSets)
+	if not _finite(smallest) or smallest < 0:
+		raise ValueError(f'smallest: must be zero or positive and finite [m], got {smallest!r}')
+	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or seed < 0:
+		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
+	region = _polytope.polyhedron(*_halfSpaces(normals, offsets))
+	centre = np.mean(np.array(region['vertices'], float), axis=0)
+	# about the region's centre, where numbers are small
+	blocks = [_Block(np.array(region['normals'], float), np.array(region['offsets'], float) - np.array(region['normals'], float) @ centre)]
+	radius = blocks[0].radius
+	expected = sum(2 * radius * (1 if joints.fisher is None else scatterReach) / joints.spacing for joints in jointSets)
+	if expected > mostJoints:
+		raise ValueError(f'jointSets: {expected:.3g} joints would cross the region, at most {mostJoints} can; is a spacing in another unit?')
+	random = np.random.default_rng(seed)
+	planes = np.concatenate([joints.planes(centre, radius, random) for joints in jointSets])
+	planes[:, 3] -= planes[:, :3] @ centre
+	uncut, cutting = 0, []
+	for plane in planes:
+		pieces = []
+		for block in blocks:
+			parts = block.cut(plane, smallest) if block.crossedBy(plane) else [block]
+			uncut += parts is None
+			pieces += parts or [block]
+		if len(pieces) > len(blocks):
+			cutting.append(plane)
+		blocks = pieces
+	joints = np.array(cutting).reshape(-1, 4)
+	joints[:, 3] += joints[:, :3] @ centre
+	return JointedRock(
+		[(block.normals, block.offsets + block.normals @ centre) for block in blocks],
+		np.array([block.volume for block in blocks]),
+		joints,
+		uncut,
+	)
+
+
+class _Block:
+	"""Half-spaces and corners of a block."""
+
+	def __init__(self, normals, offsets):
+		"""
+		:raises ValueError: if there is nothing inside
+		"""
+		found = _polytope.polyhedron(*_exactly(normals, offsets))
+		self.normals, self.offsets = np.array(found['normals'], float), np.array(found['offsets'], float)
+		self.corners = np.array(found['vertices'], float)
+		self.volume, self.inscribedRadius = float(found['volume']), float(found['inscribedRadius'])
+
+	@property
+	def radius(self):
+		"""Of a ball about the origin that holds it."""
+		return float(np.linalg.norm(self.corners, axis=1).max())
+
+	def crossedBy(self, plane):
+		beyond = self.corners @ plane[:3] - plane[3]
+		least = touching * float(np.ptp(self.corners, axis=0).max())
+		return beyond.min() < -least and beyond.max() > least
+
+	def cut(self, plane, smallest):
+		"""Both parts, or None if one were below *smallest*."""
+		try:
+			parts = [_Block(np.vstack([self.normals, side * plane[:3]]), np.append(self.offsets, side * plane[3])) for side in (1, -1)]
+		except ValueError:  # too flat to have an inside
+			return None
+		return parts if min(part.inscribedRadius for part in parts) >= smallest else None
+
+
+def _finite(value):
+	return isNumber(value) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _point(value, name):
+	try:
+		point = np.array([float(x) for x in value])
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
+	if point.shape != (3,) or not np.isfinite(point).all():
+		raise ValueError(f'{name}: must be three finite numbers, got {value!r}')
+	return point
+
+
+def _halfSpaces(normals, offsets):
+	try:
+		return _exactly([_point(a, 'normals') for a in normals], offsets)
+	except TypeError:
+		raise ValueError('normals: must be a sequence of 3-vectors, and offsets one of numbers') from None
+
+
+def _exactly(normals, offsets):
+	return [Vector3(*a) for a in normals], [real(d) for d in offsets]
