@@ -48,12 +48,13 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	using std::isfinite;
 	using std::sqrt;
 	const R smaller = minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
-	const R mu      = settings.barrier * smaller;
+	const R given   = settings.barrier * smaller;
+	const R mu      = maxOf<R>(given, R(tolerance::gapBarrier) * s);
 	const R root2   = sqrt(R(2));
 	out.inContact   = false;
 	out.hasGeometry = false;
 	out.status      = ContactStatus::Separated;
-	if (!(mu > 0) || !isfinite(mu)) {
+	if (!(given > 0) || !isfinite(given)) {
 		out.status = ContactStatus::Failed;
 		return;
 	}

@@ -143,6 +143,10 @@ constexpr Real barrier = 3e-3;
 /// Range of `barrier` that a script may set. Above, bodies of many faces may never touch; below, weights leave the range of the numbers.
 constexpr Real leastBarrier = 1e-9, largestBarrier = 0.05;
 
+/// × s*: least μ of a pair apart whose geometry is asked for. Slacks at the barrier's minimum are about μ, and differences of
+/// numbers as large as s*: below, they have no digits. (No force depends on it: pairs that touch have s* < 0.)
+constexpr Real gapBarrier = 256 * rounding;
+
 /// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
 constexpr Real barrierStep = 0.95;
 

@@ -664,4 +664,30 @@ TEST(ConservativeContactOf, SharpSliversAcrossAGapAreReachedWarmAsCold)
 	EXPECT_GT(far, queries / 10);
 }
 
+// μ of thin bodies, at the least barrier, may be less than the rounding of s* across a gap: slacks of about μ had no digits there.
+TEST(ConservativeContactOf, ThinPairsApartHaveAGeometryAtTheLeastBarrier)
+{
+	std::mt19937_64 random(611);
+	ContactSettings settings = acrossGap();
+	settings.barrier         = tolerance::leastBarrier;
+	int apart                = 0;
+	for (int trial = 0; trial < 400; ++trial) {
+		Pair       pair;
+		const Real thin   = decades(random, -10, -6);
+		pair.shape[0]     = ConvexShape::shared(cuboid(1, 1, thin), 0);
+		pair.shape[1]     = ConvexShape::shared(cuboid(1, thin, thin), 0);
+		pair.rotation[0]  = randomRotation(random, 3);
+		pair.rotation[1]  = randomRotation(random, 3);
+		pair.centre2      = uniform(random, Real(0.5), Real(1.5)) * randomDirection(random, 3);
+		const auto result = query(pair, settings);
+		if (!(result.infeasibility > Real(1e-3))) continue;
+		++apart;
+		ASSERT_EQ(result.status, ContactStatus::Separated) << trial;
+		EXPECT_TRUE(std::isfinite(double(result.depth)) && result.depth < 0);
+		EXPECT_NEAR(result.normal.norm(), 1, 1e-12);
+		EXPECT_NEAR(result.barrierValue / result.infeasibility, 1, 1e-9);
+	}
+	EXPECT_GT(apart, 200);
+}
+
 } // namespace
