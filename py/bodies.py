@@ -113,8 +113,10 @@ def fromMesh(path, scale=1.0, **body):
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
 	:raises FileNotFoundError: if there is no such file
-	:raises ValueError: naming *path* if the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
+	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
+	if not isinstance(path, (str, os.PathLike)):
+		raise ValueError(f'path: must be the path of a file, got {path!r}')
 	if not os.path.exists(path):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
 	if not isNumber(scale) or not 0 < scale < float('inf'):
@@ -156,7 +158,7 @@ def _body(
         angularVelocity=(0, 0, 0)
 ):
 	"""The body of a set of half-spaces; *place* moves it there instead of leaving it at its own centroid."""
-	central = _polytope.centred(normals, offsets, dimension, thickness, keepRedundant)
+	central = _polytope.centred(normals, offsets, dimension, _number(thickness, 'thickness'), _flag(keepRedundant, 'keepRedundant'))
 	if cornerRadius is None:
 		cornerRadius = defaultCornerFraction * central['inscribedRadius']
 	cornerRadius = _number(cornerRadius, 'cornerRadius')
@@ -167,14 +169,15 @@ def _body(
 	        cornerRadius=cornerRadius,
 	        dimension=dimension,
 	        thickness=thickness,
-	        color=utils.randomColor() if color is None else color,
-	        wire=wire,
-	        highlight=highlight
+	        color=utils.randomColor() if color is None else _vector(color, 'color'),
+	        wire=_flag(wire, 'wire'),
+	        highlight=_flag(highlight, 'highlight')
 	)
 	position, orientation = central['position'], central['orientation']
 	if place:
 		position, orientation = place[0] + place[1] * position, place[1] * orientation
 	inertia = body.shape.inertia
+	fixed = _flag(fixed, 'fixed')
 	utils._commonBodySetup(body, body.shape.volume, inertia, material, pos=position, fixed=fixed)
 	body.state.ori = body.state.refOri = orientation
 	body.state.vel = _vector(velocity, 'velocity')
@@ -183,7 +186,9 @@ def _body(
 		body.state.blockedDOFs = 'zXY'
 	# a polygon turns about z only, so its other moments never enter
 	body.aspherical = dimension == 3 and max(inertia) - min(inertia) > isotropyTolerance * max(inertia)
-	body.mask = mask
+	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral):
+		raise ValueError(f'mask: must be a whole number, got {mask!r}')
+	body.mask = int(mask)
 	return body
 
 
@@ -191,6 +196,12 @@ def _number(value, name):
 	if not isNumber(value):
 		raise ValueError(f'{name}: must be a number, got {value!r}')
 	return real(value)
+
+
+def _flag(value, name):
+	if value not in (True, False):  # NumPy's too
+		raise ValueError(f'{name}: must be True or False, got {value!r}')
+	return bool(value)
 
 
 def _numbers(values, name):
@@ -212,7 +223,8 @@ def _vectors(rows, name, length):
 
 def _vector(value, name):
 	try:
-		vector = Vector3(*[real(x) for x in value])
+		x, y, z = value
+		vector = Vector3(real(x), real(y), real(z))
 	except Exception:  # whatever is no sequence of three numbers
 		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
 	if not all(abs(x) < float('inf') for x in vector):

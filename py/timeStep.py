@@ -28,8 +28,8 @@ def stableTimeStep(fraction=0.2, default=None):
 	"""
 	if not isNumber(fraction) or not 0 < fraction <= 2:
 		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction!r}')
-	if default is not None and not (isNumber(default) and default > 0):
-		raise ValueError(f'default: must be a time step above 0, got {default!r}')
+	if default is not None and not (isNumber(default) and not isinstance(default, bool) and 0 < default < math.inf):
+		raise ValueError(f'default: must be a finite time step above 0, got {default!r}')
 	translation, rotation = {}, {}
 	for contact in O.interactions:
 		if not contact.isReal:

@@ -181,7 +181,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
-	        .add_property("inContact", &field<bool, &ContactResult::inContact>, "Whether the bodies overlap (s* < −tolerance).")
+	        .add_property("inContact", &field<bool, &ContactResult::inContact>,
+	                "Whether the bodies touch: s* < −tolerance, in the conservative model Φ < 0.")
 	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
 	        .add_property("infeasibility", &field<Real, &ContactResult::infeasibility>,
 	                "Optimum s* of the phase-one linear programme [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
