@@ -48,7 +48,7 @@ axes = {
 		[
 			*depths,
 			Limit('contact point over the overlap, overlaps down to 1e-6', 'centreError', 3e-9, 'paper', low=0.9e-6),
-			Limit('contact point × overlap², overlaps down to 1e-14', 'centreTimesOverlap', 5e-15, 'paper'),
+			Limit('contact point over the size, beyond 3e-9 of the overlap, overlaps down to 1e-14', 'centreTimesOverlap', 5e-15, 'paper'),
 			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
 		],
 		'Below 1e-14 of the size the sign of s* is rounding, and the pair counts as separated. The contact point is as uncertain as the '
@@ -94,7 +94,7 @@ axes = {
 		'angle (rad)',
 		[
 			*depths,
-			Limit('contact point × overlap²', 'centreTimesOverlap', 5e-15, 'paper'),
+			Limit('contact point over the size, beyond 3e-9 of the overlap', 'centreTimesOverlap', 5e-15, 'paper'),
 			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
 		],
 		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep.',
