@@ -11,9 +11,10 @@ import yade
 from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
 
 from .requirementsBoxes import boxes, verletDist
+from .requirementsCentre import contactPoint, solver
 from .requirementsOverlaps import cornerRadius, newtonTolerance
-from .requirementsPlane import staysInPlane
-from .requirementsWorker import laws, prismOutline
+from .requirementsPlane import dimension
+from .requirementsWorker import laws
 from .timeStep import stableTimeStep
 from .tradeoffWorker import geometryFunctors, interactionLoops
 
@@ -24,6 +25,9 @@ usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
 below which steps are many."""
 mostTwins = 50
 """Contacts that are looked at once more without the planes that own no face."""
+timedWithoutContacts = ('verletDist',)
+"""Changes whose time tells something in a scene without contacts."""
+noContacts = 'no contacts now'
 turned, changed = 1.0, 0.05
 """Angle of a normal [°] and part of a force that such planes may make without a word."""
 
@@ -69,25 +73,33 @@ class Scene:
 
 
 def looks(O):
-	"""(what was found, [(what could not be looked at, why)])."""
+	"""(what was found, [(what could not be looked at, why)], whether there are contacts).
+
+	In the order in which advice can be followed: solver before contact point, for that of the point alone would bring the solver into play,
+	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
-	each = (numbersOfBodies, area, dimension, energy, cohesion, cornerRadius, planes, newtonTolerance, timeStep)
-	each += (verletDist, boxes, warmStart, solver, contactPoint, clocks, energyTracking)
+	each = (numbersOfBodies, timeStep, solver, contactPoint, area, dimension, cornerRadius, planes, newtonTolerance)
+	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion)
 	found, missing = [], []
 	for one in each:
 		name, answer = one.__doc__.strip().rstrip('.'), one(scene)
 		if isinstance(answer, str):
 			missing.append((name, answer))
-		else:
-			found.append((name, *answer, *['', None, None][len(answer) - 1 :]))
-	return found, missing
+			continue
+		seen, advice, cost, trial = *answer, *['', None, None][len(answer) - 1 :]
+		if trial and not scene.contacts and trial[0] not in timedWithoutContacts:
+			trial = None
+		found.append((name, seen, advice, cost, trial))
+	return found, missing, bool(scene.contacts)
 
 
 def area(scene):
 	"""contact area"""
+	if not scene.contacts:
+		return noContacts
 	users = sum(contact.geom.needsArea for contact in scene.contacts)
 	if scene.any('computeArea'):
-		if scene.contacts and users == len(scene.contacts):
+		if users == len(scene.contacts):
 			return 'computeArea is on; all laws need areas anyway', ''
 		advice = 'computeArea = False, unless your script reads geom.contactArea: no law or material uses it'
 		return f'computeArea is on; {users} of {len(scene.contacts)} contacts need their area', advice, None, ('computeArea', False)
@@ -95,21 +107,6 @@ def area(scene):
 	if rocking and not any(contact.phys.normalStiffness > 0 for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)):
 		return 'areas are computed for rockingDamping alone', '', None, ('rockingDamping', 0)
 	return f'{users} of {len(scene.contacts)} contacts need their area, and have it', ''
-
-
-def dimension(scene):
-	"""third dimension"""
-	if not scene.moving:
-		return 'no body can move'
-	if any(body.shape.dimension == 2 for body in scene.bodies):
-		return 'polygons: contacts are solved in the plane', ''
-	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in scene.moving)
-	still = staysInPlane(scene.O, scene.moving)
-	if len(scene.bodies) == len(scene.O.bodies) and (inPlane or still) and all(prismOutline(body) is not None for body in scene.bodies):
-		words = 'blocked out of the xy plane' if inPlane else 'moving in the xy plane'
-		advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
-		return f'prisms along z, {words}, solved in space', advice, None, ('dimension', 2)
-	return 'bodies move in space', ''
 
 
 def energy(scene):
@@ -127,7 +124,8 @@ def energy(scene):
 	if local == 0 and viscous == 0:
 		return (
 			"nothing damps the normal direction, and the paper's contact creates and destroys energy",
-			"contactModel = 'conservative', or damping: with the paper's contact energy is not conserved at any time step",
+			"contactModel = 'conservative' (which uses neither contactPoint nor solver), or damping: "
+			"with the paper's contact energy is not conserved at any time step",
 			None,
 			('contactModel', 'conservative'),
 		)
@@ -145,6 +143,8 @@ def _stiffnessPerArea(scene):
 
 def cohesion(scene):
 	"""cohesion"""
+	if not scene.contacts:
+		return noContacts
 	joints = [contact.phys for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)]
 	bonded = [joint for joint in joints if joint.cohesion > 0 or joint.tensileStrength > 0]
 	intact = sum(joint.intact for joint in bonded)
@@ -161,6 +161,8 @@ def planes(scene):
 	if not spare:
 		return 'every plane owns a face', ''
 	seen = f'{sum(spare.values())} planes of {len(spare)} bodies own none'
+	if not scene.pairs():
+		return f'{seen}, but no two polytopes are in contact now to see what that does'
 	functor = scene.functors[0]
 	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
@@ -234,27 +236,6 @@ def warmStart(scene):
 	if all(functor.warmStart for functor in scene.functors):
 		return 'on', '', None, ('warmStart', False)
 	return 'off', 'warmStart = True: the answer is the same to rounding', None, ('warmStart', True)
-
-
-def solver(scene):
-	"""solver"""
-	if 'ipopt' in scene.values('solver'):
-		advice = "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt takes over where it gives up"
-		return 'ipopt for every contact', advice, None, ('solver', 'newton')
-	return 'newton', ''
-
-
-def contactPoint(scene):
-	"""contact point"""
-	points = scene.values('contactPoint')
-	if 'paper' not in scene.values('contactModel'):
-		return 'the conservative contact has its own'
-	trial = ('contactPoint', 'analyticCentre')
-	if 'chebyshevCentre' in points:
-		return 'chebyshevCentre, not unique on faces: it jumps', "contactPoint = 'analyticCentre' where faces meet faces", None, trial
-	if 'centroid' in points:
-		return 'centroid of the overlap', "contactPoint = 'analyticCentre', unless it is the centroid's law that you want", None, trial
-	return 'analyticCentre', ''
 
 
 def clocks(scene):

@@ -30,11 +30,12 @@ def cornerRadius(scene):
 	if 'paper' not in scene.values('contactModel'):
 		return 'the conservative contact has none'
 	since, pairs = scene.count(*deeper), scene.pairs()
-	if not (scene.depths and pairs or since):
-		return 'no polytopes overlap now'
-	shapes = [scene.O.bodies[k].shape for pair in pairs for k in pair] or [body.shape for body in scene.bodies]
+	if not (scene.depths and pairs):
+		before = f'; {since} contact points were deeper than it since the start (or resetStats), nobody knows how deep' if since else ''
+		return f'no polytopes overlap now{before}'
+	shapes = [scene.O.bodies[k].shape for pair in pairs for k in pair]
 	lost = sum(contact.geom.status in deeper for contact in scene.contacts)
-	depth, blow = max(scene.depths, default=0), _ofABlow(scene)
+	depth, blow = max(scene.depths), _ofABlow(scene)
 	radius, room = (min(float(getattr(shape, name)) for shape in shapes) for name in ('cornerRadius', 'inscribedRadius'))
 	ratio = depth / radius if radius > 0 else math.inf
 	seen = f'now the deepest overlap is {depth:.3g} m, the smallest corner radius {radius:.3g} m; {lost} contact points lie deeper than it'
@@ -74,6 +75,8 @@ def newtonTolerance(scene):
 	thin = [-float(contact.geom.infeasibility) for contact in scene.contacts if contact.geom.infeasibility < 0]
 	if scene.values('contactModel') != ['paper'] or scene.values('contactPoint') != ['analyticCentre']:
 		return "it is the analytic centre's, which is not in use"
+	if 'newton' not in scene.values('solver'):
+		return "it is Newton's, and Ipopt solves for the centre"
 	if not thin:
 		return 'no polytopes overlap now'
 	far = max(max(abs(float(x)) for x in body.state.pos) for body in scene.bodies)

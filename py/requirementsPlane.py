@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether what moves stays in the xy plane by itself: its motion, and what drives it."""
+"""The look of polytope.requirements() at the third dimension: whether all are prisms side by side, and what moves stays in the xy plane."""
 
 import numpy as np
 from yade import NewtonIntegrator, Vector3
 
-__all__ = ['staysInPlane']
+from .requirementsWorker import prismOutline
+
+__all__ = ['dimension']
+
+sideBySide = 0.5
+"""Part of the least height that all heights must have in common: a polygon meets every other one, whatever its height. With less,
+prisms may touch from above and below."""
 
 rounding = 1e-9
 """Motion out of the plane, over that in it, that rounding accounts for: it gathers over the steps, but stays far below this."""
@@ -12,7 +18,33 @@ alongALine, towardsAPlace = ('gravity', 'force'), ('accel', 'acceleration')
 """Attributes of engines that load bodies."""
 
 
-def staysInPlane(O, moving):
+def dimension(scene):
+	"""third dimension"""
+	if not scene.moving:
+		return 'no body can move'
+	if any(body.shape.dimension == 2 for body in scene.bodies):
+		return 'polygons: contacts are solved in the plane', ''
+	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in scene.moving)
+	kept = inPlane or _staysInPlane(scene.O, scene.moving)
+	if len(scene.bodies) < len(scene.O.bodies) or not kept or any(prismOutline(body) is None for body in scene.bodies):
+		return 'bodies move in space', ''
+	seen = f'prisms along z, {"blocked out of the xy plane" if inPlane else "moving in the xy plane"}'
+	common, least = _heights(scene.bodies)
+	if common < sideBySide * least:
+		shared = f'only {common:.3g} m' if common > 0 else 'nothing'
+		return f'{seen}, but not side by side in one plane: their z ranges have {shared} in common', ''
+	advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
+	return f'{seen}, solved in space', advice, None, ('dimension', 2)
+
+
+def _heights(bodies):
+	"""(what the z ranges of all these bodies have in common, the least of their heights) [m]; below zero if there is a gap."""
+	heights = [[float((body.state.pos + body.state.ori * corner)[2]) for corner in body.shape.vertices] for body in bodies]
+	low, high = (np.array([bound(one) for one in heights]) for bound in (min, max))
+	return high.min() - low.max(), (high - low).min()
+
+
+def _staysInPlane(O, moving):
 	"""Whether velocities and loads of these bodies have no part out of the xy plane; False if nothing moves or drives them.
 
 	Rounding is measured by the largest speed in the plane, and by what gravity there adds to it in a step: of bodies at rest rounding is all

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Times a saved scene as it is and with single things changed: `python3 -m yade.polytope.requirementsWorker SCENE CHANGES ANSWER`.
+"""Times a saved scene as it is and with things changed: `python3 -m yade.polytope.requirementsWorker SCENE CHANGES ANSWER`.
 
 polytope.requirements() starts it as a process of its own: what it does to the scene does not matter.
 """
@@ -9,6 +9,7 @@ import math
 import os
 import pathlib
 import sys
+import traceback
 
 import numpy as np
 from yade import InsertionSortCollider, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, PeriodicEngine
@@ -16,10 +17,10 @@ from yade import InsertionSortCollider, Law2_PolytopeGeom_RockJointPhys_MohrCoul
 from .bodies import polygon
 from .tradeoffWorker import geometryFunctors, interactionLoops, timed
 
-__all__ = ['change', 'colliders', 'laws', 'prismOutline']
+__all__ = ['change', 'colliders', 'laws', 'prismOutline', 'stepTimes']
 
-seconds = 0.25
-"""Of timed steps for each change."""
+seconds, rounds = 0.12, 2
+"""Of timed steps for each change in a round, and rounds over all changes: the machine may be busy during one."""
 warmUp = 3
 """Steps before them: boxes and the contacts' memories are made anew."""
 flat = 1e-9
@@ -87,20 +88,40 @@ def load(scene):
 	O.engines = [engine for engine in O.engines if not isinstance(engine, PeriodicEngine)]
 
 
-def main(scene, changes, answers):
-	result = {}
-	for name, value in [(None, None), *json.loads(pathlib.Path(changes).read_text()), (None, None)]:
+def stepTime(scene, changes):
+	"""Of the scene with these changes [µs]; infinite if it does not run."""
+	try:
 		load(scene)
-		try:
-			if name:
-				change(name, value)
-			for _ in range(warmUp):
-				O.step()
-			time, *_ = timed(seconds)
-			result[name or ''] = min(time, result.get(name or '', math.inf))
-		except Exception as error:
-			result[name or ''] = f'{type(error).__name__}: {error}'
-	pathlib.Path(answers).write_text(json.dumps(result))
+		for name, value in changes:
+			change(name, value)
+		for _ in range(warmUp):
+			O.step()
+		return timed(seconds)[0]
+	except Exception:
+		traceback.print_exc()
+		return math.inf
+
+
+def stepTimes(scene, trials):
+	"""Name → time of a step [µs] with that change and the advised ones before it in force; '' as the scene is. Without what does not run.
+
+	:param list trials: (name, value, whether it is advised)
+	"""
+	plans, times, inForce = {'': []}, {'': stepTime(scene, [])}, []
+	for name, value, advised in trials:
+		plans[name] = [*inForce, (name, value)]
+		times[name] = stepTime(scene, plans[name])
+		if advised and times[name] < math.inf:
+			inForce = plans[name]
+	for _ in range(rounds - 1):
+		for name, plan in plans.items():
+			times[name] = min(times[name], stepTime(scene, plan))
+	return {name: time for name, time in times.items() if time < math.inf}
+
+
+def main(scene, trials, answers):
+	times = stepTimes(scene, json.loads(pathlib.Path(trials).read_text()))
+	pathlib.Path(answers).write_text(json.dumps(times))
 	sys.stdout.flush()
 	os._exit(0)
 
