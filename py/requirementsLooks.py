@@ -16,7 +16,7 @@ from .requirementsOverlaps import cornerRadius, newtonTolerance
 from .requirementsPlane import dimension
 from .requirementsWorker import laws
 from .timeStep import stableTimeStep
-from .tradeoffWorker import geometryFunctors, interactionLoops
+from .tradeoffEffect import geometryFunctors, interactionLoops
 
 __all__ = ['looks']
 

@@ -15,7 +15,8 @@ import numpy as np
 from yade import InsertionSortCollider, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, PeriodicEngine
 
 from .bodies import polygon
-from .tradeoffWorker import geometryFunctors, interactionLoops, timed
+from .tradeoffEffect import geometryFunctors, interactionLoops
+from .tradeoffWorker import timed
 
 __all__ = ['change', 'colliders', 'laws', 'prismOutline', 'stepTimes']
 

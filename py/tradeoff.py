@@ -13,9 +13,10 @@ from tqdm import tqdm
 
 from . import tradeoffPrecision as precision
 from .tradeoffArguments import checkArguments, checkedSettings, checkNumbers, checkReference, ofTheScene, placeOf
+from .tradeoffEffect import settable
 from .tradeoffInside import CalledAgain, inside
 from .tradeoffTable import Row, TradeoffTable, checkLength
-from .tradeoffWorker import settable, takesTheScene
+from .tradeoffWorker import takesTheScene
 
 __all__ = ['tradeoff']
 
@@ -39,6 +40,11 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 		if isScript:
 			table = polytope.tradeoff(build, settings, measure, reference)
 
+	What a setting changes besides arguments of *build* is set once, after build(), and looked up again after measure(). A scene that is
+	renewed in between loses it (O.loadTmp of a state saved in build(), engines made in measure()): such a row says 'not in effect', and has
+	neither answer nor cost. To go back to the start save it in measure(), O.saveTmp() first. A measure() may change O.dt (to
+	polytope.stableTimeStep() for example), but then no *timeStep* or *timeStepFactor* is in effect, except a factor of 1.
+
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors
 	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …;
@@ -55,7 +61,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	    made new engines (O.loadTmp does)
 	:param float timeLimit: after which a process is stopped and its row says so [s]
 	:returns: a :yref:`TradeoffTable` with show(), csv(path), plot(path), front(), against(reference). A row whose answer is not a number,
-	    or whose scene blew up (see TradeoffTable), says so and is never on the front
+	    or whose scene blew up (see TradeoffTable), or whose setting was not in effect, says so and is never on the front
 	:raises ValueError: naming the argument: functions that cannot be found by another process (lambdas, functions within functions),
 	    a reference that is no setting (or of another length than the first answer), an unknown precision, a time step that is not above 0
 	:raises RuntimeError: if called within such a process by *build* or *measure*
@@ -89,7 +95,7 @@ def _run(where, changes, timedSeconds, timeLimit):
 	"""One process; what it answered, {'error': …} if it did not."""
 	kind = changes.get('precision', precision.present())
 	if not precision.available(kind):
-		return {'error': f'not built for {kind}'}
+		return {'error': f'not built for {kind}: YADE_POLYTOPE_PRECISION={kind} ./run build'}
 	task = {
 		**where,
 		'changes': {name: value for name, value in changes.items() if name in settable or name in ofTheScene},

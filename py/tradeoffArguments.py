@@ -11,7 +11,7 @@ import numpy as np
 
 from . import tradeoffPrecision as precision
 from .precision import isNumber
-from .tradeoffWorker import settable
+from .tradeoffEffect import settable
 
 __all__ = ['checkArguments', 'checkedSettings', 'checkNumbers', 'checkReference', 'ofTheScene', 'placeOf']
 

@@ -14,31 +14,21 @@ import time
 import mpmath
 import numpy as np
 import yade
-from yade import Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop, O
+from yade import O
 
 from .timeStep import stableTimeStep
+from .tradeoffEffect import Effect, geometryFunctors, interactionLoops
 from .tradeoffEnergy import Energy
 from .tradeoffInside import CalledAgain
 
-__all__ = ['geometryFunctors', 'load', 'settable', 'takesTheScene']
+__all__ = ['load', 'takesTheScene']
 
 digits = 45
 """Decimal digits of an answer: those of float128, and ten more."""
 leastBlock = 1e6
 """Of one block of timed steps [ns]: a thousand times the clock's own resolution."""
-
-settable = ('contactModel', 'barrier', 'contactPoint', 'solver', 'warmStart', 'tolerance', 'newtonTolerance', 'computeArea', 'timing')
-"""Attributes of the contact functor that a setting may change."""
-
-
-def interactionLoops():
-	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]
-
-
-def geometryFunctors():
-	"""The scene's contact functors of polytopes, mixed pairs included."""
-	functors = (functor for loop in interactionLoops() for functor in loop.geomDispatcher.functors)
-	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
+whatLosesIt = 'O.loadTmp, O.load, new engines or a new O.dt in measure() replace what was set after build(); O.saveTmp() at the beginning of measure() keeps it'
+"""Said where a setting is lost."""
 
 
 def load(where):
@@ -64,18 +54,6 @@ def load(where):
 def takesTheScene(measure):
 	"""Whether *measure* wants what *build* returned."""
 	return bool(inspect.signature(measure).parameters)
-
-
-def apply(changes):
-	"""Attributes of the contact functors and the time step; the scene stands."""
-	for name in settable:
-		if name in changes:
-			for functor in geometryFunctors():
-				setattr(functor, name, changes[name])
-	if 'timeStep' in changes:
-		O.dt = changes['timeStep']
-	if 'timeStepFactor' in changes:
-		O.dt *= changes['timeStepFactor']
 
 
 def written(value):
@@ -136,15 +114,19 @@ def timed(seconds):
 			return step, contact if math.isfinite(contact) else None, contacts
 
 
+def checkTimeStep(function):
+	if not 0 < O.dt < math.inf:
+		raise ValueError(f'{function}: must leave O.dt above 0, it is {float(O.dt):g}')
+
+
 def answer(task):
+	"""What Row.take() takes."""
 	build, measure = load(task['build']), load(task['measure'])
 	scene = build(**task['arguments'])
-	apply(task['changes'])
+	effect = Effect(task['changes'])
+	checkTimeStep('build')
 	resetTimes()
-	energy = Energy()
-	timeStep, began = float(O.dt), time.perf_counter()
-	if not 0 < timeStep < math.inf:
-		raise ValueError(f'build: must leave O.dt above 0, it is {timeStep:g}')
+	energy, began = Energy(), time.perf_counter()
 	values = measure(scene) if takesTheScene(measure) else measure()
 	seconds = time.perf_counter() - began
 	if not isinstance(values, dict):
@@ -153,6 +135,10 @@ def answer(task):
 		raise ValueError('measure: returned a dictionary without an answer')
 	if not O.engines:
 		raise ValueError('measure: left no engines, whose time would be the cost')
+	checkTimeStep('measure')
+	lost = effect.lost()
+	if lost:
+		return {'error': f'not in effect: after measure() {lost}; {whatLosesIt}'}
 	counts = [functor.stats() for functor in geometryFunctors()]
 	try:
 		ofLimit = float(O.dt) / float(stableTimeStep(1))
@@ -163,7 +149,7 @@ def answer(task):
 		'energy': energy.created(),
 		'values': {name: written(value) for name, value in values.items()},
 		'seconds': seconds,
-		'timeStep': timeStep,
+		'timeStep': float(O.dt),  # that of the steps that are timed
 		'fallbacks': sum(count['fallbacks'] for count in counts),
 		'failures': sum(count['failures'] for count in counts),
 	}

@@ -107,7 +107,7 @@ def testWhatGoesWrongIsSaid():
 	table = run(settings)
 	assert table['a'].error < 1e-6
 	for name in missing[:1]:
-		assert table[name].note == f'not built for {name}'
+		assert table[name].note == f'not built for {name}: YADE_POLYTOPE_PRECISION={name} ./run build'
 	assert 'no such thing' in run({'a': {}}, function=measureWrongly)['a'].note
 	assert 'longer' in run({'a': {}}, timeLimit=0.01)['a'].note
 
@@ -200,5 +200,6 @@ def testSettingsAreTakenByTheFunctor():
 		assert all(getattr(functor, key) == value for key, value in choice.items())
 	polytope.settings('fast').clear()
 	assert polytope.settings('fast')
-	with pytest.raises(ValueError, match='name'):
-		polytope.settings('best')
+	for name in ('best', ['fast'], None):
+		with pytest.raises(ValueError, match='name: '):
+			polytope.settings(name)
