@@ -52,6 +52,6 @@ def settings(name):
 	or polytope.tradeoff(build, {name: polytope.settings(name) for name in ('fast', 'balanced', 'exact')}, …) for your own scene. Large
 	faces pressed together are stiff against rocking with the conservative contact: polytope.stableTimeStep() knows.
 	"""
-	if name not in presets:
+	if not isinstance(name, str) or name not in presets:
 		raise ValueError(f'name: must be one of {", ".join(presets)}, got {name!r}')
 	return dict(presets[name])

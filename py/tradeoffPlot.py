@@ -6,6 +6,8 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from .precision import isNumber
+
 __all__ = ['plotTradeoff']
 
 frontColor, otherColor, firstColor = '#c8451b', '#3380a8', '#1c2430'
@@ -23,6 +25,8 @@ def plotTradeoff(path, panels, floor=1e-17, suptitle=''):
 	:param panels: [(title, TradeoffTable)]
 	:param float floor: errors below it, and 0, are drawn there
 	"""
+	if not (isNumber(floor) and 0 < floor < math.inf):
+		raise ValueError(f'floor: must be a number above 0, got {floor!r}')
 	figure = Figure(figsize=(9.6 * len(panels), 5.8), layout='constrained')
 	for axes, (title, table) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
 		_draw(axes, table, floor)

@@ -7,6 +7,7 @@ import math
 
 import mpmath
 
+from .tradeoffArguments import checkReference
 from .tradeoffEnergy import growth
 
 __all__ = ['Row', 'TradeoffTable', 'checkLength']
@@ -27,7 +28,7 @@ class Row:
 	:ivar float stepMicroseconds: of all engines for one step
 	:ivar float contactMicroseconds: of the interaction loop for one contact
 	:ivar float contacts: in one step
-	:ivar float timeStep: [s]
+	:ivar float timeStep: [s], when measure() ended
 	:ivar float timeStepOfLimit: time step over polytope.stableTimeStep(1) when measure() ended, None without contacts
 	:ivar float cost: µs for as much simulated time as the first setting's step
 	:ivar int fallbacks, failures: of the contact functors over the run, see stats()
@@ -108,7 +109,11 @@ class TradeoffTable:
 		raise KeyError(f'{name!r} is none of the settings, {[row.name for row in self.rows]}')
 
 	def against(self, reference, names=None):
-		"""A table of the same runs with errors against another reference; with *names*, of these rows alone."""
+		"""A table of the same runs with errors against another reference; with *names*, of these rows alone.
+
+		:raises ValueError: naming *reference*, if it is neither finite numbers nor the name of a row
+		"""
+		checkReference(reference, [row.name for row in self.rows])
 		rows = [copy.copy(row) for row in (self.rows if names is None else map(self.__getitem__, names))]
 		return TradeoffTable(rows, reference, self._true(reference))
 
@@ -168,6 +173,7 @@ class TradeoffTable:
 		"""Writes a PNG: error over cost, both logarithmic, each point with its setting's name, the front drawn.
 
 		:param float floor: errors below this, and 0, are drawn there
+		:raises ValueError: naming *floor*, if it is not above 0
 		"""
 		from .tradeoffPlot import plotTradeoff
 

@@ -52,6 +52,19 @@ def testAReferenceWithoutAnswerIsNamed():
 	assert "'lost'" in table.against('lost', ['good']).remark
 
 
+@pytest.mark.parametrize('reference', [None, math.nan, [], 'none of them', {'x': 1}])
+def testATableRefusesAReferenceThatIsNone(reference):
+	with pytest.raises(ValueError, match='reference: '):
+		tableOf(good=(2, 1.5)).against(reference)
+
+
+@pytest.mark.parametrize('floor', [0, math.nan, -1, math.inf, '1e-9', None])
+def testAPlotRefusesAFloorThatIsNone(floor, tmp_path):
+	with pytest.raises(ValueError, match='floor: '):
+		tableOf(good=(2, 1.5)).plot(tmp_path / 'plot.png', floor=floor)
+	assert not list(tmp_path.iterdir())
+
+
 def testEveryPointHasItsOwnNumber(tmp_path):
 	names = {f'setting {k}': (1 + k * 1e-4, 1.1) for k in range(12)}
 	drawn = []
