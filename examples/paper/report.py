@@ -20,7 +20,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here 
 
 from yade.polytope.studies.options import count
 from yade.polytope.studies.paperRuns import Run, sourceHash
-from yade.polytope.studies.reportRun import endOnTerm, report
+from yade.polytope.studies.reportRun import endOnTerm, outputFolder, report
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 
@@ -51,7 +51,7 @@ def options(arguments=None):
 	unknown = sorted(set(given.only) - set(simulations))
 	if unknown or not given.only:
 		parser.error(f'--only {given.only!r}: the simulations are {", ".join(simulations)}')
-	given.output = (given.output or pathlib.Path('output/paper-quick' if given.quick else 'output/paper')).resolve()
+	given.output = outputFolder(parser, given.output or ('output/paper-quick' if given.quick else 'output/paper'))
 	return given
 
 
@@ -59,16 +59,14 @@ def plannedRuns(given):
 	source = sourceHash(here.parents[1], ofTheReport)
 	runs = []
 	for letter, (name, title, extra) in simulations.items():
-		if letter in given.only:
-			chosen = ['--quick'] if given.quick else [*extra]
-			runs.append(Run(letter, title, scripts / f'{name}.py', given.output / name, chosen, source))
+		chosen = ['--quick'] if given.quick else [*extra]
+		runs.append(Run(letter, title, scripts / f'{name}.py', given.output / name, chosen, source))
 	return runs
 
 
 def main(arguments=None):
 	given = options(arguments)
-	given.output.mkdir(parents=True, exist_ok=True)
-	return report(plannedRuns(given), given, here / 'report.html.jinja', [letter for letter in simulations if letter not in given.only])
+	return report(plannedRuns(given), given, here / 'report.html.jinja')
 
 
 if __name__ == '__main__':

@@ -101,14 +101,15 @@ def writeResults(sections, path):
 				writer.writerow([part['letter'], part['title'], row['quantity'], row['unit'], *figures, row['cells'][-1], row['note']])
 
 
-def writeHtml(sections, template, path, quick, absent, base=None):
+def writeHtml(sections, template, path, quick, absent, earlier=(), base=None):
 	"""The page.
 
 	:param list sections: see section()
 	:param pathlib.Path template: of jinja2
 	:param base: folder of the template that *template* extends, if it does
 	:param bool quick: whether these are short variants
-	:param list absent: letters of the simulations that were not asked for
+	:param list absent: letters of the simulations that were not asked for and are not there
+	:param list earlier: letters of those that an earlier call completed
 	"""
 	environment = jinja2.Environment(loader=jinja2.FileSystemLoader([template.parent, *([base] if base else [])]), autoescape=True, undefined=jinja2.StrictUndefined)
 	rows = [row for part in sections for row in part['rows']]
@@ -121,6 +122,7 @@ def writeHtml(sections, template, path, quick, absent, base=None):
 		'missed': sum(row['good'] is False for row in rows),
 		'failed': [part['letter'] for part in sections if part['failure']],
 		'absent': absent,
+		'earlier': earlier,
 		'withPaper': any(row['paper'] is not None for row in rows),
 		'withTheory': any(row['theory'] is not None for row in rows),
 	}

@@ -1,23 +1,39 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What `./run paper` and `./run accuracy` do alike: run the scripts, write one report, say how it ended."""
 
+import pathlib
 import signal
 import sys
+import tempfile
 
 from .paperReport import section, show, writeHtml, writeResults
 from .paperRuns import perform
 
-__all__ = ['endOnTerm', 'report']
+__all__ = ['endOnTerm', 'outputFolder', 'report']
 
 
-def report(runs, given, template, absent, base=None):
-	"""Performs the runs and writes report.html and results.csv into *given.output*, which must be there.
+def outputFolder(parser, folder):
+	"""The folder as a whole path, made if need be; ends the program as argparse does, naming --output, if no file can be written there."""
+	folder = pathlib.Path(folder).resolve()
+	try:
+		folder.mkdir(parents=True, exist_ok=True)
+		tempfile.TemporaryFile(dir=folder).close()
+	except OSError as error:
+		parser.error(f'--output: cannot write to {folder}: {error.strerror}; name a folder that files can be written to')
+	return folder
 
-	:param runs: list of :yref:`Run`
-	:param given: options with *output*, *quick*, *fresh* (run again what is complete) and *jobs* (at a time)
-	:param template, absent, base: as in :yref:`writeHtml`
-	:returns: exit code: 0, 1 where a row or a run is not good, 130 if interrupted
+
+def report(planned, given, template, base=None):
+	"""Performs the runs that *given.only* names and writes report.html and results.csv into *given.output*, which must be there.
+
+	Of the others those are shown, too, that an earlier call completed there, from the same source and with the same options.
+
+	:param planned: list of :yref:`Run`, all there are
+	:param given: options with *only* (letters), *output*, *quick*, *fresh* (run again what is complete) and *jobs* (at a time)
+	:param template, base: as in :yref:`writeHtml`
+	:returns: exit code: 0, 1 where a row or a run that is shown is not good, 130 if interrupted
 	"""
+	runs = [run for run in planned if run.letter in given.only]
 	if given.fresh:
 		for run in runs:
 			run.forget()
@@ -26,11 +42,15 @@ def report(runs, given, template, absent, base=None):
 	except KeyboardInterrupt:
 		print('\nInterrupted: what is complete is kept; call again to go on.', file=sys.stderr)
 		return 130
-	sections = [section(run) for run in runs]
+	earlier = [run.letter for run in planned if run not in runs and run.complete]
+	absent = [run.letter for run in planned if run not in runs and run.letter not in earlier]
+	sections = [section(run) for run in planned if run.letter not in absent]
 	page, rows = given.output / 'report.html', given.output / 'results.csv'
 	writeResults(sections, rows)
-	writeHtml(sections, template, page, given.quick, absent, base=base)
+	writeHtml(sections, template, page, given.quick, absent, earlier, base=base)
 	good = show(sections)
+	if earlier:
+		print(f'\nComplete in this folder from an earlier call, and shown as well: {", ".join(earlier)}')
 	print(f'\nReport: {page}, rows: {rows}')
 	return 0 if good else 1
 

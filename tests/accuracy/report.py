@@ -3,7 +3,8 @@
 
 Each script of this folder runs as a program of its own and leaves its findings (yade.polytope.findings) in a folder of its own. Out of
 these come report.html, with all figures and tables, and results.csv. A study that is complete, of the same source and with the same
-options, is not run again. Ends with 1, and says why, if a limit was missed or a script failed.
+options, is not run again; the report shows it whether it was asked for or not. Ends with 1, and says why, if a limit was missed or a script
+failed.
 
 	./run accuracy                        # all studies
 	./run accuracy --quick                # fewer samples and steps
@@ -19,7 +20,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here 
 
 from yade.polytope.studies.options import count
 from yade.polytope.studies.paperRuns import Run, sourceHash
-from yade.polytope.studies.reportRun import endOnTerm, report
+from yade.polytope.studies.reportRun import endOnTerm, outputFolder, report
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 project = here.parents[1]
@@ -46,7 +47,7 @@ def options(arguments=None):
 	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/accuracy, with --quick output/accuracy-quick)')
 	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='studies at a time (default: one a processor)')
 	given = parser.parse_args(arguments)
-	given.output = (given.output or pathlib.Path('output/accuracy-quick' if given.quick else 'output/accuracy')).resolve()
+	given.output = outputFolder(parser, given.output or ('output/accuracy-quick' if given.quick else 'output/accuracy'))
 	return given
 
 
@@ -56,15 +57,12 @@ def plannedRuns(given):
 	return [
 		Run(name, title, scripts / f'{script}.py', given.output / script, [*quick, *extra], source)
 		for name, (script, title, extra) in present().items()
-		if name in given.only
 	]
 
 
 def main(arguments=None):
 	given = options(arguments)
-	given.output.mkdir(parents=True, exist_ok=True)
-	absent = [name for name in present() if name not in given.only]
-	return report(plannedRuns(given), given, here / 'accuracy.html.jinja', absent, base=project / 'examples/paper')
+	return report(plannedRuns(given), given, here / 'accuracy.html.jinja', base=project / 'examples/paper')
 
 
 if __name__ == '__main__':

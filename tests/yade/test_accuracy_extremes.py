@@ -138,5 +138,31 @@ def testRunnerTakesTheScriptsThatAreThere(studies, capsys):
 		report.main(['--only', 'none'])
 
 
+def testPartsOfSeveralCallsAreInOneReport(studies, capsys):
+	"""As long as source and options are the same."""
+	out = studies / 'out'
+
+	def shown(*options):
+		assert report.main(['--output', str(out), *options]) == 0
+		page, said = (out / 'report.html').read_text(), capsys.readouterr().out
+		assert ('earlier call: one' in page) == ('earlier call, and shown as well: one' in said)
+		return page, [row['quantity'] for row in csv.DictReader(open(out / 'results.csv'))]
+
+	page, rows = shown('--only', 'one')
+	assert 'not asked for: two' in page and 'earlier call' not in page and rows == ['error of one']
+	page, rows = shown('--only', 'two')
+	assert 'not asked for' not in page and 'of an earlier call: one' in page and rows == ['error of one', 'error of two']
+	page, rows = shown('--only', 'two', '--quick')
+	assert 'not asked for: one' in page and 'earlier call' not in page and rows == ['error of two']
+
+
+@pytest.mark.parametrize('where', ['/proc/nope', 'file/below', 'file'])
+def testAnOutputThatCannotBeWrittenIsRefusedAtOnce(where, studies, capsys):
+	(studies / 'file').touch()
+	with pytest.raises(SystemExit) as refused:
+		report.main(['--output', str(studies / where)])
+	assert refused.value.code == 2 and '--output: cannot write to' in capsys.readouterr().err
+
+
 def testStudiesAreThere():
 	assert {'pairs', 'scenes'} <= set(report.present())

@@ -144,6 +144,15 @@ def testOnlyTheLettersAskedFor(project):
 	assert project.run('--only', 'y') == 0
 	assert not project.runs('X') and 'load &lt;X&gt;' not in project.html and 'not asked for: X' in project.html
 	assert [row['simulation'] for row in project.rows] == ['Y']
+	assert project.run('--only', 'X') == 0 and len(project.runs('Y')) == 1, 'Y is complete'
+	assert 'of an earlier call: Y' in project.html and [row['simulation'] for row in project.rows] == ['X', 'Y']
+
+
+def testAnOutputThatCannotBeWrittenIsRefusedAtOnce(project, capsys):
+	project.output = '/proc/nope'
+	with pytest.raises(SystemExit) as refused:
+		project.run()
+	assert refused.value.code == 2 and '--output: cannot write to /proc/nope' in capsys.readouterr().err and not project.runs('X')
 
 
 @pytest.mark.parametrize('options', [('--only', 'XZ'), ('--only', ''), ('--jobs', '0'), ('--nonsense', )])
