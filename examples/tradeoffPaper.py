@@ -12,9 +12,11 @@ each scene, and one page, report.html. polytope.tradeoff() does the same for a s
 """
 
 import argparse
+import math
 import os
 import pathlib
 import sys
+import tempfile
 
 here = pathlib.Path(__file__).resolve().parent
 letters = ('pair', 'B', 'C', 'D', 'F', 'rest', 'A')
@@ -30,6 +32,11 @@ def options(arguments=None):
 	parser.add_argument('--precisions', action='store_true', help=argparse.SUPPRESS)
 	given = parser.parse_args(arguments)
 	given.output = (given.output or pathlib.Path('output/tradeoff-quick' if given.quick else 'output/tradeoff')).resolve()
+	try:
+		given.output.mkdir(parents=True, exist_ok=True)
+		tempfile.TemporaryFile(dir=given.output).close()
+	except OSError as error:
+		parser.error(f'--output: cannot write to {given.output}: {error.strerror}; name a folder that files can be written to')
 	return given
 
 
@@ -42,6 +49,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here 
 os.environ.setdefault('POLYTOPE_GEOMETRY', str(here / 'paper/geometry'))
 
 from yade.polytope import tradeoff
+from yade.polytope.studies.reportRun import endOnTerm
 from yade.polytope.studies.tradeoffAxes import allScenes, default, scatter
 from yade.polytope.studies.tradeoffReport import notRun, ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
 from yade.polytope.tradeoffPrecision import precisions
@@ -54,36 +62,56 @@ def printPrecisions(given):
 	print(end=''.join(f'{name}\n' for name in precisions if name in named - {'double'}))
 
 
+def measured(scene, given):
+	"""(TradeoffTable of one scene, setting with the finest arithmetic, whether it was interrupted); shows the table."""
+	settings = scene.chosen(given.quick)
+	finest = scene.numericalReference(settings)
+	reference = scene.truth if scene.truth is not None else finest if finest and scene.letter != 'A' else default
+	repeats = (1 if given.quick else 2) * (1 if scene.timedSeconds else 3)  # a run's own steps are few
+	times = {'repeats': repeats, 'timedSeconds': scene.timedSeconds, 'timeLimit': 60 if given.quick else 240}
+	print(f'\n{scene.letter}: {scene.title}, {len(settings)} settings', flush=True)
+	interrupted = False
+	try:
+		table = tradeoff(scene.build, settings, scene.measure, reference, **times)
+	except KeyboardInterrupt as interrupt:
+		table, interrupted = interrupt.table, True
+	mean = scatter(table)[0] if scene.letter == 'A' else math.nan
+	if math.isfinite(mean):
+		table = table.against(mean)
+	if any(row.answer is not None for row in table.rows):
+		table.show()
+	return table, finest, interrupted
+
+
 def main(given):
 	scenes = allScenes()
-	tables, parts, failed = {}, [], False
+	tables, parts, failed, interrupted = {}, [], False, False
 	for letter in given.only:
-		scene = scenes[letter]
-		settings = scene.chosen(given.quick)
-		finest = scene.numericalReference(settings)
-		reference = scene.truth if scene.truth is not None else finest if finest and letter != 'A' else default
-		repeats = (1 if given.quick else 2) * (1 if scene.timedSeconds else 3)  # a run's own steps are few
-		times = {'repeats': repeats, 'timedSeconds': scene.timedSeconds, 'timeLimit': 60 if given.quick else 240}
-		print(f'\n{letter}: {scene.title}, {len(settings)} settings', flush=True)
-		table = tradeoff(scene.build, settings, scene.measure, reference, **times)
-		if letter == 'A':
-			table = table.against(scatter(table)[0])
-		table.show()
-		findings, _ = reportScene(scene, table, given.output / letter, finest)
-		failed |= not findings.save()
-		tables[letter] = table
-		parts.append((scene, findings))
-	columns, rows = writeSummary(summary(tables, scenes), given.only, given.output / 'summary.csv')
+		table, finest, interrupted = measured(scenes[letter], given)
+		if any(row.answer is not None for row in table.rows):
+			findings, _ = reportScene(scenes[letter], table, given.output / letter, finest)
+			failed |= not findings.save()
+			tables[letter] = table
+			parts.append((scenes[letter], findings))
+		if interrupted:
+			break
+	if interrupted:
+		missing = [letter for letter in given.only if letter not in tables]
+		print(f'\nInterrupted: what is measured is kept{", not run: " * bool(missing)}{", ".join(missing)}.', file=sys.stderr)
+	if interrupted and not tables:
+		return 130
+	columns, rows = writeSummary(summary(tables, scenes), list(tables), given.output / 'summary.csv')
 	print(f'\nAll scenes: cost over the default\'s, and error of the answer ({notRun}: not run there)')
 	show(columns, rows)
 	ranks = [[name, *(format(value, '.3g') for value in values)] for name, *values in ranking(tables, scenes)]
 	if ranks:
 		print('\nWhat polytope.settings() rests on (see there): means over the scenes with a closed form that holds for any law')
 		show(rankingColumns, ranks)
-	writePage(given.output / 'report.html', parts, columns, rows, ranks, pathlib.Path(__file__), given.quick)
+	writePage(given.output / 'report.html', parts, columns, rows, ranks, pathlib.Path(__file__), given.quick, interrupted)
 	print(f'\nReport: {given.output / "report.html"}')
-	return 1 if failed else 0
+	return 130 if interrupted else 1 if failed else 0
 
 
 if __name__ == '__main__':
+	endOnTerm()
 	sys.exit(printPrecisions(given) if given.precisions else main(given))

@@ -65,6 +65,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	:raises ValueError: naming the argument: functions that cannot be found by another process (lambdas, functions within functions),
 	    a reference that is no setting (or of another length than the first answer), an unknown precision, a time step that is not above 0
 	:raises RuntimeError: if called within such a process by *build* or *measure*
+	:raises KeyboardInterrupt: if interrupted, with what is measured as its attribute *table*; the process that runs is ended
 
 	Example: examples/tradeoff.py.
 	"""
@@ -77,10 +78,22 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	checkNumbers(repeats, timedSeconds, timeLimit)
 	takesTheScene(measure)
 	rows = {name: Row(name, changes) for name, changes in settings.items()}
+	try:
+		_measure(rows.values(), reference, where, repeats, timedSeconds, timeLimit)
+	except KeyboardInterrupt as interrupt:
+		for row in rows.values():
+			row.note = row.note or ('interrupted before it was run' if row.answer is None else '')
+		interrupt.table = TradeoffTable(list(rows.values()), reference)
+		raise
+	return TradeoffTable(list(rows.values()), reference)
+
+
+def _measure(rows, reference, where, repeats, timedSeconds, timeLimit):
+	"""All processes, round by round: what disturbs one round does not disturb one setting alone."""
 	fits = isinstance(reference, str)
 	with tqdm(total=repeats * len(rows), disable=None, leave=False) as bar:
 		for _ in range(repeats):
-			for row in rows.values():  # round by round: what disturbs one round does not disturb one setting alone
+			for row in rows:
 				bar.set_postfix_str(row.name, refresh=True)
 				if not row.note:
 					row.take(_run(where, row.changes, timedSeconds, timeLimit))
@@ -88,7 +101,6 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 					checkLength(row.answer, reference)  # now, not after all runs
 					fits = True
 				bar.update()
-	return TradeoffTable(list(rows.values()), reference)
 
 
 def _run(where, changes, timedSeconds, timeLimit):

@@ -134,7 +134,7 @@ def _short(cell, form):
 		return '' if math.isnan(cell) else format(cell, form)
 	if cell is None:
 		return 'no error'
-	return {'RuntimeError': 'does not stand', 'not built for': 'not built'}.get(cell, cell)
+	return {'RuntimeError': 'does not stand', 'interrupted before it was run': 'not run'}.get(cell, cell)
 
 
 def show(columns, rows):
@@ -142,19 +142,20 @@ def show(columns, rows):
 	print(tabulate(rows, columns, disable_numparse=True))
 
 
-def writePage(path, parts, columns, rows, ranks, script, quick):
+def writePage(path, parts, columns, rows, ranks, script, quick, interrupted=False):
 	"""The HTML page.
 
 	:param list parts: (Scene, its Findings)
 	:param columns, rows: of the summary
 	:param ranks: rows of text of the ranking
+	:param bool interrupted: whether scenes or settings are missing that were asked for
 	"""
 	sections = []
 	for scene, findings in parts:
 		run = Run(scene.letter, scene.title, script, findings.folder, [], '')
 		sections.append(section(run))
 	environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
-	about = {'date': datetime.date.today().isoformat(), 'quick': quick}
+	about = {'date': datetime.date.today().isoformat(), 'quick': quick, 'interrupted': interrupted}
 	path.write_text(environment.from_string(_page).render(sections=sections, columns=columns, rows=rows, ranks=ranks, head=rankingColumns, about=about))
 
 
@@ -171,7 +172,7 @@ th:first-child, td:first-child { position: sticky; left: 0; background: #fff; } 
 figure { margin: 1.2rem 0; } img { max-width: 100%; border: 1px solid #d9dee6; } .quiet, figcaption { color: #687385; }
 </style></head><body>
 <h1>Accuracy for speed: what each setting costs, and what it does to the answer</h1>
-<p class="quiet">{{ about.date }}{% if about.quick %} · quick variant: fewer settings{% endif %}. One setting is changed at a time. Costs
+<p class="quiet">{{ about.date }}{% if about.quick %} · quick variant: fewer settings{% endif %}{% if about.interrupted %} · interrupted: not all that was asked for is here{% endif %}. One setting is changed at a time. Costs
 are times for as much simulated time as the default's step, over the default's; errors are relative, against closed forms (B, C, D, F,
 rest), the finest arithmetic (pair) or the mean over seeds (A). –: the setting is not run in that scene (too slow there, of no
 meaning, or left out of the quick variant); blank costs: no run of it gave an answer. Settings named in words instead of a figure have no

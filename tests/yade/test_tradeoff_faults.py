@@ -276,7 +276,13 @@ paperScript = here.parents[2] / 'examples/tradeoffPaper.py'
 
 
 @pytest.mark.parametrize(
-	('arguments', 'code', 'word'), [(['--only', 'Z'], 2, 'invalid choice'), (['--help'], 0, 'usage'), (['--only', 'B'], 1, 'configur')]
+	('arguments', 'code', 'word'),
+	[
+		(['--only', 'Z'], 2, 'invalid choice'),
+		(['--output', '/proc/nope'], 2, '--output: cannot write to /proc/nope'),
+		(['--help'], 0, 'usage'),
+		(['--only', 'B'], 1, 'configur'),
+	],
 )
 def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
 	"""In a folder where building fails: only good options get as far as that."""
@@ -286,7 +292,7 @@ def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
 	for folder in own.values():
 		pathlib.Path(folder).mkdir()
 	environment = {**os.environ, **own, 'project': str(tmp_path), 'buildKey': 'none'}
-	ended = subprocess.run(['bash', str(tmp_path / 'tools/inside.sh'), 'tradeoff', *arguments], env=environment, capture_output=True, text=True)
+	ended = subprocess.run(['bash', str(tmp_path / 'tools/inside.sh'), 'tradeoff', *arguments], env=environment, cwd=tmp_path, capture_output=True, text=True)
 	assert ended.returncode == code and word in (ended.stdout + ended.stderr).lower(), ended.stdout + ended.stderr
 	assert (tmp_path / 'build').exists() == (code == 1)
 
