@@ -33,29 +33,31 @@ struct Options {
 	std::string   log;
 };
 
-const char* usage = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
-                    "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
-                    "  --quick    250 000 pairs: seconds to a minute\n"
-                    "  --pairs    how many pairs (10^6), up to whole trials of each family; what is found depends on this and the seed\n"
-                    "  --seed     of the random numbers (1)\n"
-                    "  --threads  how many (0: as many as the machine has)\n"
-                    "  --family   this family alone; with --trial one trial of it: what a record of a defect names\n"
-                    "  --log      also writes the table to this file (./run search: one in output/search)\n"
-                    "  --help     shows this\n"
-                    "Families:";
+const char* usage
+        = "./run search [--quick] [--pairs N] [--seed S] [--threads T] [--family NAME [--trial K]] [--log FILE]\n"
+          "Compares random pairs with an exact predicate; ends with 1 if there is a defect.\n"
+          "  --quick    250 000 pairs: seconds to a minute\n"
+          "  --pairs    how many pairs (10^6), up to whole trials of each family; what is found depends on this and the seed\n"
+          "  --seed     of the random numbers (1)\n"
+          "  --threads  how many (0: as many as the machine has)\n"
+          "  --family   this family alone\n"
+          "  --trial    one trial of the family alone, as the record of a defect names it; any whole number is a trial of its own,\n"
+          "             a search takes those from 0 on, as many as --pairs is enough for\n"
+          "  --log      also writes the table to this file (./run search: one in output/search)\n"
+          "  --help     shows this\n"
+          "Families:";
 
-void printUsage(std::FILE* where)
+std::string familyNames()
 {
-	std::fputs(usage, where);
+	std::string names;
 	for (const Family& family : families())
-		std::fprintf(where, " %s", family.name);
-	std::fprintf(where, "\n");
+		names += std::string(" ") + family.name;
+	return names;
 }
 
 [[noreturn]] void refuse(const std::string& why)
 {
-	std::fprintf(stderr, "%s\n\n", why.c_str());
-	printUsage(stderr);
+	std::fprintf(stderr, "%s\n./run search --help lists the options.\n", why.c_str());
 	std::exit(2);
 }
 
@@ -76,34 +78,50 @@ long numberOf(const std::string& name, const char* value, long least, long most)
 
 Options optionsOf(int count, char** arguments)
 {
-	Options options;
+	Options     options;
+	const char* pairs = nullptr; ///< the option that says how many
 	for (int i = 1; i < count; ++i) {
 		const std::string name = arguments[i];
 		if (name == "--help" || name == "-h") {
-			printUsage(stdout);
+			std::printf("%s%s\n", usage, familyNames().c_str());
 			std::exit(0);
 		}
 		if (name == "--quick") {
 			options.pairs = quickPairs;
+			pairs         = "--quick";
 			continue;
 		}
 		const char* known[] = { "--pairs", "--seed", "--threads", "--trial", "--log", "--family" };
 		if (std::find(std::begin(known), std::end(known), name) == std::end(known)) refuse("there is no option " + name);
 		if (++i == count) refuse(name + ": give a value");
 		const char* value = arguments[i];
-		if (name == "--pairs") options.pairs = numberOf(name, value, 1, mostPairs);
-		else if (name == "--seed") options.seed = (unsigned long)(numberOf(name, value, 0, LONG_MAX));
+		if (name == "--pairs") {
+			options.pairs = numberOf(name, value, 1, mostPairs);
+			pairs         = "--pairs";
+		} else if (name == "--seed") options.seed = (unsigned long)(numberOf(name, value, 0, LONG_MAX));
 		else if (name == "--threads") options.threads = unsigned(numberOf(name, value, 0, 1024));
 		else if (name == "--trial") options.trial = numberOf(name, value, 0, mostPairs);
 		else if (name == "--log") options.log = value;
 		else if (name == "--family") {
 			for (std::size_t f = 0; f < families().size(); ++f)
 				if (families()[f].name == std::string(value)) options.family = int(f);
-			if (options.family < 0) refuse("--family: there is no '" + std::string(value) + "'");
+			if (options.family < 0) refuse("--family: there is no '" + std::string(value) + "', but" + familyNames());
 		}
 	}
 	if (options.trial >= 0 && options.family < 0) refuse("--trial: name its --family");
+	if (options.trial >= 0 && pairs)
+		refuse(std::string(pairs) + ": not with --trial, which is " + std::to_string(posesPerTrial) + " pairs");
 	return options;
+}
+
+std::string cannotWrite(const std::string& path) { return "--log: cannot write to " + path + ": " + std::strerror(errno); }
+
+/// Before the search, which may take hours. What the file holds stays until then.
+void checkLog(const std::string& path)
+{
+	std::FILE* file = std::fopen(path.c_str(), "a");
+	if (!file) refuse(cannotWrite(path) + "; name a file in a folder that is there");
+	std::fclose(file);
 }
 
 /// All trials, dealt out to the threads one by one; each has its own random numbers.
@@ -162,8 +180,10 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
 	out << "Random pairs against an exact predicate, " << date << "\n";
 	out << "revision " << (revision ? revision : "unknown") << "; " << POLYTOPE_COMPILER << "; " << instructionSet() << "\n";
-	out << "--pairs " << options.pairs << " --seed " << options.seed
-	    << (options.family < 0 ? "" : std::string(" --family ") + families()[std::size_t(options.family)].name);
+	if (options.trial < 0) out << "--pairs " << options.pairs << " ";
+	out << "--seed " << options.seed;
+	if (options.family >= 0) out << " --family " << families()[std::size_t(options.family)].name;
+	if (options.trial >= 0) out << " --trial " << options.trial;
 	out << "; " << posesPerTrial << " pairs a trial\n\n";
 	out << "family                  pairs   overlap     apart  border   exact    queries  error  pivots iterations defects\n";
 	Tally all;
@@ -202,7 +222,8 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 
 int main(int count, char** arguments)
 {
-	const Options        options = optionsOf(count, arguments);
+	const Options options = optionsOf(count, arguments);
+	if (!options.log.empty()) checkLog(options.log);
 	std::vector<Tally>   tallies(families().size());
 	std::vector<Finding> findings;
 	const auto           started = std::chrono::steady_clock::now();
@@ -213,7 +234,7 @@ int main(int count, char** arguments)
 	if (!options.log.empty()) {
 		std::FILE* file = std::fopen(options.log.c_str(), "w");
 		if (!file || std::fputs(text.c_str(), file) < 0 || std::fclose(file)) {
-			std::fprintf(stderr, "--log: cannot write %s\n", options.log.c_str());
+			std::fprintf(stderr, "%s\n", cannotWrite(options.log).c_str());
 			return 2;
 		}
 	}

@@ -71,12 +71,18 @@ def testSearchHelps():
 @pytest.mark.parametrize('arguments', [
         ['--pairs', '0'], ['--pairs', '-1'], ['--pairs', '99999999999999999999'], ['--pairs', '1e6'], ['--pairs', '1000000000001'], ['--pairs'],
         ['--seed', '99999999999999999999'], ['--threads', '-1'], ['--threads', '4294967296'], ['--trial', '1'], ['--family', 'none'], ['--nonsense'],
-        ['--quick', '--pairs', '0']
+        ['--quick', '--pairs', '0'], ['--log', '/proc/nope/x'], ['--family', 'solids', '--trial', '-1'], ['--family', 'solids', '--trial', '1', '--quick']
 ])
 def testSearchRefuses(arguments):
 	done = search(*arguments)
 	assert done.returncode == 2 and not done.stdout
-	assert arguments[-1 if len(arguments) == 1 else -2] in done.stderr.splitlines()[0]
+	message, remedy = done.stderr.splitlines()
+	assert next(word for word in reversed(arguments) if word.startswith('--')) in message and '--help' in remedy
+
+
+def testSearchOfOneTrialSaysWhich():
+	done = search('--family', 'solids', '--trial', '99999999', '--threads', '1')
+	assert done.returncode == 0 and '\n--seed 1 --family solids --trial 99999999; ' in done.stdout
 
 
 def testSearchLooksAtAsManyPairsAsItSays():
