@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""polytope.tradeoff and `./run tradeoff`, interrupted: what is measured is kept, and no process is left."""
+"""polytope.tradeoff, interrupted: what is measured is kept, and no process is left."""
 
-import argparse
 import os
 import pathlib
 import signal
@@ -9,9 +8,6 @@ import time
 
 import pytest
 from yade import NewtonIntegrator, O, RockJointMat, polytope
-from yade.polytope.tradeoffTable import Row, TradeoffTable
-
-examples = pathlib.Path(__file__).resolve().parents[2] / 'examples'
 
 
 def build(interrupt=False):
@@ -48,48 +44,3 @@ def testAnInterruptKeepsTheRowsAndEndsTheProcess(monkeypatch, tmp_path):
 	while runs(worker) and time.monotonic() < end:
 		time.sleep(0.01)
 	assert not runs(worker)
-
-
-def tableOf(**answers):
-	rows = [Row(name, {}) for name in answers]
-	for row, answer in zip(rows, answers.values(), strict=True):
-		times = {'stepMicroseconds': 1, 'contactMicroseconds': 1, 'contacts': 1, 'timeStep': 1, 'seconds': 1, 'fallbacks': 0, 'failures': 0}
-		row.take({'values': {'x': repr(answer)}, **times} if answer else {'error': 'interrupted before it was run'})
-	return TradeoffTable(rows, 1.0)
-
-
-@pytest.fixture
-def program(monkeypatch, tmp_path):
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(examples / 'paper/geometry'))
-	monkeypatch.syspath_prepend(str(examples))
-	import tradeoffPaper
-
-	def run(*tables):
-		"""Scenes C, D, F in turn; the last of the tables is that of an interrupted one."""
-		waiting = list(tables)
-
-		def tradeoff(*_, **__):
-			table = waiting.pop(0)
-			if not waiting:
-				interrupt = KeyboardInterrupt()
-				interrupt.table = table
-				raise interrupt
-			return table
-
-		monkeypatch.setattr(tradeoffPaper, 'tradeoff', tradeoff)
-		return tradeoffPaper.main(argparse.Namespace(quick=True, only=['C', 'D', 'F'], output=tmp_path))
-
-	return run
-
-
-def testTheProgramReportsWhatIsMeasured(program, tmp_path, capsys):
-	assert program(tableOf(default=1.01, fast=1.02), tableOf(default=1.01, fast=None)) == 130
-	page = (tmp_path / 'report.html').read_text()
-	assert 'id="C"' in page and 'id="D"' in page and 'id="F"' not in page and 'interrupted: not all' in page
-	assert 'interrupted before it was run' in page and 'kept, not run: F.' in capsys.readouterr().err
-	assert (tmp_path / 'summary.csv').is_file()
-
-
-def testTheProgramInterruptedAtOnceWritesNothing(program, tmp_path, capsys):
-	assert program(tableOf(default=None, fast=None)) == 130
-	assert not list(tmp_path.iterdir()) and 'not run: C, D, F.' in capsys.readouterr().err
