@@ -156,7 +156,8 @@ def writePage(path, parts, columns, rows, ranks, script, quick, interrupted=Fals
 		sections.append(section(run))
 	environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
 	about = {'date': datetime.date.today().isoformat(), 'quick': quick, 'interrupted': interrupted}
-	path.write_text(environment.from_string(_page).render(sections=sections, columns=columns, rows=rows, ranks=ranks, head=rankingColumns, about=about))
+	tables = {'columns': columns, 'rows': rows, 'ranks': ranks, 'head': rankingColumns}
+	path.write_text(environment.from_string(_page).render(sections=sections, about=about, **tables))
 
 
 _page = '''<!DOCTYPE html>

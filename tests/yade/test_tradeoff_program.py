@@ -31,7 +31,8 @@ def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
 	for folder in own.values():
 		pathlib.Path(folder).mkdir()
 	environment = {**os.environ, **own, 'project': str(tmp_path), 'buildKey': 'none'}
-	ended = subprocess.run(['bash', str(tmp_path / 'tools/inside.sh'), 'tradeoff', *arguments], env=environment, cwd=tmp_path, capture_output=True, text=True)
+	command = ['bash', str(tmp_path / 'tools/inside.sh'), 'tradeoff', *arguments]
+	ended = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True)
 	assert ended.returncode == code and word in (ended.stdout + ended.stderr).lower(), ended.stdout + ended.stderr
 	assert (tmp_path / 'build').exists() == (code == 1)
 
