@@ -27,10 +27,7 @@ digits = 45
 """Decimal digits of an answer: those of float128, and ten more."""
 leastBlock = 1e6
 """Of one block of timed steps [ns]: a thousand times the clock's own resolution."""
-whatLosesIt = (
-	'O.loadTmp, O.load, new engines or a new O.dt in measure() replace what was set after build(); '
-	'O.saveTmp() at the beginning of measure() keeps it'
-)
+whatLosesIt = 'O.saveTmp() belongs in measure(), new engines and O.dt in build()'
 """Said where a setting is lost."""
 
 
