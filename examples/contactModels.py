@@ -21,6 +21,7 @@ from tqdm import tqdm
 from yade import O, polytope
 from yade.polytope.frictionReduction import FrictionReduction
 from yade.polytope.scenes import BlockGeometry, FallingPolyhedra, RoofWedge, ThreeHingedBeam, WedgeScene, solids
+from yade.polytope.studies.options import writableFolder
 from yade.polytope.studies.slidingWedge import limitEquilibrium
 from yade.polytope.theory.beam import BeamBetweenWalls, BeamOfTwoBlocks
 from yade.polytope.theory.wedges import roofWedgeFrictionAngle
@@ -163,7 +164,7 @@ def main():
 	parser.add_argument('--only', choices=parts, nargs='+', default=list(parts))
 	parser.add_argument('--solids', choices=solids, nargs='+', help='of the heaps; None: all, quick: cubes')
 	parser.add_argument('--seed', type=int, default=1, help="of the heaps' orientations")
-	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output/contactModels'), help='folder of the table')
+	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/contactModels'), help='folder of the table')
 	given = parser.parse_args()
 	given.solids = given.solids or (['cube'] if given.quick else list(solids))
 	head = ['quantity', 'closed form', "paper's model", 'conservative model']

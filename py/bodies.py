@@ -18,6 +18,8 @@ share these keyword arguments (*body* below), with the meaning they have in :yre
 import numbers
 import os
 
+import numpy
+
 from yade import Body, Polytope, Quaternion, Vector3
 from yade import utils
 
@@ -57,7 +59,7 @@ def fromVertices(points, **body):
 	:param points: (n, 3) points [m]; points inside the hull are allowed
 	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
 	"""
-	return _hullOf(_vectors(points, 'points', 3), 0, **body)
+	return _body(*_polytope.hull(_vectors(points, 'points', 3), 3, 0), **body)
 
 
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
@@ -97,7 +99,7 @@ def polygon(points2d, thickness=1.0, **body):
 
 	:param points2d: (n, 2) points [m] in world coordinates
 	:param float thickness: extent along z for mass and contact areas [m]
-	:raises ValueError: naming *points2d* or *thickness*
+	:raises ValueError: naming *points2d*, *thickness*, or a *velocity* or *angularVelocity* out of the plane
 	"""
 	points = [Vector3(p[0], p[1], 0) for p in _vectors(points2d, 'points2d', 2)]
 	try:
@@ -130,14 +132,10 @@ def fromMesh(path, scale=1.0, **body):
 	if len(points) == 0:
 		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
 	try:
-		return _hullOf(_vectors(points, 'points', 3), singlePrecision, **body)
+		hull = _polytope.hull(_vectors(points, 'points', 3), 3, singlePrecision)
 	except ValueError as error:
 		raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
-
-
-def _hullOf(points, coplanar, **body):
-	normals, offsets = _polytope.hull(points, 3, coplanar)
-	return _body(normals, offsets, **body)
+	return _body(*hull, **body)
 
 
 def _body(
@@ -182,12 +180,17 @@ def _body(
 	body.state.ori = body.state.refOri = orientation
 	body.state.vel = _vector(velocity, 'velocity')
 	body.state.angVel = _vector(angularVelocity, 'angularVelocity')
-	if dimension == 2 and not fixed:
-		body.state.blockedDOFs = 'zXY'
+	if dimension == 2:
+		if body.state.vel[2] != 0:
+			raise ValueError(f'velocity: a polygon stays in its plane; the third component must be 0, got {velocity!r}')
+		if body.state.angVel[0] != 0 or body.state.angVel[1] != 0:
+			raise ValueError(f'angularVelocity: a polygon turns about z alone; the first two components must be 0, got {angularVelocity!r}')
+		if not fixed:
+			body.state.blockedDOFs = 'zXY'
 	# a polygon turns about z only, so its other moments never enter
 	body.aspherical = dimension == 3 and max(inertia) - min(inertia) > isotropyTolerance * max(inertia)
-	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral):
-		raise ValueError(f'mask: must be a whole number, got {mask!r}')
+	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
+		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
 	body.mask = int(mask)
 	return body
 
@@ -199,7 +202,7 @@ def _number(value, name):
 
 
 def _flag(value, name):
-	if value not in (True, False):  # NumPy's too
+	if not isinstance(value, (bool, numpy.bool_)):
 		raise ValueError(f'{name}: must be True or False, got {value!r}')
 	return bool(value)
 

@@ -6,6 +6,7 @@ Blocks are lists of half-spaces, so a joint cuts a block in two by being added t
 """
 
 import dataclasses
+import itertools
 import math
 import numbers
 from collections.abc import Iterable
@@ -18,11 +19,15 @@ from .precision import isNumber, real
 
 __all__ = ['JointSet', 'JointedRock', 'jointedRock']
 
-mostJoints = 10000
-"""Of all sets together: more are refused, for their blocks could not be computed with anyway; a spacing in a wrong unit is likelier."""
+mostBlocks = 1e5
+"""Expected: more are refused, for they could not be computed with anyway; a spacing in a wrong unit is likelier."""
 
 smallestFraction = 0.01
-"""Default inscribed radius of the smallest piece over the smallest spacing: thinner ones cost time step and carry nothing."""
+"""Default inscribed radius of the smallest piece over the smallest spacing, or over the region's own inscribed radius if that is less: thinner
+pieces cost time step and carry nothing."""
+
+oneRounding = 1e-12
+"""[rad]: a dip this much above π/2 is vertical."""
 
 touching = 1e-9
 """Of the block's size: a joint that passes no farther inside a block than this follows a face or corner, and does not cut."""
@@ -54,12 +59,14 @@ class JointSet:
 	fisher: float = None
 
 	def __post_init__(self):
-		if not _finite(self.dip) or not 0 <= self.dip <= math.pi / 2:
+		if not _finite(self.dip) or not 0 <= self.dip <= math.pi / 2 + oneRounding:
 			raise ValueError(f'dip: must be from 0 to π/2 (radians), got {self.dip!r}')
 		if not _finite(self.dipDirection) or abs(self.dipDirection) > 2 * math.pi:
 			raise ValueError(f'dipDirection: must be an azimuth in radians, within ±2π, got {self.dipDirection!r}')
 		if not _finite(self.spacing) or not self.spacing > 0:
 			raise ValueError(f'spacing: must be positive and finite [m], got {self.spacing!r}')
+		if self.exponential not in (True, False):
+			raise ValueError(f'exponential: must be True or False, got {self.exponential!r}')
 		if self.through is not None:
 			if self.exponential:
 				raise ValueError('through: random distances (exponential) have no joint at a given point; leave it out')
@@ -122,29 +129,31 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}
 	:param jointSets: sequence of :yref:`JointSet`
 	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
-	    of the smallest spacing
+	    of the smallest spacing or of the region's own inscribed radius
 	:param int seed: of the random distances and normals
 	:returns: :yref:`JointedRock`
-	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 10 000 joints,
-	    *smallest* negative or not finite, *seed* negative
+	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 100 000
+	    blocks to be expected, *smallest* negative or above the region's inscribed radius, *seed* negative
 	"""
 	jointSets = list(jointSets) if isinstance(jointSets, Iterable) else []
 	if not jointSets or not all(isinstance(joints, JointSet) for joints in jointSets):
 		raise ValueError('jointSets: must be a sequence of one or more JointSet')
-	if smallest is None:
-		smallest = smallestFraction * min(joints.spacing for joints in jointSets)
-	if not _finite(smallest) or smallest < 0:
-		raise ValueError(f'smallest: must be zero or positive and finite [m], got {smallest!r}')
 	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or seed < 0:
 		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
-	region = _polytope.polyhedron(*_halfSpaces(normals, offsets))
-	centre = np.mean(np.array(region['vertices'], float), axis=0)
-	# about the region's centre, where numbers are small
-	blocks = [_Block(np.array(region['normals'], float), np.array(region['offsets'], float) - np.array(region['normals'], float) @ centre)]
-	radius = blocks[0].radius
-	expected = sum(2 * radius * (1 if joints.fisher is None else scatterReach) / joints.spacing for joints in jointSets)
-	if expected > mostJoints:
-		raise ValueError(f'jointSets: {expected:.3g} joints would cross the region, at most {mostJoints} can; is a spacing in another unit?')
+	given = _polytope.polyhedron(*_halfSpaces(normals, offsets))
+	# about the region's centroid, where numbers are small
+	centre = np.array(given['centroid'], float)
+	region = _Block(np.array(given['normals'], float), np.array(given['offsets'], float) - np.array(given['normals'], float) @ centre)
+	blocks, radius = [region], region.radius
+	if smallest is None:
+		smallest = smallestFraction * min(region.inscribedRadius, *(joints.spacing for joints in jointSets))
+	if not _finite(smallest) or not 0 <= smallest <= region.inscribedRadius:
+		raise ValueError(
+			f"smallest: must be from zero to the region's own inscribed radius, {region.inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
+		)
+	expected = _expectedBlocks(region.volume, jointSets)
+	if expected > mostBlocks:
+		raise ValueError(f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?')
 	random = np.random.default_rng(seed)
 	planes = np.concatenate([joints.planes(centre, radius, random) for joints in jointSets])
 	planes[:, 3] -= planes[:, :3] @ centre
@@ -199,6 +208,15 @@ class _Block:
 		return parts if min(part.inscribedRadius for part in parts) >= smallest else None
 
 
+def _expectedBlocks(volume, jointSets):
+	"""As many as there are points in which three joints meet, within the region, lines on its surface in which two do, and so on."""
+	length, scaled = volume ** (1 / 3), [joints.normal / joints.spacing for joints in jointSets]
+	planes = sum(np.linalg.norm(a) for a in scaled)
+	lines = sum(np.linalg.norm(np.cross(a, b)) for a, b in itertools.combinations(scaled, 2))
+	points = sum(abs(np.linalg.det(three)) for three in itertools.combinations(scaled, 3))
+	return 1 + planes * length + lines * length**2 + points * volume
+
+
 def _finite(value):
 	return isNumber(value) and not isinstance(value, bool) and math.isfinite(value)
 
@@ -214,10 +232,13 @@ def _point(value, name):
 
 
 def _halfSpaces(normals, offsets):
+	if not isinstance(normals, Iterable):
+		raise ValueError('normals: must be a sequence of 3-vectors')
 	try:
-		return _exactly([_point(a, 'normals') for a in normals], offsets)
-	except TypeError:
-		raise ValueError('normals: must be a sequence of 3-vectors, and offsets one of numbers') from None
+		offsets = [float(d) for d in offsets]
+	except (TypeError, ValueError):
+		raise ValueError('offsets: must be a sequence of numbers') from None
+	return _exactly([_point(a, 'normals') for a in normals], offsets)
 
 
 def _exactly(normals, offsets):

@@ -43,7 +43,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	What a setting changes besides arguments of *build* is set once, after build(), and looked up again after measure(). A scene that is
 	renewed in between loses it (O.loadTmp of a state saved in build(), engines made in measure()): such a row says 'not in effect', and has
 	neither answer nor cost. To go back to the start save it in measure(), O.saveTmp() first. A measure() may change O.dt (to
-	polytope.stableTimeStep() for example), but then no *timeStep* or *timeStepFactor* is in effect, except a factor of 1.
+	polytope.stableTimeStep() for example), but then no *timeStep* or *timeStepFactor* is in effect, except a factor of 1. What measure() loses and has put back at its end nobody can see.
 
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors

@@ -92,6 +92,8 @@ class TradeoffTable:
 		first = next((row.timeStep for row in rows if row.timeStep), None)
 		for row in rows:
 			known = row.answer is not None and _isFinite(row.answer) and true is not None
+			if known and isinstance(reference, str) and _length(row.answer) != _length(true):
+				row.note, known = row.note or f'measure() returned {_length(row.answer)}, for {reference!r} {_length(true)}', False
 			row.error = _difference(row.answer, true) if known else None
 			if row.cost is None and row.stepMicroseconds is not None:
 				row.cost = row.stepMicroseconds * (first / row.timeStep if row.timeStep else 1)
@@ -197,9 +199,13 @@ def _shown(answer):
 
 def checkLength(value, true):
 	""":raises ValueError: naming *reference*: the true answer has not as many numbers as the measured one, or is one number where that is a list"""
-	there, wanted = (f'{len(one)} numbers' if hasattr(one, '__len__') else 'a single number' for one in (value, true))
+	there, wanted = _length(value), _length(true)
 	if there != wanted:
 		raise ValueError(f'reference: must have as many numbers as measure() returns: that is {there}, the reference {wanted}')
+
+
+def _length(value):
+	return f'{len(value)} numbers' if hasattr(value, '__len__') else 'a single number'
 
 
 def _difference(value, true):

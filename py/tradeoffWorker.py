@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One setting of polytope.tradeoff(), in a process of its own: `python3 -m yade.polytope.tradeoffWorker TASK ANSWER`, two JSON files."""
 
+import ctypes
 import importlib
 import importlib.util
 import inspect
@@ -8,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import signal
 import sys
 import time
 
@@ -158,7 +160,14 @@ def answer(task):
 	return result
 
 
+def endWithCaller():
+	"""So that a caller which is killed, by a batch system for example, leaves no process behind (prctl(2), Linux)."""
+	endsWithParent = 1
+	ctypes.CDLL(None).prctl(endsWithParent, signal.SIGKILL)
+
+
 def main(taskFile, answerFile):
+	endWithCaller()
 	task = json.loads(pathlib.Path(taskFile).read_text())
 	try:
 		content = answer(task)

@@ -54,7 +54,7 @@ py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::R
 	return asTuple(polytope::hullOf(points, dimension, coplanar));
 }
 
-/// Corners, planes with a face, volume and inscribed ball of a set of half-spaces where it is.
+/// Corners, planes with a face, volume, centroid and inscribed ball of a set of half-spaces where it is.
 py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
 {
 	const polytope::HalfSpaces set
@@ -67,6 +67,7 @@ py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vecto
 	result["offsets"]         = set.offsets;
 	result["vertices"]        = hull.vertices;
 	result["volume"]          = mass.volume;
+	result["centroid"]        = mass.centroid;
 	result["inscribedRadius"] = polytope::ConvexShape(central, 0).inscribedRadius();
 	return result;
 }
@@ -84,8 +85,16 @@ py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<y
 	// first to the centroid, then to the axes: a small body far out has no digits to spare for its inertia
 	yade::Vector3r position = polytope::massProperties(polytope::polyhedron(set, thickness)).centroid;
 	if (dimension == 2) position[2] = 0;
-	set                = polytope::moved(set, yade::Matrix3r::Identity(), -position);
-	const auto mass    = polytope::massProperties(polytope::polyhedron(set, thickness));
+	set       = polytope::moved(set, yade::Matrix3r::Identity(), -position);
+	auto mass = polytope::massProperties(polytope::polyhedron(set, thickness));
+	// far out the centroid itself was rounded, perhaps by more than the frame may be
+	yade::Vector3r rest = mass.centroid;
+	if (dimension == 2) rest[2] = 0;
+	if (rest.norm() > yade::Polytope::frameTolerance / 100 * cbrt(mass.volume)) {
+		position += rest;
+		set  = polytope::moved(set, yade::Matrix3r::Identity(), -rest);
+		mass = polytope::massProperties(polytope::polyhedron(set, thickness));
+	}
 	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
 	const auto central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
 	py::dict   result;
@@ -177,7 +186,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
 	        "Normals and offsets of the convex hull of points.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
-	        "Half-spaces without redundant ones, their vertices, volume and inscribed ball's radius, as a dictionary.");
+	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

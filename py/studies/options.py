@@ -15,6 +15,7 @@ import argparse
 import contextlib
 import math
 import pathlib
+import tempfile
 
 from .script import scriptFile
 
@@ -33,6 +34,7 @@ __all__ = [
 	'positive',
 	'refusing',
 	'shown',
+	'writableFolder',
 ]
 
 contactPoints = ('analyticCentre', 'chebyshevCentre', 'centroid')
@@ -85,6 +87,17 @@ def existingFile(text):
 	return path
 
 
+def writableFolder(text):
+	"""Path of a folder that files can be written to, made if need be (argparse type)."""
+	folder = pathlib.Path(text).resolve()
+	try:
+		folder.mkdir(parents=True, exist_ok=True)
+		tempfile.TemporaryFile(dir=folder).close()
+	except OSError as error:
+		raise argparse.ArgumentTypeError(f'cannot write to {folder}: {error.strerror}; name a folder that files can be written to') from None
+	return folder
+
+
 class Decreasing(argparse.Action):
 	"""An argparse action for several numbers, each smaller than the one before: steps from coarse to fine."""
 
@@ -109,7 +122,7 @@ def paperParser(text, quick, geometry=None, noPictures='no pictures and no plots
 		default = script.parent / 'geometry' / geometry
 		parser.add_argument('--geometry', type=existingFile, default=default, metavar='FILE', help='as JSON, see geometry/README.md')
 	parser.add_argument('--quick', action='store_true', help=quick)
-	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output') / script.stem, help='folder for all files')
+	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output') / script.stem, help='folder for all files')
 	parser.add_argument('--no-pictures', action='store_true', help=noPictures)
 	return parser
 

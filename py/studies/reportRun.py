@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What `./run paper` and `./run accuracy` do alike: run the scripts, write one report, say how it ended."""
 
-import pathlib
+import argparse
 import signal
 import sys
-import tempfile
 
+from .options import writableFolder
 from .paperReport import section, show, writeHtml, writeResults
 from .paperRuns import perform
 
@@ -14,13 +14,10 @@ __all__ = ['endOnTerm', 'outputFolder', 'report']
 
 def outputFolder(parser, folder):
 	"""The folder as a whole path, made if need be; ends the program as argparse does, naming --output, if no file can be written there."""
-	folder = pathlib.Path(folder).resolve()
 	try:
-		folder.mkdir(parents=True, exist_ok=True)
-		tempfile.TemporaryFile(dir=folder).close()
-	except OSError as error:
-		parser.error(f'--output: cannot write to {folder}: {error.strerror}; name a folder that files can be written to')
-	return folder
+		return writableFolder(folder)
+	except argparse.ArgumentTypeError as error:
+		parser.error(f'--output: {error}')
 
 
 def report(planned, given, template, base=None):

@@ -22,7 +22,7 @@ import sys
 from tqdm import tqdm
 
 from yade.polytope.findings import Findings
-from yade.polytope.studies.options import count, existingFile
+from yade.polytope.studies.options import count, existingFile, writableFolder
 from yade.polytope.studies.script import conclude
 
 from extremePlots import plotPairs
@@ -40,7 +40,7 @@ def options(arguments=None):
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
 	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='axes at a time')
 	parser.add_argument('--program', type=existingFile, default=program, help='polytope_extremes, as built by ./run build')
-	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output/pairExtremes'), help='folder for all files')
+	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/pairExtremes'), help='folder for all files')
 	given = parser.parse_args(arguments)
 	given.samples = given.samples or (2 if given.quick else 10)
 	return given

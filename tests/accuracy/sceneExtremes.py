@@ -21,6 +21,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; a few
 from tqdm import tqdm
 
 from yade.polytope.findings import Findings
+from yade.polytope.studies.options import writableFolder
 from yade.polytope.studies.script import conclude
 
 from sceneAxes import collide, rest, slide, stack, tower, vibrate
@@ -194,7 +195,7 @@ def options(arguments=None):
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 	parser.add_argument('--quick', action='store_true', help='fewer values and steps')
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
-	parser.add_argument('--output', type=pathlib.Path, default=pathlib.Path('output/sceneExtremes'), help='folder for all files')
+	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/sceneExtremes'), help='folder for all files')
 	return parser.parse_args(arguments)
 
 

@@ -2,6 +2,7 @@
 """The builders of yade.polytope: textbook answers at every size, and refusals that name the argument."""
 import math
 
+import numpy
 import pytest
 from yade import Body, FrictMat, Ig2_Polytope_Polytope_PolytopeGeom, O, Polytope, Quaternion, Vector3, polytope
 
@@ -166,6 +167,10 @@ nan, inf = math.nan, math.inf
                 (lambda: polytope.fromHalfSpaces(CUBE, [1] * 6, keepRedundant='no'), ['keepRedundant']),
                 (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness='a'), ['thickness']),
                 (lambda: polytope.fromMesh(None), ['path']),
+                (lambda: polytope.regular(6, 1, fixed=numpy.array([True, False])), ['fixed']),
+                (lambda: polytope.regular(6, 1, mask=2**40), ['mask']),
+                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], velocity=(0, 0, 2)), ['velocity', 'plane']),
+                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], angularVelocity=(1, 0, 0)), ['angularVelocity', 'about z']),
                 (lambda: polytope.stableTimeStep(default=inf), ['default']),
                 (lambda: polytope.stableTimeStep(default=True), ['default']),
                 (lambda: polytope.cuboid((0, 0, 0), (1, 0, 1)), ['extents']),
@@ -179,6 +184,16 @@ def testWrongInputIsRefusedByName(build, names):
 	for name in names:
 		assert name in str(refusal.value)
 	assert len(O.bodies) == 0
+
+
+@pytest.mark.parametrize('far', [1e6, 1e9, 1e10])
+def testBodiesFarFromTheOriginHaveTheirCentroidThere(far):
+	"""The first centroid is rounded by the distance, so that it is looked for again from there."""
+	for k in range(40):
+		normals = [(math.cos(a), math.sin(a), c) for a, c in zip(numpy.linspace(0, 6, 7) + k, (1, -1, 0.3, -0.4, 0.2, -0.1, 0.5), strict=True)]
+		offsets = [numpy.dot(n, (far, far, far)) + 1 for n in normals]
+		body = polytope.fromHalfSpaces(normals, offsets)
+		assert abs(body.state.pos[0] - far) < 10
 
 
 def testMissingAndUnreadableMeshes(tmp_path):

@@ -29,6 +29,7 @@ def testThreeOrthogonalSetsMakeEqualBoxes():
 	assert len(rock.blocks) == 6 * 10 * 4 and rock.uncut == 0
 	assert len(rock.joints) == 5 + 9 + 3
 	assert rock.volumes == pytest.approx(np.full(240, 16.0), rel=1e-12)
+	assert len(polytope.jointedRock(box, half, [JointSet(0, 0, 500)]).blocks) == 2, 'the default of smallest leaves joints a thin region'
 	body = polytope.fromHalfSpaces(*rock.blocks[0])
 	assert len(body.shape.normals) == 6 and float(body.shape.volume) == pytest.approx(16, rel=1e-12)
 
@@ -51,6 +52,19 @@ def testNeighboursTouchWithoutOverlap():
 	contacts = [polytope.contact(a, b) for k, a in enumerate(bodies) for b in bodies[:k]]
 	assert not any(contact.inContact for contact in contacts)
 	assert sum(contact.infeasibility < 1e-9 for contact in contacts) > 3 * len(bodies), 'neighbours share faces, edges and corners'
+
+
+def testJointsStartFromTheCentroid():
+	"""Not from the mean of the corners: a corner that is cut off by a hair leaves them where they are."""
+	(whole,), (cut,) = (
+		polytope.jointedRock(normals, offsets, [JointSet(0, 0, 100)]).joints
+		for normals, offsets in ((box, [10, 0, 8, 0, 6, 0]), ([*box, (1, 1, 1)], [10, 0, 8, 0, 6, 0, 24 - 1e-3]))
+	)
+	assert whole[3] == pytest.approx(3, abs=1e-12) and cut[3] == pytest.approx(3, abs=1e-9)
+
+
+def testVerticalByOneRoundingTooMuch():
+	assert polytope.jointedRock(box, half, [JointSet(pi / 2 * (1 + 2e-16), 0, 100)]).joints.shape == (1, 4)
 
 
 def testDipAndDipDirection():
@@ -113,6 +127,8 @@ def testJointsAlongFacesAndCornersDoNotCut():
 		({'spacing': True}, 'spacing'),
 		({'fisher': 0}, 'fisher'),
 		({'through': (1, 2)}, 'through'),
+		({'exponential': 'no'}, 'exponential'),
+		({'exponential': None}, 'exponential'),
 		({'through': (1, 2, float('nan'))}, 'through'),
 		({'through': (0, 0, 0), 'exponential': True}, 'through'),
 	],
@@ -133,8 +149,11 @@ def testWrongJointsAreRefused(arguments, named):
 		({'jointSets': []}, 'jointSets'),
 		({'jointSets': [3]}, 'jointSets'),
 		({'jointSets': 3}, 'jointSets'),
-		({'jointSets': [JointSet(0.5, 1, 1e-3)]}, 'jointSets'),
+		({'jointSets': [JointSet(0.5, 1, 1e-4)]}, 'jointSets'),
+		({'jointSets': [JointSet(0, 0, 0.05), JointSet(pi / 2, 0, 0.05), JointSet(pi / 2, pi / 2, 0.05)]}, 'jointSets'),
 		({'smallest': -1}, 'smallest'),
+		({'smallest': 6.01}, 'smallest'),
+		({'offsets': ['a'] * 6}, 'offsets'),
 		({'smallest': 'no'}, 'smallest'),
 		({'seed': -1}, 'seed'),
 		({'seed': 1.5}, 'seed'),

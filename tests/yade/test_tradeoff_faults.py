@@ -207,6 +207,22 @@ def testASceneWithoutTimeStepIsNamed():
 	assert 'O.dt above 0' in row.note and row.cost is None
 
 
+def buildPair(numbers=2):
+	O.reset()
+	O.engines, O.dt = [NewtonIntegrator()], 1e-3
+	return numbers
+
+
+def measureSome(numbers):
+	return [1.0] * numbers
+
+
+def testARowOfAnotherLengthThanTheReferenceRowIsNamed():
+	table = polytope.tradeoff(buildPair, {'two': {}, 'three': {'numbers': 3}}, measureSome, 'two', timedSeconds=0)
+	assert table['two'].error == 0 and not table['two'].note
+	assert table['three'].error is None and '3 numbers' in table['three'].note and not table['three'].counts
+
+
 def testALengthThatDoesNotFitIsRefusedAfterTheFirstRun(monkeypatch, tmp_path):
 	monkeypatch.setenv('POLYTOPE_TEST', str(tmp_path))
 	with pytest.raises(ValueError, match='reference: .*a single number.*3 numbers'):

@@ -4,6 +4,8 @@
 import os
 import pathlib
 import signal
+import subprocess
+import sys
 import time
 
 import pytest
@@ -44,3 +46,29 @@ def testAnInterruptKeepsTheRowsAndEndsTheProcess(monkeypatch, tmp_path):
 	while runs(worker) and time.monotonic() < end:
 		time.sleep(0.01)
 	assert not runs(worker)
+
+
+def testAKilledCallerLeavesNoProcess(tmp_path):
+	script = tmp_path / 'killed.py'
+	script.write_text(
+		'import os, pathlib, time\n'
+		'from yade import NewtonIntegrator, O, polytope\n'
+		'def build():\n'
+		'	O.engines, O.dt = [NewtonIntegrator()], 1e-3\n'
+		'def measure():\n'
+		f'	(pathlib.Path({str(tmp_path)!r}) / f"worker-{{os.getpid()}}").touch()\n'
+		'	time.sleep(300)\n'
+		'if __name__ == "__main__":\n'
+		'	polytope.tradeoff(build, {"a": {}}, measure, 1)\n'
+	)
+	caller = subprocess.Popen([sys.executable, script], cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+	until = time.time() + 60
+	while not list(tmp_path.glob('worker-*')):
+		assert time.time() < until and caller.poll() is None
+		time.sleep(0.1)
+	(name,) = (path.name for path in tmp_path.glob('worker-*'))
+	caller.kill()
+	caller.wait()
+	while runs(name.split('-')[1]):
+		assert time.time() < until
+		time.sleep(0.1)
