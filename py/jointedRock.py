@@ -65,7 +65,7 @@ class JointSet:
 			raise ValueError(f'dipDirection: must be an azimuth in radians, within ±2π, got {self.dipDirection!r}')
 		if not _finite(self.spacing) or not self.spacing > 0:
 			raise ValueError(f'spacing: must be positive and finite [m], got {self.spacing!r}')
-		if self.exponential not in (True, False):
+		if not isinstance(self.exponential, (bool, np.bool_)):
 			raise ValueError(f'exponential: must be True or False, got {self.exponential!r}')
 		if self.through is not None:
 			if self.exponential:

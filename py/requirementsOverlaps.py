@@ -74,7 +74,7 @@ def newtonTolerance(scene):
 	"""Newton tolerance"""
 	thin = [-float(contact.geom.infeasibility) for contact in scene.contacts if contact.geom.infeasibility < 0]
 	if scene.values('contactModel') != ['paper'] or scene.values('contactPoint') != ['analyticCentre']:
-		return "it is the analytic centre's, which is not in use"
+		return 'looked at for the analytic centre alone'
 	if 'newton' not in scene.values('solver'):
 		return "it is Newton's, and Ipopt solves for the centre"
 	if not thin:
