@@ -88,11 +88,11 @@ def existingFile(text):
 
 
 def writableFolder(text):
-	"""Path of a folder that files can be written to, made if need be (argparse type)."""
+	"""Path of a folder that files can be written to, or that can be made (argparse type). Nothing is made: another option may be refused."""
 	folder = pathlib.Path(text).resolve()
+	there = next(path for path in (folder, *folder.parents) if path.exists())
 	try:
-		folder.mkdir(parents=True, exist_ok=True)
-		tempfile.TemporaryFile(dir=folder).close()
+		tempfile.TemporaryFile(dir=there).close()
 	except OSError as error:
 		raise argparse.ArgumentTypeError(f'cannot write to {folder}: {error.strerror}; name a folder that files can be written to') from None
 	return folder

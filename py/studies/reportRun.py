@@ -15,9 +15,11 @@ __all__ = ['endOnTerm', 'outputFolder', 'report']
 def outputFolder(parser, folder):
 	"""The folder as a whole path, made if need be; ends the program as argparse does, naming --output, if no file can be written there."""
 	try:
-		return writableFolder(folder)
-	except argparse.ArgumentTypeError as error:
+		folder = writableFolder(folder)
+		folder.mkdir(parents=True, exist_ok=True)
+	except (argparse.ArgumentTypeError, OSError) as error:
 		parser.error(f'--output: {error}')
+	return folder
 
 
 def report(planned, given, template, base=None):
