@@ -122,8 +122,8 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 		slope = polytope.jointedRock(normals, offsets, [polytope.JointSet(radians(35), radians(90), spacing=2), …])
 		O.bodies.append([polytope.fromHalfSpaces(*block) for block in slope.blocks])
 
-	The blocks fill the region and touch without overlap, to the rounding of double (in YADE's wider precisions, too). Joints cut one after the other, set by set: where *smallest* keeps a cut from
-	being made, the order matters. For a region that is not convex cut convex parts of it.
+	The blocks fill the region and touch without overlap, to the rounding of double (in YADE's wider precisions, too). Joints
+	cut one after the other, set by set: where *smallest* keeps a cut from being made, the order matters. For a region that is not convex cut convex parts of it.
 
 	:param normals: (n, 3) outward normals of the region, of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}
