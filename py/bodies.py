@@ -18,14 +18,13 @@ share these keyword arguments (*body* below), with the meaning they have in :yre
 import numbers
 import os
 
-import numpy
-
 from yade import Body, Polytope, Quaternion, Vector3
 from yade import utils
 
 from yade import _polytope
 
-from .precision import isNumber, real
+from .arguments import flag, number, numbersOf, rotation, vector, vectors
+from .precision import isNumber
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
 
@@ -50,7 +49,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
-	return _body(_vectors(normals, 'normals', 3), _numbers(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
+	return _body(vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
 
 
 def fromVertices(points, **body):
@@ -59,7 +58,7 @@ def fromVertices(points, **body):
 	:param points: (n, 3) points [m]; points inside the hull are allowed
 	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
 	"""
-	return _body(*_polytope.hull(_vectors(points, 'points', 3), 3, 0), **body)
+	return _body(*_polytope.hull(vectors(points, 'points', 3), 3, 0), **body)
 
 
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
@@ -73,8 +72,8 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 	"""
 	if not isinstance(faces, numbers.Integral):
 		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
-	normals, offsets = _polytope.regularSolid(int(faces), _number(circumradius, 'circumradius'))
-	return _body(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+	normals, offsets = _polytope.regularSolid(int(faces), number(circumradius, 'circumradius'))
+	return _body(normals, offsets, place=(vector(center, 'center'), rotation(orientation)), **body)
 
 
 def cuboid(center, extents, orientation=Quaternion.Identity, **body):
@@ -85,13 +84,13 @@ def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	:param Quaternion orientation: of the body
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
-	half = _vector(extents, 'extents')
+	half = vector(extents, 'extents')
 	if not all(0 < h < float('inf') for h in half):
 		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
 	axes = [Vector3.Unit(k) for k in range(3)]
 	normals = [a for axis in axes for a in (axis, -axis)]
 	offsets = [half[k // 2] for k in range(6)]
-	return _body(normals, offsets, place=(_vector(center, 'center'), _rotation(orientation)), **body)
+	return _body(normals, offsets, place=(vector(center, 'center'), rotation(orientation)), **body)
 
 
 def polygon(points2d, thickness=1.0, **body):
@@ -101,7 +100,7 @@ def polygon(points2d, thickness=1.0, **body):
 	:param float thickness: extent along z for mass and contact areas [m]
 	:raises ValueError: naming *points2d*, *thickness*, or a *velocity* or *angularVelocity* out of the plane
 	"""
-	points = [Vector3(p[0], p[1], 0) for p in _vectors(points2d, 'points2d', 2)]
+	points = [Vector3(p[0], p[1], 0) for p in vectors(points2d, 'points2d', 2)]
 	try:
 		normals, offsets = _polytope.hull(points, 2, 0)
 	except ValueError as error:
@@ -132,7 +131,7 @@ def fromMesh(path, scale=1.0, **body):
 	if len(points) == 0:
 		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
 	try:
-		hull = _polytope.hull(_vectors(points, 'points', 3), 3, singlePrecision)
+		hull = _polytope.hull(vectors(points, 'points', 3), 3, singlePrecision)
 	except ValueError as error:
 		raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
 	return _body(*hull, **body)
@@ -156,10 +155,10 @@ def _body(
         angularVelocity=(0, 0, 0)
 ):
 	"""The body of a set of half-spaces; *place* moves it there instead of leaving it at its own centroid."""
-	central = _polytope.centred(normals, offsets, dimension, _number(thickness, 'thickness'), _flag(keepRedundant, 'keepRedundant'))
+	central = _polytope.centred(normals, offsets, dimension, number(thickness, 'thickness'), flag(keepRedundant, 'keepRedundant'))
 	if cornerRadius is None:
 		cornerRadius = defaultCornerFraction * central['inscribedRadius']
-	cornerRadius = _number(cornerRadius, 'cornerRadius')
+	cornerRadius = number(cornerRadius, 'cornerRadius')
 	body = Body()
 	body.shape = Polytope(
 	        normals=central['normals'],
@@ -167,19 +166,19 @@ def _body(
 	        cornerRadius=cornerRadius,
 	        dimension=dimension,
 	        thickness=thickness,
-	        color=utils.randomColor() if color is None else _vector(color, 'color'),
-	        wire=_flag(wire, 'wire'),
-	        highlight=_flag(highlight, 'highlight')
+	        color=utils.randomColor() if color is None else vector(color, 'color'),
+	        wire=flag(wire, 'wire'),
+	        highlight=flag(highlight, 'highlight')
 	)
 	position, orientation = central['position'], central['orientation']
 	if place:
 		position, orientation = place[0] + place[1] * position, place[1] * orientation
 	inertia = body.shape.inertia
-	fixed = _flag(fixed, 'fixed')
+	fixed = flag(fixed, 'fixed')
 	utils._commonBodySetup(body, body.shape.volume, inertia, material, pos=position, fixed=fixed)
 	body.state.ori = body.state.refOri = orientation
-	body.state.vel = _vector(velocity, 'velocity')
-	body.state.angVel = _vector(angularVelocity, 'angularVelocity')
+	body.state.vel = vector(velocity, 'velocity')
+	body.state.angVel = vector(angularVelocity, 'angularVelocity')
 	if dimension == 2:
 		if body.state.vel[2] != 0:
 			raise ValueError(f'velocity: a polygon stays in its plane; the third component must be 0, got {velocity!r}')
@@ -193,51 +192,3 @@ def _body(
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
 	body.mask = int(mask)
 	return body
-
-
-def _number(value, name):
-	if not isNumber(value):
-		raise ValueError(f'{name}: must be a number, got {value!r}')
-	return real(value)
-
-
-def _flag(value, name):
-	if not isinstance(value, (bool, numpy.bool_)):
-		raise ValueError(f'{name}: must be True or False, got {value!r}')
-	return bool(value)
-
-
-def _numbers(values, name):
-	try:
-		return [real(v) for v in values]
-	except (TypeError, ValueError):
-		raise ValueError(f'{name}: must be a sequence of numbers') from None
-
-
-def _vectors(rows, name, length):
-	try:
-		vectors = [[real(x) for x in row] for row in rows]
-	except (TypeError, ValueError):
-		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
-	if any(len(v) != length for v in vectors):
-		raise ValueError(f'{name}: every row must have {length} components')
-	return [Vector3(*v) for v in vectors] if length == 3 else vectors
-
-
-def _vector(value, name):
-	try:
-		x, y, z = value
-		vector = Vector3(real(x), real(y), real(z))
-	except Exception:  # whatever is no sequence of three numbers
-		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
-	if not all(abs(x) < float('inf') for x in vector):
-		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
-	return vector
-
-
-def _rotation(orientation):
-	if not isinstance(orientation, Quaternion):
-		raise ValueError('orientation: must be a Quaternion')
-	if not 0 < orientation.norm() < float('inf'):
-		raise ValueError('orientation: must be a finite quaternion other than zero')
-	return orientation.normalized()

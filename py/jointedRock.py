@@ -15,6 +15,7 @@ import numpy as np
 from scipy.stats import vonmises_fisher
 from yade import Vector3, _polytope
 
+from .arguments import flag, numbersOf, vector, vectors
 from .precision import isNumber, real
 
 __all__ = ['JointSet', 'JointedRock', 'jointedRock']
@@ -65,12 +66,11 @@ class JointSet:
 			raise ValueError(f'dipDirection: must be an azimuth in radians, within ±2π, got {self.dipDirection!r}')
 		if not _finite(self.spacing) or not self.spacing > 0:
 			raise ValueError(f'spacing: must be positive and finite [m], got {self.spacing!r}')
-		if not isinstance(self.exponential, (bool, np.bool_)):
-			raise ValueError(f'exponential: must be True or False, got {self.exponential!r}')
+		flag(self.exponential, 'exponential')
 		if self.through is not None:
 			if self.exponential:
 				raise ValueError('through: random distances (exponential) have no joint at a given point; leave it out')
-			object.__setattr__(self, 'through', tuple(_point(self.through, 'through')))
+			object.__setattr__(self, 'through', tuple(float(x) for x in vector(self.through, 'through')))
 		if self.fisher is not None and not (_finite(self.fisher) and self.fisher > 0):
 			raise ValueError(f"fisher: must be positive and finite (Fisher's constant), or None for parallel joints, got {self.fisher!r}")
 
@@ -140,7 +140,7 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 		raise ValueError('jointSets: must be a sequence of one or more JointSet')
 	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or seed < 0:
 		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
-	given = _polytope.polyhedron(*_halfSpaces(normals, offsets))
+	given = _polytope.polyhedron(vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'))
 	# about the region's centroid, where numbers are small
 	centre = np.array(given['centroid'], float)
 	region = _Block(np.array(given['normals'], float), np.array(given['offsets'], float) - np.array(given['normals'], float) @ centre)
@@ -219,26 +219,6 @@ def _expectedBlocks(volume, jointSets):
 
 def _finite(value):
 	return isNumber(value) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _point(value, name):
-	try:
-		point = np.array([float(x) for x in value])
-	except (TypeError, ValueError):
-		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
-	if point.shape != (3,) or not np.isfinite(point).all():
-		raise ValueError(f'{name}: must be three finite numbers, got {value!r}')
-	return point
-
-
-def _halfSpaces(normals, offsets):
-	if not isinstance(normals, Iterable):
-		raise ValueError('normals: must be a sequence of 3-vectors')
-	try:
-		offsets = [float(d) for d in offsets]
-	except (TypeError, ValueError):
-		raise ValueError('offsets: must be a sequence of numbers') from None
-	return _exactly([_point(a, 'normals') for a in normals], offsets)
 
 
 def _exactly(normals, offsets):

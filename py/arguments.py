@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Arguments that scripts give, as YADE's numbers and vectors. What is none is a ValueError that names the argument."""
+
+import numpy as np
+from yade import Quaternion, Vector3
+
+from .precision import isNumber, real
+
+__all__ = ['flag', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
+
+
+def number(value, name):
+	if not isNumber(value):
+		raise ValueError(f'{name}: must be a number, got {value!r}')
+	return real(value)
+
+
+def flag(value, name):
+	if not isinstance(value, (bool, np.bool_)):
+		raise ValueError(f'{name}: must be True or False, got {value!r}')
+	return bool(value)
+
+
+def numbersOf(values, name):
+	try:
+		return [real(v) for v in values]
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be a sequence of numbers') from None
+
+
+def vectors(rows, name, length):
+	try:
+		vectors = [[real(x) for x in row] for row in rows]
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
+	if any(len(v) != length for v in vectors):
+		raise ValueError(f'{name}: every row must have {length} components')
+	return [Vector3(*v) for v in vectors] if length == 3 else vectors
+
+
+def vector(value, name):
+	try:
+		x, y, z = value
+		vector = Vector3(real(x), real(y), real(z))
+	except Exception:  # whatever is no sequence of three numbers
+		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
+	if not all(abs(x) < float('inf') for x in vector):
+		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
+	return vector
+
+
+def rotation(orientation):
+	if not isinstance(orientation, Quaternion):
+		raise ValueError('orientation: must be a Quaternion')
+	if not 0 < orientation.norm() < float('inf'):
+		raise ValueError('orientation: must be a finite quaternion other than zero')
+	return orientation.normalized()
