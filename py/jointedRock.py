@@ -83,7 +83,7 @@ class JointSet:
 	def planes(self, centre, radius, random):
 		"""Joints that may cross a ball.
 
-		:param centre: of the ball [m]
+		:param centre: of the ball [m], from which d is measured
 		:param float radius: of the ball [m]
 		:param numpy.random.Generator random: for distances and normals
 		:returns: (n, 4) array, rows a_x, a_y, a_z, d of planes a·x = d with unit normals
@@ -98,8 +98,7 @@ class JointSet:
 			normals = np.tile(self.normal, (len(along), 1))
 		else:
 			normals = vonmises_fisher(self.normal, self.fisher, seed=random).rvs(len(along)).reshape(-1, 3)
-		points = centre + np.outer(along, self.normal)
-		return np.column_stack([normals, np.einsum('ij,ij->i', normals, points)])
+		return np.column_stack([normals, along * (normals @ self.normal)])
 
 
 @dataclasses.dataclass
@@ -156,7 +155,6 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 		raise ValueError(f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?')
 	random = np.random.default_rng(seed)
 	planes = np.concatenate([joints.planes(centre, radius, random) for joints in jointSets])
-	planes[:, 3] -= planes[:, :3] @ centre
 	uncut, cutting = 0, []
 	for plane in planes:
 		pieces = []
