@@ -9,7 +9,7 @@ draws the second. Ends with 1 if it is not so.
 """
 
 import sys
-from math import cos, pi, radians, sin, tan
+from math import cos, pi, radians, sin
 
 import numpy as np
 from yade import (
@@ -25,6 +25,7 @@ from yade import (
 	RockJointMat,
 	polytope,
 )
+from yade.polytope.frictionReduction import setFrictionAngle
 
 east, north, west = pi / 2, 0, 3 * pi / 2
 bedding, face = radians(35), radians(60)
@@ -70,9 +71,7 @@ O.dt = 2e-4
 
 def moved(friction, seconds):
 	"""Largest way of a block [m] after so much time with a friction angle, and the number of blocks that have moved by 5 cm."""
-	O.materials[0].frictionAngle = friction
-	for contact in O.interactions:
-		contact.phys.tangensOfFrictionAngle = tan(friction)
+	setFrictionAngle(friction)
 	start = [body.state.pos for body in O.bodies]
 	O.run(round(seconds / O.dt), wait=True)
 	ways = [(body.state.pos - origin).norm() for body, origin in zip(O.bodies, start, strict=True)]
