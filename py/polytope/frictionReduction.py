@@ -15,8 +15,10 @@ What is left at the end is a bracket as wide as the last step.
 import dataclasses
 import math
 
-from yade import InteractionLoop, O, RockJointMat, RockJointPhys
+from yade import O, RockJointMat, RockJointPhys
 from yade.math import tan  # of YADE's numbers, in any precision
+
+from ._scene import interactionLoops
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
 
@@ -28,7 +30,7 @@ def setFrictionAngle(angle):
 	:raises ValueError: naming *frictionAngle* if out of range; naming *frictAngle* if a MatchMaker of the
 	    Ip2 functor says otherwise for new contacts
 	"""
-	for loop in _interactionLoops():
+	for loop in interactionLoops():
 		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
 			raise ValueError('frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials\' angle')
 	for material in O.materials:
@@ -197,12 +199,8 @@ class FrictionReduction:
 
 	def _bookQueries(self):
 		"""Adds the contact functors' counts of failures to ours."""
-		for loop in _interactionLoops():
+		for loop in interactionLoops():
 			for functor in loop.geomDispatcher.functors:
 				if hasattr(functor, 'stats'):
 					self.failedQueries += functor.stats()['failures']
 					functor.resetStats()
-
-
-def _interactionLoops():
-	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]

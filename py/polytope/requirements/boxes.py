@@ -4,7 +4,7 @@
 import numpy as np
 from yade import Polytope, PolytopeCollider
 
-from .worker import colliders
+from .._scene import colliders
 
 __all__ = ['boxes', 'verletDist']
 

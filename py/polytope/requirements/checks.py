@@ -10,13 +10,12 @@ import numpy as np
 import yade
 from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
 
+from .._scene import geometryFunctors, interactionLoops, laws
+from ..timeStep import stableTimeStep
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
 from .overlaps import cornerRadius, newtonTolerance
 from .plane import dimension
-from .worker import laws
-from ..timeStep import stableTimeStep
-from ..tradeoff.effect import geometryFunctors, interactionLoops
 
 __all__ = ['looks']
 

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from .. import _builds as precision
+from .. import _builds
 
 __all__ = ['stepTimes']
 
@@ -32,7 +32,7 @@ def stepTimes(O, trials):
 			raise _unwritable(f'the scene to {scene}', error) from error
 		command = [sys.executable, '-P', '-m', 'yade.polytope.requirements.worker', str(scene), str(changes), str(answers)]
 		with file:
-			subprocess.run(command, env=precision.environment(precision.present()), stdin=subprocess.DEVNULL, stdout=file, stderr=file)
+			subprocess.run(command, env=_builds.environment(_builds.present()), stdin=subprocess.DEVNULL, stdout=file, stderr=file)
 		try:
 			times = json.loads(answers.read_text())
 		except (OSError, ValueError):

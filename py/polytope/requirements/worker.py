@@ -12,13 +12,13 @@ import sys
 import traceback
 
 import numpy as np
-from yade import InsertionSortCollider, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O, PeriodicEngine
+from yade import O, PeriodicEngine
 
+from .._scene import colliders, geometryFunctors, laws
+from .._timing import timed
 from ..bodies import polygon
-from ..tradeoff.effect import geometryFunctors, interactionLoops
-from ..tradeoff.worker import timed
 
-__all__ = ['change', 'colliders', 'laws', 'prismOutline', 'stepTimes']
+__all__ = ['change', 'prismOutline', 'stepTimes']
 
 seconds, rounds = 0.12, 2
 """Of timed steps for each change in a round, and rounds over all changes: the machine may be busy during one."""
@@ -26,16 +26,6 @@ warmUp = 3
 """Steps before them: boxes and the contacts' memories are made anew."""
 flat = 1e-9
 """Up to which a normal counts as in the plane, or normal to it."""
-
-
-def colliders():
-	return [engine for engine in O.engines if isinstance(engine, InsertionSortCollider)]
-
-
-def laws():
-	"""The plug-in's laws of the scene."""
-	functors = (functor for loop in interactionLoops() for functor in loop.lawDispatcher.functors)
-	return [functor for functor in functors if isinstance(functor, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb)]
 
 
 def prismOutline(body):

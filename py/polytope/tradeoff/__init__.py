@@ -11,7 +11,7 @@ import tempfile
 
 from tqdm import tqdm
 
-from .. import _builds as precision
+from .. import _builds
 from .arguments import checkArguments, checkedSettings, checkNumbers, checkReference, ofTheScene, placeOf
 from .effect import settable
 from .inside import CalledAgain, inside
@@ -105,8 +105,8 @@ def _measure(rows, reference, where, repeats, timedSeconds, timeLimit):
 
 def _run(where, changes, timedSeconds, timeLimit):
 	"""One process; what it answered, {'error': …} if it did not."""
-	kind = changes.get('precision', precision.present())
-	if not precision.available(kind):
+	kind = changes.get('precision', _builds.present())
+	if not _builds.available(kind):
 		return {'error': f'not built for {kind}: YADE_POLYTOPE_PRECISION={kind} ./run build'}
 	task = {
 		**where,
@@ -121,7 +121,7 @@ def _run(where, changes, timedSeconds, timeLimit):
 		command = [sys.executable, '-P', '-m', 'yade.polytope.tradeoff.worker', *map(str, files[:2])]
 		with open(files[2], 'w') as log:
 			try:
-				environment = {**precision.environment(kind), inside: '1'}
+				environment = {**_builds.environment(kind), inside: '1'}
 				ended = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, timeout=timeLimit)
 			except subprocess.TimeoutExpired:
 				return {'error': f'took longer than {timeLimit:g} s'}

@@ -9,7 +9,7 @@ import pathlib
 
 import numpy as np
 
-from .. import _builds as precision
+from .. import _builds
 from ..precision import isNumber
 from .effect import settable
 
@@ -58,7 +58,7 @@ def _checkedChanges(setting, changes):
 	if {'timeStep', 'timeStepFactor'} <= checked.keys():
 		raise ValueError(f'settings[{setting!r}]: has both timeStep and timeStepFactor; one of them says what the step is')
 	if 'precision' in checked:
-		precision.available(checked['precision'])
+		_builds.available(checked['precision'])
 	return checked
 
 

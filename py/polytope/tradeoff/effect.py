@@ -3,24 +3,16 @@
 
 import math
 
-from yade import Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop, O
+from yade import O
 
-__all__ = ['Effect', 'geometryFunctors', 'interactionLoops', 'settable']
+from .._scene import geometryFunctors
+
+__all__ = ['Effect', 'settable']
 
 settable = ('contactModel', 'barrier', 'contactPoint', 'solver', 'warmStart', 'tolerance', 'newtonTolerance', 'computeArea', 'timing')
 """Attributes of the contact functor that a setting may change."""
 closest = 1e-9
 """Relative difference of two numbers that are the same: files of scenes may hold fewer digits."""
-
-
-def interactionLoops():
-	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]
-
-
-def geometryFunctors():
-	"""The scene's contact functors of polytopes, mixed pairs included."""
-	functors = (functor for loop in interactionLoops() for functor in loop.geomDispatcher.functors)
-	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
 
 
 class Effect:

@@ -18,8 +18,10 @@ import numpy as np
 import yade
 from yade import O
 
+from .._scene import geometryFunctors
+from .._timing import meansSoFar, resetTimes, timed
 from ..timeStep import stableTimeStep
-from .effect import Effect, geometryFunctors, interactionLoops
+from .effect import Effect
 from .energy import Energy
 from .inside import CalledAgain
 
@@ -27,8 +29,6 @@ __all__ = ['load', 'takesTheScene']
 
 digits = 45
 """Decimal digits of an answer: those of float128, and ten more."""
-leastBlock = 1e6
-"""Of one block of timed steps [ns]: a thousand times the clock's own resolution."""
 whatLosesIt = 'O.saveTmp() belongs in measure(), new engines and O.dt in build()'
 """Said where a setting is lost."""
 
@@ -70,50 +70,6 @@ def written(value):
 		return mpmath.nstr(mpmath.mpf(value), digits)
 	except (TypeError, ValueError):
 		raise ValueError(f'measure: must return a number, a list of numbers or a dictionary of these, there is {value!r}') from None
-
-
-def resetTimes():
-	for functor in geometryFunctors():
-		functor.resetStats()
-	for engine in O.engines:
-		engine.execTime = engine.execCount = 0
-	O.timingEnabled = True
-
-
-def contactsSoFar():
-	return sum(functor.stats()['contacts'] for functor in geometryFunctors())
-
-
-def meansSoFar():
-	"""The same as timed() of all steps since resetTimes(): means."""
-	steps, found = max((engine.execCount for engine in O.engines), default=0), contactsSoFar()
-	if not steps:
-		return None, None, None
-	spent, loops = (sum(engine.execTime for engine in engines) * 1e-3 for engines in (O.engines, interactionLoops()))
-	return spent / steps, loops / found if found else None, found / steps
-
-
-def timed(seconds):
-	"""Takes steps for so long and returns the least mean times of blocks of them: (µs a step, µs of the loop a contact, contacts a step).
-
-	The least, not the mean: another program that takes the processor makes a block longer, nothing makes it shorter.
-	"""
-	steps, began, step, contact, contacts = 1, time.perf_counter(), math.inf, math.inf, 0.0
-	while True:
-		resetTimes()
-		for _ in range(steps):
-			O.step()
-		spent, found = sum(engine.execTime for engine in O.engines), contactsSoFar()
-		out = time.perf_counter() - began > seconds
-		if spent < leastBlock and not out:
-			steps *= 2
-			continue
-		if spent / steps * 1e-3 < step:
-			step, contacts = spent / steps * 1e-3, found / steps
-		if found:
-			contact = min(contact, sum(loop.execTime for loop in interactionLoops()) / found * 1e-3)
-		if out:
-			return step, contact if math.isfinite(contact) else None, contacts
 
 
 def checkTimeStep(function):

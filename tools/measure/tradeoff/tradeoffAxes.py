@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from yade.polytope import _builds as precision
+from yade.polytope import _builds
 from yade.polytope.settings import presets
 from boon2012.beam.theory import BeamBetweenWalls
 from boon2012.wedges.theory import roofWedgeFrictionAngle
@@ -33,7 +33,7 @@ coarse = {name for name, changes in tolerances.items() if changes['newtonToleran
 of the size needs (tolerance::depth in src/Tolerances.hpp), whatever the setting says. They are run to show that."""
 cold = {'cold start': {'warmStart': False}}
 ipopt = {'Ipopt': {'solver': 'ipopt'}}
-wide = {name: {'precision': name} for name in precision.precisions if name != 'double'}
+wide = {name: {'precision': name} for name in _builds.precisions if name != 'double'}
 times = {f'time step × {factor:g}': {'timeStepFactor': factor} for factor in (0.25, 0.5, 2, 4)}
 stiffnesses = {f'stiffness × {factor:g}': {'stiffness': factor} for factor in (0.1, 10)}
 seeds = {f'seed {seed}': {'seed': seed} for seed in range(2, 7)}
@@ -86,7 +86,7 @@ class Scene:
 
 	def numericalReference(self, settings):
 		"""Name of the setting with the finest arithmetic among those that were run; None if there is none but double."""
-		there = [name for name in wide if name in settings and precision.available(name)]
+		there = [name for name in wide if name in settings and _builds.available(name)]
 		return there[-1] if there else None
 
 
