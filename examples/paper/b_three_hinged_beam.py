@@ -25,15 +25,15 @@ if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a sc
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
-from tqdm import tqdm
-from boon2012.reporting.findings import Findings
-from boon2012.beam.study import BeamStudy, solverNames
 from boon2012.beam.limits import BeamLimits
 from boon2012.beam.report import BeamReport, noIpopt
+from boon2012.beam.study import BeamStudy, solverNames
+from boon2012.beam.theory import BeamBetweenWalls
+from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import angle, contactPoints, fraction, number, paperParser, positive, refusing, shown
 from boon2012.reporting.script import conclude
 from boon2012.solverTimes import hasSolver
-from boon2012.beam.theory import BeamBetweenWalls
+from tqdm import tqdm
 
 length, height = 0.138, 0.046
 """The paper's half-beams [m]."""

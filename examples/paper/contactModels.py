@@ -15,20 +15,20 @@ import pathlib
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')
 
+from boon2012.beam.scene import ThreeHingedBeam
+from boon2012.beam.theory import BeamBetweenWalls, BeamOfTwoBlocks
+from boon2012.reporting.options import writableFolder
+from boon2012.roofWedge.scene import RoofWedge
+from boon2012.slidingWedge.study import limitEquilibrium
+from boon2012.wedges.blockGeometry import BlockGeometry
+from boon2012.wedges.scene import WedgeScene
+from boon2012.wedges.theory import roofWedgeFrictionAngle
 from scipy.optimize import minimize_scalar
 from tabulate import tabulate
 from tqdm import tqdm
 from yade import O, polytope
-from yade.polytope.frictionReduction import FrictionReduction
-from boon2012.beam.scene import ThreeHingedBeam
-from boon2012.roofWedge.scene import RoofWedge
-from boon2012.wedges.blockGeometry import BlockGeometry
-from boon2012.wedges.scene import WedgeScene
 from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
-from boon2012.reporting.options import writableFolder
-from boon2012.slidingWedge.study import limitEquilibrium
-from boon2012.beam.theory import BeamBetweenWalls, BeamOfTwoBlocks
-from boon2012.wedges.theory import roofWedgeFrictionAngle
+from yade.polytope.frictionReduction import FrictionReduction
 from yade.utils import kineticEnergy
 
 models = ('paper', 'conservative')

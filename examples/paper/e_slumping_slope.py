@@ -25,7 +25,6 @@ if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a sc
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from boon2012.reporting.findings import Findings
-from boon2012.slope.scene import readSlope
 from boon2012.reporting.options import (
 	Decreasing,
 	angle,
@@ -41,6 +40,7 @@ from boon2012.reporting.options import (
 )
 from boon2012.reporting.script import conclude
 from boon2012.slope.plots import drawBlocks, plotFailure, plotMechanism, plotReduction, sideBySide
+from boon2012.slope.scene import readSlope
 from boon2012.slope.study import Failure, SlopeReport, SlopeRun
 
 start, quickStart = 40.0, 26.0

@@ -23,10 +23,10 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; two b
 if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-from boon2012.reporting.findings import Findings
-from boon2012.collisions.scene import readBlocks
 from boon2012.collisions.plots import drawSequence, plotJumps, plotOverview, plotTransitions
+from boon2012.collisions.scene import readBlocks
 from boon2012.collisions.study import CollisionReport, CollisionRun, labels
+from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import contactPoints, fraction, isReference, notNegative, paperParser, positive, refusing, shown
 from boon2012.reporting.script import conclude
 

@@ -19,8 +19,8 @@ import sys
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
 
 from boon2012.reporting.options import count
-from boon2012.reporting.runs import Run, sourceHash
 from boon2012.reporting.report import endOnTerm, outputFolder, report
+from boon2012.reporting.runs import Run, sourceHash
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 

@@ -3,8 +3,8 @@
 
 import dataclasses
 
-from .costs import stepTimes
 from .checks import looks
+from .costs import stepTimes
 
 __all__ = ['Finding', 'Requirements', 'requirements']
 

@@ -19,9 +19,9 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; the s
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
-from collisionStudy.report import EnergyStudy
 from boon2012.reporting.options import count, paperParser, shown
 from boon2012.reporting.script import conclude
+from collisionStudy.report import EnergyStudy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / 'peers'))
 from collisionEnergyPeer import measure, names

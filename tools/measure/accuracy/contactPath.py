@@ -20,13 +20,14 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; one p
 import numpy as np
 from tqdm import tqdm
 from yade import O, RockJointMat
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
+from boon2012.reporting.options import count, paperParser, shown
+from boon2012.reporting.script import conclude
 from pathStudy.path import change, forceUnit, halvings, quantities, scan, smoothness, warmAnswers, zoom
 from pathStudy.plots import drawPaths, plotHalving, plotPaths
 from pathStudy.scenes import deep, paths, planeSets, variants
-from boon2012.reporting.options import count, paperParser, shown
-from boon2012.reporting.script import conclude
 
 analytic, chebyshev, centroid, sharp, conservative = variants
 pressed = 'edge pressed deeper than the corner radius'

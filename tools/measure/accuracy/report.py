@@ -20,8 +20,8 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 
 from boon2012.reporting.options import count
-from boon2012.reporting.runs import Run, sourceHash
 from boon2012.reporting.report import endOnTerm, outputFolder, report
+from boon2012.reporting.runs import Run, sourceHash
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 project = here.parents[2]

@@ -5,13 +5,12 @@ import dataclasses
 import math
 
 import numpy as np
-
+import tradeoffScenes as scenes
+from boon2012.beam.theory import BeamBetweenWalls
+from boon2012.slidingWedge.study import limitEquilibrium
+from boon2012.wedges.theory import roofWedgeFrictionAngle
 from yade.polytope import _builds
 from yade.polytope.settings import presets
-from boon2012.beam.theory import BeamBetweenWalls
-from boon2012.wedges.theory import roofWedgeFrictionAngle
-import tradeoffScenes as scenes
-from boon2012.slidingWedge.study import limitEquilibrium
 
 __all__ = ['Scene', 'allScenes', 'coarse', 'default', 'isNumerical', 'scatter']
 

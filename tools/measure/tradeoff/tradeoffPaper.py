@@ -48,10 +48,10 @@ if __name__ == '__main__':  # before YADE is loaded, or even built
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the processes
 sys.path.insert(0, str(here.parents[2] / 'examples/paper'))  # boon2012
 
-from yade.polytope import tradeoff
 from boon2012.reporting.report import endOnTerm
 from tradeoffAxes import allScenes, default, scatter
 from tradeoffReport import notRun, ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
+from yade.polytope import tradeoff
 from yade.polytope._builds import precisions
 
 

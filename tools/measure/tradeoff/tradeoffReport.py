@@ -6,13 +6,12 @@ import datetime
 import math
 
 import jinja2
-from tabulate import tabulate
-
 from boon2012.reporting.findings import Findings
-from yade.polytope.tradeoff.plot import plotTradeoff
 from boon2012.reporting.page import section
 from boon2012.reporting.runs import Run
+from tabulate import tabulate
 from tradeoffAxes import coarse, default, isNumerical, scatter
+from yade.polytope.tradeoff.plot import plotTradeoff
 
 __all__ = ['ranking', 'rankingColumns', 'reportScene', 'show', 'summary', 'writePage', 'writeSummary']
 

@@ -3,9 +3,9 @@
 
 import math
 
-from .study import contactPointNames, solverNames
-from .plots import drawBeam, plotCurves, plotSizes
 from ..solverTimes import hasSolver
+from .plots import drawBeam, plotCurves, plotSizes
+from .study import contactPointNames, solverNames
 
 __all__ = ['BeamReport', 'noIpopt']
 

@@ -21,7 +21,6 @@ from yade import (
 	RockJointMat,
 	Vector3,
 )
-
 from yade.polytope.bodies import polygon
 
 __all__ = ['BeamReading', 'ThreeHingedBeam']

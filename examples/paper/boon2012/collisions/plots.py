@@ -5,7 +5,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from yade import Quaternion
-
 from yade.polytope.motionRecord import noContact
 from yade.polytope.pictures import picture
 

@@ -18,7 +18,6 @@ from yade import (
 	Quaternion,
 	RockJointMat,
 )
-
 from yade.polytope.bodies import cuboid
 
 __all__ = ['Block', 'Collision', 'readBlocks']

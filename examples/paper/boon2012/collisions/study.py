@@ -6,8 +6,8 @@ import math
 import numpy as np
 from tqdm import trange
 from yade import O
-
 from yade.polytope.motionRecord import MotionRecord, noContact
+
 from .scene import Collision, readBlocks
 
 __all__ = ['CollisionReport', 'CollisionRun', 'durations', 'labels']

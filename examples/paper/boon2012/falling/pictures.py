@@ -4,7 +4,6 @@
 import numpy as np
 from matplotlib.image import imread, imsave
 from yade import O
-
 from yade.polytope.pictures import picture
 
 __all__ = ['HeapPictures']

@@ -10,8 +10,8 @@ import statistics
 
 from scipy.stats import t
 
-from .run import halfStep, quantities
 from .plots import plotEnergies, plotSeeds
+from .run import halfStep, quantities
 
 __all__ = ['FallingPolyhedraReport', 'rounded']
 

@@ -10,12 +10,12 @@ import time
 
 from tqdm import tqdm
 from yade import O, PolytopeVTKRecorder
+from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 from yade.utils import kineticEnergy
 
 from ..runWatch import RunWatch
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
-from .pictures import HeapPictures
 from ..solverTimes import StateSample, hasSolver
+from .pictures import HeapPictures
 
 __all__ = ['FallingRun', 'halfStep', 'quantities', 'save']
 

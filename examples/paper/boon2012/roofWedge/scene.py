@@ -7,8 +7,8 @@ import math
 import numpy as np
 from yade import O, Vector3
 
-from ..wedges.theory import dipOf, jointForces
 from ..wedges.scene import WedgeScene
+from ..wedges.theory import dipOf, jointForces
 
 __all__ = ['RoofWedge']
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..wedges.blockGeometry import touchingRoofBlocks
-from .scene import RoofWedge
+from ..wedges.study import WedgeCase, WedgeReport
 from ..wedges.theory import (
 	horizontalForceUnderWeight,
 	jointClosure,
@@ -21,7 +21,7 @@ from ..wedges.theory import (
 	sideAreaOf,
 	stressShare,
 )
-from ..wedges.study import WedgeCase, WedgeReport
+from .scene import RoofWedge
 
 __all__ = ['RoofWedgeCase', 'RoofWedgeReport', 'areEvenlySpread', 'frontView', 'plotStressShare', 'touchingCases']
 

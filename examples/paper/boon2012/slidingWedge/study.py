@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from yade import O
 
 from ..wedges.scene import WedgeScene
-from ..wedges.theory import SlidingWedge
 from ..wedges.study import WedgeCase, WedgeReport
+from ..wedges.theory import SlidingWedge
 
 __all__ = ['SlidingWedgeCase', 'SlidingWedgeReport', 'limitEquilibrium', 'plotLockedShear']
 

@@ -8,10 +8,10 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patches import Polygon
-
 from yade.polytope.pictures import picture
-from .theory import centroid
+
 from .study import prismTypes
+from .theory import centroid
 
 __all__ = ['drawBlocks', 'plotFailure', 'plotMechanism', 'plotReduction', 'sideBySide']
 

@@ -18,7 +18,6 @@ from yade import (
 	O,
 	RockJointMat,
 )
-
 from yade.polytope.bodies import polygon
 
 __all__ = ['SlumpingSlope', 'readSlope']

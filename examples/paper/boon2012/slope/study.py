@@ -6,9 +6,9 @@ import math
 import numpy as np
 from tqdm import tqdm
 from yade import O
-
 from yade.polytope.contactTypes import ContactTypes
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
+
 from .scene import SlumpingSlope
 from .theory import criticalFrictionAngle
 

@@ -17,8 +17,8 @@ from yade import (
 	O,
 	RockJointMat,
 )
-
 from yade.polytope.bodies import fromHalfSpaces
+
 from .blockGeometry import BlockGeometry, samePlane
 
 __all__ = ['Joint', 'WedgeScene', 'stiffnessFactors']

@@ -7,11 +7,22 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 from yade import O
-
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
 from yade.polytope.pictures import picture
+
+from ..reporting.options import (
+	Decreasing,
+	angle,
+	contactModels,
+	contactPoints,
+	count,
+	fraction,
+	isReference,
+	notNegative,
+	paperParser,
+	positive,
+)
 from .scene import stiffnessFactors
-from ..reporting.options import Decreasing, angle, contactModels, contactPoints, count, fraction, isReference, notNegative, paperParser, positive
 
 __all__ = ['WedgeCase', 'WedgeReport', 'parseWedge', 'plotReduction', 'wedgeParser']
 

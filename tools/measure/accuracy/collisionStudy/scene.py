@@ -25,7 +25,6 @@ from yade import (
 	RockJointMat,
 	Vector3,
 )
-
 from yade.polytope.bodies import cuboid
 
 __all__ = ['Contact', 'EnergyScene', 'freeFlight']

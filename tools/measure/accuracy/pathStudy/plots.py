@@ -5,9 +5,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from yade import O
-
 from yade.polytope.bodies import cuboid
 from yade.polytope.pictures import picture
+
 from .path import forceUnit, quantities
 from .scenes import fixedHalf, movingHalf
 
