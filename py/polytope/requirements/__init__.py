@@ -3,7 +3,7 @@
 
 import dataclasses
 
-from .checks import looks
+from .checks import checks
 from .costs import stepTimes
 
 __all__ = ['Finding', 'Requirements', 'requirements']
@@ -103,7 +103,7 @@ def requirements(O, measure=True):
 	"""
 	if not isinstance(measure, bool):
 		raise ValueError(f'measure: must be True or False, got {measure!r}')
-	found, notSeen, contacts = looks(O)
+	found, notSeen, contacts = checks(O)
 	findings = sorted((Finding(*one) for one in found), key=lambda finding: not finding.advice)
 	if not measure:
 		return Requirements(findings, None, notSeen, contacts)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Looks of polytope.requirements() at the collider: how far its boxes reach, and how tight they are."""
+"""Checks of the collider, of polytope.requirements(): how far its boxes reach, and how tight they are."""
 
 import numpy as np
 from yade import Polytope, PolytopeCollider

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The looks of polytope.requirements() at a scene. Each gives (seen, advice, cost, trial), see requirements.Finding, or why it cannot be made.
+"""The checks of polytope.requirements(). Each gives (seen, advice, cost, trial), see requirements.Finding, or why it cannot be made.
 
 They read and change nothing.
 """
@@ -17,7 +17,7 @@ from .centre import contactPoint, solver
 from .overlaps import cornerRadius, newtonTolerance
 from .plane import dimension
 
-__all__ = ['looks']
+__all__ = ['checks']
 
 usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
 """Time step over 1/ω of the fastest body: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
@@ -32,7 +32,7 @@ turned, changed = 1.0, 0.05
 
 
 class Scene:
-	"""What several looks need."""
+	"""What several checks need."""
 
 	def __init__(self, O):
 		if not isinstance(O, type(yade.O)):
@@ -71,7 +71,7 @@ class Scene:
 		return sorted({getattr(functor, name) for functor in self.functors})
 
 
-def looks(O):
+def checks(O):
 	"""(what was found, [(what could not be looked at, why)], whether there are contacts).
 
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would bring the solver into play,

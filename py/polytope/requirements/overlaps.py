@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Two of the looks of polytope.requirements(), at the size of overlaps: against corner radius and Newton tolerance. See checks."""
+"""Two of the checks of polytope.requirements(), of the size of overlaps: against corner radius and Newton tolerance. See checks."""
 
 import math
 

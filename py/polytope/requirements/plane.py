@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The look of polytope.requirements() at the third dimension: whether all are prisms side by side, and what moves stays in the xy plane."""
+"""The check of the third dimension, of polytope.requirements(): whether all are prisms side by side, and what moves stays in the xy plane."""
 
 import numpy as np
 from yade import NewtonIntegrator, Vector3
