@@ -24,7 +24,7 @@ if polytope.buildInfo()['precision'] != 'double':
 	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(1, os.path.abspath(os.path.join(__file__, '../../../examples/paper')))
+sys.path.append(os.path.abspath(os.path.join(__file__, '../../../examples/paper')))
 
 
 @pytest.fixture(autouse=True)
