@@ -14,7 +14,6 @@ from yade import polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
 program = folder.parents[2] / 'build/tools/measure/accuracy/polytope_extremes'
-sys.path.append(str(folder))
 
 import pairTables
 
