@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies on floors made of flush pieces: do they slide, stop, accelerate and rest as on one smooth floor?
+
+	./run python tests/accuracy/surfaces.py --floor plates --body cube --speed 1     # one crossing without friction, one line
+	./run python tests/accuracy/surfaces.py --floor facets --contact contactModel=conservative --per-area
+"""
+
+import argparse
+import dataclasses
+import os
+import sys
+import time
+
+os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; one body is too few for more
+
+from yade.polytope.scenes.flatBodies import bodyKinds
+from yade.polytope.scenes.floors import floorKinds
+from yade.polytope.studies.options import count, number, positive
+from yade.polytope.studies.surfaces import cross
+
+
+def attribute(text):
+	"""NAME=VALUE of a contact functor."""
+	name, found, value = text.partition('=')
+	if not found:
+		raise argparse.ArgumentTypeError(f'must be NAME=VALUE, got {text!r}')
+	try:
+		return name, float(value)
+	except ValueError:
+		return name, {'True': True, 'False': False}.get(value, value)
+
+
+def options(arguments=None):
+	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+	one = parser.add_argument_group('one crossing')
+	one.add_argument('--floor', choices=list(floorKinds), default='plates')
+	one.add_argument('--body', choices=list(bodyKinds), default='cube')
+	one.add_argument('--contact', type=attribute, nargs='*', default=[], metavar='NAME=VALUE', help='attributes of the contact functors')
+	one.add_argument('--per-area', action='store_true', help='stiffness per area instead of per contact')
+	one.add_argument('--speed', type=positive, default=1.0, help='[m/s]')
+	one.add_argument('--seams', type=count, default=3)
+	one.add_argument('--spacing', type=positive, default=1.0, help='of the joints [m]')
+	one.add_argument('--angle', type=number(above=0, most=90), default=90.0, help='between joints and motion [°]')
+	one.add_argument('--edge', choices=('front', 'back'), help='this edge of the body crosses the first joint, no more (for low speeds)')
+	return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+	given = options(arguments)
+	begun = time.time()
+	result = cross(
+		given.floor, given.body, dict(given.contact), given.per_area, given.speed, given.seams, given.spacing, given.angle, given.edge
+	)
+	words = ' '.join(f'{name} {value:.5g}' for name, value in dataclasses.asdict(result).items())
+	print(f'{given.floor} {given.body} {dict(given.contact)} {"per area" if given.per_area else "per contact"}: {words} ({time.time() - begun:.1f} s)')
+	return 0
+
+
+if __name__ == '__main__':
+	sys.exit(main())
