@@ -110,6 +110,7 @@ class SurfaceScene:
 		self.body_ = self.lying.body
 		self.body_.state.pos = Vector3(*self._start())
 		self._turned(self.body_)
+		self.placed = Quaternion(self.body_.state.ori)
 		self.id = O.bodies.append(self.body_)
 		self._engines()
 		O.dt = 0.1 * math.sqrt(self.mass / self.stiffness)
@@ -150,7 +151,7 @@ class SurfaceScene:
 
 		:param float periods: time this takes over √(m/k)
 		"""
-		state, pull = self.body_.state, self.newton.gravity
+		state, pull = self.body_.state, Vector3(self.newton.gravity)  # a copy: YADE hands out its own
 		self.newton.gravity = self.turn * Vector3(*(-self.gravity * math.cos(self.incline) * self.up))
 		self.newton.damping = 0.3
 		self.advance(3 * O.dt)  # makes the contacts
@@ -160,6 +161,13 @@ class SurfaceScene:
 		state.vel = state.angVel = state.angMom = Vector3(0, 0, 0)
 		self.timeStep()
 		return self
+
+	def release(self, time):
+		"""Runs for so long [s] from where the body was placed, slightly damped."""
+		self.newton.damping = 0.1
+		self.advance(3 * O.dt)
+		self.timeStep()
+		self.advance(time)
 
 	def timeStep(self):
 		"""Sets O.dt for the present contacts."""
@@ -191,6 +199,18 @@ class SurfaceScene:
 
 	def _components(self, vector):
 		return np.array([np.array(vector, float) @ axis for axis in (self.along, self.across, self.up)])
+
+	@property
+	def leaning(self):
+		"""Angle of the body from how it was placed, about level axes [rad]."""
+		up = self.turn * Vector3(*self.up)
+		now = self.body_.state.ori * (self.placed.conjugate() * up)
+		return math.acos(max(-1.0, min(1.0, float(now.dot(up)))))
+
+	def corners(self):
+		"""Of the body, in the same axes as the position [m]."""
+		state = self.body_.state
+		return np.array([self._components(self.turn.conjugate() * (state.pos + state.ori * v)) for v in self.body_.shape.vertices])
 
 	@property
 	def failures(self):
