@@ -107,11 +107,11 @@ class SurfaceScene:
 		for piece in self.pieces.pieces(self.floor):
 			self._turned(piece)
 			O.bodies.append(piece)
-		self.body_ = self.lying.body
-		self.body_.state.pos = Vector3(*self._start())
-		self._turned(self.body_)
-		self.placed = Quaternion(self.body_.state.ori)
-		self.id = O.bodies.append(self.body_)
+		self.moving = self.lying.body
+		self.moving.state.pos = Vector3(*self._start())
+		self._turned(self.moving)
+		self.placed = Quaternion(self.moving.state.ori)
+		self.id = O.bodies.append(self.moving)
 		self._engines()
 		O.dt = 0.1 * math.sqrt(self.mass / self.stiffness)
 		return self
@@ -151,7 +151,7 @@ class SurfaceScene:
 
 		:param float periods: time this takes over √(m/k)
 		"""
-		state, pull = self.body_.state, Vector3(self.newton.gravity)  # a copy: YADE hands out its own
+		state, pull = self.moving.state, Vector3(self.newton.gravity)  # a copy: YADE hands out its own
 		self.newton.gravity = self.turn * Vector3(*(-self.gravity * math.cos(self.incline) * self.up))
 		self.newton.damping = 0.3
 		self.advance(3 * O.dt)  # makes the contacts
@@ -176,7 +176,7 @@ class SurfaceScene:
 
 	def push(self, speed):
 		"""Gives the body this speed along the direction of motion [m/s]."""
-		self.body_.state.vel = self.turn * Vector3(*(speed * self.along))
+		self.moving.state.vel = self.turn * Vector3(*(speed * self.along))
 
 	def advance(self, time):
 		"""Runs for so long [s]."""
@@ -186,16 +186,16 @@ class SurfaceScene:
 	@property
 	def position(self):
 		"""Of the centroid: along the motion from the origin, to its left, up [m]."""
-		return self._components(self.turn.conjugate() * self.body_.state.pos)
+		return self._components(self.turn.conjugate() * self.moving.state.pos)
 
 	@property
 	def velocity(self):
-		return self._components(self.turn.conjugate() * self.body_.state.vel)
+		return self._components(self.turn.conjugate() * self.moving.state.vel)
 
 	@property
 	def spin(self):
 		"""Angular velocity in the same axes [rad/s]."""
-		return self._components(self.turn.conjugate() * self.body_.state.angVel)
+		return self._components(self.turn.conjugate() * self.moving.state.angVel)
 
 	def _components(self, vector):
 		return np.array([np.array(vector, float) @ axis for axis in (self.along, self.across, self.up)])
@@ -204,13 +204,13 @@ class SurfaceScene:
 	def leaning(self):
 		"""Angle of the body from how it was placed, about level axes [rad]."""
 		up = self.turn * Vector3(*self.up)
-		now = self.body_.state.ori * (self.placed.conjugate() * up)
+		now = self.moving.state.ori * (self.placed.conjugate() * up)
 		return math.acos(max(-1.0, min(1.0, float(now.dot(up)))))
 
 	def corners(self):
 		"""Of the body, in the same axes as the position [m]."""
-		state = self.body_.state
-		return np.array([self._components(self.turn.conjugate() * (state.pos + state.ori * v)) for v in self.body_.shape.vertices])
+		state = self.moving.state
+		return np.array([self._components(self.turn.conjugate() * (state.pos + state.ori * v)) for v in self.moving.shape.vertices])
 
 	@property
 	def failures(self):

@@ -84,7 +84,7 @@ def drop(floor='plates', body='cube', contact=None, perArea=False, speed=0.5, ti
 	pieces = Floor(1, spacing, before=spacing + 1.5, after=2.5)
 	scene = {'law': {}, 'stepFraction': 0.05, **scene}
 	run = SurfaceScene(planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(spacing + at, 0.13), tilt=turned, **scene).build()
-	state, period = run.body_.state, math.sqrt(run.mass / run.stiffness)
+	state, period = run.moving.state, math.sqrt(run.mass / run.stiffness)
 	run.newton.gravity = (0, 0, 0)
 	O.dt = 0.02 * period
 	state.pos += run.turn * Vector3(*((run.depth + 2 * speed * O.dt) * run.up))

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 __all__ = ['plotCrossings']
 
-colors = ('#1d4e79', '#8a8a8a', '#c8451b')
+colors = {'default': '#1d4e79', "paper's normal": '#e0a030', 'conservative': '#c8451b'}
 marks = 'osD^v<>P*X'
 least = 1e-7
 """Losses below are drawn here."""
@@ -24,7 +24,7 @@ def plotCrossings(path, cases, limit):
 	for plot, rule in zip(figure.subplots(1, len(rules), sharey=True, squeeze=False)[0], rules, strict=True):
 		for c in cases:
 			if c.rule == rule:
-				k, own = names.index(c.contact), 'k' if c.body == 'sphere' else colors[names.index(c.contact)]
+				k, own = names.index(c.contact), 'k' if c.body == 'sphere' else colors[c.contact]
 				x = floors.index(c.floor) + 0.25 * (k - (len(names) - 1) / 2) + 0.025 * (bodies.index(c.body) - len(bodies) / 2)
 				plot.plot(x, max(least, abs(1 - c.crossing.kept)), marks[bodies.index(c.body) % len(marks)], color=own, ms=5, alpha=0.8)
 		plot.axhline(limit, color='0.3', ls=':', lw=1.2)
@@ -32,7 +32,7 @@ def plotCrossings(path, cases, limit):
 		plot.set_xticks(range(len(floors)), floors, rotation=45)
 		plot.grid(True, axis='y', lw=0.3, color='0.85')
 	plot.figure.axes[0].set_ylabel('loss of speed over three joints')
-	handles = [plot.plot([], [], 'o', color=color, label=name)[0] for name, color in zip(names, colors, strict=False)]
+	handles = [plot.plot([], [], 'o', color=colors[name], label=name)[0] for name in names]
 	handles += [plot.plot([], [], marks[k % len(marks)], color='k' if b == 'sphere' else '0.6', label=b)[0] for k, b in enumerate(bodies)]
 	figure.legend(handles=handles, fontsize=8, ncols=6, loc='lower center', frameon=False)
 	save(figure, path, bottom=0.12)
