@@ -180,7 +180,10 @@ class SurfaceScene:
 
 	def advance(self, time):
 		"""Runs for so long [s]."""
-		for _ in range(max(1, round(time / O.dt))):
+		self.steps(max(1, round(time / O.dt)))
+
+	def steps(self, number):
+		for _ in range(number):
 			O.step()  # O.run(…, True) looks for its end every 40 ms
 
 	@property

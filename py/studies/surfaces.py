@@ -14,7 +14,7 @@ from ..scenes.surface import SurfaceScene
 __all__ = ['Crossing', 'Rest', 'Way', 'cross', 'planarFloor', 'rest', 'slideDown', 'stop']
 
 samples = 400
-"""Readings of the body's state in a run."""
+"""Readings of the body's state in a run, about."""
 
 
 @dataclasses.dataclass
@@ -103,8 +103,11 @@ def _slide(run, speed, travel, length):
 	run.push(speed)
 	first = O.iter
 	slowest, highest = 1.0, 0.0
-	for _ in range(samples):
-		run.advance(travel / speed / samples)
+	left = math.ceil(travel / speed / O.dt)
+	every = max(1, left // samples)
+	while left > 0:
+		run.steps(min(every, left))
+		left -= every
 		slowest = min(slowest, run.velocity[0] / speed)
 		highest = max(highest, run.position[2] - start[2])
 		if not math.isfinite(slowest):

@@ -27,6 +27,9 @@ from yade.polytope.findings import Findings
 rules = pytest.mark.parametrize('perArea', [False, True], ids=['perContact', 'perArea'])
 conservative = {'contactModel': 'conservative'}
 leans = pytest.mark.xfail(strict=True, reason="the averaged normal of the paper leans where an edge lies on a face (issue 14)")
+pulled = pytest.mark.xfail(
+	strict=True, reason="a slab's sides pull the analytic centre: off its middle a body leans by 1e-5, and with it the averaged normal (issue 14)"
+)
 adds = pytest.mark.xfail(strict=True, reason='per contact, two pieces under one body are twice as stiff as one (issue 14)')
 
 
@@ -74,6 +77,12 @@ def testPolygonsSlideOverPolygons(floor, body, perArea):
 @pytest.mark.parametrize('speed, behind', [(1e-3, 0.005), (1e-2, 0.02), (0.1, 0.08)])
 def testSlidesSlowly(speed, behind, edge, perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, speed=speed, seams=1, edge=edge, behind=behind))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['wall', pytest.param('slab', marks=pulled)])
+def testSlidesSlowlyOnOnePiece(floor, perArea):
+	keeps(cross(floor, 'cube', perArea=perArea, speed=1e-3, seams=1, edge='front', behind=0.005))
 
 
 @leans
