@@ -19,8 +19,8 @@ __all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'roll']
 def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.002, speed=0.1):
 	"""A frictionless body slides against a step.
 
-	:returns: (how far its front has come past the step's face [m], height of the lowest corner past it over the lower floor (infinity if none is)
-	    [m], speed along the motion at the end over that at the start)
+	:returns: (how far its front has come past the step's face [m], height of the lowest corner past it over the lower
+	    floor (infinity if none is) [m], speed along the motion at the end over that at the start)
 	"""
 	lying = lyingBody(body)
 	pieces = Floor(1, 1.0, before=3, after=3, steps=(0.0, height))
@@ -104,7 +104,18 @@ def drop(floor='plates', body='cube', contact=None, perArea=False, speed=0.5, ti
 	)
 
 
-def roll(floor='plates', body='dodecahedron', contact=None, perArea=False, incline=40.0, friction=0.9, time=1.0, seams=10, spacing=0.3, **scene):
+def roll(
+	floor='plates',
+	body='dodecahedron',
+	contact=None,
+	perArea=False,
+	incline=40.0,
+	friction=0.9,
+	time=1.0,
+	seams=10,
+	spacing=0.3,
+	**scene,
+):
 	"""A body rolls down an incline: ways along it at tenths of the time [m], its spin damped by its impacts alone.
 
 	Compare floors with each other: there is no closed form.

@@ -151,7 +151,8 @@ def rest(floor='plates', body='cube', contact=None, perArea=False, off=0.0, spac
 		run.build().settle(150)
 		run.advance(20 * math.sqrt(run.mass / run.stiffness))
 		depths.append(run.lying.height - run.position[2])
-	return Rest(float(depths[1] / depths[0]), run.leaning, float(np.linalg.norm(run.velocity)) / math.sqrt(2 * run.gravity * run.depth), run.touching)
+	fall = math.sqrt(2 * run.gravity * run.depth)
+	return Rest(float(depths[1] / depths[0]), run.leaning, float(np.linalg.norm(run.velocity)) / fall, run.touching)
 
 
 @dataclasses.dataclass
@@ -213,7 +214,8 @@ def slideDown(floor='plates', body='cube', contact=None, perArea=False, incline=
 def _longFloor(floor, body, contact, perArea, travel, spacing, **scene):
 	"""A body that starts a little before the first joint of a floor with as many joints as its way needs."""
 	lying = lyingBody(body)
-	pieces = Floor(max(1, math.ceil(1.1 * travel / spacing)), spacing, before=2 * lying.front + 0.4, after=2 * lying.front + 0.4, side=(-0.7, 0.9))
+	beyond = 2 * lying.front + 0.4
+	pieces = Floor(max(1, math.ceil(1.1 * travel / spacing)), spacing, before=beyond, after=beyond, side=(-0.7, 0.9))
 	return SurfaceScene(
 		planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(spacing - lying.front - 0.002, 0.13), **scene
 	).build()

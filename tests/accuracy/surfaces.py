@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies on floors made of flush pieces: do they slide, stop, accelerate and rest as on one smooth floor?
 
-All floors, bodies, contacts and both stiffness rules, other speeds, joints at an angle, friction, steps, gaps, impacts, rolling. Ends with 1
-if the default contact misses a limit; the others are shown beside it. With --floor one crossing alone, in one line.
+All floors, bodies, contacts and both stiffness rules, other speeds, joints at an angle, friction, steps, gaps, impacts, rolling.
+Ends with 1 if the default contact misses a limit; the others are shown beside it. With --floor one crossing alone, in one line.
 
 	./run python tests/accuracy/surfaces.py             # a quarter of an hour
 	./run python tests/accuracy/surfaces.py --quick     # fewer floors, bodies and speeds: two minutes
@@ -64,7 +64,8 @@ def oneCrossing(given):
 		given.floor, given.body, dict(given.contact), given.per_area, given.speed, given.seams, given.spacing, given.angle, given.edge
 	)
 	words = ' '.join(f'{name} {value:.5g}' for name, value in dataclasses.asdict(result).items())
-	print(f'{given.floor} {given.body} {dict(given.contact)} {"per area" if given.per_area else "per contact"}: {words} ({time.time() - begun:.1f} s)')
+	rule = 'per area' if given.per_area else 'per contact'
+	print(f'{given.floor} {given.body} {dict(given.contact)} {rule}: {words} ({time.time() - begun:.1f} s)')
 	return 0
 
 

@@ -26,11 +26,11 @@ from yade.polytope.findings import Findings
 
 rules = pytest.mark.parametrize('perArea', [False, True], ids=['perContact', 'perArea'])
 conservative = {'contactModel': 'conservative'}
-leans = pytest.mark.xfail(strict=True, reason="the averaged normal of the paper leans where an edge lies on a face (issue 14)")
+leans = pytest.mark.xfail(strict=True, reason="the averaged normal of the paper leans where an edge lies on a face")
 pulled = pytest.mark.xfail(
-	strict=True, reason="a slab's sides pull the analytic centre: off its middle a body leans by 1e-5, and with it the averaged normal (issue 14)"
+	strict=True, reason="a slab's sides pull the analytic centre: off its middle a body leans by 1e-5, and with it the averaged normal"
 )
-adds = pytest.mark.xfail(strict=True, reason='per contact, two pieces under one body are twice as stiff as one (issue 14)')
+adds = pytest.mark.xfail(strict=True, reason='per contact, two pieces under one body are twice as stiff as one')
 
 
 def keeps(crossing):
