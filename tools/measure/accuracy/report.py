@@ -30,6 +30,7 @@ studies = {
 	'pairs': ('pairExtremes', 'Pairs at the extremes', ('--jobs', '1')),
 	'scenes': ('sceneExtremes', 'Scenes at the extremes', ()),
 	'path': ('contactPath', 'Path of the contact', ()),
+	'surfaces': ('surfaces', 'Floors made of flush pieces', ()),
 	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
 }
 """Name: script, title, options besides --quick and --output."""
