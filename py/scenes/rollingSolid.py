@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A regular solid that rolls down a slope of one plate, or of several that lie flush: the path must be the same."""
+
+import dataclasses
+import math
+
+import numpy as np
+from yade import O, Quaternion, RockJointMat, Vector3
+
+from ..bodies import fromVertices, regular
+from .jointEngines import jointEngines, stepFactor
+
+__all__ = ['RollingSolid']
+
+
+@dataclasses.dataclass
+class RollingSolid:
+	"""`RollingSolid(...).build()`. The slope falls along +x; seams run across it."""
+
+	faces: int = 12
+	plates: int = 10
+	"""Of equal length, flush."""
+	slope: float = math.radians(25)
+	frictionAngle: float = math.radians(35)
+	radius: float = 0.1
+	"""Circumradius [m]."""
+	length: float = 4.0
+	"""Of the whole slope [m]."""
+	seamAngle: float = 0.0
+	"""Of the seams against the slope's strike [rad]."""
+	stiffness: float = None
+	"""[N/m], or [Pa/m] where perArea."""
+	perArea: bool = False
+	ig2: dict = dataclasses.field(default_factory=dict)
+	speed: float = 1.0
+	"""At the start, along the slope [m/s]; it rolls with it."""
+	normalDamping: float = 0.3
+	density: float = 2600
+	timeStepFraction: float = 0.1
+
+	def build(self):
+		O.reset()
+		k = self.stiffness or (1e9 if self.perArea else 1e7)
+		O.materials.append(RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle))
+		self.down = np.array([math.cos(self.slope), 0, -math.sin(self.slope)])
+		self.up = np.array([math.sin(self.slope), 0, math.cos(self.slope)])
+		ends = np.linspace(-0.5, self.length - 0.5, self.plates + 1)
+		skew = math.tan(self.seamAngle)
+		for a, b in zip(ends, ends[1:], strict=False):
+			corners = [self._at(u + skew * v, v, w) for u in (a, b) for v in (-1, 1) for w in (0, 0.2)]
+			O.bodies.append(fromVertices(corners, fixed=True))
+		# on a face, turned about the slope's normal so that no edge is along a seam
+		body = regular(self.faces, self.radius)
+		flat = Quaternion()
+		flat.setFromTwoVectors(body.state.ori * Vector3(*body.shape.normals[0]), Vector3(*-self.up))
+		turn = Quaternion(Vector3(*self.up), 0.3) * flat
+		centre = self.up * (max(body.shape.offsets) * (1 - 1e-6))
+		solid = regular(self.faces, self.radius, centre, turn, velocity=self.down * self.speed, angularVelocity=(0, self.speed / self.radius, 0))
+		self.solid = O.bodies[O.bodies.append(solid)]
+		jointEngines(self.ig2, self.perArea, (0, 0, -9.81), verlet=0.1 * self.radius, normalDamping=self.normalDamping, shearDamping=0.3)
+		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(self.solid.state.mass / 1e7)
+		return self
+
+	def _at(self, along, aside, below):
+		return tuple(self.down * along - self.up * below + np.array([0, aside, 0]))
+
+	def path(self, time, points=50):
+		"""(points, 3): along the slope, across its dip, above it [m], at equal times."""
+		found = []
+		for k in range(1, points + 1):
+			while O.time < time * k / points:
+				O.step()
+			p = np.array(self.solid.state.pos)
+			found.append((p @ self.down, p[1], p @ self.up))
+		return np.array(found)
