@@ -23,7 +23,7 @@ class MasonryArch:
 	"""Of the middle of the arch [m]."""
 	dimension: int = 2
 	frictionAngle: float = math.radians(89)
-	stiffness: float = 1e9
+	stiffness: float = 4e10
 	"""Normal and shear: [Pa/m] where perArea, else [N/m]."""
 	perArea: bool = False
 	ig2: dict = dataclasses.field(default_factory=dict)
@@ -31,6 +31,7 @@ class MasonryArch:
 	gravity: float = 9.81
 	damping: float = 0.5
 	contactDamping: float = 0.3
+	rockingDamping: float = 0.0
 	timeStepFraction: float = 0.15
 	"""Time step over √(least mass/k)."""
 
@@ -49,7 +50,7 @@ class MasonryArch:
 			O.bodies.append(self._body([(r * math.cos(q), r * math.sin(q)) for q in pair for r in (inner, outer)]))
 			for pair in zip(angles, angles[1:], strict=False)
 		]
-		jointEngines(
+		self.integrator = jointEngines(
 			self.ig2,
 			self.perArea,
 			self.upward * -self.gravity,
@@ -57,6 +58,7 @@ class MasonryArch:
 			verlet=0.05 * t,
 			normalDamping=self.contactDamping,
 			shearDamping=self.contactDamping,
+			rockingDamping=self.rockingDamping,
 		)
 		k = self.stiffness * (t * self.breadth if self.perArea else 1)
 		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(min(O.bodies[i].state.mass for i in self.ids) / k)
@@ -91,20 +93,30 @@ class MasonryArch:
 		"""Of the fastest block [m/s]."""
 		return max(s.vel.norm() for s in self.states)
 
-	def stands(self, most=2.5, fallen=0.03, calm=1e-5):
-		"""Whether it still stands when all is calm, or after *most* seconds.
+	def settle(self, duration=1.5, growing=0.3):
+		"""Its weight comes on slowly, within *growing* seconds, and is left to act, well damped."""
+		end = O.time + duration
+		while O.time < end:
+			part = min(O.time / growing, 1)
+			self.integrator.gravity = self.upward * (-self.gravity * part * (2 - part))
+			O.step()
+
+	def stands(self, settling=0.6, most=2.0, fallen=0.01, calm=1e-5):
+		"""Whether it stands: it comes to rest before *most* seconds have passed.
+
+		It settles first. Then there is little damping, which would hold up an arch that falls slowly.
 
 		:param float fallen: sag, over the radius, from which on it counts as fallen
 		:param float calm: speed below which it counts as being at rest [m/s]
 		"""
-		while O.time < most:
-			for _ in range(500):
+		self.settle(settling)
+		self.integrator.damping = self.damping / 5
+		while O.time < most and self.sag < fallen:
+			for _ in range(200):
 				O.step()
-			if self.sag > fallen:
-				return False
-			if O.time > 0.5 and self.speed < calm:
+			if O.time > 1.5 * settling and self.speed < calm:
 				return True
-		return self.speed < 10 * calm
+		return self.sag < fallen and self.speed < 10 * calm
 
 	def creep(self, steps):
 		"""Largest way of a block in so many steps, over the radius."""

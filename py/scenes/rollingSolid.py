@@ -5,7 +5,7 @@ import dataclasses
 import math
 
 import numpy as np
-from yade import O, Quaternion, RockJointMat, Vector3
+from yade import Matrix3, O, Quaternion, RockJointMat, Vector3
 
 from ..bodies import fromVertices, regular
 from .jointEngines import jointEngines, stepFactor
@@ -34,7 +34,9 @@ class RollingSolid:
 	ig2: dict = dataclasses.field(default_factory=dict)
 	speed: float = 1.0
 	"""At the start, along the slope [m/s]; it rolls with it."""
-	normalDamping: float = 0.3
+	yaw: float = 0.0
+	"""Of the solid about the slope's normal [rad]; 0: an edge of the face that it lies on is level, and its motion symmetric."""
+	contactDamping: float = 0.3
 	density: float = 2600
 	timeStepFraction: float = 0.1
 
@@ -44,22 +46,32 @@ class RollingSolid:
 		O.materials.append(RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle))
 		self.down = np.array([math.cos(self.slope), 0, -math.sin(self.slope)])
 		self.up = np.array([math.sin(self.slope), 0, math.cos(self.slope)])
-		ends = np.linspace(-0.5, self.length - 0.5, self.plates + 1)
+		ends = np.linspace(-0.2, self.length - 0.2, self.plates + 1)
 		skew = math.tan(self.seamAngle)
 		for a, b in zip(ends, ends[1:], strict=False):
 			corners = [self._at(u + skew * v, v, w) for u in (a, b) for v in (-1, 1) for w in (0, 0.2)]
 			O.bodies.append(fromVertices(corners, fixed=True))
-		# on a face, turned about the slope's normal so that no edge is along a seam
 		body = regular(self.faces, self.radius)
-		flat = Quaternion()
-		flat.setFromTwoVectors(body.state.ori * Vector3(*body.shape.normals[0]), Vector3(*-self.up))
-		turn = Quaternion(Vector3(*self.up), 0.3) * flat
+		turn = Quaternion(Vector3(*self.up), self.yaw) * self._flat(body)
 		centre = self.up * (max(body.shape.offsets) * (1 - 1e-6))
 		solid = regular(self.faces, self.radius, centre, turn, velocity=self.down * self.speed, angularVelocity=(0, self.speed / self.radius, 0))
 		self.solid = O.bodies[O.bodies.append(solid)]
-		jointEngines(self.ig2, self.perArea, (0, 0, -9.81), verlet=0.1 * self.radius, normalDamping=self.normalDamping, shearDamping=0.3)
+		jointEngines(self.ig2, self.perArea, (0, 0, -9.81), verlet=0.1 * self.radius, normalDamping=self.contactDamping, shearDamping=self.contactDamping)
 		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(self.solid.state.mass / 1e7)
 		return self
+
+	def _flat(self, body):
+		"""The turn that puts a face of a body at the origin on the slope, with one of its edges along y."""
+		toWorld = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+		normal = toWorld @ np.array(body.shape.normals[0], float)
+		corners = np.array(body.shape.vertices, float) @ toWorld.T
+		on = corners[corners @ normal > (1 - 1e-9) * (corners @ normal).max()]
+		nearest = on[np.argsort(np.linalg.norm(on - on[0], axis=1))[1]]
+		edge = (nearest - on[0]) / np.linalg.norm(nearest - on[0])
+		before = np.column_stack([np.cross(edge, normal), edge, normal])
+		down = -self.up
+		after = np.column_stack([np.cross((0, 1, 0), down), (0, 1, 0), down])
+		return Quaternion(Matrix3(*(after @ before.T).ravel())) * body.state.ori
 
 	def _at(self, along, aside, below):
 		return tuple(self.down * along - self.up * below + np.array([0, aside, 0]))

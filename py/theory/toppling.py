@@ -44,7 +44,7 @@ def elasticToppling(width, height, pressing, stiffness, followsTilt=True):
 
 	normal, found = pressing, 0.0
 	for _ in range(100):
-		low = 2 * normal / (stiffness * width**2)  # the heel opens
+		low = min(2 * normal / (stiffness * width**2), 0.4)  # where the heel opens
 		best = minimize_scalar(lambda log: -tangent(math.exp(log), normal), bounds=(math.log(low), math.log(0.5)), method='bounded')  # noqa: B023
 		if best.x < math.log(low) + 1e-3:
 			raise ValueError(f'stiffness: {stiffness:g} Pa/m is so soft that the block falls with its heel still closed')

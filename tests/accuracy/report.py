@@ -30,6 +30,7 @@ studies = {
 	'scenes': ('sceneExtremes', 'Scenes at the extremes', ()),
 	'path': ('contactPath', 'Path of the contact', ()),
 	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
+	'joints': ('joints', 'Blocks and grains with a closed form', ()),
 }
 """Name: script, title, options besides --quick and --output."""
 
