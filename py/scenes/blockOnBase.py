@@ -127,12 +127,14 @@ class LoadedBlock(BlockOnBase):
 	"""A block turned by more has toppled: beyond the turn at which an elastic joint carries most. [rad]"""
 	wayLimit: float = 1e-3
 	"""A block whose toe has moved farther has slid [m]."""
+	driftLimit: float = 5e-5
+	"""A block that still moves faster when the time is over does not stand, however little it has moved [m/s]."""
 
 	def apply(self, load, ramp=0.5, most=2.5):
 		"""Builds the scene, raises the load (the tangent of a tilt, or an acceleration over gravity's) and holds it.
 
 		:param float ramp: time over which the load rises, with a tangent of zero at the end [s]
-		:param float most: how long it is held at most [s]; a block that has come to rest by then stands
+		:param float most: how long it is held at most [s]; a block that has not come to rest by then slides or topples
 		:returns: :yref:`Verdict`
 		"""
 		self.build()
@@ -140,15 +142,32 @@ class LoadedBlock(BlockOnBase):
 		while O.time < settling:
 			O.step()
 		self._startTurn, self._startToe, begun = self.turn, self._toe(), O.time
+		looked = last = self.verdict()
+		lookAgain = begun + ramp
 		while O.time - begun < ramp + most:
 			for _ in range(100):
 				part = min((O.time - begun) / ramp, 1)
 				self._load(load * part * (2 - part))
 				O.step()
-			verdict = self.verdict()
-			if not verdict.stands or O.time - begun > ramp + 0.2 and self._atRest():
-				break
-		return verdict
+			last = self.verdict()
+			if not last.stands:
+				return last
+			if O.time > lookAgain + 0.2:
+				if self._drift(last, looked, O.time - lookAgain) < self.driftLimit and self._atRest():
+					return last
+				if O.time - begun < ramp + most - 0.2:
+					looked, lookAgain = last, O.time
+		return self._verdictOfDrift(last, looked, O.time - lookAgain)
+
+	def _drift(self, now, before, time):
+		"""[m/s]"""
+		return max(abs(now.turn - before.turn) * self.height, abs(now.way - before.way)) / time
+
+	def _verdictOfDrift(self, now, before, time):
+		if self._drift(now, before, time) < self.driftLimit:
+			return now
+		turns = abs(now.turn - before.turn) * self.height > abs(now.way - before.way)
+		return dataclasses.replace(now, mode='topples' if turns else 'slides')
 
 	def verdict(self):
 		turn, way = self.turn - self._startTurn, self._toe() - self._startToe
