@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AnalyticCentre.hpp"
+#include "BoundingPlanes.hpp"
 #include "ConservativeContact.hpp"
 #include "ContactNormal.hpp"
 #include "FirstBasis.hpp"
@@ -113,6 +114,24 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	planes.slack  = row + (D + 1) * planes.total;
 	planes.rate   = row + (D + 2) * planes.total;
 	return planes;
+}
+
+/// Moves internal planes out of reach, and back.
+template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k) {
+			R& one         = planes.offset[planes.begin(body) + internal.plane[body][k]];
+			offset[next++] = one;
+			one            = R(padOffset);
+		}
+}
+
+template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes, const InternalPlanes& internal, const R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k)
+			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
 }
 
 template <class R, int D, int W>
@@ -286,7 +305,11 @@ POLYTOPE_INLINE void contactKernel(
 
 	if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
 
-	// 6. normal and depth
+	if (settings.bounding && touching) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
+
+	// 6. normal and depth, without internal faces
+	R internalOffset[2 * BoundingPlanes::most];
+	if (settings.internal) takeOut<R, D>(planes, *settings.internal, internalOffset);
 	R                   n[D];
 	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
@@ -297,6 +320,8 @@ POLYTOPE_INLINE void contactKernel(
 		const R apart = maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
 		out.depth     = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -apart);
 	}
+
+	if (settings.internal) putBack<R, D>(planes, *settings.internal, internalOffset);
 
 	out.status      = outcome;
 	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };

@@ -173,6 +173,19 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
+/// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
+/// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
+constexpr Real leverage = 1e-2;
+
+/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
+constexpr Real parallel = 1e-4;
+
+/// Least part of a stiffness per contact that one of several pieces has. Any small number: the law divides by it.
+constexpr Real leastShareOfSupport = 1e-9;
+
+/// Steps between two looks for internal faces of a pair that touched before and has none.
+constexpr int internalFacesEvery = 16;
+
 /// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The extension module yade._polytope: what yade.polytope (py/) needs beyond YADE's classes.
+// The extension module yade._polytope: what yade.polytope (py/polytope/) needs beyond YADE's classes.
 //
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
@@ -129,7 +129,8 @@ struct Contact {
 };
 
 Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
-        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier)
+        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
+        const std::string& normal)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
@@ -142,6 +143,7 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	functor.newtonTolerance = newtonTolerance;
 	functor.solver          = solver;
 	functor.contactModel    = contactModel;
+	functor.normal          = normal;
 	functor.barrier         = barrier;
 	functor.callPostLoad();
 	polytope::ContactSettings settings = functor.settings();
@@ -224,11 +226,12 @@ BOOST_PYTHON_MODULE(_polytope)
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
-	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier)),
+	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier),
+	                py::arg("normal") = "dualWeights"),
 	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier: as on "
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "

@@ -89,6 +89,7 @@ public:
 		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
 		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
 		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
+		((Real, share, 1, (Attr::readonly | Attr::hidden), "The part of a stiffness per contact that kn and ks stand for now, see PolytopeGeom.share"))
 		((Real, lastStored, -1, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy; -1: was not tracked)"))
 		, /*ctor*/ createIndex();
 	);

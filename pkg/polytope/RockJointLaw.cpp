@@ -118,6 +118,11 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
 	if (phys.normalStiffness > 0) phys.kn = phys.normalStiffness * phys.contactArea;
 	if (phys.shearStiffness > 0) phys.ks = phys.shearStiffness * phys.contactArea;
+	if (phys.normalStiffness == 0 && phys.share != geom.share) { // a stiffness per contact; whatever a script has set it to
+		phys.kn *= geom.share / phys.share;
+		phys.ks *= geom.share / phys.share;
+		phys.share = geom.share;
+	}
 
 	Vector3r shear = phys.shearForce - phys.shearViscous;
 	turnWithContact(geom, shear);

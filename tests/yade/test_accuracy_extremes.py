@@ -11,8 +11,8 @@ import pytest
 from yade import Quaternion, Vector3
 from yade import polytope
 
-folder = pathlib.Path(__file__).resolve().parents[1] / 'accuracy'
-program = folder.parents[1] / 'build/tests/accuracy/polytope_extremes'
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
+program = folder.parents[2] / 'build/tools/measure/accuracy/polytope_extremes'
 sys.path.append(str(folder))
 
 import pairTables

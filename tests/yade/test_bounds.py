@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scenes import driven, joint, loop
 from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, Polytope, PolytopeCollider, Quaternion, Vector3, polytope
-from yade.polytope.scenes.falling import FallingPolyhedra
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 colliders = [InsertionSortCollider, PolytopeCollider]
 

@@ -5,15 +5,18 @@ import importlib.util
 import json
 import math
 import pathlib
+import sys
 
 import numpy as np
 import pytest
-from yade.polytope.studies.collisionEnergy import Bounces, Collisions, lastEnergies, meetings, spread
-from yade.polytope.studies.collisionEnergyScene import Contact
-from yade.polytope.studies.contactPath import Zoom, scan, smoothness, warmAnswers, zoom
-from yade.polytope.studies.contactPathScenes import paths, variants
 
-folder = pathlib.Path(__file__).resolve().parents[2] / 'tests/accuracy'
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
+sys.path.append(str(folder))
+
+from collisionStudy.meetings import Bounces, Collisions, lastEnergies, meetings, spread
+from collisionStudy.scene import Contact
+from pathStudy.path import Zoom, scan, smoothness, warmAnswers, zoom
+from pathStudy.scenes import paths, variants
 
 
 def study(name, where, *options):

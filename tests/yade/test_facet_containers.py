@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Grains in a drum and in a funnel of facets: the default contact, both rules of stiffness."""
+import pathlib
+import sys
+
 import pytest
 from yade import O
-from yade.polytope.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
-from yade.polytope.scenes.jointEngines import failures
-from yade.polytope.studies.jointScenes import discharge
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
+from jointStudy.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
+from jointStudy.scenes.engines import failures
+from jointStudy.measures import discharge
 
 makesEnergy = pytest.mark.xfail(strict=True, reason='contacts under the averaged normal make energy')
 hangs = pytest.mark.xfail(strict=True, reason='the averaged normal leans on the edges that facets share: a grain is left on the slope')

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks on joints, where theory has one answer: the default contact, both rules of stiffness, two and three dimensions."""
 import math
+import pathlib
+import sys
 
 import pytest
-from yade.polytope.scenes.arch import MasonryArch
-from yade.polytope.scenes.blockOnBase import RockingBlock, ShakenBlock, TiltedBlock
-from yade.polytope.theory.arch import leastThickness
-from yade.polytope.theory.rocking import rockingPeriod
-from yade.polytope.theory.toppling import criticalTilt
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
+from jointStudy.scenes.arch import MasonryArch
+from jointStudy.scenes.blockOnBase import RockingBlock, ShakenBlock, TiltedBlock
+from jointStudy.theory.arch import leastThickness
+from jointStudy.theory.rocking import rockingPeriod
+from jointStudy.theory.toppling import criticalTilt
 
 creeps = pytest.mark.xfail(strict=True, reason='a block on a tilted plane creeps, stiffness per area, rocking undamped')
 leans = pytest.mark.xfail(strict=True, reason='the averaged normal leans under the leading edge of a block that slides')

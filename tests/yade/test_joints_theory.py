@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Closed forms of blocks on joints, against what the literature and other ways to them give."""
 import math
+import pathlib
+import sys
 
 import numpy as np
 import pytest
-from yade.polytope.theory.arch import archStands, leastThickness, voussoir
-from yade.polytope.theory.rocking import housnerPeriod, rockingFrequency, rockingPeriod
-from yade.polytope.theory.toppling import criticalTilt, elasticToppling, rigidToppling
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
+from jointStudy.theory.arch import archStands, leastThickness, voussoir
+from jointStudy.theory.rocking import housnerPeriod, rockingFrequency, rockingPeriod
+from jointStudy.theory.toppling import criticalTilt, elasticToppling, rigidToppling
 
 
 def testBlockSlidesOrTopplesWhicheverComesFirst():

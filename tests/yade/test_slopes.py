@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cubes on slopes, edges on floors, solids that roll over plates: the default contact, both rules of stiffness."""
 import math
+import pathlib
+import sys
 
 import numpy as np
 import pytest
-from yade.polytope.scenes.releasedCube import CubeOnSlope, edgeNormal, slopeFloors, wallKick
-from yade.polytope.scenes.rollingSolid import RollingSolid
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
+from jointStudy.scenes.releasedCube import CubeOnSlope, edgeNormal, slopeFloors, wallKick
+from jointStudy.scenes.rollingSolid import RollingSolid
 
 leans = pytest.mark.xfail(strict=True, reason='the averaged normal leans where an edge lies on a face')
 seams = pytest.mark.xfail(strict=True, reason='the averaged normal leans on seams')

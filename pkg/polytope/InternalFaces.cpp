@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "InternalFaces.hpp"
+
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/Wall.hpp>
+
+#include <src/SectionArea.hpp>
+
+#include "Polytope.hpp"
+
+namespace yade {
+
+namespace {
+
+	using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
+
+	const Body& bodyOf(const TouchingPair& pair, int which)
+	{
+		return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
+	}
+
+	void addPlane(Planes& planes, const Vector3r& normal, Real offset) { planes.push_back({ normal, offset }); }
+
+	void addPlanes(Planes& planes, const polytope::ConvexShape& convex, const Matrix3r& rotation, const Vector3r& centre)
+	{
+		for (int i = 0; i < convex.planeCount(); ++i) {
+			Vector3r own = Vector3r::Zero();
+			for (int k = 0; k < convex.dimension(); ++k)
+				own[k] = convex.normalArray(k)[i];
+			const Vector3r normal = rotation * own;
+			addPlane(planes, normal, convex.offsetArray()[i] + normal.dot(centre));
+		}
+	}
+
+	/// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
+	/// shapes without faces, and for bodies farther than `near` from the contact point.
+	void addBody(Planes& planes, const Body& body, const Vector3r& centre, const Vector3r& other, Real near)
+	{
+		const Matrix3r rotation = body.state->ori.toRotationMatrix();
+		const Shape*   shape    = body.shape.get();
+		if (const auto* solid = dynamic_cast<const Polytope*>(shape)) {
+			const auto& convex = solid->convex();
+			if (convex && centre.norm() < convex->boundingRadius() + near) addPlanes(planes, *convex, rotation, centre);
+		} else if (const auto* box = dynamic_cast<const Box*>(shape)) {
+			if (!(centre.norm() < box->extents.norm() + near)) return;
+			for (int k = 0; k < 3; ++k)
+				for (int sign = -1; sign <= 1; sign += 2) {
+					const Vector3r normal = sign * rotation.col(k);
+					addPlane(planes, normal, box->extents[k] + normal.dot(centre));
+				}
+		} else if (const auto* facet = dynamic_cast<const Facet*>(shape)) {
+			// as deep as need be, on the side the other body is not on
+			Vector3r corner[3];
+			for (int k = 0; k < 3; ++k)
+				corner[k] = centre + rotation * facet->vertices[k];
+			Vector3r normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+			if (normal.dot(other - corner[0]) < 0) normal = -normal;
+			addPlane(planes, normal, normal.dot(corner[0]));
+			for (int k = 0; k < 3; ++k) {
+				Vector3r out = (corner[(k + 1) % 3] - corner[k]).cross(normal).normalized();
+				if (out.dot(corner[(k + 2) % 3] - corner[k]) > 0) out = -out;
+				addPlane(planes, out, out.dot(corner[k]));
+			}
+		} else if (const auto* wall = dynamic_cast<const Wall*>(shape)) {
+			const Real     side   = wall->sense != 0 ? Real(wall->sense) : other[wall->axis] - centre[wall->axis];
+			const Vector3r normal = (side < 0 ? -1 : 1) * Vector3r::Unit(wall->axis);
+			addPlane(planes, normal, normal.dot(centre));
+		}
+	}
+
+	bool contains(const Planes& planes, const Vector3r& point)
+	{
+		for (const polytope::Plane& plane : planes)
+			if (!(plane.normal.dot(point) <= plane.offset)) return false;
+		return !planes.empty();
+	}
+
+	/// Whether two bodies move as one, or not at all: they never touch.
+	bool rigidTogether(const Body& one, const Body& other)
+	{
+		if (one.isClumpMember() || other.isClumpMember()) return one.clumpId == other.clumpId;
+		return !one.isDynamic() && !other.isDynamic();
+	}
+
+	/// Calls visit(neighbour, its centre from the contact point) for bodies that may touch body `mover` of the pair where the pair
+	/// touches. They are in the mover's list of pairs; the list of a free piece has those that touch the piece, and may be shorter.
+	template <class Visit> void forNeighbours(const TouchingPair& pair, int mover, const Visit& visit)
+	{
+		const Body& body = bodyOf(pair, mover);
+		const Body& own  = bodyOf(pair, 1 - mover);
+		const bool  turn = own.isDynamic() && own.intrs.size() < body.intrs.size();
+		const Body& hub  = turn ? own : body;
+		const Vector3r hubCentre = pair.centre[turn ? 1 - mover : mover] - pair.point;
+		for (const auto& [id, contact] : hub.intrs) {
+			if (id == body.id || id == own.id || !contact) continue;
+			const shared_ptr<Body>& neighbour = Body::byId(id, pair.scene);
+			if (!neighbour || !neighbour->shape || !neighbour->maskOk(body.groupMask) || rigidTogether(*neighbour, body)) continue;
+			Vector3r way = neighbour->state->pos - hub.state->pos;
+			if (pair.scene->isPeriodic) {
+				const Vector3r shift = pair.scene->cell->intrShiftPos(contact->cellDist);
+				way += contact->getId2() == id ? shift : Vector3r(-shift);
+			}
+			visit(*neighbour, Vector3r(hubCentre + way));
+		}
+	}
+
+	/// A plane that bounds the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
+	struct Candidate {
+		int      plane;
+		Vector3r outside; ///< from the contact point
+		bool     internal;
+	};
+
+	/// `outside` is reached along the plane j of the body that is nearest to the contact point besides i, so that it keeps the
+	/// contact point's height below j: the face that is slid on if i is a side.
+	std::vector<Candidate> candidatesOf(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece)
+	{
+		std::vector<Candidate> all;
+		const auto             normalOf = [&](int k) {
+                        Vector3r own = Vector3r::Zero();
+                        for (int axis = 0; axis < pair.convex[piece]->dimension(); ++axis)
+                                own[axis] = pair.convex[piece]->normalArray(axis)[bounding.plane[piece][k]];
+                        return Vector3r(pair.rotation[piece] * own);
+		};
+		for (int i = 0; i < bounding.count[piece]; ++i) {
+			const Vector3r normal  = normalOf(i);
+			int            nearest = -1;
+			for (int j = 0; j < bounding.count[piece]; ++j) {
+				const bool parallel = math::abs(normalOf(j).dot(normal)) > 1 - Real(polytope::tolerance::parallel);
+				if (j == i || parallel) continue;
+				if (nearest < 0 || bounding.slack[piece][j] < bounding.slack[piece][nearest]) nearest = j;
+			}
+			if (nearest < 0) continue;
+			const Vector3r face  = normalOf(nearest);
+			const Vector3r along = normal - normal.dot(face) * face; // along·normal = |along|²
+			const Real     way   = bounding.slack[piece][i] + 2 * pair.ball;
+			all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, false });
+		}
+		return all;
+	}
+
+} // namespace
+
+polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
+{
+	polytope::InternalPlanes result;
+	Planes                   planes;
+	for (int piece = 0; piece < 2; ++piece) {
+		if (bounding.count[piece] < 2) continue;
+		std::vector<Candidate> candidates = candidatesOf(pair, bounding, piece);
+		int                    found      = 0;
+		Real                   near       = 0;
+		for (const Candidate& one : candidates)
+			near = math::max(near, one.outside.norm());
+		const Vector3r mover = pair.centre[1 - piece] - pair.point;
+		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
+			planes.clear();
+			addBody(planes, neighbour, centre, mover, near);
+			for (Candidate& one : candidates)
+				if (!one.internal && contains(planes, one.outside)) {
+					one.internal = true;
+					++found;
+				}
+		});
+		// the face that is slid on must be left
+		if (found == 0 || found >= bounding.count[piece]) continue;
+		for (const Candidate& one : candidates)
+			if (one.internal) result.plane[piece][result.count[piece]++] = one.plane;
+	}
+	return result;
+}
+
+Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& internal)
+{
+	for (int piece = 0; piece < 2; ++piece) {
+		if (internal.count[piece] == 0) continue;
+		const Body& own = bodyOf(pair, piece);
+		if (own.isDynamic() && !own.isClumpMember()) continue; // free bodies carry load on their own
+		const polytope::ConvexShape& convex = *pair.convex[1 - piece];
+		const Vector3r               mover  = pair.centre[1 - piece] - pair.point;
+		const Real                   reach  = 2 * convex.boundingRadius();
+		Planes                       planes;
+		addPlanes(planes, convex, pair.rotation[1 - piece], mover);
+		const std::size_t covered = planes.size();
+		const auto        areaOn  = [&](const Body& body, const Vector3r& centre) {
+                        planes.resize(covered);
+                        addBody(planes, body, centre, mover, reach);
+                        if (planes.size() == covered) return Real(0);
+                        return polytope::sectionArea(planes, pair.normal, reach, convex.dimension());
+		};
+		const Real here = areaOn(own, pair.centre[piece] - pair.point);
+		Real       all  = here;
+		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
+			if (rigidTogether(neighbour, own)) all += areaOn(neighbour, centre);
+		});
+		if (all > 0) return math::max(here / all, Real(polytope::tolerance::leastShareOfSupport));
+	}
+	return 1;
+}
+
+} // namespace yade
