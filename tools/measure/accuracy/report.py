@@ -32,6 +32,7 @@ studies = {
 	'path': ('contactPath', 'Path of the contact', ()),
 	'surfaces': ('surfaces', 'Floors made of flush pieces', ()),
 	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
+	'joints': ('joints', 'Blocks and grains with a closed form', ()),
 }
 """Name: script, title, options besides --quick and --output."""
 

@@ -19,11 +19,12 @@ import time
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; one body is too few for more
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
-from surfaceStudy.flatBodies import bodyKinds
-from surfaceStudy.floors import floorKinds
 from boon2012.reporting.options import count, number, positive, writableFolder
 from boon2012.reporting.script import conclude
+from surfaceStudy.flatBodies import bodyKinds
+from surfaceStudy.floors import floorKinds
 from surfaceStudy.measures import cross
 
 from surfacePlots import plotCrossings

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Grains in a drum and in a funnel of facets: the default contact, both rules of stiffness."""
+import pathlib
+import sys
+
+import pytest
+from yade import O
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
+from jointStudy.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
+from jointStudy.scenes.engines import failures
+from jointStudy.measures import discharge
+
+makesEnergy = pytest.mark.xfail(strict=True, reason='contacts under the averaged normal make energy')
+hangs = pytest.mark.xfail(strict=True, reason='the averaged normal leans on the edges that facets share: a grain is left on the slope')
+
+
+def checkBudget(book):
+	work = book['gravity'] + book['drive']
+	# heights, velocities and momenta agree with the law's own book: the measurement is right, whatever the contact
+	assert book['missing'] == pytest.approx(book['nonconservative'], abs=5e-3 * work)
+	assert abs(book['missing']) < 0.01 * work
+
+
+@makesEnergy
+@pytest.mark.parametrize('perArea', [False, True])
+def testDrumOfFacetsKeepsItsEnergyBudget(perArea):
+	drum = FacetDrum(number=16, segments=16, perArea=perArea).build().turn(1.0)
+	assert failures() == 0 and drum.outside == 0
+	checkBudget(drum.book.read(drum.driveWork))
+
+
+@pytest.mark.parametrize('perArea', [pytest.param(False, marks=makesEnergy), True])
+def testFunnelOfFacetsKeepsItsEnergyBudget(perArea):
+	funnel = FacetFunnel(number=30, outlet=0.12, width=0.25, gated=False, perArea=perArea).build()
+	book = EnergyBook(funnel.ids, 9.81)
+	while funnel.below < 15 and O.time < 2:
+		O.step()
+	assert failures() == 0 and funnel.outside == 0
+	checkBudget(book.read())
+
+
+@pytest.mark.parametrize('perArea', [pytest.param(False, marks=hangs), True])
+def testFunnelRunsEmptyAndNothingPassesItsWall(perArea):
+	funnel = FacetFunnel(number=40, outlet=0.12, width=0.25, perArea=perArea)
+	outside, hanging = discharge(funnel, 3.0, filling=0.5)
+	assert outside == 0 and hanging == 0 and failures() == 0
