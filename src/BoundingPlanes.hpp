@@ -37,10 +37,11 @@ template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairP
 				reach += v[k] * v[k] / pivot[k];
 			}
 			const R slack = planes.slack[i];
-			if (!(reach > R(tolerance::leverage) * slack * slack)) continue;
+			if (!(reach > R(tolerance::nearLeverage) * slack * slack)) continue;
 			const int next         = out.count[body]++;
 			out.plane[body][next]  = i - planes.begin(body);
 			out.slack[body][next]  = slack;
+			out.bounds[body][next] = reach > R(tolerance::leverage) * slack * slack;
 		}
 }
 

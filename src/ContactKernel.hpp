@@ -116,7 +116,7 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	return planes;
 }
 
-/// Moves internal planes out of reach, and back.
+/// Moves internal faces out of reach, and back; `offset`: room for what they had.
 template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
 {
 	for (int body = 0, next = 0; body < 2; ++body)

@@ -35,13 +35,14 @@ enum class NormalSource : int {
 	InnerPotential,  ///< Eqs 13-17: gradients of both bodies' inner potential particles, averaged by normalWeight
 };
 
-/// Planes of each body that bound the overlap (BoundingPlanes.hpp), with their slacks at the contact point [m]; the first ones
-/// where there are more than fit.
+/// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
+/// the first ones where there are more than fit.
 struct BoundingPlanes {
 	static constexpr int most = 16;
 	int                  count[2] = { 0, 0 };
 	int                  plane[2][most];
 	Real                 slack[2][most];
+	bool                 bounds[2][most]; ///< whether it cuts the overlap; else it is merely near
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that

@@ -177,6 +177,14 @@ constexpr Real direction = 64 * rounding;
 /// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
 constexpr Real leverage = 1e-2;
 
+/// Leverage from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
+/// inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
+constexpr Real nearLeverage = 1e-6;
+
+/// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this, or than the
+/// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
+constexpr Real flush = 1e-9;
+
 /// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
 constexpr Real parallel = 1e-4;
 

@@ -108,8 +108,23 @@ namespace {
 	/// A plane that bounds the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
 	struct Candidate {
 		int      plane;
-		Vector3r outside; ///< from the contact point
+		Vector3r outside;    ///< from the contact point
+		Vector3r face;       ///< normal of the face that is slid on if this plane is a side of it
+		Real     faceOffset; ///< from the contact point
+		bool     faceBounds; ///< whether that face bounds the overlap
 		bool     internal;
+
+		/// Whether the neighbour fills the place outside of it. Of an overlap that does not reach up to the face nothing says how high
+		/// the neighbour is: then its face must continue that one, to within `step`.
+		bool coveredBy(const Planes& neighbour, Real step) const
+		{
+			if (!contains(neighbour, outside)) return false;
+			if (faceBounds) return true;
+			for (const polytope::Plane& plane : neighbour)
+				if (plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel) && math::abs(plane.offset - faceOffset) <= step)
+					return true;
+			return false;
+		}
 	};
 
 	/// `outside` is reached along the plane j of the body that is nearest to the contact point besides i, so that it keeps the
@@ -124,6 +139,7 @@ namespace {
                         return Vector3r(pair.rotation[piece] * own);
 		};
 		for (int i = 0; i < bounding.count[piece]; ++i) {
+			if (!bounding.bounds[piece][i]) continue;
 			const Vector3r normal  = normalOf(i);
 			int            nearest = -1;
 			for (int j = 0; j < bounding.count[piece]; ++j) {
@@ -135,7 +151,8 @@ namespace {
 			const Vector3r face  = normalOf(nearest);
 			const Vector3r along = normal - normal.dot(face) * face; // along·normal = |along|²
 			const Real     way   = bounding.slack[piece][i] + 2 * pair.ball;
-			all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, false });
+			all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, face,
+			        bounding.slack[piece][nearest], bounding.bounds[piece][nearest], false });
 		}
 		return all;
 	}
@@ -154,11 +171,13 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 		for (const Candidate& one : candidates)
 			near = math::max(near, one.outside.norm());
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
+		const Real     larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+		const Real     step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
 		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
 			planes.clear();
 			addBody(planes, neighbour, centre, mover, near);
 			for (Candidate& one : candidates)
-				if (!one.internal && contains(planes, one.outside)) {
+				if (!one.internal && one.coveredBy(planes, step)) {
 					one.internal = true;
 					++found;
 				}

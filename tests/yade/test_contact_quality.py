@@ -5,18 +5,15 @@ import importlib.util
 import json
 import math
 import pathlib
-import sys
 
 import numpy as np
 import pytest
-
-folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
-sys.path.append(str(folder))
-
 from collisionStudy.meetings import Bounces, Collisions, lastEnergies, meetings, spread
 from collisionStudy.scene import Contact
 from pathStudy.path import Zoom, scan, smoothness, warmAnswers, zoom
 from pathStudy.scenes import paths, variants
+
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
 
 
 def study(name, where, *options):

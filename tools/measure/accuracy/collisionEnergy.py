@@ -17,7 +17,7 @@ import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; the studies are small
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, paperParser, shown
 from boon2012.reporting.script import conclude

@@ -21,7 +21,7 @@ import sys
 
 from tqdm import tqdm
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, existingFile, writableFolder
 from boon2012.reporting.script import conclude

@@ -17,7 +17,7 @@ import pathlib
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 
 from boon2012.reporting.options import count
 from boon2012.reporting.report import endOnTerm, outputFolder, report
@@ -30,6 +30,7 @@ studies = {
 	'pairs': ('pairExtremes', 'Pairs at the extremes', ('--jobs', '1')),
 	'scenes': ('sceneExtremes', 'Scenes at the extremes', ()),
 	'path': ('contactPath', 'Path of the contact', ()),
+	'surfaces': ('surfaces', 'Floors made of flush pieces', ()),
 	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
 	'joints': ('joints', 'Blocks and grains with a closed form', ()),
 }

@@ -46,7 +46,7 @@ if __name__ == '__main__':  # before YADE is loaded, or even built
 		sys.exit()
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the processes
-sys.path.insert(0, str(here.parents[2] / 'examples/paper'))  # boon2012
+sys.path.append(str(here.parents[2] / 'examples/paper'))  # boon2012
 
 from boon2012.reporting.report import endOnTerm
 from tradeoffAxes import allScenes, default, scatter

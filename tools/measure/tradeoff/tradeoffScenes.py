@@ -30,7 +30,7 @@ from yade._polytope import contact
 
 from yade.polytope.bodies import regular
 from yade.polytope.frictionReduction import FrictionReduction
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # in a process of its own, too
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # in a process of its own, too
 from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.collisions.scene import Collision, readBlocks
 from boon2012.roofWedge.scene import RoofWedge
