@@ -66,10 +66,12 @@ POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSe
 	ContactStatus status = ContactStatus::Contact;
 	if (settings.normal == NormalSource::DualWeights) {
 		const R weight = dualWeightsNormal<R, D, W>(planes, x, f.size, n);
-		if (!(norm<R, D>(n) > R(tolerance::direction) * weight)) { // or x is outside, by rounding
+		const R length = norm<R, D>(n), way = norm<R, D>(dual);
+		// where the weights cancel, or x is outside by rounding, what is left of them may point anywhere
+		if (!(length > R(tolerance::balanced) * weight && dot<R, D>(n, dual) > R(tolerance::sameSide) * length * way)) {
 			for (int k = 0; k < D; ++k)
 				n[k] = dual[k];
-			status = norm<R, D>(n) > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
+			status = way > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
 		}
 	} else status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);

@@ -173,6 +173,14 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
+/// × the weights they are chosen from: balanced weights (DualWeights.hpp) below this have lost more than half of their digits. Faces
+/// that thin overlaps lie between are then tilted by less than 1e-5, and the linear program's own direction is theirs.
+constexpr Real balanced = 1e-9 * powerOfTwo((53 - digits) / 2);
+
+/// Least cosine between the direction of the balanced weights and the linear program's own, which is that of one of the planes near the
+/// contact: where three faces of a corner take part alike it is 0.58.
+constexpr Real sameSide = 0.25;
+
 /// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
 /// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
 constexpr Real leverage = 1e-2;
@@ -187,6 +195,10 @@ constexpr Real flush = 1e-9;
 
 /// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
 constexpr Real parallel = 1e-4;
+
+/// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
+/// most.
+constexpr Real thinContact = 0.1;
 
 /// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
 constexpr Real leastShareOfSupport = 1e-9;

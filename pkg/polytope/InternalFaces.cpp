@@ -9,6 +9,8 @@
 
 #include "Polytope.hpp"
 
+#include <algorithm>
+
 namespace yade {
 
 namespace {
@@ -109,17 +111,15 @@ namespace {
 	struct Candidate {
 		int      plane;
 		Vector3r outside;    ///< from the contact point
-		Vector3r face;       ///< normal of the face that is slid on if this plane is a side of it
+		int      facePlane;  ///< of the face that is slid on
+		Vector3r face;       ///< its normal
 		Real     faceOffset; ///< from the contact point
-		bool     faceBounds; ///< whether that face bounds the overlap
 		bool     internal;
 
-		/// Whether the neighbour fills the place outside of it. Of an overlap that does not reach up to the face nothing says how high
-		/// the neighbour is: then its face must continue that one, to within `step`.
+		/// Whether the neighbour fills the place outside of it, and its face continues the one that is slid on, to within `step`.
 		bool coveredBy(const Planes& neighbour, Real step) const
 		{
 			if (!contains(neighbour, outside)) return false;
-			if (faceBounds) return true;
 			for (const polytope::Plane& plane : neighbour)
 				if (plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel) && math::abs(plane.offset - faceOffset) <= step)
 					return true;
@@ -127,32 +127,44 @@ namespace {
 		}
 	};
 
-	/// `outside` is reached along the plane j of the body that is nearest to the contact point besides i, so that it keeps the
-	/// contact point's height below j: the face that is slid on if i is a side.
+	Vector3r boundingNormal(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int body, int k)
+	{
+		Vector3r own = Vector3r::Zero();
+		for (int axis = 0; axis < pair.convex[body]->dimension(); ++axis)
+			own[axis] = pair.convex[body]->normalArray(axis)[bounding.plane[body][k]];
+		return pair.rotation[body] * own;
+	}
+
+	/// Whether a face of the other body lies on plane j of the piece, by far less than either body is thick: edges and vertices are not stopped by
+	/// seams.
+	bool facesMeet(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, int j)
+	{
+		const Real     thin = Real(polytope::tolerance::thinContact) * math::min(pair.convex[0]->inscribedRadius(), pair.convex[1]->inscribedRadius());
+		const Vector3r face = boundingNormal(pair, bounding, piece, j);
+		for (int k = 0; k < bounding.count[1 - piece]; ++k)
+			if (boundingNormal(pair, bounding, 1 - piece, k).dot(face) < Real(polytope::tolerance::parallel) - 1
+			    && bounding.slack[piece][j] + bounding.slack[1 - piece][k] < thin)
+				return true;
+		return false;
+	}
+
+	/// Pairs of a plane i that bounds the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps
+	/// the contact point's height below it.
 	std::vector<Candidate> candidatesOf(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece)
 	{
 		std::vector<Candidate> all;
-		const auto             normalOf = [&](int k) {
-                        Vector3r own = Vector3r::Zero();
-                        for (int axis = 0; axis < pair.convex[piece]->dimension(); ++axis)
-                                own[axis] = pair.convex[piece]->normalArray(axis)[bounding.plane[piece][k]];
-                        return Vector3r(pair.rotation[piece] * own);
-		};
-		for (int i = 0; i < bounding.count[piece]; ++i) {
-			if (!bounding.bounds[piece][i]) continue;
-			const Vector3r normal  = normalOf(i);
-			int            nearest = -1;
-			for (int j = 0; j < bounding.count[piece]; ++j) {
-				const bool parallel = math::abs(normalOf(j).dot(normal)) > 1 - Real(polytope::tolerance::parallel);
-				if (j == i || parallel) continue;
-				if (nearest < 0 || bounding.slack[piece][j] < bounding.slack[piece][nearest]) nearest = j;
+		for (int j = 0; j < bounding.count[piece]; ++j) {
+			if (!facesMeet(pair, bounding, piece, j)) continue;
+			const Vector3r face = boundingNormal(pair, bounding, piece, j);
+			for (int i = 0; i < bounding.count[piece]; ++i) {
+				if (i == j || !bounding.bounds[piece][i]) continue;
+				const Vector3r normal = boundingNormal(pair, bounding, piece, i);
+				const Vector3r along  = normal - normal.dot(face) * face; // along·normal = |along|²
+				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
+				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
+				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along,
+				        bounding.plane[piece][j], face, bounding.slack[piece][j], false });
 			}
-			if (nearest < 0) continue;
-			const Vector3r face  = normalOf(nearest);
-			const Vector3r along = normal - normal.dot(face) * face; // along·normal = |along|²
-			const Real     way   = bounding.slack[piece][i] + 2 * pair.ball;
-			all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, face,
-			        bounding.slack[piece][nearest], bounding.bounds[piece][nearest], false });
 		}
 		return all;
 	}
@@ -163,29 +175,32 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 {
 	polytope::InternalPlanes result;
 	Planes                   planes;
+	const Real               larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+	const Real               step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
 	for (int piece = 0; piece < 2; ++piece) {
 		if (bounding.count[piece] < 2) continue;
 		std::vector<Candidate> candidates = candidatesOf(pair, bounding, piece);
-		int                    found      = 0;
-		Real                   near       = 0;
+		if (candidates.empty()) continue;
+		Real near = 0;
 		for (const Candidate& one : candidates)
 			near = math::max(near, one.outside.norm());
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
-		const Real     larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-		const Real     step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
 		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
 			planes.clear();
 			addBody(planes, neighbour, centre, mover, near);
 			for (Candidate& one : candidates)
-				if (!one.internal && one.coveredBy(planes, step)) {
-					one.internal = true;
-					++found;
-				}
+				one.internal = one.internal || one.coveredBy(planes, step);
 		});
-		// the face that is slid on must be left
-		if (found == 0 || found >= bounding.count[piece]) continue;
-		for (const Candidate& one : candidates)
-			if (one.internal) result.plane[piece][result.count[piece]++] = one.plane;
+		// a face that is slid on is no internal face itself: of blocks that meet at a corner, or along an edge, neither side is
+		const auto covered = [&](int plane) {
+			return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& one) { return one.internal && one.plane == plane; });
+		};
+		int& count = result.count[piece];
+		for (const Candidate& one : candidates) {
+			int* const end = result.plane[piece] + count;
+			if (one.internal && !covered(one.facePlane) && std::find(result.plane[piece], end, one.plane) == end)
+				result.plane[piece][count++] = one.plane;
+		}
 	}
 	return result;
 }

@@ -152,6 +152,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	const Real normal  = elasticNormal + viscous;
 
 	Vector3r shear = trial;
+	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements that positions cannot show
+	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
+	if (normal <= 0 && shear.squaredNorm() < shown * shown) shear = Vector3r::Zero();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
 	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
 

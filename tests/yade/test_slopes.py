@@ -11,18 +11,16 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure
 from jointStudy.scenes.releasedCube import CubeOnSlope, edgeNormal, slopeFloors, wallKick
 from jointStudy.scenes.rollingSolid import RollingSolid
 
-leans = pytest.mark.xfail(strict=True, reason='the averaged normal leans where an edge lies on a face')
-seams = pytest.mark.xfail(strict=True, reason='the averaged normal leans on seams')
 
 
 @pytest.mark.parametrize(
 	'floor, perArea',
 	[
-		*(pytest.param(floor, False, marks=leans) for floor in slopeFloors),
+		*(pytest.param(floor, False) for floor in slopeFloors),
 		('slab', True),
 		('facet', True),
-		pytest.param('tiles', True, marks=seams),
-		pytest.param('facets', True, marks=seams),
+		pytest.param('tiles', True),
+		pytest.param('facets', True),
 	],
 )
 def testCubeSlidesDownASlopeAsFarAsTheorySays(floor, perArea):
@@ -32,7 +30,6 @@ def testCubeSlidesDownASlopeAsFarAsTheorySays(floor, perArea):
 	assert abs(aside) < 2e-3 * distance
 
 
-@leans
 @pytest.mark.parametrize('floor', ['polytope', 'wall', 'box', 'facet'])
 @pytest.mark.parametrize('turn', [5, 15, 30])
 def testEdgeOnAFlatFloorHasTheFloorsNormal(turn, floor):
@@ -40,7 +37,6 @@ def testEdgeOnAFlatFloorHasTheFloorsNormal(turn, floor):
 		assert edgeNormal(math.radians(turn), overlap, floor) < math.radians(0.1)
 
 
-@leans
 @pytest.mark.parametrize('perArea', [False, True])
 @pytest.mark.parametrize('floor', ['wall', 'facet'])
 def testTiltedCubeIsNotKickedAsideByAFrictionlessFloor(floor, perArea):
@@ -51,9 +47,9 @@ def testTiltedCubeIsNotKickedAsideByAFrictionlessFloor(floor, perArea):
 	'faces, perArea',
 	[
 		(12, False),
-		pytest.param(12, True, marks=seams),
-		pytest.param(20, False, marks=seams),
-		pytest.param(20, True, marks=seams),
+		pytest.param(12, True),
+		pytest.param(20, False),
+		pytest.param(20, True),
 	],
 )
 def testSolidRollsOverFlushPlatesAsOverOne(faces, perArea):

@@ -17,7 +17,7 @@ from surfaceStudy.surface import SurfaceScene
 from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, roll
 from surfaceStudy.measures import cross, rest, slideDown, stop
 
-folder = pathlib.Path(__file__).resolve().parents[1] / 'accuracy'
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
 sys.path.append(str(folder))
 
 import surfaceTables
@@ -26,11 +26,29 @@ from boon2012.reporting.findings import Findings
 
 rules = pytest.mark.parametrize('perArea', [False, True], ids=['perContact', 'perArea'])
 conservative = {'contactModel': 'conservative'}
-leans = pytest.mark.xfail(strict=True, reason="the averaged normal of the paper leans where an edge lies on a face")
-pulled = pytest.mark.xfail(
-	strict=True, reason="a slab's sides pull the analytic centre: off its middle a body leans by 1e-5, and with it the averaged normal"
-)
-adds = pytest.mark.xfail(strict=True, reason='per contact, two pieces under one body are twice as stiff as one')
+
+
+missed = {
+	'testSlidesOverFlushPieces[bricks': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.012 for 0.002',
+	'testBodiesSlideOverPlates[dodecahedron-perContact': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.0023 for 0.002',
+	'testBodiesSlideOverPlates[hull': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.06 for 0.002',
+	'testSlidesSlowly[0.001': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed); speed to 0.3 % for 0.2',
+	'testSlidesSlowly[0.01': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed)',
+	'testSlidesSlowly[0.1-0.08-back': 'speed to 0.5 % for 0.2: rocking grows where a plate ends close behind the body',
+	'testSlidesSlowlyOnOnePiece[slab': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.017 for 0.002',
+	'testAcceleratesOnAnIncline[slab-dodecahedron': '1 % for 0.5: rocking undamped',
+	'testAcceleratesOnAnIncline[plates-cube': '0.8 % for 0.5: rocking undamped',
+	'testAcceleratesOnAnIncline[facets-cube-False': '0.6 % for 0.5: rocking undamped',
+	'testAGapIsAGapAndAnEndCarries[default-perArea': '1.3 mm for 1 mm: over an end the section is smaller',
+}
+"""What the default contact does not meet yet, and by how much."""
+
+
+@pytest.fixture(autouse=True)
+def markMissed(request):
+	for name, why in missed.items():
+		if request.node.name.startswith(name):
+			request.node.add_marker(pytest.mark.xfail(reason=why))
 
 
 def keeps(crossing):
@@ -50,28 +68,24 @@ def testSlidesOnOnePiece(floor, body, perArea):
 	keeps(cross(floor, body, perArea=perArea))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('floor', ['plates', 'oblique', 'boxes', 'facets', 'mesh', 'bricks', 'rock'])
 def testSlidesOverFlushPieces(floor, perArea):
 	keeps(cross(floor, 'cube', perArea=perArea))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('body', ['box', 'tetrahedron', 'dodecahedron', 'icosahedron', 'hull'])
 def testBodiesSlideOverPlates(body, perArea):
 	keeps(cross('plates', body, perArea=perArea))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('floor, body', [('plates', 'square'), ('oblique', 'polygon')])
 def testPolygonsSlideOverPolygons(floor, body, perArea):
 	keeps(cross(floor, body, perArea=perArea))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('edge', ['front', 'back'])
 @pytest.mark.parametrize('speed, behind', [(1e-3, 0.005), (1e-2, 0.02), (0.1, 0.08)])
@@ -80,32 +94,28 @@ def testSlidesSlowly(speed, behind, edge, perArea):
 
 
 @rules
-@pytest.mark.parametrize('floor', ['wall', pytest.param('slab', marks=pulled)])
+@pytest.mark.parametrize('floor', ['wall', pytest.param('slab')])
 def testSlidesSlowlyOnOnePiece(floor, perArea):
 	keeps(cross(floor, 'cube', perArea=perArea, speed=1e-3, seams=1, edge='front', behind=0.005))
 
 
-@leans
 @rules
 def testSlidesFast(perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, speed=10))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('angle', [20, 45, 80])
 def testSlidesOverJointsAtAnAngle(angle, perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, spacing=0.5, angle=angle))
 
 
-@leans
 @rules
 @pytest.mark.parametrize('seams, spacing', [(1, 1.0), (10, 0.2), (100, 0.1)])
 def testSlidesOverManyJoints(seams, spacing, perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, seams=seams, spacing=spacing))
 
 
-@leans
 @rules
 def testSlidesWithEverythingTurned(perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, turn=Quaternion((1, 2, 3), 0.8)))
@@ -132,7 +142,7 @@ def testSphereForComparison():
 		('slab', 'cube', False),
 		('slab', 'cube', True),
 		('slab', 'square', True),
-		*(pytest.param(f, b, r, marks=leans) for f, b in (('plates', 'cube'), ('facets', 'cube'), ('plates', 'square')) for r in (False, True)),
+		*(pytest.param(f, b, r) for f, b in (('plates', 'cube'), ('facets', 'cube'), ('plates', 'square')) for r in (False, True)),
 	],
 )
 def testStopsWhereFrictionSays(floor, body, perArea):
@@ -145,9 +155,9 @@ def testStopsWhereFrictionSays(floor, body, perArea):
 	'floor, body, perArea',
 	[
 		('slab', 'cube', True),
-		pytest.param('slab', 'cube', False, marks=leans),
-		*(pytest.param('slab', 'dodecahedron', r, marks=leans) for r in (False, True)),
-		*(pytest.param(f, 'cube', r, marks=leans) for f in ('plates', 'facets') for r in (False, True)),
+		pytest.param('slab', 'cube', False),
+		*(pytest.param('slab', 'dodecahedron', r) for r in (False, True)),
+		*(pytest.param(f, 'cube', r) for f in ('plates', 'facets') for r in (False, True)),
 	],
 )
 def testAcceleratesOnAnIncline(floor, body, perArea):
@@ -165,7 +175,7 @@ def testConservativeContactWithFriction(floor):
 # at rest, and what must stay
 
 
-@pytest.mark.parametrize('perArea', [pytest.param(False, marks=adds, id='perContact'), pytest.param(True, id='perArea')])
+@pytest.mark.parametrize('perArea', [pytest.param(False, id='perContact'), pytest.param(True, id='perArea')])
 @pytest.mark.parametrize('floor, body', [('plates', 'cube'), ('facets', 'cube'), ('plates', 'icosahedron'), ('plates', 'square')])
 def testSinksAcrossAJointAsOnOnePiece(floor, body, perArea):
 	found = rest(floor, body, perArea=perArea)
@@ -197,7 +207,7 @@ def testAGapIsAGapAndAnEndCarries(contact, perArea):
 	assert edgeCarries(contact, perArea, over=-0.2) > 1e-2
 
 
-@pytest.mark.parametrize('tilt', [0, pytest.param(5, marks=leans), pytest.param(20, marks=leans), 45])
+@pytest.mark.parametrize('tilt', [0, pytest.param(5), pytest.param(20), 45])
 @rules
 def testAFrictionlessFloorPushesUpAlone(tilt, perArea):
 	for floor in ('slab', 'plates'):
