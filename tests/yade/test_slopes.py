@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cubes on slopes, edges on floors, solids that roll over plates: the default contact, both rules of stiffness."""
+
 import math
 import pathlib
 import sys
@@ -11,20 +12,9 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure
 from jointStudy.scenes.releasedCube import CubeOnSlope, edgeNormal, slopeFloors, wallKick
 from jointStudy.scenes.rollingSolid import RollingSolid
 
-leans = pytest.mark.xfail(strict=True, reason='the averaged normal leans where an edge lies on a face')
-seams = pytest.mark.xfail(strict=True, reason='the averaged normal leans on seams')
 
-
-@pytest.mark.parametrize(
-	'floor, perArea',
-	[
-		*(pytest.param(floor, False, marks=leans) for floor in slopeFloors),
-		('slab', True),
-		('facet', True),
-		pytest.param('tiles', True, marks=seams),
-		pytest.param('facets', True, marks=seams),
-	],
-)
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('floor', slopeFloors)
 def testCubeSlidesDownASlopeAsFarAsTheorySays(floor, perArea):
 	scene = CubeOnSlope(floor=floor, perArea=perArea).build()
 	distance, aside = scene.slide(0.8)
@@ -32,7 +22,6 @@ def testCubeSlidesDownASlopeAsFarAsTheorySays(floor, perArea):
 	assert abs(aside) < 2e-3 * distance
 
 
-@leans
 @pytest.mark.parametrize('floor', ['polytope', 'wall', 'box', 'facet'])
 @pytest.mark.parametrize('turn', [5, 15, 30])
 def testEdgeOnAFlatFloorHasTheFloorsNormal(turn, floor):
@@ -40,22 +29,15 @@ def testEdgeOnAFlatFloorHasTheFloorsNormal(turn, floor):
 		assert edgeNormal(math.radians(turn), overlap, floor) < math.radians(0.1)
 
 
-@leans
 @pytest.mark.parametrize('perArea', [False, True])
 @pytest.mark.parametrize('floor', ['wall', 'facet'])
 def testTiltedCubeIsNotKickedAsideByAFrictionlessFloor(floor, perArea):
 	assert wallKick(perArea=perArea, floor=floor) < 1e-3
 
 
-@pytest.mark.parametrize(
-	'faces, perArea',
-	[
-		(12, False),
-		pytest.param(12, True, marks=seams),
-		pytest.param(20, False, marks=seams),
-		pytest.param(20, True, marks=seams),
-	],
-)
+@pytest.mark.xfail(strict=True, reason='a solid that rolls over a seam goes another way than on one plate, by one to seven per cent')
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('faces', [12, 20])
 def testSolidRollsOverFlushPlatesAsOverOne(faces, perArea):
 	one, ten = (RollingSolid(faces=faces, plates=plates, perArea=perArea).build().path(0.5) for plates in (1, 10))
 	assert np.abs(ten - one).max() < 5e-3 * one[-1, 0]
