@@ -19,8 +19,9 @@
 ///
 /// one pass over the planes and one linear system of D unknowns, positive definite since the normals span space. λ is a smooth
 /// function of x, x one of the poses. With the first power w_i = 1/σ_i the analytic centre's own conditions give c = 0; there a
-/// plane beside the contact, ℓ away from an overlap of thickness δ, would turn n by δ/ℓ. With the fourth power it is (δ/2ℓ)⁴,
-/// and as the power grows the weights tend to those of a basis. No length enters but the overlap's own: n does not change when
+/// plane beside the contact, ℓ away from an overlap of thickness δ, would turn n by δ/ℓ. With the fourth power it is about
+/// (δ/2ℓ)⁴. As the power grows the weights tend to those of a basis, which jump, and M loses digits where slacks at one corner differ: with
+/// the sixth, vertices on faces had normals off by 1e-5. No length enters but the overlap's own: n does not change when
 /// all is scaled.
 namespace polytope {
 
@@ -94,25 +95,27 @@ template <class R, int D> POLYTOPE_INLINE void balance(const WeightSums<R, D> (&
 	}
 }
 
-/// n at x (not of unit length); returns Σ over body 1 of w_i, which n is to be compared with: where bodies share their centre n vanishes.
+/// n at x (not of unit length), as the sum over the body whose weights are smaller: of a thin plate inside a block the block's, where nothing
+/// cancels. Returns that body's Σ w_i, which n is to be compared with: where bodies share their centre n vanishes.
 template <class R, int D, int W> POLYTOPE_INLINE R dualWeightsNormal(const PairPlanes<R, D>& planes, const R* x, R unit, R* n)
 {
 	WeightSums<R, D> sums[2];
-	R                c[D], weight = 0;
-	for (int body = 0; body < 2; ++body)
+	R                c[D], weight[2] = { 0, 0 };
+	for (int body = 0; body < 2; ++body) {
 		weightSums<R, D, W>(planes, body, x, unit, sums[body]);
-	balance<R, D>(sums, c);
-	for (int k = 0; k < D; ++k) {
-		R side[2];
-		for (int body = 0; body < 2; ++body) {
-			side[body] = sums[body].first[k];
-			for (int j = 0; j < D; ++j)
-				side[body] += (j <= k ? sums[body].second[k][j] : sums[body].second[j][k]) * c[j];
-		}
-		n[k] = (side[0] - side[1]) / 2;
-		weight += sums[0].second[k][k];
+		for (int k = 0; k < D; ++k)
+			weight[body] += sums[body].second[k][k];
 	}
-	return weight;
+	balance<R, D>(sums, c);
+	const bool              second = weight[1] < weight[0];
+	const WeightSums<R, D>& own    = sums[second];
+	for (int k = 0; k < D; ++k) {
+		n[k] = own.first[k];
+		for (int j = 0; j < D; ++j)
+			n[k] += (j <= k ? own.second[k][j] : own.second[j][k]) * c[j];
+		if (second) n[k] = -n[k];
+	}
+	return weight[second];
 }
 
 } // namespace polytope

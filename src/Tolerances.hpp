@@ -188,11 +188,16 @@ constexpr Real flush = 1e-9;
 /// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
 constexpr Real parallel = 1e-4;
 
-/// Least part of a stiffness per contact that one of several pieces has. Any small number: the law divides by it.
+/// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
 constexpr Real leastShareOfSupport = 1e-9;
 
 /// Steps between two looks for internal faces of a pair that touched before and has none.
 constexpr int internalFacesEvery = 16;
+
+/// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).
+/// YADE normalises an orientation in each step, which changes its four numbers by a rounding each, to and fro; their product
+/// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.
+constexpr Real noTurn = 8 * rounding;
 
 /// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
 /// into overlap, so that its point is an analytic centre that continues the touching one's.

@@ -47,7 +47,7 @@ public:
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
-		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);

@@ -90,13 +90,34 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 /// What the last step left, before this one changes it.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 	Vector3r force, shear, shearViscous, moment;
-	Real     normalViscous, elasticNormal, dilation;
+	Real     normalViscous, elasticNormal, dilation, ks;
 
 	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
 	        : force(phys.normalForce + phys.shearForce), shear(turnedShear), shearViscous(phys.shearViscous),
 	          moment(phys.rockingMoment), normalViscous(phys.normalViscous.dot(normal)),
-	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation)
+	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation),
+	          ks(phys.ks)
 	{
+	}
+
+	/// Shear force on body 2 before this step's increment, with the spring's present stiffness.
+	///
+	/// A joint is a bed of springs. Those at the rim that leave a shrinking area take their force with them: the displacement
+	/// of the others stays. Those that a growing area adds are not strained yet: the force stays. Either way the bed loses
+	/// energy and never gains any (Elata & Berryman 1996 for contacts of spheres), and its displacement never grows by itself.
+	Vector3r shearWith(Real stiffness) const { return stiffness < ks ? Vector3r(stiffness / ks * shear) : shear; }
+
+	/// What of the shear spring's energy and of the work done on it is lost in a step that ends at this shear force [J].
+	///
+	/// With u = f/k at both ends: friction takes the mean force times the slip; what then is missing in ½ k u² is ½ (k₀ − k₁)
+	/// u₀·u₁ where the area shrinks, ½ f₀² (1/k₀ − 1/k₁) where it grows.
+	Real shearLoss(Real stiffness, const Vector3r& trial, const Vector3r& now) const
+	{
+		if (!(ks > 0 && stiffness > 0)) return 0;
+		const Real friction = (shear + now).dot(trial - now) / (2 * stiffness);
+		const Real leaving  = (ks - stiffness) / 2 * (shear / ks).dot(now / stiffness);
+		const Real joining  = shear.squaredNorm() / 2 * (1 / ks - 1 / stiffness);
+		return friction + (stiffness < ks ? leaving : joining);
 	}
 };
 
@@ -113,31 +134,25 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	auto&      phys = static_cast<RockJointPhys&>(*iphys);
 	const Pair pair(*contact, geom, scene);
 
+	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
+	turnWithContact(geom, elasticShear);
+	turnWithContact(geom, phys.slip);
+	const Last last(phys, elasticShear, geom.normal);
+
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
 	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
-	if (phys.normalStiffness > 0) phys.kn = phys.normalStiffness * phys.contactArea;
-	if (phys.shearStiffness > 0) phys.ks = phys.shearStiffness * phys.contactArea;
-	if (phys.normalStiffness == 0 && phys.share != geom.share) { // a stiffness per contact; whatever a script has set it to
-		phys.kn *= geom.share / phys.share;
-		phys.ks *= geom.share / phys.share;
-		phys.share = geom.share;
-	}
-
-	Vector3r shear = phys.shearForce - phys.shearViscous;
-	turnWithContact(geom, shear);
-	turnWithContact(geom, phys.slip);
-	const Last last(phys, shear, geom.normal);
+	phys.setStiffnesses(geom.share);
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
 
-	const Real elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation);
-	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last);
+	const Vector3r trial         = last.shearWith(phys.ks) - phys.ks * geom.shearIncrement();
+	const Real     elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation);
+	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, trial);
 	const Real viscous = normalDamping > 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
-	shear -= phys.ks * geom.shearIncrement();
-	const Vector3r trial = shear;
-	if (!limitShear(phys, normal, shear)) return open(pair, phys, last);
+	Vector3r shear = trial;
+	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
 	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
 
 	phys.normalViscous = viscous * geom.normal;
@@ -153,8 +168,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (!scene->trackEnergy) phys.lastStored = -1;
 	else {
 		StepWork work;
-		if (phys.isSliding && phys.ks > 0) work.plastic = (last.shear + shear).dot(trial - shear) / (2 * phys.ks);
-		work.plastic -= (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		const Real lifting = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		work.plastic       = last.shearLoss(phys.ks, trial, shear) - lifting;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = -(last.shearViscous + shearViscous).dot(geom.shearIncrement()) / 2;
@@ -179,7 +194,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 	if (phys.isSliding) {
 		const Vector3r excess = (1 - strength / math::sqrt(square)) * shear;
 		shear -= excess;
-		if (phys.ks > 0) phys.slip -= excess / phys.ks;
+		phys.slide(excess);
 	}
 	return true;
 }
@@ -236,17 +251,20 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 	return true;
 }
 
-/// The joint is open: no force. False ends the contact.
-bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last)
+/// The joint is open: no force, and what the bodies move along each other is slip, with what the spring held. False ends the contact.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(
+        const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial)
 {
 	StepWork work;
 	work.fractured = phys.intact;
 	if (phys.intact) phys.fail();
+	else work.plastic = last.shearLoss(phys.ks, trial, Vector3r::Zero());
+	phys.slide(trial);
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding                                                                                   = false;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStored = -1;
-	return phys.hasPeak() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
+	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
 }
 
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()

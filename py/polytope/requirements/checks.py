@@ -4,6 +4,7 @@
 They read and change nothing.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -29,6 +30,9 @@ timedWithoutContacts = ('verletDist',)
 noContacts = 'no contacts now'
 turned, changed = 1.0, 0.05
 """Angle of a normal [°] and part of a force that such planes may make without a word."""
+
+sameFace = 1 - 1e-6
+"""Cosine between normals of two contacts of one face."""
 
 
 class Scene:
@@ -77,7 +81,7 @@ def checks(O):
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would bring the solver into play,
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
-	each = (numbersOfBodies, timeStep, solver, contactPoint, area, dimension, cornerRadius, planes, newtonTolerance)
+	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
 	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion)
 	found, missing = [], []
 	for one in each:
@@ -106,6 +110,35 @@ def area(scene):
 	if rocking and not any(contact.phys.normalStiffness > 0 for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)):
 		return 'areas are computed for rockingDamping alone', '', None, ('rockingDamping', 0)
 	return f'{users} of {len(scene.contacts)} contacts need their area, and have it', ''
+
+
+def support(scene):
+	"""several pieces under one face"""
+	if not scene.contacts:
+		return noContacts
+	if _stiffnessPerArea(scene):
+		return 'stiffnesses are per area: pieces that lie flush are as stiff as one', ''
+	faces, shared = {}, 0
+	for contact in scene.contacts:
+		shared += contact.geom.share < 1
+		for body in (contact.id1, contact.id2):
+			if contact.geom.share == 1 and scene.O.bodies[body].dynamic:
+				faces.setdefault(body, []).append(contact.geom)
+	several = sum(any(_oneFace(a, b, depth) for a, b in itertools.combinations(found, 2)) for found in faces.values() if (depth := _depth(found)) > 0)
+	seen = f'{shared} contacts with a fixed or clumped piece have their part of the stiffness; {several} bodies have a face on several free bodies'
+	if several:
+		return seen, 'stiffnessPerArea = True: per contact such a face is as stiff as it has pieces, and a piece takes its full part at once'
+	return seen, ''
+
+
+def _depth(found):
+	return min(float(geom.penetrationDepth) for geom in found)
+
+
+def _oneFace(one, other, depth):
+	"""Whether both contacts lie in one plane, to within an overlap."""
+	along = one.normal.dot(other.normal)
+	return abs(along) > sameFace and abs(one.normal.dot(other.contactPoint - one.contactPoint)) < depth
 
 
 def energy(scene):
@@ -163,7 +196,7 @@ def planes(scene):
 	if not scene.pairs():
 		return f'{seen}, but no two polytopes are in contact now to see what that does'
 	functor = scene.functors[0]
-	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
+	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
 	for pair in [pair for pair in scene.pairs() if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]
