@@ -22,7 +22,8 @@ def checkBudget(book):
 	assert abs(book['missing']) < 0.01 * work
 
 
-@pytest.mark.parametrize('perArea', [pytest.param(False, marks=reverses), True])
+@reverses
+@pytest.mark.parametrize('perArea', [False, True])
 def testDrumOfFacetsKeepsItsEnergyBudget(perArea):
 	drum = FacetDrum(number=16, segments=16, perArea=perArea).build().turn(1.0)
 	assert failures() == 0 and drum.outside == 0
@@ -39,7 +40,7 @@ def testFunnelOfFacetsKeepsItsEnergyBudget(perArea):
 	checkBudget(book.read())
 
 
-@pytest.mark.parametrize('perArea', [False, pytest.param(True, marks=reverses)])
+@pytest.mark.parametrize('perArea', [False, True])
 def testFunnelRunsEmptyAndNothingPassesItsWall(perArea):
 	funnel = FacetFunnel(number=40, outlet=0.12, width=0.25, perArea=perArea)
 	outside, hanging = discharge(funnel, 3.0, filling=0.5)
