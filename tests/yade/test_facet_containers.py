@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Grains in a drum and in a funnel of facets: the default contact, both rules of stiffness."""
+
 import pathlib
 import sys
 
@@ -7,11 +8,11 @@ import pytest
 from yade import O
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
-from jointStudy.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
-from jointStudy.scenes.engines import failures
 from jointStudy.measures import discharge
+from jointStudy.scenes.engines import failures
+from jointStudy.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
 
-makesEnergy = pytest.mark.xfail(strict=True, reason='contacts under the averaged normal make energy')
+reverses = pytest.mark.xfail(reason='normals of grains on facets turn round, and with them the depth to a whole grain')
 
 
 def checkBudget(book):
@@ -21,7 +22,7 @@ def checkBudget(book):
 	assert abs(book['missing']) < 0.01 * work
 
 
-@makesEnergy
+@reverses
 @pytest.mark.parametrize('perArea', [False, True])
 def testDrumOfFacetsKeepsItsEnergyBudget(perArea):
 	drum = FacetDrum(number=16, segments=16, perArea=perArea).build().turn(1.0)
@@ -29,7 +30,7 @@ def testDrumOfFacetsKeepsItsEnergyBudget(perArea):
 	checkBudget(drum.book.read(drum.driveWork))
 
 
-@pytest.mark.parametrize('perArea', [pytest.param(False, marks=makesEnergy), True])
+@pytest.mark.parametrize('perArea', [False, True])
 def testFunnelOfFacetsKeepsItsEnergyBudget(perArea):
 	funnel = FacetFunnel(number=30, outlet=0.12, width=0.25, gated=False, perArea=perArea).build()
 	book = EnergyBook(funnel.ids, 9.81)
@@ -39,7 +40,7 @@ def testFunnelOfFacetsKeepsItsEnergyBudget(perArea):
 	checkBudget(book.read())
 
 
-@pytest.mark.parametrize('perArea', [pytest.param(False), True])
+@pytest.mark.parametrize('perArea', [False, True])
 def testFunnelRunsEmptyAndNothingPassesItsWall(perArea):
 	funnel = FacetFunnel(number=40, outlet=0.12, width=0.25, perArea=perArea)
 	outside, hanging = discharge(funnel, 3.0, filling=0.5)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks on joints, where theory has one answer: the default contact, both rules of stiffness, two and three dimensions."""
+
 import math
 import pathlib
 import sys
@@ -10,9 +11,11 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure
 from jointStudy.scenes.arch import MasonryArch
 from jointStudy.scenes.blockOnBase import RockingBlock, ShakenBlock, TiltedBlock
 from jointStudy.theory.arch import leastThickness
+from jointStudy.theory.elasticArch import ElasticArch
 from jointStudy.theory.rocking import rockingPeriod
-from jointStudy.theory.toppling import criticalTilt
+from jointStudy.theory.toppling import criticalTilt, elasticToppling, rigidToppling
 
+reverses = pytest.mark.xfail(reason='the normal of a thin overlap turns round, and with it the depth to a whole body')
 
 
 def tilted(ratio, friction, angle, **options):
@@ -37,24 +40,20 @@ def testBlockOnAnElasticJointTopplesWhereItsWedgeOfPressureEnds(dimension, ratio
 	assert tilted(ratio, 40, 1.005 * angle, **options).mode == 'topples'
 
 
-@pytest.mark.parametrize(
-	'ratio, friction, perArea',
-	[
-		pytest.param(0.4, 21, False),
-		pytest.param(0.4, 21, True),
-		pytest.param(1.0, 30, False),
-		(1.0, 30, True),
-	],
-)
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('ratio, friction', [(0.4, 21), (1.0, 30)])
 def testBlockSlidesAtItsFrictionAngle(ratio, friction, perArea):
 	assert tilted(ratio, friction, math.radians(0.995 * friction), perArea=perArea).mode == 'stands'
 	assert tilted(ratio, friction, math.radians(1.005 * friction), perArea=perArea).mode == 'slides'
 
 
+@pytest.mark.parametrize('perArea', [False, True])
 @pytest.mark.parametrize('dimension', [2, 3])
-def testShakenBlockIsOverturnedByItsWidthOverHeight(dimension):
-	assert ShakenBlock(width=0.25, dimension=dimension).apply(0.99 * 0.25).mode == 'stands'
-	assert ShakenBlock(width=0.25, dimension=dimension).apply(1.01 * 0.25).mode == 'topples'
+def testShakenBlockIsOverturnedByItsWidthOverHeight(dimension, perArea):
+	block = ShakenBlock(width=0.25, dimension=dimension, perArea=perArea, stiffness=1e11)
+	least = elasticToppling(0.25, 1.0, 2600 * 9.81 * 0.25, 1e11, followsTilt=False) if perArea else rigidToppling(0.25, 1.0)
+	assert block.apply(0.99 * least).mode == 'stands'
+	assert block.apply(1.01 * least).mode == 'topples'
 
 
 @pytest.mark.parametrize('perArea', [False, True])
@@ -64,11 +63,24 @@ def testBlockRocksWithHousnersPeriod(dimension, perArea):
 	assert 4 * block.fall(0.05) == pytest.approx(rockingPeriod(block.width, block.height, 0.05), rel=0.01)
 
 
-@pytest.mark.parametrize('dimension', [2, 3])
+@pytest.mark.parametrize('dimension', [2, pytest.param(3, marks=reverses)])
 def testArchStandsAsThinAsLimitAnalysisSays(dimension):
 	least = leastThickness(8, math.radians(89))
 	assert MasonryArch(1.01 * least, 8, dimension=dimension).build().stands()
-	assert not MasonryArch(0.99 * least, 8, dimension=dimension).build().stands()
+	thin = MasonryArch(0.99 * least, 8, dimension=dimension).build()
+	assert not thin.stands()
+	assert thin.speed < 1, 'it flies apart instead of falling'
+
+
+@reverses
+def testArchOfElasticJointsStandsAsThinAsTheirEnergySays():
+	# 1 % to either side of the elastic arch's own thickness, which lies 2 % above that of limit analysis
+	stiffness, least = 1e12, leastThickness(8, math.radians(89))
+	for thickness, stands in ((1.01 * least, False), (1.03 * least, True)):
+		arch = MasonryArch(thickness, 8, stiffness=stiffness, perArea=True)
+		assert ElasticArch(thickness, 8, stiffness / (arch.density * arch.gravity)).stands() == stands
+		assert arch.build().stands() == stands
+		assert arch.speed < 1, 'it flies apart instead of falling'
 
 
 @pytest.mark.parametrize('stiffness, perArea', [(1e9, False), (1e10, True)])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Closed forms of blocks on joints, against what the literature and other ways to them give."""
+
 import math
 import pathlib
 import sys
@@ -9,6 +10,7 @@ import pytest
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'))
 from jointStudy.theory.arch import archStands, leastThickness, voussoir
+from jointStudy.theory.elasticArch import ElasticArch
 from jointStudy.theory.rocking import housnerPeriod, rockingFrequency, rockingPeriod
 from jointStudy.theory.toppling import criticalTilt, elasticToppling, rigidToppling
 
@@ -37,7 +39,10 @@ def testElasticJointIsInEquilibriumWithItsPressure():
 			pressure = stiffness * np.maximum(depth - x * math.tan(turn), 0)
 			low, high = (low, depth) if np.trapezoid(pressure, x) > weight else (depth, high)
 		arm = np.trapezoid(pressure * x, x) / np.trapezoid(pressure, x)
-		behind, above = (width * math.cos(turn) - height * math.sin(turn)) / 2, (height * math.cos(turn) + width * math.sin(turn)) / 2 - depth
+		behind, above = (
+			(width * math.cos(turn) - height * math.sin(turn)) / 2,
+			(height * math.cos(turn) + width * math.sin(turn)) / 2 - depth,
+		)
 		best = max(best, (behind - arm) / above)
 	assert elasticToppling(width, height, weight, stiffness, followsTilt=False) == pytest.approx(best, rel=1e-4)
 
@@ -87,3 +92,18 @@ def testVoussoirIsATrapezium():
 	assert area == pytest.approx((low + high) * math.tan(half) * (high - low))
 	x = np.linspace(low, high, 100001)
 	assert radius == pytest.approx(np.trapezoid(x * x, x) / np.trapezoid(x, x))
+
+
+def testForcesInAnElasticArchAreItsEnergysSlope():
+	arch = ElasticArch(0.15, 6, 1e4)
+	moved, step = np.random.default_rng(1).normal(size=(6, 3)) * 1e-2, 1e-6
+	slope = [(arch.energy(moved + d, 1) - arch.energy(moved - d, 1)) / (2 * step) for d in step * np.eye(18).reshape(18, 6, 3)]
+	assert arch.gradient(moved, 1).ravel() == pytest.approx(np.array(slope), rel=1e-6, abs=1e-6)
+
+
+def testElasticArchTendsToLimitAnalysisWithTheCubeRootOfItsStiffness():
+	# its thickness is above by 4.2 % and half of that: below and above these it falls and stands
+	least = leastThickness(6, math.radians(89))
+	for stiffness, falls, stands in ((5e6, 1.025, 1.055), (4e7, 1.0125, 1.0275)):
+		assert not ElasticArch(falls * least, 6, stiffness).stands()
+		assert ElasticArch(stands * least, 6, stiffness).stands()

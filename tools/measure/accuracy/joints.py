@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Blocks and grains on joints, where theory has one answer: for each choice of contact and both rules of stiffness.
 
-Toppling (Goodman & Bray), a shaken and a rocking block (Housner), a masonry arch, cubes let go on slopes, edges on floors, solids that roll over
-flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, default, the
-paper's normal, conservative. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set
-that choice alone is measured, and held to the same limits.
+Toppling (Goodman & Bray), a shaken and a rocking block (Housner), a masonry arch, cubes let go on slopes, edges on floors, solids that
+roll over flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, default, the
+paper's normal, conservative. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set that choice
+alone is measured, and held to the same limits.
 
 	./run python tools/measure/accuracy/joints.py                                        # all
 	./run python tools/measure/accuracy/joints.py --quick                                # coarser, smaller
@@ -51,7 +51,9 @@ def options(arguments=None):
 	parser.add_argument('--per-area', dest='rule', action='store_const', const='area', help='the same as --rule area')
 	parser.add_argument('--contact-model', help='of the geometry functors: this choice alone')
 	parser.add_argument('--normal', help='the same')
-	parser.add_argument('--set', type=attribute, nargs='+', default=[], metavar='NAME=VALUE', help='other attributes of the geometry functors')
+	parser.add_argument(
+		'--set', type=attribute, nargs='+', default=[], metavar='NAME=VALUE', help='other attributes of the geometry functors'
+	)
 	return parser.parse_args(arguments)
 
 
@@ -79,7 +81,10 @@ class Study:
 					for one in measures[scene](ig2, rules[rule], self.given.quick):
 						self.found.setdefault((scene, rule, one.quantity), {})[name] = one
 						verdict = 'told' if one.allowed is None else 'within' if one.good else 'MISSED'
-						print(f'{scene}, {name}, per {rule}: {one.quantity} {one.ours:.6g} {one.unit}, theory {one.theory:.6g}: {verdict}', flush=True)
+						print(
+							f'{scene}, {name}, per {rule}: {one.quantity} {one.ours:.6g} {one.unit}, theory {one.theory:.6g}: {verdict}',
+							flush=True,
+						)
 
 	def rows(self):
 		for (scene, rule, quantity), ones in self.found.items():
@@ -93,7 +98,13 @@ class Study:
 			f'Scenes with a closed form, by contact and by what stiffnesses are per. Limits hold for: {self.judged}.',
 			['scene', 'stiffness per', 'quantity', 'unit', 'theory', *self.contacts, 'most off'],
 			[
-				[*key, ones[self.judged].unit, ones[self.judged].theory, *(one.ours for one in ones.values()), ones[self.judged].allowed or '']
+				[
+					*key,
+					ones[self.judged].unit,
+					ones[self.judged].theory,
+					*(one.ours for one in ones.values()),
+					ones[self.judged].allowed or '',
+				]
 				for key, ones in self.found.items()
 			],
 		)

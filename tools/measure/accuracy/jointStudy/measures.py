@@ -14,6 +14,7 @@ from .scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
 from .scenes.releasedCube import CubeOnSlope, edgeNormal, slopeFloors, wallKick
 from .scenes.rollingSolid import RollingSolid
 from .theory.arch import leastThickness
+from .theory.elasticArch import leastElasticThickness
 from .theory.rocking import rockingPeriod
 from .theory.toppling import criticalTilt, elasticToppling
 
@@ -21,8 +22,8 @@ __all__ = ['Measured', 'bisect', 'discharge', 'measures']
 
 density, gravity = 2600.0, 9.81
 
-archStiffness = {False: 4e10, True: 1e13}
-"""[N/m], [Pa/m]: hinges of the arch lie inside the edges by less than a hundredth of its thickness."""
+archStiffness = {False: 4e10, True: 1e12}
+"""[N/m], where hinges of the arch lie inside its edges by less than a hundredth of its thickness; [Pa/m], where that is two hundredths."""
 
 
 @dataclasses.dataclass
@@ -42,7 +43,7 @@ class Measured:
 
 
 def bisect(stands, low, high, accuracy):
-	"""Load between those at which *stands(load)* is true and false; where it does not change between the ends, the end it would lie beyond."""
+	"""Load between those at which *stands(load)* is true and false; where it does not change in between, the end it lies beyond."""
 	if not stands(low):
 		return low
 	if stands(high):
@@ -60,7 +61,9 @@ def toppling(ig2, perArea, quick):
 		for ratio, friction in ((0.25, 40), (0.4, 35), (0.4, 21), (1.0, 30)):
 			elastic = {'pressing': density * gravity * ratio, 'stiffness': kn} if perArea else {}
 			mode, angle = criticalTilt(ratio, 1.0, math.radians(friction), **elastic)
-			block = TiltedBlock(width=ratio, dimension=dimension, frictionAngle=math.radians(friction), stiffness=kn, perArea=perArea, ig2=ig2)
+			block = TiltedBlock(
+				width=ratio, dimension=dimension, frictionAngle=math.radians(friction), stiffness=kn, perArea=perArea, ig2=ig2
+			)
 			ours = bisect(lambda a: block.apply(math.tan(a)).stands, 0.9 * angle, 1.04 * angle, (4e-3 if quick else 5e-4) * angle)  # noqa: B023
 			name = f'{dimension}-D, width/height {ratio:g}, friction {friction}°: {mode} at'
 			yield Measured(name, '°', math.degrees(angle), math.degrees(ours), 5e-3 * math.degrees(angle))
@@ -81,10 +84,11 @@ def shaking(ig2, perArea, quick):
 
 
 def arch(ig2, perArea, quick):
-	"""Least thickness of a masonry arch, and whether a thicker one stays at rest."""
+	"""Least thickness of a masonry arch, by limit analysis or, per area, with elastic joints; and whether a thicker one stays at rest."""
 	friction = math.radians(89)
-	for dimension, blocks in ((2, 8), (3, 8)) if quick else ((2, 8), (2, 32), (3, 32)):
-		theory = leastThickness(blocks, friction)
+	# where joints are elastic, the theory of few blocks is at hand
+	for dimension, blocks in ((2, 8), (3, 8)) if quick or perArea else ((2, 8), (2, 32), (3, 32)):
+		theory = _elasticThickness(blocks, archStiffness[True]) if perArea else leastThickness(blocks, friction)
 		options = {'blocks': blocks, 'dimension': dimension, 'perArea': perArea, 'ig2': ig2}
 		kn = archStiffness[perArea]
 		falls = bisect(
@@ -101,6 +105,11 @@ def arch(ig2, perArea, quick):
 		yield Measured(f'{dimension}-D, {blocks} blocks: creep in {steps} steps, over the radius', '-', 0.0, still.creep(steps), 1e-9)
 
 
+@functools.cache
+def _elasticThickness(blocks, stiffness):
+	return leastElasticThickness(blocks, stiffness / (MasonryArch.density * MasonryArch.gravity))
+
+
 def slope(ig2, perArea, quick):
 	"""A cube let go on a slope of 45°, friction 25°, rocking undamped."""
 	for floor in slopeFloors:
@@ -114,27 +123,37 @@ def slope(ig2, perArea, quick):
 def edges(ig2, perArea, quick):
 	"""An edge on a flat floor, and a tilted cube dropped on a frictionless one."""
 	for turn in (5, 15, 30):
-		found = [edgeNormal(math.radians(turn), overlap, floor, ig2) for overlap in (1e-5, 1e-4, 1e-3) for floor in ('polytope', 'wall', 'box', 'facet')]
+		found = [
+			edgeNormal(math.radians(turn), overlap, floor, ig2)
+			for overlap in (1e-5, 1e-4, 1e-3)
+			for floor in ('polytope', 'wall', 'box', 'facet')
+		]
 		worst = max((angle for angle in found if angle is not None), default=math.nan)
 		yield Measured(f'edge of a cube turned by {turn}° on a floor: normal off the vertical', '°', 0.0, math.degrees(worst), 0.1)
 	for floor in ('wall', 'facet') if quick else ('wall', 'facet', 'box', 'polytope'):
-		yield Measured(f'tilted cube dropped on a frictionless {floor}: sideways speed', 'm/s', 0.0, wallKick(ig2, perArea, floor=floor), 1e-3)
+		yield Measured(
+			f'tilted cube dropped on a frictionless {floor}: sideways speed', 'm/s', 0.0, wallKick(ig2, perArea, floor=floor), 1e-3
+		)
 
 
 def rolling(ig2, perArea, quick):
 	"""A solid that rolls over ten flush plates, against its path on one plate.
 
-	Rolling from edge to edge multiplies small differences: after a second the path on one plate is known no better than what half the time step
-	changes in it."""
+	Rolling from edge to edge multiplies small differences: after a second the path on one plate is known no better than what half the
+	time step changes in it."""
 	for faces in (12, 20):
 		make = functools.partial(RollingSolid, faces=faces, perArea=perArea, ig2=ig2)
 		one, ten = make(plates=1).build().path(1.0), make(plates=10).build().path(1.0)
 		finer = make(plates=1, timeStepFraction=make().timeStepFraction / 2).build().path(1.0)
 		half, whole = len(one) // 2, len(one)
-		yield Measured(f'{faces} faces, one plate, 1 s: change of the path with half the time step', 'm', 0.0, np.abs(finer - one).max(), None)
+		yield Measured(
+			f'{faces} faces, one plate, 1 s: change of the path with half the time step', 'm', 0.0, np.abs(finer - one).max(), None
+		)
 		for steps, time, unsure in ((half, 0.5, 0.0), (whole, 1.0, 2 * np.abs(finer - one).max())):
 			off = np.abs(ten - one)[:steps].max()
-			yield Measured(f'{faces} faces, ten plates, {time:g} s: farthest from the path on one', 'm', 0.0, off, 5e-3 * one[steps - 1, 0] + unsure)
+			yield Measured(
+				f'{faces} faces, ten plates, {time:g} s: farthest from the path on one', 'm', 0.0, off, 5e-3 * one[steps - 1, 0] + unsure
+			)
 
 
 def containers(ig2, perArea, quick):
@@ -147,7 +166,11 @@ def containers(ig2, perArea, quick):
 	while funnel.below < funnel.number / 2 and O.time < 2:
 		O.step()
 	yield from _budget('funnel', book.read())
-	funnel = FacetFunnel(number=60, outlet=0.12, width=0.25, perArea=perArea, ig2=ig2) if quick else FacetFunnel(number=500, perArea=perArea, ig2=ig2)
+	funnel = (
+		FacetFunnel(number=60, outlet=0.12, width=0.25, perArea=perArea, ig2=ig2)
+		if quick
+		else FacetFunnel(number=500, perArea=perArea, ig2=ig2)
+	)
 	outside, hanging = discharge(funnel, 3.0 if quick else 6.0)
 	yield Measured(f'funnel, {funnel.number} grains: outside the wall', '-', 0, outside, 0)
 	yield Measured(f'funnel, {funnel.number} grains: left at rest on the slope', '-', 0, hanging, 0)
@@ -161,7 +184,7 @@ def _budget(name, book):
 
 
 def discharge(funnel, most, filling=0.7):
-	"""Fills the funnel, opens it and waits until it is empty. Returns (most grains outside the wall at any time, grains at rest above the outlet)."""
+	"""Fills the funnel, opens it, waits until it is empty. Returns (most grains outside at any time, grains at rest above the outlet)."""
 	funnel.build()
 	outside = _run(funnel, filling)
 	funnel.open()
@@ -178,5 +201,13 @@ def _run(funnel, time):
 	return funnel.outside
 
 
-measures = {'toppling': toppling, 'shaking': shaking, 'arch': arch, 'slope': slope, 'edges': edges, 'rolling': rolling, 'containers': containers}
+measures = {
+	'toppling': toppling,
+	'shaking': shaking,
+	'arch': arch,
+	'slope': slope,
+	'edges': edges,
+	'rolling': rolling,
+	'containers': containers,
+}
 """Name: generator of :yref:`Measured` from (ig2, perArea, quick)."""

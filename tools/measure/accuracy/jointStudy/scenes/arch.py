@@ -5,8 +5,8 @@ import dataclasses
 import math
 
 from yade import O, RockJointMat, Vector3
-
 from yade.polytope import fromVertices, polygon
+
 from .engines import jointEngines, stepFactor
 
 __all__ = ['MasonryArch']
@@ -38,13 +38,17 @@ class MasonryArch:
 	def build(self):
 		O.reset()
 		O.materials.append(
-			RockJointMat(density=self.density, normalStiffness=self.stiffness, shearStiffness=self.stiffness, frictionAngle=self.frictionAngle)
+			RockJointMat(
+				density=self.density, normalStiffness=self.stiffness, shearStiffness=self.stiffness, frictionAngle=self.frictionAngle
+			)
 		)
 		t = self.thickness * self.radius
 		inner, outer = self.radius - t / 2, self.radius + t / 2
 		for side in (-1, 1):
 			# wider than the arch, so that a block that slips outward finds ground
-			O.bodies.append(self._body([(side * (r + way), z) for r, way in ((inner, -t / 2), (outer, t / 2)) for z in (0, -t)], fixed=True))
+			O.bodies.append(
+				self._body([(side * (r + way), z) for r, way in ((inner, -t / 2), (outer, t / 2)) for z in (0, -t)], fixed=True)
+			)
 		angles = [math.pi * k / self.blocks for k in range(self.blocks + 1)]
 		self.ids = [
 			O.bodies.append(self._body([(r * math.cos(q), r * math.sin(q)) for q in pair for r in (inner, outer)]))

@@ -8,8 +8,8 @@ import dataclasses
 import math
 
 from yade import O, Quaternion, RockJointMat, Vector3
-
 from yade.polytope import cuboid, polygon
+
 from .engines import jointEngines, stepFactor
 
 __all__ = ['BlockOnBase', 'RockingBlock', 'ShakenBlock', 'TiltedBlock', 'Verdict']
@@ -57,7 +57,9 @@ class BlockOnBase:
 		"""The block turned by *tilt* about its toe [rad], which lies as deep in the base as carries the weight."""
 		O.reset()
 		O.materials.append(
-			RockJointMat(density=self.density, normalStiffness=self.stiffness, shearStiffness=self.stiffness, frictionAngle=self.frictionAngle)
+			RockJointMat(
+				density=self.density, normalStiffness=self.stiffness, shearStiffness=self.stiffness, frictionAngle=self.frictionAngle
+			)
 		)
 		b, h = self.width, self.height
 		self.mass = self.density * b * h * self.depth

@@ -21,7 +21,12 @@ from yade import (
 
 __all__ = ['conservativeStep', 'failures', 'jointEngines', 'stepFactor']
 
-geometries = (Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom, Ig2_Box_Polytope_PolytopeGeom, Ig2_Facet_Polytope_PolytopeGeom)
+geometries = (
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Wall_Polytope_PolytopeGeom,
+	Ig2_Box_Polytope_PolytopeGeom,
+	Ig2_Facet_Polytope_PolytopeGeom,
+)
 bounds = (Bo1_Polytope_Aabb, Bo1_Wall_Aabb, Bo1_Box_Aabb, Bo1_Facet_Aabb)
 
 conservativeStep = 0.3

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Grains of mixed shapes in containers made of YADE's facets: a funnel they run out of, a drum that turns them over. With their energy book."""
+"""Grains of mixed shapes in containers made of YADE's facets: a funnel they run out of, a drum that turns them over; their energy."""
 
 import dataclasses
 import math
 
 import numpy as np
 from yade import O, Quaternion, RockJointMat, RotationEngine, Vector3, utils
-
 from yade.polytope import cuboid, fromVertices, regular
+
 from .engines import jointEngines, stepFactor
 
 __all__ = ['EnergyBook', 'FacetDrum', 'FacetFunnel', 'cylinderFacets', 'mixedGrain']
 
-circumradiusOfUnit = {4: (8 * math.sqrt(3) / 27) ** (-1 / 3), 6: math.sqrt(3) / 2, 8: (3 / 4) ** (1 / 3), 12: 2.785163863 ** (-1 / 3), 20: 2.536150710 ** (-1 / 3)}
+circumradiusOfUnit = {
+	4: (8 * math.sqrt(3) / 27) ** (-1 / 3),
+	6: math.sqrt(3) / 2,
+	8: (3 / 4) ** (1 / 3),
+	12: 2.785163863 ** (-1 / 3),
+	20: 2.536150710 ** (-1 / 3),
+}
 """Faces: circumradius of a regular solid of the volume 1."""
 
 
@@ -46,8 +52,9 @@ def cylinderFacets(profile, segments, fromAxis=lambda r, q, z: (r * math.cos(q),
 class EnergyBook:
 	"""What gravity and a drive did, and where it went. Start it before the first step.
 
-	Gravity's work is taken from heights, kinetic energy from velocities, the drive's work from the angular momentum of the grains, which the drum
-	and gravity alone change: none of them from contact forces. Friction, dampers and springs are those of the law (O.trackEnergy).
+	Gravity's work is taken from heights, kinetic energy from velocities, the drive's work from the angular momentum of the grains,
+	which the drum and gravity alone change: none of them from contact forces. Friction, dampers and springs are those of the
+	law (O.trackEnergy).
 	"""
 
 	def __init__(self, ids, gravity):
@@ -62,7 +69,10 @@ class EnergyBook:
 
 	def read(self, drive=0.0):
 		"""Terms [J] by name, and 'missing': what was put in less what is accounted for (below 0: contacts have made energy)."""
-		spent = {name: O.energy[name] if name in dict(O.energy.items()) else 0.0 for name in ('plastDissip', 'normDampDissip', 'shearDampDissip', 'elastPotential', 'nonconservative', 'nonviscDamp')}
+		spent = {
+			name: O.energy[name] if name in dict(O.energy.items()) else 0.0
+			for name in ('plastDissip', 'normDampDissip', 'shearDampDissip', 'elastPotential', 'nonconservative', 'nonviscDamp')
+		}
 		book = {'gravity': self.gravity * (self.height - self._height()), 'drive': drive, 'kinetic': utils.kineticEnergy() - self.kinetic}
 		book.update(friction=spent['plastDissip'], damping=spent['normDampDissip'] + spent['shearDampDissip'] + spent['nonviscDamp'])
 		book.update(elastic=spent['elastPotential'], nonconservative=spent['nonconservative'])
@@ -95,7 +105,9 @@ class FacetGrains:
 	def _begin(self):
 		O.reset()
 		k = self.stiffness or (1e9 if self.perArea else 1e5)
-		O.materials.append(RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle))
+		O.materials.append(
+			RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle)
+		)
 		self.random = np.random.default_rng(self.seed)
 
 	def _pour(self, places):
@@ -143,7 +155,14 @@ class FacetFunnel(FacetGrains):
 		self._begin()
 		low, high = self.outlet / 2, self.width / 2
 		cone = high - low  # of 45°
-		profile = [(low, 0), (low + cone / 3, cone / 3), (low + 2 * cone / 3, 2 * cone / 3), (high, cone), (high, cone + 0.3 * self.height), (high, cone + self.height)]
+		profile = [
+			(low, 0),
+			(low + cone / 3, cone / 3),
+			(low + 2 * cone / 3, 2 * cone / 3),
+			(high, cone),
+			(high, cone + 0.3 * self.height),
+			(high, cone + self.height),
+		]
 		self.wallIds = O.bodies.append(list(cylinderFacets(profile, self.segments)))
 		self.gate = O.bodies.append(cuboid((0, 0, -0.0205), (0.99 * low, 0.99 * low, 0.02), fixed=True)) if self.gated else None
 		self._pour(self._places())
@@ -199,7 +218,9 @@ class FacetDrum(FacetGrains):
 		walls = cylinderFacets(profile, self.segments, lambda r, q, y: (r * math.cos(q), y, -r * math.sin(q)))
 		self.wallIds = O.bodies.append(list(walls))
 		self._pour(self._places())
-		drive = RotationEngine(ids=self.wallIds, angularVelocity=self.speed, rotationAxis=(0, 1, 0), rotateAroundZero=True, zeroPoint=(0, 0, 0))
+		drive = RotationEngine(
+			ids=self.wallIds, angularVelocity=self.speed, rotationAxis=(0, 1, 0), rotateAroundZero=True, zeroPoint=(0, 0, 0)
+		)
 		self._engines(moving=[drive])
 		self.book = EnergyBook(self.ids, self.gravity)
 		self._impulse, self._begun = 0.0, self._momentum()
@@ -210,7 +231,9 @@ class FacetDrum(FacetGrains):
 		free = 0.97 * self.radius - 1.3 * self.volume ** (1 / 3)
 		n, m = int(free / pitch), max(int((self.length / 2 - 1.3 * self.volume ** (1 / 3)) / pitch), 0)
 		for k in range(-n, n + 1):
-			yield from ((i * pitch, j * pitch, k * pitch) for i in range(-n, n + 1) for j in range(-m, m + 1) if math.hypot(i, k) * pitch < free)
+			yield from (
+				(i * pitch, j * pitch, k * pitch) for i in range(-n, n + 1) for j in range(-m, m + 1) if math.hypot(i, k) * pitch < free
+			)
 		raise ValueError(f'number: {self.number} grains do not fit into the drum')
 
 	def _momentum(self):

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 from yade import O, Quaternion, RockJointMat, Vector3, utils
-
 from yade.polytope import cuboid, fromVertices
+
 from .engines import jointEngines, stepFactor
 
 __all__ = ['CubeOnSlope', 'edgeNormal', 'slopeFloors', 'wallKick']
@@ -128,7 +128,7 @@ def edgeNormal(turn, overlap=1e-4, floor='polytope', ig2=None):
 	return math.acos(min(1.0, abs(O.interactions[0, 1].geom.normal[2])))
 
 
-def wallKick(ig2=None, perArea=False, turn=math.radians(20), floor='wall', duration=0.5):
+def wallKick(ig2=None, perArea=False, turn=0.35, floor='wall', duration=0.5):
 	"""Largest sideways speed of a tilted cube dropped on a frictionless floor [m/s]; theory: 0. It falls 0.01 m and rebounds, damped."""
 	O.reset()
 	k = 1e8 if perArea else 1e6

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 from yade import Matrix3, O, Quaternion, RockJointMat, Vector3
-
 from yade.polytope import fromVertices, regular
+
 from .engines import jointEngines, stepFactor
 
 __all__ = ['RollingSolid']
@@ -43,7 +43,9 @@ class RollingSolid:
 	def build(self):
 		O.reset()
 		k = self.stiffness or (1e9 if self.perArea else 1e7)
-		O.materials.append(RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle))
+		O.materials.append(
+			RockJointMat(density=self.density, normalStiffness=k, shearStiffness=k * 2 / 3, frictionAngle=self.frictionAngle)
+		)
 		self.down = np.array([math.cos(self.slope), 0, -math.sin(self.slope)])
 		self.up = np.array([math.sin(self.slope), 0, math.cos(self.slope)])
 		ends = np.linspace(-0.2, self.length - 0.2, self.plates + 1)
@@ -54,9 +56,18 @@ class RollingSolid:
 		body = regular(self.faces, self.radius)
 		turn = Quaternion(Vector3(*self.up), self.yaw) * self._flat(body)
 		centre = self.up * (max(body.shape.offsets) * (1 - 1e-6))
-		solid = regular(self.faces, self.radius, centre, turn, velocity=self.down * self.speed, angularVelocity=(0, self.speed / self.radius, 0))
+		solid = regular(
+			self.faces, self.radius, centre, turn, velocity=self.down * self.speed, angularVelocity=(0, self.speed / self.radius, 0)
+		)
 		self.solid = O.bodies[O.bodies.append(solid)]
-		jointEngines(self.ig2, self.perArea, (0, 0, -9.81), verlet=0.1 * self.radius, normalDamping=self.contactDamping, shearDamping=self.contactDamping)
+		jointEngines(
+			self.ig2,
+			self.perArea,
+			(0, 0, -9.81),
+			verlet=0.1 * self.radius,
+			normalDamping=self.contactDamping,
+			shearDamping=self.contactDamping,
+		)
 		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(self.solid.state.mass / 1e7)
 		return self
 

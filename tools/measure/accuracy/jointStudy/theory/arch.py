@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Limit analysis of a semicircular masonry arch (Heyman 1966, Int. J. Solids Struct. 2:249-279), by linear programs.
 
-n rigid voussoirs with straight edges between radial joints, mean radius 1, thickness t, unit weight 1. Joints take no tension, and slip at their
-friction angle. The arch stands (lower bound theorem) if some normal force N, shear S and moment M at each joint are in equilibrium with the weights,
-|M| ≤ N t/2 and |S| ≤ N tan φ. All follow from the force and moment at one springing: three unknowns.
+n rigid voussoirs with straight edges between radial joints, mean radius 1, thickness t, unit weight 1. Joints take no tension, and
+slip at their friction angle. The arch stands (lower bound theorem) if some normal force N, shear S and moment M at each joint are in
+equilibrium with the weights, |M| ≤ N t/2 and |S| ≤ N tan φ. All follow from the force and moment at one springing: three unknowns.
 """
 
 import math
@@ -22,10 +22,10 @@ def voussoir(thickness, blocks):
 
 
 def _resultants(thickness, blocks):
-	"""Normal force, shear and moment about the joint's middle at all joints, for each unknown (3 columns) and for the weights (the last one).
+	"""Normal force, shear and moment about the joint's middle at all joints, for each unknown (3 rows) and the weights (the last).
 
-	The unknowns are the force (−H, V) and the moment at the right springing, on the arch. At joint j, at the angle q from the right, acts what these and the
-	weights of the blocks between add up to.
+	The unknowns are the force (−H, V) and the moment at the right springing, on the arch. At joint j, at the angle q from the right, acts
+	what these and the weights of the blocks between add up to.
 	"""
 	area, radius = voussoir(thickness, blocks)
 	q = np.linspace(0, math.pi, blocks + 1)

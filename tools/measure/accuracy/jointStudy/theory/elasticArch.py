@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The arch of py/theory/arch.py with joints that are elastic, per area, and take no tension: how thin it may be before it falls.
 
-Rigid blocks, joints of normal stiffness kn per area, as stiff in shear, that do not slip. A joint whose two edges are δ₀ and δ₁ deep in each other
-stores ½ kn ∫ ⟨δ⟩² ds over its length, ⟨δ⟩ what is above 0. The arch stands if, as its weight grows from nothing, its energy keeps a minimum that
-can be reached. Hinges then lie not at edges but a third of their wedge of pressure inside, so that it must be thicker than by limit analysis.
-Lengths in mean radii, forces per unit of breadth in weight density × radius².
+Rigid blocks, joints of normal stiffness kn per area, as stiff in shear, that do not slip. A joint whose two edges are δ₀ and δ₁ deep in
+each other stores ½ kn ∫ ⟨δ⟩² ds over its length, ⟨δ⟩ what is above 0. The arch stands if, as its weight grows from nothing, its energy
+keeps a minimum that can be reached. Hinges then lie not at edges but a third of their wedge of pressure inside, so that it must be
+thicker than by limit analysis. Lengths in mean radii, forces per unit of breadth in weight density × radius².
 """
 
 import math
@@ -73,7 +73,8 @@ class ElasticArch:
 		step = 1e-2 * self.weight / self.stiffness  # a small part of what joints close by under one block
 		flat = moved.ravel()
 		columns = [
-			(self.gradient((flat + d).reshape(moved.shape), load) - self.gradient((flat - d).reshape(moved.shape), load)).ravel() / (2 * step)
+			(self.gradient((flat + d).reshape(moved.shape), load) - self.gradient((flat - d).reshape(moved.shape), load)).ravel()
+			/ (2 * step)
 			for d in np.eye(flat.size) * step
 		]
 		matrix = np.array(columns)
@@ -89,13 +90,15 @@ class ElasticArch:
 		return True
 
 	def _equilibrium(self, moved, load, fallen=0.05):
-		"""The minimum downhill from *moved*, by Newton's method with Levenberg's shift; None if that leads farther than *fallen*, or to none."""
+		"""The minimum downhill from *moved*, by Newton's method with Levenberg's shift; None if there is none within *fallen*."""
 		shift = 1e-6 * self.stiffness
+		# of the forces; below are those of places' rounding
+		unbalanced = 1e-7 * load * self.weight + 1e-14 * self.stiffness * self.thickness
 		energy = self.energy(moved, load)
 		for _ in range(300):
 			residual = self.gradient(moved, load)
 			values, vectors = np.linalg.eigh(self.hessian(moved, load))
-			if np.abs(residual).max() < 1e-7 * load * self.weight and values[0] > 0:
+			if np.abs(residual).max() < unbalanced and values[0] > 0:
 				return moved
 			for _ in range(60):
 				way = -vectors @ ((vectors.T @ residual.ravel()) / (np.maximum(values, 0) + shift))
@@ -136,15 +139,18 @@ def _across(vectors):
 	return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
 
 
-def leastElasticThickness(blocks, stiffness, accuracy=1e-4):
-	"""Least thickness over mean radius at which the arch of elastic joints stands.
+def leastElasticThickness(blocks, stiffness, accuracy=1e-3):
+	"""Least thickness over mean radius at which the arch of elastic joints stands; above that of limit analysis by stiffness^(−1/3).
 
 	:param float stiffness: as in :yref:`ElasticArch`
+	:param float accuracy: relative
 	"""
 	low = leastThickness(blocks, math.radians(89))
-	high = 2 * low
-	if not ElasticArch(high, blocks, stiffness).stands():
-		raise ValueError(f'stiffness: {stiffness:g} is so soft that not even twice the thickness of limit analysis stands')
+	high = 1.08 * low
+	while not ElasticArch(high, blocks, stiffness).stands():
+		low, high = high, 1.3 * high
+		if high > 1:
+			raise ValueError(f'stiffness: {stiffness:g} is so soft that no arch stands')
 	while high - low > accuracy * high:
 		middle = (low + high) / 2
 		low, high = (low, middle) if ElasticArch(middle, blocks, stiffness).stands() else (middle, high)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A rigid block that rocks about its toes on a rigid base (Housner 1963, Bull. Seismol. Soc. Am. 53:403-417).
 
-The block of width b and height h has the half diagonal R = ½ √(b² + h²), the angle α = atan(b/h) between that and the vertical, and, turning
-about a toe with the moment of inertia 4/3 m R², θ'' = −p² sin(α − θ), p² = 3g/(4R).
+The block of width b and height h has the half diagonal R = ½ √(b² + h²), the angle α = atan(b/h) between that and the vertical, and,
+turning about a toe with the moment of inertia 4/3 m R², θ'' = −p² sin(α − θ), p² = 3g/(4R).
 """
 
 import math
@@ -23,7 +23,7 @@ def rockingFrequency(width, height, gravity=9.81):
 
 
 def housnerPeriod(width, height, tilt, gravity=9.81):
-	"""Period of free rocking from the tilt θ₀, T = (4/p) acosh(1/(1 − θ₀/α)) (Housner 1963, Eq. 5): a slender block, sin(α − θ) = α − θ [s]."""
+	"""Period of free rocking from the tilt θ₀, T = (4/p) acosh(1/(1 − θ₀/α)) (Housner 1963, Eq. 5), sin(α − θ) taken as α − θ [s]."""
 	_check(width, height, tilt)
 	return 4 / rockingFrequency(width, height, gravity) * math.acosh(1 / (1 - tilt / slenderness(width, height)))
 
@@ -45,4 +45,6 @@ def rockingPeriod(width, height, tilt, gravity=9.81):
 
 def _check(width, height, tilt):
 	if not 0 < tilt < slenderness(width, height):
-		raise ValueError(f'tilt: must be above 0 and below the angle at which the block falls, {slenderness(width, height):g}, got {tilt!r}')
+		raise ValueError(
+			f'tilt: must be above 0 and below the angle at which the block falls, {slenderness(width, height):g}, got {tilt!r}'
+		)
