@@ -58,6 +58,17 @@ POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactS
 	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
 }
 
+/// Unit normal of the plane with the least slack, as seen from body 1. Where balanced weights cancel that far, two faces lie between which
+/// n is by less than their own tilt.
+template <class R, int D> POLYTOPE_INLINE void nearestNormal(const PairPlanes<R, D>& planes, R* n)
+{
+	int nearest = 0;
+	for (int i = 1; i < planes.total; ++i)
+		if (planes.slack[i] < planes.slack[nearest]) nearest = i;
+	for (int k = 0; k < D; ++k)
+		n[k] = nearest < planes.first ? planes.normal[k][nearest] : -planes.normal[k][nearest];
+}
+
 /// Unit normal at x. Leaves slacks for the depth.
 template <class R, int D, int W>
 POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
@@ -66,12 +77,14 @@ POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSe
 	ContactStatus status = ContactStatus::Contact;
 	if (settings.normal == NormalSource::DualWeights) {
 		const R weight = dualWeightsNormal<R, D, W>(planes, x, f.size, n);
-		const R length = norm<R, D>(n), way = norm<R, D>(dual);
-		// where the weights cancel, or x is outside by rounding, what is left of them may point anywhere
-		if (!(length > R(tolerance::balanced) * weight && dot<R, D>(n, dual) > R(tolerance::sameSide) * length * way)) {
+		if (!(norm<R, D>(n) > R(tolerance::direction) * weight)) {
+			if (settings.internal && settings.internal->count[0] + settings.internal->count[1] > 0) {
+				nearestNormal<R, D>(planes, n); // the dual direction may be that of a plane that is left out
+				return status;
+			}
 			for (int k = 0; k < D; ++k)
 				n[k] = dual[k];
-			status = way > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
+			status = norm<R, D>(dual) > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
 		}
 	} else status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);

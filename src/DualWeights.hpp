@@ -12,20 +12,22 @@
 ///
 /// is one direction for both: where an edge or a vertex lies on a face, the face's body has one plane there and n is its normal.
 /// The weights of an optimal basis jump from one type of contact to the next. These do not: at an interior point x of the
-/// overlap (the analytic centre) with slacks σ_i = d_i − a_i·x, they are the balanced weights nearest to w_i = σ_i⁻⁴,
+/// overlap (the analytic centre) with slacks σ_i = d_i − a_i·x, they are the balanced weights nearest to w_i = σ_i⁻³,
 ///
 ///     min over λ of Σ (λ_i − w_i)² / w_i   subject to   Σ λ_i a_i = 0,      so  λ_i = w_i (1 + a_i·c),
 ///     M c = −Σ w_i a_i,      M = Σ w_i a_i a_iᵀ:
 ///
 /// one pass over the planes and one linear system of D unknowns, positive definite since the normals span space. λ is a smooth
-/// function of x, x one of the poses. With the first power w_i = 1/σ_i the analytic centre's own conditions give c = 0; there a
-/// plane beside the contact, ℓ away from an overlap of thickness δ, would turn n by δ/ℓ. With the fourth power it is about
-/// (δ/2ℓ)⁴. As the power grows the weights tend to those of a basis, which jump, and M loses digits where slacks at one corner differ: with
-/// the sixth, vertices on faces had normals off by 1e-5. No length enters but the overlap's own: n does not change when
-/// all is scaled.
+/// function of x, x one of the poses; no length enters but the overlap's own, so n does not change when all is scaled.
+///
+/// Why the third power. As the power grows the weights tend to those of a basis. With the first, w_i = 1/σ_i, the analytic centre's
+/// own conditions give c = 0; there a plane beside the contact, ℓ away from an overlap of thickness δ, would turn n by δ/ℓ. With
+/// power p it does by (δ/2ℓ)^p. On the other hand two faces that are tilted by θ balance through planes beside them alone, of weights
+/// ℓ^−p (where the overlap is a wedge, ℓ ≈ δ/θ): of 1 + a·c there is left about (δ/ℓ)^p/θ² ≥ (δ/ℓ)^(p−2). With the fourth power
+/// rounding took all of it in overlaps of 1e-8 of a body's size; with the third a thousandth at 1e-13.
 namespace polytope {
 
-/// Of one body's planes, weights in units of (unit length)⁴.
+/// Of one body's planes, weights in units of (unit length)³.
 template <class R, int D> struct WeightSums {
 	R first[D];     ///< Σ w_i a_i
 	R second[D][D]; ///< Σ w_i a_i a_iᵀ, lower triangle; its trace is Σ w_i
@@ -51,8 +53,7 @@ POLYTOPE_INLINE void weightSums(const PairPlanes<R, D>& planes, int body, const 
 		}
 		store<R, W>(planes.slack + i, slack);
 		const V inverse = unit / slack;
-		const V square  = inverse * inverse;
-		const V weight  = square * square;
+		const V weight  = inverse * inverse * maxOf(inverse, V(-inverse)); // x may be outside by rounding
 		for (int k = 0, next = D; k < D; ++k) {
 			const V wa = weight * a[k];
 			sum[k] += wa;

@@ -173,14 +173,6 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
-/// × the weights they are chosen from: balanced weights (DualWeights.hpp) below this have lost more than half of their digits. Faces
-/// that thin overlaps lie between are then tilted by less than 1e-5, and the linear program's own direction is theirs.
-constexpr Real balanced = 1e-9 * powerOfTwo((53 - digits) / 2);
-
-/// Least cosine between the direction of the balanced weights and the linear program's own, which is that of one of the planes near the
-/// contact: where three faces of a corner take part alike it is 0.58.
-constexpr Real sameSide = 0.25;
-
 /// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
 /// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
 constexpr Real leverage = 1e-2;

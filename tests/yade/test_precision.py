@@ -118,7 +118,7 @@ def testLinearProgrammeHasAllDigits(pair, planesOf):
 
 @pairs
 def testCentreNormalAndDepthHaveAllDigits(pair, planesOf):
-	contact = polytope.contact(*pair())
+	contact = polytope.contact(*pair(), normal='innerPotential')
 	assert contact.status == 'contact'
 	point, normal, depth = numbers(contact.point), numbers(contact.normal), mpf(contact.depth)
 	with exactly():
