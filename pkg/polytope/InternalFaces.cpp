@@ -17,6 +17,9 @@ namespace {
 
 	using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
 
+	constexpr Real carriedBall = 0.25, overProjection = 1.2;
+	constexpr int  mostProjections = 32;
+
 	const Body& bodyOf(const TouchingPair& pair, int which)
 	{
 		return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
@@ -114,18 +117,41 @@ namespace {
 		int      facePlane;  ///< of the face that is slid on
 		Vector3r face;       ///< its normal
 		Real     faceOffset; ///< from the contact point
-		bool     internal;
+		int      slidingPlane; ///< of the other body's face that lies on it
+		Real     depth;        ///< of that face below this one
+		bool     covered, carried;
 
-		/// Whether the neighbour fills the place outside of it, and its face continues the one that is slid on, to within `step`.
-		bool coveredBy(const Planes& neighbour, Real step) const
+		bool internal() const { return covered && carried; }
+
+		/// Whether the neighbour's face continues the one that is slid on, to within `step`.
+		bool continuedBy(const Planes& neighbour, Real step) const
 		{
-			if (!contains(neighbour, outside)) return false;
-			for (const polytope::Plane& plane : neighbour)
-				if (plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel) && math::abs(plane.offset - faceOffset) <= step)
-					return true;
-			return false;
+			return std::any_of(neighbour.begin(), neighbour.end(), [&](const polytope::Plane& plane) {
+				return plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel) && math::abs(plane.offset - faceOffset) <= step;
+			});
 		}
 	};
+
+	/// Whether a ball of this radius was found inside all planes: from `start` to the nearest place inside the plane that is violated most,
+	/// and a little further, some times over. Where the answer is no there may be room all the same, but little.
+	bool hasRoom(const Planes& one, const Planes& other, Vector3r start, Real radius)
+	{
+		for (int step = 0; step < mostProjections; ++step) {
+			const polytope::Plane* worst     = nullptr;
+			Real                   violation = 0;
+			for (const Planes* planes : { &one, &other })
+				for (const polytope::Plane& plane : *planes) {
+					const Real out = plane.normal.dot(start) + radius - plane.offset;
+					if (out > violation) {
+						violation = out;
+						worst     = &plane;
+					}
+				}
+			if (!worst) return true;
+			start -= overProjection * violation * worst->normal;
+		}
+		return false;
+	}
 
 	Vector3r boundingNormal(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int body, int k)
 	{
@@ -135,17 +161,17 @@ namespace {
 		return pair.rotation[body] * own;
 	}
 
-	/// Whether a face of the other body lies on plane j of the piece, by far less than either body is thick: edges and vertices are not stopped by
-	/// seams.
-	bool facesMeet(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, int j)
+	/// The other body's face that lies on plane j of the piece, by far less than either body is thick: edges and vertices are not stopped by
+	/// seams. −1 if there is none.
+	int slidingPlane(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, int j, Real& depth)
 	{
 		const Real     thin = Real(polytope::tolerance::thinContact) * math::min(pair.convex[0]->inscribedRadius(), pair.convex[1]->inscribedRadius());
 		const Vector3r face = boundingNormal(pair, bounding, piece, j);
 		for (int k = 0; k < bounding.count[1 - piece]; ++k)
 			if (boundingNormal(pair, bounding, 1 - piece, k).dot(face) < Real(polytope::tolerance::parallel) - 1
-			    && bounding.slack[piece][j] + bounding.slack[1 - piece][k] < thin)
-				return true;
-		return false;
+			    && (depth = bounding.slack[piece][j] + bounding.slack[1 - piece][k]) < thin)
+				return bounding.plane[1 - piece][k];
+		return -1;
 	}
 
 	/// Pairs of a plane i that bounds the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps
@@ -154,7 +180,9 @@ namespace {
 	{
 		std::vector<Candidate> all;
 		for (int j = 0; j < bounding.count[piece]; ++j) {
-			if (!facesMeet(pair, bounding, piece, j)) continue;
+			Real      depth;
+			const int plane = slidingPlane(pair, bounding, piece, j, depth);
+			if (plane < 0) continue;
 			const Vector3r face = boundingNormal(pair, bounding, piece, j);
 			for (int i = 0; i < bounding.count[piece]; ++i) {
 				if (i == j || !bounding.bounds[piece][i]) continue;
@@ -163,7 +191,7 @@ namespace {
 				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
 				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along,
-				        bounding.plane[piece][j], face, bounding.slack[piece][j], false });
+				        bounding.plane[piece][j], face, bounding.slack[piece][j], plane, depth, false, pair.ball >= carriedBall * depth });
 			}
 		}
 		return all;
@@ -173,33 +201,42 @@ namespace {
 
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {
-	polytope::InternalPlanes result;
-	Planes                   planes;
-	const Real               larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-	const Real               step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
+	std::vector<Candidate> candidates[2];
+	Planes                 planes, own;
+	const Real             larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+	const Real             step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
 	for (int piece = 0; piece < 2; ++piece) {
 		if (bounding.count[piece] < 2) continue;
-		std::vector<Candidate> candidates = candidatesOf(pair, bounding, piece);
-		if (candidates.empty()) continue;
+		candidates[piece] = candidatesOf(pair, bounding, piece);
+		if (candidates[piece].empty()) continue;
 		Real near = 0;
-		for (const Candidate& one : candidates)
+		for (const Candidate& one : candidates[piece])
 			near = math::max(near, one.outside.norm());
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
+		own.clear();
+		addPlanes(own, *pair.convex[1 - piece], pair.rotation[1 - piece], mover);
 		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
 			planes.clear();
 			addBody(planes, neighbour, centre, mover, near);
-			for (Candidate& one : candidates)
-				one.internal = one.internal || one.coveredBy(planes, step);
+			for (Candidate& one : candidates[piece]) {
+				if (one.internal() || !one.continuedBy(planes, step)) continue;
+				one.covered = one.covered || contains(planes, one.outside);
+				one.carried = one.carried || hasRoom(planes, own, one.outside, carriedBall * one.depth);
+			}
 		});
-		// a face that is slid on is no internal face itself: of blocks that meet at a corner, or along an edge, neither side is
-		const auto covered = [&](int plane) {
-			return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& one) { return one.internal && one.plane == plane; });
-		};
+	}
+	// neither of the two faces that slide is an internal face itself: of blocks that meet at a corner, or along an edge, no side is
+	const auto covered = [&](int piece, int plane) {
+		return std::any_of(candidates[piece].begin(), candidates[piece].end(),
+		        [&](const Candidate& one) { return one.internal() && one.plane == plane; });
+	};
+	polytope::InternalPlanes result;
+	for (int piece = 0; piece < 2; ++piece) {
 		int& count = result.count[piece];
-		for (const Candidate& one : candidates) {
+		for (const Candidate& one : candidates[piece]) {
+			if (!one.internal() || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane)) continue;
 			int* const end = result.plane[piece] + count;
-			if (one.internal && !covered(one.facePlane) && std::find(result.plane[piece], end, one.plane) == end)
-				result.plane[piece][count++] = one.plane;
+			if (std::find(result.plane[piece], end, one.plane) == end) result.plane[piece][count++] = one.plane;
 		}
 	}
 	return result;

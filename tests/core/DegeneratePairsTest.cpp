@@ -83,8 +83,8 @@ TEST(DegeneratePairs, StackedBlocksAreExact)
 					const ContactResult result = query(pairOf(box(1, 1, 1, 0.125), box(1, 1, 1, 0.125), centre2));
 					expectUsable(result);
 					EXPECT_NEAR(result.infeasibility, -overlap / 2, 1e-16);
-					// sides a length ℓ away turn the normal by (overlap/2ℓ)⁴ at the most, and the chord is longer by half its square
-					const Real turn = std::pow(overlap / 2 / (1 - aside / 2), 4);
+					// sides a length ℓ away turn the normal by (overlap/2ℓ)³ at the most, and the chord is longer by half its square
+					const Real turn = std::pow(overlap / 2 / (1 - aside / 2), 3);
 					EXPECT_NEAR(result.depth, overlap, 1e-15 + overlap * turn * turn / 2);
 					EXPECT_LE((result.normal - side * Vector3::Unit(axis)).norm(), 1e-15 + turn);
 					// across the face the centre is as uncertain as rounding is against the overlap

@@ -189,8 +189,8 @@ public:
 		Number nearest = -violation(x);
 		if (!(nearest > 0)) return -1;
 		const auto weight = [&](const Plane& plane) {
-			const Number square = nearest * nearest / (plane.slack(x) * plane.slack(x));
-			return Number(square * square);
+			const Number ratio = nearest / plane.slack(x);
+			return Number(ratio * ratio * ratio);
 		};
 		std::array<Vector, 3> m {};
 		Vector                c {};
