@@ -192,10 +192,20 @@ constexpr Real parallel = 1e-4;
 /// most.
 constexpr Real thinContact = 0.1;
 
+/// × depth of a face below the one it slides on: a body is carried there if it overlaps a piece by a ball of this radius (two faces that lie
+/// on each other: ½).
+constexpr Real carriedBall = 0.25;
+
+/// Projections onto one plane after the other that look for that ball, each this much longer than need be; from beside a seam one or two
+/// lead there.
+constexpr int  mostProjections = 8;
+constexpr Real overProjection  = 1.2;
+
 /// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
 constexpr Real leastShareOfSupport = 1e-9;
 
-/// Steps between two looks for internal faces of a pair that touched before and has none.
+/// Steps between two looks for internal faces of a pair that touched before: while the faces of a seam are looked at once more, a body at
+/// 1 m/s moves by a hundredth of its size at most.
 constexpr int internalFacesEvery = 16;
 
 /// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).

@@ -17,9 +17,6 @@ namespace {
 
 	using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
 
-	constexpr Real carriedBall = 0.25, overProjection = 1.2;
-	constexpr int  mostProjections = 32;
-
 	const Body& bodyOf(const TouchingPair& pair, int which)
 	{
 		return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
@@ -136,7 +133,7 @@ namespace {
 	/// and a little further, some times over. Where the answer is no there may be room all the same, but little.
 	bool hasRoom(const Planes& one, const Planes& other, Vector3r start, Real radius)
 	{
-		for (int step = 0; step < mostProjections; ++step) {
+		for (int step = 0; step < polytope::tolerance::mostProjections; ++step) {
 			const polytope::Plane* worst     = nullptr;
 			Real                   violation = 0;
 			for (const Planes* planes : { &one, &other })
@@ -148,7 +145,7 @@ namespace {
 					}
 				}
 			if (!worst) return true;
-			start -= overProjection * violation * worst->normal;
+			start -= Real(polytope::tolerance::overProjection) * violation * worst->normal;
 		}
 		return false;
 	}
@@ -191,7 +188,7 @@ namespace {
 				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
 				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along,
-				        bounding.plane[piece][j], face, bounding.slack[piece][j], plane, depth, false, pair.ball >= carriedBall * depth });
+				        bounding.plane[piece][j], face, bounding.slack[piece][j], plane, depth, false, pair.ball >= Real(polytope::tolerance::carriedBall) * depth });
 			}
 		}
 		return all;
@@ -221,7 +218,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 			for (Candidate& one : candidates[piece]) {
 				if (one.internal() || !one.continuedBy(planes, step)) continue;
 				one.covered = one.covered || contains(planes, one.outside);
-				one.carried = one.carried || hasRoom(planes, own, one.outside, carriedBall * one.depth);
+				one.carried = one.carried || hasRoom(planes, own, one.outside, Real(polytope::tolerance::carriedBall) * one.depth);
 			}
 		});
 	}

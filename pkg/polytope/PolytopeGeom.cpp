@@ -111,26 +111,26 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
-	// a new contact, one that has internal faces, and the others every few steps, each in its turn
+	// a new contact, and the others every few steps, each in its turn
 	polytope::BoundingPlanes bounding;
 	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
-		if (turn || geom.internal || !geom.internalKnown || !wasReal) settings.bounding = &bounding;
+		if (turn || !geom.internalKnown || !wasReal) settings.bounding = &bounding;
 		settings.internal = geom.internal.get();
 	}
 	polytope::ContactResult result;
 	const Vector3r          centre2   = state2.pos + shift2 - frame1.origin;
 	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-	if (settings.bounding && result.inContact) {
+	if (result.inContact && (settings.bounding || geom.internal)) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + result.point, result.normal, -result.infeasibility };
-		if (findInternalFaces(pair, bounding, geom)) {
+		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
 			settings.internal = geom.internal.get();
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = geom.internal ? shareOfSupport(pair.withNormal(result.normal), *geom.internal) : Real(1);
+		geom.share = geom.internal && geom.needsShare ? shareOfSupport(pair.withNormal(result.normal), *geom.internal) : Real(1);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);

@@ -24,6 +24,9 @@ public:
 	std::unique_ptr<polytope::InternalPlanes> internal;
 	bool                                      internalKnown = false;
 
+	/// Whether the contact's physics have a stiffness per contact, which `share` is a part of.
+	bool needsShare = true;
+
 	polytope::PairMemory memory() const;
 	void                 remember(const polytope::PairMemory& memory);
 	std::string          statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }

@@ -152,6 +152,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	}
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
+		geom->needsShare  = !stiffnessPerArea;
 		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
