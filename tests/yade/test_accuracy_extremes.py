@@ -12,17 +12,17 @@ from yade import Quaternion, Vector3
 from yade import polytope
 
 folder = pathlib.Path(__file__).resolve().parents[1] / 'accuracy'
-program = folder.parents[1] / 'build/tests/accuracy/polytope_extremes'
 sys.path.append(str(folder))
 
 import pairTables
 import report
+from pairExtremes import program
 
 
 def run(script, where, *options):
 	done = subprocess.run(
 		[sys.executable, folder / f'{script}.py', '--output', where, *options],
-		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=900
+		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=3600
 	)
 	assert (where / 'findings.json').is_file(), done.stderr
 	return done.returncode, json.loads((where / 'findings.json').read_text())

@@ -77,7 +77,7 @@ def testRowsTellWhatChanged():
 	assert [int(table[name].values['steps']) for name in ('as it is', 'half step', 'step')] == pytest.approx([500, 1000, 250], abs=1)
 	assert table['cold'].values['iterations'] > table['as it is'].values['iterations']
 	for row in table.rows:
-		assert 0 < row.contactMicroseconds < row.stepMicroseconds < 1e4
+		assert 0 < row.contactMicroseconds < row.stepMicroseconds
 		assert row.cost == pytest.approx(row.stepMicroseconds * 1e-3 / row.timeStep)
 
 
