@@ -208,6 +208,14 @@ def testCoalIsPinned():
 	assert '--require-hashes' in (project / 'tools/bench.sh').read_text()
 
 
+def testSlowTestsAreThere():
+	"""A test that is renamed or moved keeps its place in the list."""
+	for line in (project / 'tests/yade/slow.txt').read_text().splitlines():
+		if not line.startswith('#'):
+			file, name = line.split('::')
+			assert f'def {name}(' in (project / 'tests/yade' / file).read_text(), line
+
+
 junit = '''<testsuites><testsuite>{}</testsuite></testsuites>'''
 case = '<testcase classname="{}" name="{}">{}</testcase>'
 
