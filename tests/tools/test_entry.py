@@ -208,6 +208,49 @@ def testCoalIsPinned():
 	assert '--require-hashes' in (project / 'tools/bench.sh').read_text()
 
 
+def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
+	"""Another precision's overlay and the programs of the tests: kept while the sources are those they were built from."""
+	for name in ('src', 'pkg', 'cmake', 'tests/core'):
+		(clone / name).mkdir(parents=True)
+	(clone / 'CMakeLists.txt').touch()
+	(clone / 'src/a.cpp').write_text('one')
+	(clone / 'tests/core/aTest.cpp').write_text('one')
+	build = clone / 'build'
+	overlay, stamp = build / 'overlay/lib/x86_64-linux-gnu/yade-longdouble', build / 'longdouble/overlay.complete'
+	ours, program = build / 'overlay/lib/x86_64-linux-gnu/yade-double', build / 'tests/accuracy/polytope_extremes'
+	for folder in (overlay, ours, stamp.parent, program.parent):
+		folder.mkdir(parents=True)
+	for file in (stamp, program):
+		file.touch()
+	functions = (clone / 'tools/inside.sh').read_text()
+	functions = functions[functions.index('# One number for all'):functions.index('# Builds one precision')]
+	functions += '\nbuild=$project/build precision=double widePrecisions="longdouble float128 mpfr150"\n'
+
+	def after(script, buildKey='here'):
+		done = shell(clone, tmp_path, functions + script, buildKey=buildKey)
+		assert done.returncode == 0, done.stderr
+		assert ours.exists()
+		return overlay.exists(), stamp.exists(), program.exists()
+
+	built = 'sourcesKey >"$build/longdouble/sources"; sourcesKey tests >"$build/testPrograms.sources"; dropStale'
+	assert after(built) == (True, True, True)
+	(clone / 'tests/core/aTest.py').touch()  # nothing is compiled from it
+	assert after('dropStale') == (True, True, True)
+	(clone / 'tests/core/aTest.cpp').write_text('two')
+	assert after('dropStale') == (True, True, False)
+	(clone / 'src/a.cpp').write_text('two')
+	assert after('dropStale') == (False, False, False)
+
+
+def testBuildsForAnotherYadeArePutAway(clone, tmp_path):
+	"""The same, where only YADE or the place has changed."""
+	testBuildsFromOtherSourcesArePutAway(clone, tmp_path)
+	functions = (clone / 'tools/inside.sh').read_text()
+	functions = functions[functions.index('# One number for all'):functions.index('# Builds one precision')]
+	keys = {shell(clone, tmp_path, functions + 'sourcesKey', buildKey=key).stdout for key in ('here', 'there')}
+	assert len(keys) == 2
+
+
 def testSlowTestsAreThere():
 	"""A test that is renamed or moved keeps its place in the list."""
 	for line in (project / 'tests/yade/slow.txt').read_text().splitlines():

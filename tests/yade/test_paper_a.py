@@ -209,4 +209,4 @@ def testIpoptFindsTheSameContactsAndCostsMore():
 	fallen(sample=sample)
 	newton, ipopt = sample.times(warmStart=False), sample.times(passes=1, solver='ipopt', warmStart=False)
 	assert ipopt['contacts'] == newton['contacts'] and ipopt['failures'] == 0
-	assert ipopt['centreMicroseconds'] > 5 * newton['centreMicroseconds']
+	assert ipopt['ipoptPerContact'] > newton['newtonPerContact'] > 0 == ipopt['newtonPerContact'] == newton['ipoptPerContact']

@@ -30,7 +30,6 @@ def testMeasuringTouchesNothing(tmp_path):
 	assert everything('after.yade.bin') == before
 	assert found.stepMicroseconds > 0
 	assert {'contact area', 'clocks', 'warm start'} <= {finding.what for finding in found.findings if finding.cost is not None}
-	assert found['warm start'].cost < 0  # without it, steps take longer
 	assert 'contact area' in repr(found) and 'saves' in repr(found)
 	O.step()  # and goes on
 

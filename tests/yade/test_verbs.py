@@ -18,7 +18,10 @@ def inside(*arguments):
 
 
 def search(*arguments):
-	return subprocess.run([os.path.join(build, 'tests', 'search', 'polytope_search'), *arguments], capture_output=True, text=True, timeout=1800)
+	program = os.path.join(build, 'tests', 'search', 'polytope_search')
+	if not os.path.exists(program):
+		pytest.skip('polytope_search is not built: ./run build polytope_search')
+	return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=1800)
 
 
 @pytest.mark.parametrize('verb, options', [('fuzz', ['--seconds', '--target', '--dry-run']), ('sanitize', ['--only', 'core', 'threads', 'fuzz', 'valgrind', '--dry-run'])])
