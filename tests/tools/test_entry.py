@@ -139,6 +139,21 @@ def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
 	assert (cache / 'debian13-0123abcd').exists()
 
 
+def testArchivesOfTheRoot(clone, tmp_path):
+	"""With and without further files of sources."""
+	functions = (clone / 'run').read_text()
+	functions = functions[functions.index('rootArchives()'):functions.index('# Everything before')]
+	apt = tmp_path / 'root/etc/apt'
+	(apt / 'sources.list.d').mkdir(parents=True)
+	(apt / 'sources.list').write_text('deb [signed-by=/a.gpg] http://mirror/debian trixie main\n\ndeb http://security trixie-security main\n')
+	expected = ['http://mirror/debian trixie main', 'http://security trixie-security main']
+	for _ in range(2):
+		done = shell(clone, tmp_path, f'{functions}\nfound=$(rootArchives "{tmp_path}/root")\necho "$found"')
+		assert done.returncode == 0 and done.stdout.splitlines() == expected
+		(apt / 'sources.list.d/more.list').write_text('deb http://more trixie main\n')
+		expected = [*expected, 'http://more trixie main']
+
+
 @pytest.mark.parametrize('verb, needed, spared', [
         ('demo', {'yade', 'g++', 'xvfb'}, {'clang', 'valgrind', 'libgtest-dev', 'libfcl-dev', 'python3-pytest', 'clang-format'}),
         ('yade', {'yade', 'g++'}, {'clang', 'valgrind', 'libfcl-dev'}),
