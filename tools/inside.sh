@@ -12,6 +12,7 @@ build=$project/build # of double; those of the other precisions are in it
 ipopt=AUTO
 if [ "${YADE_POLYTOPE_IPOPT:-}" = OFF ]; then build=$project/build-without-ipopt && ipopt=OFF; fi
 widePrecisions="longdouble float128 mpfr150"
+measuringPrograms="accuracy/polytope_extremes search/polytope_search" # that tests and reports run
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
 # a second clone of the project finds what the first one compiled
 export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
@@ -51,49 +52,57 @@ configure() { # FOLDER PRECISION
 	echo "$buildKey" >"$1/key"
 }
 
+buildFolder() { [ "$1" = double ] && echo "$build" || echo "$build/$1"; } # PRECISION
+
 # One number for all that the plug-in, or with `tests` its test programs, are compiled from.
 sourcesKey() { # [tests]
 	local folders=(src pkg cmake CMakeLists.txt)
-	[ $# -eq 0 ] || folders+=(tests)
+	[ $# -eq 0 ] || folders+=(tests tools/measure)
 	{
 		echo "$buildKey"
-		cd "$project" && find "${folders[@]}" -type f -regex '.*\.\([ch]pp\|txt\|in\|cmake\|py\)' ! -path 'tests/*.py' -print0 | sort -z | xargs -0 sha256sum
+		cd "$project" && find "${folders[@]}" -type f -regex '.*\.\([ch]pp\|txt\|in\|cmake\|py\)' ! -path 'tests/*.py' ! -path 'tools/*.py' -print0 | sort -z | xargs -0 sha256sum
 	} | sha256sum
 }
 
 # What was built from other sources than the present ones is taken out of the way: no test or report is to judge it in their place.
 dropStale() {
-	local name key
+	local name folder key
 	key=$(sourcesKey)
-	for name in $widePrecisions; do
-		[ "$name" != "$precision" ] && [ -d "$build/$name" ] && [ "$(cat "$build/$name/sources" 2>/dev/null)" != "$key" ] || continue
-		[ -e "$build/$name/overlay.complete" ] || continue
+	for name in double $widePrecisions; do
+		folder=$(buildFolder "$name")
+		[ "$name" != "$precision" ] && [ -e "$folder/overlay.complete" ] && [ "$(cat "$folder/sources" 2>/dev/null)" != "$key" ] || continue
 		find "$build/overlay" -maxdepth 3 -name "yade-$name" -exec rm -rf {} +
-		rm -f "$build/$name/overlay.complete"
+		rm -f "$folder/overlay.complete"
 		echo "  $name: built from other sources than the present ones; not used until it is built again"
 	done
-	[ "$(cat "$build/testPrograms.sources" 2>/dev/null)" = "$(sourcesKey tests)" ] ||
-		rm -f "$build/tests/accuracy/polytope_extremes" "$build/tests/search/polytope_search"
+	key=$(sourcesKey tests)
+	for name in $measuringPrograms; do
+		[ "$(cat "$build/tools/measure/$name.sources" 2>/dev/null)" = "$key" ] || rm -f "$build/tools/measure/$name"
+	done
 }
 
 # Builds one precision, whichever is in use.
 buildPrecision() { # PRECISION TARGETS…
-	local folder=$build name=$1 of=
+	local folder name=$1 of= program
 	shift
-	[ "$name" = double ] || { folder=$build/$name && of=" for $name"; }
+	folder=$(buildFolder "$name")
+	[ "$name" = double ] || of=" for $name"
 	(
 		flock 9 # two calls at a time build one after the other
 		configure "$folder" "$name"
-		[ "$name" = double ] || rm -f "$folder/sources"
+		case " $* " in *" overlay "*) rm -f "$folder/sources" ;; esac
 		step "building$of" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
-		[ "$name" = double ] || sourcesKey >"$folder/sources"
-		case " $* " in *" testPrograms "*) sourcesKey tests >"$build/testPrograms.sources" ;; esac
+		case " $* " in *" overlay "*) sourcesKey >"$folder/sources" ;; esac
+		for program in $measuringPrograms; do
+			case " $* " in *" testPrograms "* | *" ${program#*/} "*) sourcesKey tests >"$build/tools/measure/$program.sources" ;; esac
+		done
 	) 9>"$cache/build.lock"
 }
 
 # The plug-in of the precision in use, unless targets are named.
 build() { # [TARGETS…]
 	[ $# -gt 0 ] || set -- overlay
+	(flock 9 && dropStale) 9>"$cache/build.lock"
 	buildPrecision "$precision" "$@"
 }
 
@@ -108,12 +117,12 @@ search() {
 	logFile=$project/output/search/log-$(date -u +%Y%m%d-%H%M%S).txt
 	mkdir -p "$project/output/search"
 	POLYTOPE_REVISION=$(git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || true) \
-		"$build/tests/search/polytope_search" --log "$logFile" "$@"
+		"$build/tools/measure/search/polytope_search" --log "$logFile" "$@"
 }
 
 # The full run looks at every precision that its scenes name and that is installed; the quick one at those that happen to be built.
 tradeoff() {
-	local script=$project/examples/tradeoffPaper.py said other needed
+	local script=$project/tools/measure/tradeoff/tradeoffPaper.py said other needed
 	# options first: a mistake, or --help, has its answer before anything is built
 	said=$(python3 "$script" --check "$@") || exit
 	[ -z "$said" ] || { echo "$said" && exit; }
@@ -131,7 +140,7 @@ format() {
 	local check=() files
 	[ "${1:-}" = --check ] && check=(--dry-run --Werror)
 	cd "$project"
-	mapfile -t files < <(find src pkg tests -name '*.cpp' -o -name '*.hpp')
+	mapfile -t files < <(find src pkg tests tools -name '*.cpp' -o -name '*.hpp')
 	clang-format -i "${check[@]}" "${files[@]}"
 	if command -v ruff >/dev/null; then
 		if [ "${1:-}" = --check ]; then ruff format --check . && ruff check .; else ruff format . && ruff check --fix .; fi
@@ -148,7 +157,7 @@ case $command in
 	python) build && exec python3 "$@" ;;
 	tradeoff) tradeoff "$@" ;;
 	search) buildPrecision double polytope_search && search "$@" ;;
-	accuracy) buildWith polytope_extremes && exec python3 "$project/tests/accuracy/report.py" "$@" ;;
+	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;
 	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;

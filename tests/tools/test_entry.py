@@ -232,14 +232,14 @@ def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
 	(clone / 'tests/core/aTest.cpp').write_text('one')
 	build = clone / 'build'
 	overlay, stamp = build / 'overlay/lib/x86_64-linux-gnu/yade-longdouble', build / 'longdouble/overlay.complete'
-	ours, program = build / 'overlay/lib/x86_64-linux-gnu/yade-double', build / 'tests/accuracy/polytope_extremes'
+	ours, program = build / 'overlay/lib/x86_64-linux-gnu/yade-double', build / 'tools/measure/accuracy/polytope_extremes'
 	for folder in (overlay, ours, stamp.parent, program.parent):
 		folder.mkdir(parents=True)
 	for file in (stamp, program):
 		file.touch()
 	functions = (clone / 'tools/inside.sh').read_text()
-	functions = functions[functions.index('# One number for all'):functions.index('# Builds one precision')]
-	functions += '\nbuild=$project/build precision=double widePrecisions="longdouble float128 mpfr150"\n'
+	functions = functions[functions.index('buildFolder()'):functions.index('# Builds one precision')]
+	functions += '\nbuild=$project/build precision=double widePrecisions="longdouble float128 mpfr150" measuringPrograms=accuracy/polytope_extremes\n'
 
 	def after(script, buildKey='here'):
 		done = shell(clone, tmp_path, functions + script, buildKey=buildKey)
@@ -247,7 +247,7 @@ def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
 		assert ours.exists()
 		return overlay.exists(), stamp.exists(), program.exists()
 
-	built = 'sourcesKey >"$build/longdouble/sources"; sourcesKey tests >"$build/testPrograms.sources"; dropStale'
+	built = 'sourcesKey >"$build/longdouble/sources"; sourcesKey tests >"$build/tools/measure/accuracy/polytope_extremes.sources"; dropStale'
 	assert after(built) == (True, True, True)
 	(clone / 'tests/core/aTest.py').touch()  # nothing is compiled from it
 	assert after('dropStale') == (True, True, True)

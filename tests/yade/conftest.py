@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every test starts from an empty scene; scenes.py is importable from all of them."""
+"""Every test starts from an empty scene; scenes.py, the package boon2012 and the studies of accuracy are importable from all of them."""
 import numbers
 import os
 import pathlib
@@ -35,6 +35,9 @@ if polytope.buildInfo()['precision'] != 'double':
 
 slowTests = {line.strip() for line in (pathlib.Path(__file__).parent / 'slow.txt').read_text().splitlines() if not line.startswith('#')}
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+# last: both have a report.py, which no test takes by its name
+for folder in ('examples/paper', 'tools/measure/accuracy'):
+	sys.path.append(os.path.abspath(os.path.join(__file__, '../../..', folder)))
 
 
 def pytest_configure(config):

@@ -18,7 +18,7 @@ def inside(*arguments):
 
 
 def search(*arguments):
-	program = os.path.join(build, 'tests', 'search', 'polytope_search')
+	program = os.path.join(build, 'tools', 'measure', 'search', 'polytope_search')
 	if not os.path.exists(program):
 		pytest.skip('polytope_search is not built: ./run build polytope_search')
 	return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=1800)
