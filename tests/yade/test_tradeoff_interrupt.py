@@ -24,7 +24,7 @@ def measure(interrupt):
 	if interrupt:
 		(pathlib.Path(os.environ['POLYTOPE_TEST']) / str(os.getpid())).touch()
 		os.kill(os.getppid(), signal.SIGINT)
-		time.sleep(300)
+		time.sleep(3600)  # longer than anybody waits for its end below
 	return 1.0
 
 
@@ -57,7 +57,7 @@ def testAKilledCallerLeavesNoProcess(tmp_path):
 		'	O.engines, O.dt = [NewtonIntegrator()], 1e-3\n'
 		'def measure():\n'
 		f'	(pathlib.Path({str(tmp_path)!r}) / f"worker-{{os.getpid()}}").touch()\n'
-		'	time.sleep(300)\n'
+		'	time.sleep(3600)\n'
 		'if __name__ == "__main__":\n'
 		'	polytope.tradeoff(build, {"a": {}}, measure, 1)\n'
 	)
