@@ -83,7 +83,11 @@ withoutSettings() { # ROOT
 		rm -f "$0/etc/dpkg/dpkg.cfg.d/99mmdebstrap"' "$1"
 }
 
-removeDebianRoot() { [ ! -e "$1" ] || inNamespace rm -rf --one-file-system "$1"; }
+# An ordinary user's root has files of his subordinate ids; root removes it as it is, within a root like this one, too.
+removeDebianRoot() {
+	if [ ! -e "$1" ]; then return 0; fi
+	if [ "$(id -u)" -eq 0 ]; then rm -rf --one-file-system "$1"; else inNamespace rm -rf --one-file-system "$1"; fi
+}
 
 # Held as long as this process and those it starts run in the root $1: file descriptor 7.
 holdDebianRoot() {
@@ -106,8 +110,7 @@ dropDebianRoot() {
 		return 1
 	fi
 	echo "  removing $1 …"
-	removeDebianRoot "$1"
-	rm -f "$1.made" "$1.lock"
+	removeDebianRoot "$1" && rm -f "$1.made" "$1.lock"
 }
 
 # installInDebianRoot FOLDER PACKAGE…: into the root as it is; those who are in it go on

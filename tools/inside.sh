@@ -67,6 +67,7 @@ sourcesKey() { # [tests]
 # What was built from other sources than the present ones is taken out of the way: no test or report is to judge it in their place.
 dropStale() {
 	local name folder key
+	[ -d "$build" ] || return 0 # nothing was built
 	key=$(sourcesKey)
 	for name in double $widePrecisions; do
 		folder=$(buildFolder "$name")
