@@ -4,7 +4,6 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 
 import pytest
 
@@ -116,6 +115,15 @@ def testARootInUseStays(clone, tmp_path):
 	done = call(clone, cache, 'clean', '--root')
 	assert done.returncode == 0 and f'removing {root}' in done.stdout, done.stderr
 	assert not root.exists() and (cache / 'logs').exists() and (clone / 'build').exists()
+
+
+def testARootThatCannotBeRemovedIsAnError(clone, tmp_path):
+	cache = filled(tmp_path / 'cache')
+	(cache / 'debian13').mkdir()
+	(cache / 'debian13.made').touch()
+	for option in ('--root', '--all'):
+		done = shell(clone, cache, f'removeDebianRoot() {{ return 1; }}\nclean {option}')
+		assert done.returncode == 1 and (cache / 'debian13.made').exists() and (cache / 'logs').exists()
 
 
 def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
@@ -272,39 +280,3 @@ def testSlowTestsAreThere():
 		if not line.startswith('#'):
 			file, name = line.split('::')
 			assert f'def {name}(' in (project / 'tests/yade' / file).read_text(), line
-
-
-junit = '''<testsuites><testsuite>{}</testsuite></testsuites>'''
-case = '<testcase classname="{}" name="{}">{}</testcase>'
-
-
-def skipped(folder, *options, ci=''):
-	done = subprocess.run(
-		[sys.executable, project / 'tools/skipped.py', *options, folder], env={**os.environ, 'CI': ci}, capture_output=True, text=True, timeout=600
-	)
-	assert not done.stderr
-	return done
-
-
-def testSkipsAreCountedAndNamed(tmp_path):
-	core = ['Shape.cube', 'Instructions', 'Fuzz.contact', 'Search', 'WithoutIpopt', 'Clang.Status']
-	missing = '<skipped message="SKIP_RETURN_CODE=77"/><system-out>no valgrind\n</system-out>'
-	(tmp_path / 'core.xml').write_text(junit.format(''.join(case.format(name, name, missing if name == 'Instructions' else '') for name in core)))
-	(tmp_path / 'double.xml').write_text(junit.format(case.format('a.b', 'testX', '<skipped message="float128 is not built: so"/>') + case.format('a.b', 'testY', '')))
-	for ci, code in (('', 0), ('true', 1)):
-		done = skipped(tmp_path, '--expect-core', '--expect-precision', 'longdouble', ci=ci)
-		assert done.returncode == code
-		assert 'skipped: 3\n' in done.stdout and 'core: Instructions' in done.stdout and '1 × no valgrind' in done.stdout
-		assert 'a.b.testX' in done.stdout and 'precision longdouble' in done.stdout and 'testY' not in done.stdout
-
-
-def testAllowedSkipsPassInCI(tmp_path):
-	(tmp_path / 'double.xml').write_text(junit.format(case.format('a.b', 'testX', '<skipped message="float128 is not built: so"/>')))
-	assert skipped(tmp_path, ci='true').returncode == 0
-
-
-def testAPartThatWasNotBuiltIsNamed(tmp_path):
-	(tmp_path / 'core.xml').write_text(junit.format(case.format('Shape.cube', 'Shape.cube', '')))
-	done = skipped(tmp_path, '--expect-core', ci='true')
-	assert done.returncode == 1 and 'skipped: 5\n' in done.stdout and 'clang' in done.stdout
-	assert skipped(tmp_path / 'nothing', '--expect-core', ci='true').returncode == 1
