@@ -19,7 +19,7 @@ def testBothModelsAgreeWithClosedForms(tmp_path):
 		cwd=tmp_path,
 		env={**os.environ, 'OMP_NUM_THREADS': '1'},
 		check=True,
-		timeout=300,
+		timeout=1800,
 	)
 	with open(tmp_path / 'out/models.csv') as file:
 		rows = {row[0]: [float(value) if value else None for value in row[1:]] for row in list(csv.reader(file))[1:]}
