@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Real.hpp"
+
+/// Thresholds of the time step, as Tolerances.hpp has those of the contact path: meaning, scale, reason.
+namespace polytope::tolerance {
+
+/// × inscribed radius: depth at which a contact that a body may have with a whole face is looked at. Its rocking stiffness over
+/// its normal one is the same at any depth that is small against the body.
+constexpr double potentialDepth = 1e-3;
+
+/// × a body's own radius: as large as its partner in a potential contact is taken to be at most (walls have no size). Where
+/// stiffness goes by the radii (2 E₁R₁ E₂R₂/(E₁R₁ + E₂R₂)), it is within a thousandth of that with an infinite one.
+constexpr double potentialPartner = 1e3;
+
+/// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
+constexpr double rockingShare = 0.5;
+
+} // namespace polytope::tolerance

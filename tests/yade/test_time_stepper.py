@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""PolytopeTimeStepper: the step it gives against measured limits of stability; bodies that land and come to rest with no O.dt of the script's."""
+
+import math
+import os
+import tempfile
+
+import numpy as np
+import pytest
+from scenes import blockOnFloor, density, driven, gravity, joint, loop
+from yade import (
+	Bo1_Polytope_Aabb,
+	Bo1_Sphere_Aabb,
+	ForceResetter,
+	FrictMat,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	Ig2_Sphere_Sphere_ScGeom,
+	InteractionLoop,
+	Ip2_FrictMat_FrictMat_FrictPhys,
+	Law2_ScGeom_FrictPhys_CundallStrack,
+	NewtonIntegrator,
+	O,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	Quaternion,
+	Vector3,
+	_polytope,
+	polytope,
+	utils,
+)
+
+models = ('paper', 'conservative')
+
+
+def stepper(**attributes):
+	"""Puts the engine at the end of those there are."""
+	engine = PolytopeTimeStepper(**attributes)
+	O.engines = O.engines + [engine]
+	return engine
+
+
+# ------------------------------------------------------------------------------------- against measured limits of stability
+
+
+def pressed(model, perArea, blocked, half, depth=1e-4):
+	"""A block pressed onto a floor, at rest; returns it."""
+	O.reset()
+	joint(normalStiffness=1e8, shearStiffness=6e7, frictionAngle=1.5)
+	stiffness = 1e8 * (4 * half[0] * half[1] if perArea else 1)
+	weight = depth * stiffness / (density * 8 * half[0] * half[1] * half[2])
+	loop(perArea=perArea, gravity=(0, 0, -weight), ig2={'contactModel': model})
+	block = blockOnFloor(depth, half)[1]
+	block.state.blockedDOFs = blocked
+	O.dt = 1e-9
+	O.step()
+	return block.state
+
+
+def grows(dt, *scene, steps=300, depth=1e-4):
+	"""Whether a small disturbance, small against the tilt up to which rocking is linear, grows with this time step."""
+	state = pressed(*scene)
+	size, small = max(scene[3]), 1e-4 * depth
+	O.dt = dt
+	if 'z' not in state.blockedDOFs:
+		state.pos += Vector3(0, 0, small)
+	if 'x' not in state.blockedDOFs:
+		state.vel = Vector3(small / dt, 0, 0)
+	if 'Y' not in state.blockedDOFs:
+		state.ori = Quaternion((0 if 'X' in state.blockedDOFs else 1, 1, 0), (1e-2 if scene[0] == 'paper' else 1e-5) * small / size) * state.ori
+	early = late = 0
+	for step in range(steps):
+		O.step()
+		motion = float(state.vel.norm() + state.angVel.norm() * size) * dt
+		if not motion < 1e3 * depth:
+			return True
+		early, late = max(early, motion if step < steps // 4 else 0), max(late, motion if step > 3 * steps // 4 else 0)
+	return late > 3 * early
+
+
+def critical(start, *scene):
+	"""Largest stable step by bisection, to 2 %."""
+	low, high = start, 16 * start
+	assert not grows(low, *scene)
+	while high > 1.02 * low:
+		middle = math.sqrt(low * high)
+		low, high = (low, middle) if grows(middle, *scene) else (middle, high)
+	return low
+
+
+@pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.4, 0.1)])
+@pytest.mark.parametrize('motion, blocked', [('normal', 'xyXYZ'), ('shear', 'yzXYZ'), ('rocking', 'xyzXZ'), ('all', '')])
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('model', models)
+def testTwiceTauIsTheLimitOfOneBlock(model, perArea, motion, blocked, half):
+	scene = (model, perArea, blocked, half)
+	pressed(*scene)
+	limit = 2 * _polytope.timeStepLimits()['contacts']
+	ratio = limit / critical(limit / 4, *scene)
+	print(f'{model}, per area {perArea}, {half}, {motion}: 2 τ over the measured limit {ratio:.3f}')
+	assert 0.85 < ratio < 1.05
+
+
+# --------------------------------------------------------------------------------------------------- before there is a contact
+
+
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('model', models)
+@pytest.mark.parametrize('turn', [Quaternion.Identity, Quaternion((1, 2, 3), 1)])
+def testBlockLandsWithoutAStepOfTheScripts(model, perArea, turn):
+	joint(normalStiffness=1e8, shearStiffness=1e8)
+	loop(perArea=perArea, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2={'contactModel': model})
+	engine = stepper()
+	floor, block = blockOnFloor()
+	block.state.pos, block.state.ori = Vector3(0, 0, 1.5), turn
+	O.step()
+	assert engine.limitedBy == 'material' and engine.limitingBody == block.id
+	assert O.dt == pytest.approx(engine.timestepSafetyCoefficient * _polytope.timeStepLimits()['material'], rel=1e-12)
+	highest = fastest = 0
+	while O.time < 4:
+		O.run(20, wait=True)
+		if O.time > 0.6:
+			highest, fastest = max(highest, block.state.pos[2]), max(fastest, block.state.vel.norm())
+	assert engine.limitedBy in ('material', 'contacts', 'rocking')
+	assert highest < 1.3 and fastest < math.sqrt(2 * gravity * 1.0)  # never thrown up again
+	assert block.state.pos[2] == pytest.approx(0.5, abs=0.01) and block.state.vel.norm() < 1e-3
+
+
+def testStepIsThereBeforeTheFirstMotion():
+	joint()
+	loop(gravity=(0, 0, -gravity))
+	stepper()
+	floor, block = blockOnFloor()
+	block.state.pos = Vector3(0, 0, 5)
+	assert O.dt < 1e-7  # YADE's own, of an empty scene
+	O.step()
+	# one contact of a cube at a vertex: κ = k (1/m + (3/4 L²)/(m L²/6)) = 5.5 k/m
+	assert O.dt == pytest.approx(0.4 / math.sqrt(5.5 * 1e8 / density), rel=1e-9)
+
+
+def testMaterialsChangedInTheRunCount():
+	joint()
+	loop()
+	engine = stepper()
+	floor, block = blockOnFloor()
+	block.state.pos = Vector3(0, 0, 5)
+	O.step()
+	first = O.dt
+	block.material.normalStiffness *= 100  # the floor's, too: it is one material
+	O.run(engine.timeStepUpdateInterval, wait=True)
+	assert O.dt == pytest.approx(first / 10, rel=1e-9)
+	block.material.normalStiffness /= 100
+	block.state.mass *= 4
+	block.state.inertia *= 4
+	O.run(engine.timeStepUpdateInterval, wait=True)
+	assert O.dt == pytest.approx(2 * first, rel=1e-9)
+
+
+def testBodiesPutInLaterCountAtOnce():
+	joint()
+	loop()
+	engine = stepper(timeStepUpdateInterval=1000)
+	blockOnFloor()
+	O.bodies[1].state.pos = Vector3(0, 0, 5)
+	O.run(3, wait=True)
+	first = O.dt
+	small = O.bodies.append(polytope.cuboid((0, 0, 8), (0.05, 0.05, 0.05)))
+	O.step()
+	assert engine.limitingBody == small and O.dt == pytest.approx(first / 10**1.5, rel=1e-9)  # the same stiffness, a thousandth of the mass
+
+
+# ------------------------------------------------------------------------------------------------------------- other bodies, other laws
+
+
+def testFrictMatSpheresAndBlocks():
+	O.materials.append(FrictMat(density=density, young=1e8, poisson=0.3, frictionAngle=0.5))
+	O.engines = [
+		ForceResetter(),
+		PolytopeCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()], verletDist=0.01),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom(), Ig2_Sphere_Polytope_PolytopeGeom(), Ig2_Sphere_Sphere_ScGeom()],
+			[Ip2_FrictMat_FrictMat_FrictPhys()],
+			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+		),
+		NewtonIntegrator(gravity=(0, 0, -gravity), damping=0.4),
+	]
+	engine = stepper()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 3, 0.5), fixed=True))
+	ball = O.bodies.append(utils.sphere((0, 0, 0.3), 0.1))
+	O.step()
+	# YADE's stiffness of the ball on a wall, 2 E R, at most; κ = k (1/m + R²/I) = 3.5 k/m
+	mass = O.bodies[ball].state.mass
+	assert engine.limitingBody == ball
+	assert 0.4 / math.sqrt(3.5 * 2e8 * 0.1 / mass) <= O.dt <= 0.4 / math.sqrt(3.5 * 1e8 * 0.1 / mass)
+	O.bodies.append([utils.sphere((0.15 * (k - 1), 0.02 * k, 0.6 + 0.25 * k), 0.1) for k in range(3)])
+	O.bodies.append([polytope.regular(faces, 0.12, (0.2 * (faces % 3 - 1), 0.1, 1.5 + 0.03 * faces)) for faces in (4, 6, 8, 12, 20)])
+	while O.time < 4:
+		O.run(100, wait=True)
+	moving = [body.state for body in O.bodies if body.dynamic]
+	assert all(0 < state.pos[2] < 1 for state in moving)
+	assert max(float(state.vel.norm()) for state in moving) < 1  # some roll, none is thrown
+
+
+def testPolygons():
+	joint()
+	loop(gravity=(0, -gravity, 0), normalDamping=0.3, damping=0.2)
+	engine = stepper()
+	O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True))
+	square = O.bodies.append(polytope.polygon([(-0.5, 0.2), (0.5, 0.2), (0.5, 1.2), (-0.5, 1.2)]))
+	O.step()
+	# only the turn about z: κ = k (1/m + (L²/2)/(m L²/6)) = 4 k/m at a corner; dampers as the law has them
+	free = O.dt
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
+	O.run(10, wait=True)
+	assert O.dt == pytest.approx(0.4 / math.sqrt(4 * 1e8 / density), rel=1e-9) and free < O.dt
+	while O.time < 2:
+		O.run(100, wait=True)
+	assert O.bodies[square].state.pos[1] == pytest.approx(0.5, abs=1e-3)
+	assert engine.limitingBody == square
+
+
+def testClumpsHaveTheContactsOfTheirMembers():
+	joint()
+	loop()
+	stepper(timestepSafetyCoefficient=1)
+	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
+	left, right = (polytope.cuboid((x, 0, 0.4999), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5))
+	clump, _ = O.bodies.appendClumped([left, right])
+	O.step()
+	O.step()
+	contacts = _polytope.timeStepLimits()['contacts']
+	state = O.bodies[clump].state
+	translation = 2 * 1e8 / state.mass
+	assert 1 / contacts**2 >= 0.999 * translation  # both springs carry it
+	assert 1 / contacts**2 < 10 * translation
+
+
+def testFixedBodiesLimitNothing():
+	joint()
+	loop()
+	engine = stepper()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), fixed=True))
+	O.dt = 0.123
+	O.step()
+	assert O.dt == 0.123 and engine.limitedBy == '' and engine.limitingBody == -1
+
+
+# ------------------------------------------------------------------------------------------------------------------------ what limits
+
+
+def testMotionLimits():
+	joint(normalStiffness=1, shearStiffness=1)
+	loop()
+	engine = stepper()
+	floor, block = blockOnFloor()
+	block.state.pos, block.state.vel = Vector3(0, 0, 5), Vector3(0, 0, -100)
+	O.step()
+	assert engine.limitedBy == 'motion' and engine.limitingBody == block.id
+	assert O.dt == pytest.approx(0.1 * 0.5 / 100)
+	block.state.vel = Vector3.Zero
+	driven(floor, velocity=(0, 0, 50))
+	O.run(10, wait=True)
+	assert engine.limitedBy == 'motion' and O.dt == pytest.approx(0.1 * 0.5 / 50)
+	driven(floor)
+	O.engines[3].gravity = (0, 0, -1000)
+	block.state.vel = Vector3.Zero
+	O.run(9, wait=True)
+	block.state.vel = Vector3.Zero
+	O.run(1, wait=True)
+	assert engine.limitedBy == 'motion' and O.dt <= math.sqrt(0.1 * 0.5 / 1000) * (1 + 1e-9)
+
+
+def testWhatLimitsIsNamed():
+	joint()
+	newton = loop(ig2={'contactModel': 'conservative'}, gravity=(0, 0, -gravity))
+	engine = stepper()
+	floor, block = blockOnFloor(1e-5)
+	O.step()
+	newton.gravity = (0, 0, 0)
+	driven(block)  # cannot move: limits nothing
+	O.run(10, wait=True)
+	assert engine.limitedBy == ''
+	block.state.blockedDOFs = ''
+	block.state.pos = Vector3(0, 0, 0.49)  # pressed together: stiff in rocking
+	O.run(10, wait=True)
+	assert engine.limitedBy == 'rocking' and engine.limitingBody == block.id
+	O.reset()
+	joint()
+	loop()
+	engine = stepper(maxDt=1e-6)
+	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5), fixed=k in (0, 2)) for k in range(3)])
+	O.run(10, wait=True)
+	assert engine.limitedBy == 'maxDt' and O.dt == 1e-6
+	engine.maxDt = 1
+	O.run(10, wait=True)
+	assert engine.limitedBy == 'contacts' and engine.limitingBody == 1  # between two
+
+
+def testStableTimeStepIsTheSame():
+	joint()
+	loop()
+	engine = stepper(timestepSafetyCoefficient=0.5)
+	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5), fixed=k in (0, 2)) for k in range(3)])
+	O.run(11, wait=True)
+	assert engine.limitedBy == 'contacts'
+	assert O.dt == pytest.approx(polytope.stableTimeStep(0.5), rel=1e-2)
+
+
+# ------------------------------------------------------------------------------------------------------------- arguments, files, threads
+
+
+@pytest.mark.parametrize(
+	'name, value', [('timestepSafetyCoefficient', 0), ('timestepSafetyCoefficient', 2.1), ('timestepSafetyCoefficient', math.nan),
+	                ('motionLimit', 0), ('motionLimit', math.inf), ('maxDt', 0), ('maxDt', -1), ('timeStepUpdateInterval', 0)]
+)
+def testWrongValuesAreRefusedByName(name, value):
+	engine = PolytopeTimeStepper()
+	before = getattr(engine, name)
+	with pytest.raises(ValueError, match=name):
+		setattr(engine, name, value)
+	assert getattr(engine, name) == before
+	with pytest.raises(ValueError, match=name):
+		PolytopeTimeStepper(**{name: value})
+
+
+def testSavedAndLoaded():
+	joint()
+	loop(gravity=(0, 0, -gravity), normalDamping=0.3)
+	stepper(timestepSafetyCoefficient=0.3, motionLimit=0.2, maxDt=0.5, timeStepUpdateInterval=7)
+	blockOnFloor()
+	O.bodies[1].state.pos = Vector3(0, 0, 0.6)
+	O.run(50, wait=True)
+	with tempfile.TemporaryDirectory() as folder:
+		path = os.path.join(folder, 'scene.xml')
+		O.save(path)
+		O.run(50, wait=True)
+		ahead = (O.time, O.dt, O.bodies[1].state.pos)
+		O.load(path)
+	engine = O.engines[4]
+	assert (engine.timestepSafetyCoefficient, engine.motionLimit, engine.maxDt, engine.timeStepUpdateInterval) == (0.3, 0.2, 0.5, 7)
+	O.run(50, wait=True)
+	assert O.time == pytest.approx(ahead[0], rel=1e-3) and O.dt == pytest.approx(ahead[1], rel=1e-3)
+	assert (O.bodies[1].state.pos - ahead[2]).norm() < 1e-4
+
+
+# --------------------------------------------------------------------------------------------------------------- heaps and slopes
+
+
+@pytest.mark.parametrize('faces', [4, 6, 8, 12, 20])
+@pytest.mark.parametrize('perArea', [False, True])
+@pytest.mark.parametrize('model', models)
+def testHeapsOf27Settle(model, perArea, faces):
+	joint(normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6)
+	loop(perArea=perArea, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2={'contactModel': model})
+	stepper()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (8, 8, 0.5), fixed=True))
+	random = np.random.default_rng(7)
+	for k in range(27):
+		place = 1.5 * np.array((k % 3 - 1, k // 3 % 3 - 1, k // 9 + 0.6)) + random.uniform(-0.05, 0.05, 3)
+		axis = random.normal(size=3)
+		O.bodies.append(polytope.regular(faces, 0.7, tuple(place), Quaternion(Vector3(*axis).normalized(), random.uniform(0, 3))))
+	while O.time < 6:
+		O.run(200, wait=True)
+	moving = [body.state for body in O.bodies if body.dynamic]
+	ratio = float(utils.unbalancedForce())
+	print(f'{model}, per area {perArea}, {faces} faces: unbalanced force {ratio:.1e}, {O.iter} steps')
+	assert all(0 < state.pos[2] < 4 for state in moving)
+	assert ratio < 0.02
