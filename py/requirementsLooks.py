@@ -8,14 +8,13 @@ import math
 
 import numpy as np
 import yade
-from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
+from yade import Body, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .requirementsBoxes import boxes, verletDist
 from .requirementsCentre import contactPoint, solver
 from .requirementsOverlaps import cornerRadius, newtonTolerance
 from .requirementsPlane import dimension
 from .requirementsWorker import laws
-from .timeStep import stableTimeStep
 from .tradeoffEffect import geometryFunctors, interactionLoops
 
 __all__ = ['looks']
@@ -211,14 +210,15 @@ def numbersOfBodies(scene):
 
 def timeStep(scene):
 	"""time step"""
-	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
-		return 'set by GlobalStiffnessTimeStepper', ''
+	for engine in scene.O.engines:
+		if isinstance(engine, TimeStepper) and engine.active:
+			return f'set by {type(engine).__name__}', ''
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
-	try:
-		limit = float(stableTimeStep(1))
-	except ValueError:
+	limit = _polytope.timeStepLimits()['contacts']
+	if limit is None:
 		return 'no contact limits it now'
+	limit = float(limit)
 	fraction = float(scene.O.dt) / limit
 	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (any heap is stable up to 1, one body up to 2)'
 	smaller = f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual}))'

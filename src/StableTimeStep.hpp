@@ -88,11 +88,18 @@ public:
 	/// γ [1/s].
 	Real damping() const { return damped_ ? largestEigenvalue(damping_) : Real(0); }
 
-	/// Not below κ and γ: the sums of all eigenvalues.
-	Real stiffnessAtMost() const { return stiffness_.trace() + rocking_.trace(); }
-	Real dampingAtMost() const { return damping_.trace(); }
+	/// Not below κ and γ, and cheap: the largest sum of a row's absolute values.
+	Real stiffnessAtMost() const
+	{
+		Matrix6 sum = stiffness_;
+		sum.bottomRightCorner<3, 3>() += rocking_;
+		return largestRow(sum);
+	}
+	Real dampingAtMost() const { return damped_ ? largestRow(damping_) : Real(0); }
 
 private:
+	static Real largestRow(const Matrix6& symmetric) { return symmetric.cwiseAbs().rowwise().sum().maxCoeff(); }
+
 	static Real largestEigenvalue(const Matrix6& symmetric)
 	{
 		return Eigen::SelfAdjointEigenSolver<Matrix6>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[5];

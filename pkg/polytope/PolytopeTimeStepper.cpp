@@ -25,9 +25,10 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const ContactLimit contacts = contactLimit(*ofScene, timeStepUpdateInterval);
+	const TimeStepLimit material = potential_.limit(*ofScene);
+	const ContactLimit  contacts = contactLimit(*ofScene, timeStepUpdateInterval, material.step);
+	consider(material, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
-	consider(potential_.limit(*ofScene), timestepSafetyCoefficient, "material");
 	consider(yade::motionLimit(*ofScene, motionLimit), 1, "motion");
 	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {
 		TimeStepLimit most;

@@ -35,7 +35,7 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
 		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it makes up more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing does, O.dt stays as it is."))
-		, /*ctor*/ timeStepUpdateInterval = 10;
+		, /*ctor*/ timeStepUpdateInterval = 20;
 		, /*py*/
 		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval, "Steps from one update of O.dt to the next, at least 1.")
 	);

@@ -90,25 +90,28 @@ void PotentialContacts::collect(const Scene& scene)
 	partners_.clear();
 	asked_.clear();
 	std::map<const Material*, std::size_t> known;
-	const void*                            lastShape = nullptr;
-	Real                                   lastArea  = 0;
+	const Body* last     = nullptr; // bodies of a kind follow each other
+	Real        lastArea = 0;
+	std::size_t index    = 0;
 	for (const auto& body : *scene.bodies) {
 		if (!body || !body->material || !body->shape || body->isClump()) continue;
-		const auto found = known.emplace(body->material.get(), partners_.size());
-		if (found.second) partners_.push_back({ body->material });
-		Partners& partners = partners_[found.first->second];
+		if (!last || last->material != body->material) {
+			const auto found = known.emplace(body->material.get(), partners_.size());
+			if (found.second) partners_.push_back({ body->material });
+			index = found.first->second;
+		}
+		Partners& partners = partners_[index];
 		(partners.one < 0 ? partners.one : partners.other) = body->id;
 		partners.radius                                     = math::max(partners.radius, boundingRadius(*body->shape));
 		if (const auto* polytope = polytopeOf(*body)) {
 			partners.polytopes = true;
-			if (polytope->convex().get() != lastShape) {
-				lastShape = polytope->convex().get();
-				lastArea  = largestFace(*polytope->convex());
-			}
+			const Polytope* before = last ? polytopeOf(*last) : nullptr;
+			if (!before || before->convex() != polytope->convex()) lastArea = largestFace(*polytope->convex());
 			partners.area = math::max(partners.area, lastArea);
 		} else if (!dynamic_cast<const Sphere*>(body->shape.get())) {
 			partners.area = partners.radius = std::numeric_limits<Real>::max(); // walls and their like
 		}
+		last = body.get();
 	}
 }
 
@@ -120,7 +123,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const Vector3r centre = &body == &mover ? Vector3r(Vector3r::Zero()) : Vector3r(state.pos - moving.pos);
 	Part part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {} };
 	Part& known = parts_[body.id];
-	if (known.isOf(part)) return known;
+	if (polytope && known.isOf(part)) return known; // other shapes may change their size
 	if (body.id > 0 && &body == &mover && parts_[body.id - 1].isOf(part)) return known = parts_[body.id - 1]; // bodies of a kind
 
 	const auto mobility = mobilityOf(mover);
@@ -176,11 +179,14 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 	const auto*   law = dampingLaw(scene);
 	const Real    damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
 	TimeStepLimit limit;
+	const Body*   last = nullptr;
 	for (const auto& body : *scene.bodies) {
 		if (!body || !isMovedByForces(*body) || body->state->blockedDOFs == State::DOF_ALL) continue;
 		forParts(*body, scene, [&](const Body& part) {
 			if (!part.material || !part.shape || part.isClump()) return;
 			const Part& places = partOf(part, *body);
+			if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as the one before
+			last = &part;
 			for (Partners& partners : partners_) {
 				if (partners.one == part.id && partners.other < 0) continue; // nobody but itself
 				for (const Place& place : { places.vertex, places.face }) {

@@ -182,7 +182,7 @@ namespace {
 
 } // namespace
 
-ContactLimit contactLimit(const Scene& scene, Real steps)
+ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 {
 	const auto*  law = dampingLaw(scene);
 	ContactLimit limit;
@@ -197,10 +197,11 @@ ContactLimit contactLimit(const Scene& scene, Real steps)
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
 			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);
-			// most bodies are not the one: sums of eigenvalues are cheap, and say so
-			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > own.step) continue;
+			// most bodies are not the one: bounds of the eigenvalues are cheap, and say so
+			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step)) continue;
 			const Real all  = stiffness.stiffness();
 			const Real step = polytope::safeTimeStep(all, stiffness.damping());
+			if (step > below) continue;
 			own.take(step, body->id);
 			if (own.body == body->id) own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
 		}

@@ -57,7 +57,8 @@ struct ContactLimit : TimeStepLimit {
 };
 
 /// \param steps conservative contacts, whose rocking stiffness grows with their force, are counted as they will be after so many
-ContactLimit contactLimit(const Scene& scene, Real steps);
+/// \param below nothing that allows a longer step than this is looked for
+ContactLimit contactLimit(const Scene& scene, Real steps, Real below = std::numeric_limits<Real>::infinity());
 
 /// Time in which a body moves by `fraction` of its inscribed radius: by its own velocity, by gravity, or by the velocity of
 /// bodies that move as told.

@@ -49,33 +49,35 @@ def pressed(model, perArea, blocked, half, depth=1e-4):
 	joint(normalStiffness=1e8, shearStiffness=6e7, frictionAngle=1.5)
 	stiffness = 1e8 * (4 * half[0] * half[1] if perArea else 1)
 	weight = depth * stiffness / (density * 8 * half[0] * half[1] * half[2])
-	loop(perArea=perArea, gravity=(0, 0, -weight), ig2={'contactModel': model})
+	newton = loop(perArea=perArea, gravity=(0, 0, -weight), ig2={'contactModel': model})
 	block = blockOnFloor(depth, half)[1]
-	block.state.blockedDOFs = blocked
+	block.state.blockedDOFs = 'xyzXYZ'
 	O.dt = 1e-9
 	O.step()
+	newton.gravity = -O.interactions[0, 1].phys.normalForce / block.state.mass  # the conservative contact begins a little deeper
+	block.state.blockedDOFs = blocked
 	return block.state
 
 
 def grows(dt, *scene, steps=300, depth=1e-4):
-	"""Whether a small disturbance, small against the tilt up to which rocking is linear, grows with this time step."""
+	"""Whether a disturbance grows fiftyfold with this time step; small against the tilt up to which rocking is linear, and against slip."""
 	state = pressed(*scene)
-	size, small = max(scene[3]), 1e-4 * depth
+	size, small = max(scene[3]), 1e-5 * depth
 	O.dt = dt
+	place, orientation = state.pos, state.ori
 	if 'z' not in state.blockedDOFs:
 		state.pos += Vector3(0, 0, small)
 	if 'x' not in state.blockedDOFs:
-		state.vel = Vector3(small / dt, 0, 0)
+		state.vel = Vector3(1e-2 * small / dt, 0, 0)
 	if 'Y' not in state.blockedDOFs:
-		state.ori = Quaternion((0 if 'X' in state.blockedDOFs else 1, 1, 0), (1e-2 if scene[0] == 'paper' else 1e-5) * small / size) * state.ori
-	early = late = 0
-	for step in range(steps):
+		state.ori = Quaternion((0 if 'X' in state.blockedDOFs else 1, 1, 0), 1e-2 * small / size) * state.ori
+	for _ in range(steps):
 		O.step()
-		motion = float(state.vel.norm() + state.angVel.norm() * size) * dt
-		if not motion < 1e3 * depth:
+		turn = orientation.conjugate() * state.ori
+		tilt = 2 * math.sqrt(sum(turn[k] ** 2 for k in range(3)))
+		if not float((state.pos - place).norm()) + tilt * size < 50 * small:
 			return True
-		early, late = max(early, motion if step < steps // 4 else 0), max(late, motion if step > 3 * steps // 4 else 0)
-	return late > 3 * early
+	return False
 
 
 def critical(start, *scene):
@@ -88,7 +90,7 @@ def critical(start, *scene):
 	return low
 
 
-@pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.4, 0.1)])
+@pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.4, 0.1), (0.1, 0.1, 0.6)])
 @pytest.mark.parametrize('motion, blocked', [('normal', 'xyXYZ'), ('shear', 'yzXYZ'), ('rocking', 'xyzXZ'), ('all', '')])
 @pytest.mark.parametrize('perArea', [False, True])
 @pytest.mark.parametrize('model', models)
@@ -98,7 +100,9 @@ def testTwiceTauIsTheLimitOfOneBlock(model, perArea, motion, blocked, half):
 	limit = 2 * _polytope.timeStepLimits()['contacts']
 	ratio = limit / critical(limit / 4, *scene)
 	print(f'{model}, per area {perArea}, {half}, {motion}: 2 τ over the measured limit {ratio:.3f}')
-	assert 0.85 < ratio < 1.05
+	# of a conservative contact the largest rocking stiffness is known, not its axis: at a face that is no square all axes get it
+	least = 0.75 if model == 'conservative' and motion == 'all' and half[0] != half[1] else 0.98
+	assert least < ratio < 1.02
 
 
 # --------------------------------------------------------------------------------------------------- before there is a contact
@@ -272,23 +276,20 @@ def testMotionLimits():
 
 def testWhatLimitsIsNamed():
 	joint()
-	newton = loop(ig2={'contactModel': 'conservative'}, gravity=(0, 0, -gravity))
-	engine = stepper()
-	floor, block = blockOnFloor(1e-5)
-	O.step()
-	newton.gravity = (0, 0, 0)
+	loop(ig2={'contactModel': 'conservative'})
+	engine = stepper(timeStepUpdateInterval=1)
+	floor, block = blockOnFloor(0.01)  # pressed together: stiff in rocking
 	driven(block)  # cannot move: limits nothing
-	O.run(10, wait=True)
-	assert engine.limitedBy == ''
+	O.run(2, wait=True)
+	assert engine.limitedBy == '' and engine.limitingBody == -1
 	block.state.blockedDOFs = ''
-	block.state.pos = Vector3(0, 0, 0.49)  # pressed together: stiff in rocking
-	O.run(10, wait=True)
+	O.step()
 	assert engine.limitedBy == 'rocking' and engine.limitingBody == block.id
 	O.reset()
 	joint()
 	loop()
 	engine = stepper(maxDt=1e-6)
-	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5), fixed=k in (0, 2)) for k in range(3)])
+	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5) if k == 1 else (2, 2, 0.5), fixed=k != 1) for k in range(3)])
 	O.run(10, wait=True)
 	assert engine.limitedBy == 'maxDt' and O.dt == 1e-6
 	engine.maxDt = 1
@@ -300,7 +301,7 @@ def testStableTimeStepIsTheSame():
 	joint()
 	loop()
 	engine = stepper(timestepSafetyCoefficient=0.5)
-	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5), fixed=k in (0, 2)) for k in range(3)])
+	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5) if k == 1 else (2, 2, 0.5), fixed=k != 1) for k in range(3)])
 	O.run(11, wait=True)
 	assert engine.limitedBy == 'contacts'
 	assert O.dt == pytest.approx(polytope.stableTimeStep(0.5), rel=1e-2)
@@ -351,7 +352,7 @@ def testSavedAndLoaded():
 @pytest.mark.parametrize('model', models)
 def testHeapsOf27Settle(model, perArea, faces):
 	joint(normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6)
-	loop(perArea=perArea, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2={'contactModel': model})
+	loop(perArea=perArea, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.3, gravity=(0, 0, -gravity), damping=0.6, ig2={'contactModel': model})
 	stepper()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (8, 8, 0.5), fixed=True))
 	random = np.random.default_rng(7)
@@ -359,10 +360,47 @@ def testHeapsOf27Settle(model, perArea, faces):
 		place = 1.5 * np.array((k % 3 - 1, k // 3 % 3 - 1, k // 9 + 0.6)) + random.uniform(-0.05, 0.05, 3)
 		axis = random.normal(size=3)
 		O.bodies.append(polytope.regular(faces, 0.7, tuple(place), Quaternion(Vector3(*axis).normalized(), random.uniform(0, 3))))
-	while O.time < 6:
+	while O.time < 10 and (O.time < 2 or utils.unbalancedForce() > 0.01):
 		O.run(200, wait=True)
 	moving = [body.state for body in O.bodies if body.dynamic]
 	ratio = float(utils.unbalancedForce())
 	print(f'{model}, per area {perArea}, {faces} faces: unbalanced force {ratio:.1e}, {O.iter} steps')
 	assert all(0 < state.pos[2] < 4 for state in moving)
-	assert ratio < 0.02
+	assert ratio < 0.01
+
+
+def slopeOfJointedRock():
+	"""Blocks on bedding of 30° in a small slope; those at the back and below the toe are held."""
+	face = math.radians(60)
+	west, north, east = 3 * math.pi / 2, 0, math.pi / 2
+	rock = polytope.jointedRock(
+		[(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (-math.sin(face), 0, math.cos(face))],
+		[6, 1, 2, 0, 4, 1, 0],
+		[
+			polytope.JointSet(math.radians(30), west, spacing=1.5),
+			polytope.JointSet(math.radians(80), east, spacing=2),
+			polytope.JointSet(math.radians(85), north, spacing=2),
+		],
+		smallest=0.2,
+		seed=3,
+	)
+	for planes in rock.blocks:
+		body = polytope.fromHalfSpaces(*planes)
+		corners = np.array([body.state.pos + body.state.ori * v for v in body.shape.vertices], float)
+		if corners[:, 2].min() < 1e-6 or corners[:, 0].max() > 6 - 1e-6:
+			body.state.blockedDOFs = 'xyzXYZ'
+		O.bodies.append(body)
+
+
+@pytest.mark.parametrize('model', models)
+def testSlopeOfJointedRockSettles(model):
+	joint(normalStiffness=2e8, shearStiffness=1e8, frictionAngle=math.radians(40))
+	loop(perArea=True, normalDamping=0.2, shearDamping=0.2, gravity=(0, 0, -gravity), damping=0.2, ig2={'contactModel': model})
+	stepper()
+	slopeOfJointedRock()
+	assert sum(body.state.blockedDOFs == '' for body in O.bodies) >= 5
+	while O.time < 1.5:
+		O.run(100, wait=True)
+	print(f'{model}: unbalanced force {float(utils.unbalancedForce()):.1e}')
+	assert utils.unbalancedForce() < 1e-4
+	assert all((body.state.pos - body.state.refPos).norm() < 0.01 for body in O.bodies)
