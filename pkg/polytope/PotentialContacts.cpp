@@ -185,8 +185,10 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 		forParts(*body, scene, [&](const Body& part) {
 			if (!part.material || !part.shape || part.isClump()) return;
 			const Part& places = partOf(part, *body);
-			if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as the one before
-			last = &part;
+			if (&part == body.get()) { // a clump's members look each another way
+				if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as the one before
+				last = &part;
+			}
 			for (Partners& partners : partners_) {
 				if (partners.one == part.id && partners.other < 0) continue; // nobody but itself
 				for (const Place& place : { places.vertex, places.face }) {

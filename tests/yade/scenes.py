@@ -4,8 +4,8 @@ from math import sqrt
 
 from yade import (
         Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, Quaternion,
-        RockJointMat, Vector3
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, PolytopeTimeStepper,
+        Quaternion, RockJointMat, Vector3
 )
 from yade import polytope
 
@@ -37,6 +37,13 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gr
 	        newton,
 	]
 	return newton
+
+
+def stepper(**attributes):
+	"""Puts a PolytopeTimeStepper at the end of the engines there are; returns it."""
+	engine = PolytopeTimeStepper(**attributes)
+	O.engines = O.engines + [engine]
+	return engine
 
 
 def law():

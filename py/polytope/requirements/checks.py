@@ -209,9 +209,9 @@ def numbersOfBodies(scene):
 
 def timeStep(scene):
 	"""time step"""
-	for engine in scene.O.engines:
-		if isinstance(engine, TimeStepper) and engine.active:
-			return f'set by {type(engine).__name__}', ''
+	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
+	if steppers:
+		return f'set by {" and ".join(steppers)}', 'keep one of them: each takes the step from the other' if steppers[1:] else ''
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
 	limit = _polytope.timeStepLimits()['contacts']
