@@ -46,6 +46,15 @@ def stepper(**attributes):
 	return engine
 
 
+def stepUntil(seconds, watch=None, every=20):
+	"""Steps to this time; *watch* is called every so many. (O.run(…, wait=True) sleeps some hundredths of a second each time.)"""
+	while O.time < seconds:
+		for _ in range(every):
+			O.step()
+		if watch:
+			watch()
+
+
 def law():
 	return O.engines[2].lawDispatcher.functors[0]
 

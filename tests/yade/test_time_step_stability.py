@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from scenes import blockOnFloor, density, gravity, joint, loop, stepper
+from scenes import blockOnFloor, density, gravity, joint, loop, stepUntil, stepper
 from yade import O, Quaternion, Vector3, _polytope, polytope, utils
 
 models = ('paper', 'conservative')
@@ -92,8 +92,9 @@ def testHeapsOf27Settle(model, perArea, faces):
 		place = 1.5 * np.array((k % 3 - 1, k // 3 % 3 - 1, k // 9 + 0.6)) + random.uniform(-0.05, 0.05, 3)
 		axis = random.normal(size=3)
 		O.bodies.append(polytope.regular(faces, 0.7, tuple(place), Quaternion(Vector3(*axis).normalized(), random.uniform(0, 3))))
-	while O.time < 10 and (O.time < 2 or utils.unbalancedForce() > 0.01):
-		O.run(200, wait=True)
+	stepUntil(2)
+	while O.time < 10 and utils.unbalancedForce() > 0.01:
+		O.run(500, wait=True)
 	moving = [body.state for body in O.bodies if body.dynamic]
 	ratio = float(utils.unbalancedForce())
 	print(f'{model}, per area {perArea}, {faces} faces: unbalanced force {ratio:.1e}, {O.iter} steps')
@@ -131,8 +132,7 @@ def testSlopeOfJointedRockSettles(model):
 	stepper()
 	slopeOfJointedRock()
 	assert sum(body.state.blockedDOFs == '' for body in O.bodies) >= 5
-	while O.time < 1.5:
-		O.run(100, wait=True)
+	stepUntil(1.5)
 	print(f'{model}: unbalanced force {float(utils.unbalancedForce()):.1e}')
 	assert utils.unbalancedForce() < 1e-4
 	assert all((body.state.pos - body.state.refPos).norm() < 0.01 for body in O.bodies)

@@ -6,7 +6,7 @@ import os
 import tempfile
 
 import pytest
-from scenes import blockOnFloor, density, driven, gravity, joint, loop, stepper
+from scenes import blockOnFloor, density, driven, gravity, joint, loop, stepUntil, stepper
 from yade import (
 	Bo1_Polytope_Aabb,
 	Bo1_Sphere_Aabb,
@@ -47,13 +47,11 @@ def testBlockLandsWithoutAStepOfTheScripts(model, perArea, turn):
 	O.step()
 	assert engine.limitedBy == 'material' and engine.limitingBody == block.id
 	assert O.dt == pytest.approx(engine.timestepSafetyCoefficient * _polytope.timeStepLimits()['material'], rel=1e-12)
-	highest = fastest = 0
-	while O.time < 4:
-		O.run(20, wait=True)
-		if O.time > 0.6:
-			highest, fastest = max(highest, block.state.pos[2]), max(fastest, block.state.vel.norm())
+	stepUntil(0.6)
+	heights, speeds = [], []
+	stepUntil(4, lambda: (heights.append(block.state.pos[2]), speeds.append(block.state.vel.norm())))
 	assert engine.limitedBy in ('material', 'contacts', 'rocking')
-	assert highest < 1.3 and fastest < math.sqrt(2 * gravity * 1.0)  # never thrown up again
+	assert max(heights) < 1.3 and max(speeds) < math.sqrt(2 * gravity * 1.0)  # never thrown up again
 	assert block.state.pos[2] == pytest.approx(0.5, abs=0.01) and block.state.vel.norm() < 1e-3
 
 
@@ -125,8 +123,7 @@ def testFrictMatSpheresAndBlocks():
 	assert 0.4 / math.sqrt(3.5 * 2e8 * 0.1 / mass) <= O.dt <= 0.4 / math.sqrt(3.5 * 1e8 * 0.1 / mass)
 	O.bodies.append([utils.sphere((0.15 * (k - 1), 0.02 * k, 0.6 + 0.25 * k), 0.1) for k in range(3)])
 	O.bodies.append([polytope.regular(faces, 0.12, (0.2 * (faces % 3 - 1), 0.1, 1.5 + 0.03 * faces)) for faces in (4, 6, 8, 12, 20)])
-	while O.time < 4:
-		O.run(100, wait=True)
+	stepUntil(4)
 	moving = [body.state for body in O.bodies if body.dynamic]
 	assert all(0 < state.pos[2] < 1 for state in moving)
 	assert max(float(state.vel.norm()) for state in moving) < 1  # some roll, none is thrown
@@ -135,7 +132,7 @@ def testFrictMatSpheresAndBlocks():
 def testPolygons():
 	joint()
 	loop(gravity=(0, -gravity, 0), normalDamping=0.3, damping=0.2)
-	engine = stepper()
+	engine = stepper(timeStepUpdateInterval=10)
 	O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True))
 	square = O.bodies.append(polytope.polygon([(-0.5, 0.2), (0.5, 0.2), (0.5, 1.2), (-0.5, 1.2)]))
 	O.step()
@@ -144,8 +141,7 @@ def testPolygons():
 	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
 	O.run(10, wait=True)
 	assert O.dt == pytest.approx(0.4 / math.sqrt(4 * 1e8 / density), rel=1e-9) and free < O.dt
-	while O.time < 2:
-		O.run(100, wait=True)
+	stepUntil(2)
 	assert O.bodies[square].state.pos[1] == pytest.approx(0.5, abs=1e-3)
 	assert engine.limitingBody == square
 
@@ -182,7 +178,7 @@ def testFixedBodiesLimitNothing():
 def testMotionLimits():
 	joint(normalStiffness=1, shearStiffness=1)
 	loop()
-	engine = stepper()
+	engine = stepper(timeStepUpdateInterval=10)
 	floor, block = blockOnFloor()
 	block.state.pos, block.state.vel = Vector3(0, 0, 5), Vector3(0, 0, -100)
 	O.step()
@@ -215,7 +211,7 @@ def testWhatLimitsIsNamed():
 	O.reset()
 	joint()
 	loop()
-	engine = stepper(maxDt=1e-6)
+	engine = stepper(maxDt=1e-6, timeStepUpdateInterval=10)
 	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5) if k == 1 else (2, 2, 0.5), fixed=k != 1) for k in range(3)])
 	O.run(10, wait=True)
 	assert engine.limitedBy == 'maxDt' and O.dt == 1e-6
@@ -227,7 +223,7 @@ def testWhatLimitsIsNamed():
 def testStableTimeStepIsTheSame():
 	joint()
 	loop()
-	engine = stepper(timestepSafetyCoefficient=0.5)
+	engine = stepper(timestepSafetyCoefficient=0.5, timeStepUpdateInterval=10)
 	O.bodies.append([polytope.cuboid((0, 0, 2 * 0.4999 * k), (0.5, 0.5, 0.5) if k == 1 else (2, 2, 0.5), fixed=k != 1) for k in range(3)])
 	O.run(11, wait=True)
 	assert engine.limitedBy == 'contacts'
