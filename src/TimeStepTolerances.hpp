@@ -14,6 +14,10 @@ constexpr double potentialDepth = 1e-3;
 /// stiffness goes by the radii (2 E₁R₁ E₂R₂/(E₁R₁ + E₂R₂)), it is within a thousandth of that with an infinite one.
 constexpr double potentialPartner = 1e3;
 
+/// Sizes for which a potential contact's stiffness is asked are rounded up to powers of this, so that thousands of bodies of a kind, or of
+/// a range of sizes, take a few hundred questions. The step is shorter by half of it at most (stiffness per area or by radii), 1 %.
+constexpr double potentialSizes = 1.02;
+
 /// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
 constexpr double rockingShare = 0.5;
 

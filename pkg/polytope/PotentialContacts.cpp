@@ -58,6 +58,14 @@ namespace {
 		return sum.stiffness();
 	}
 
+	/// To the next power of tolerance::potentialSizes: a functor is then asked once for all sizes in between.
+	Real roundedUp(Real size)
+	{
+		if (!(size > 0)) return size;
+		const Real step = math::log(Real(polytope::tolerance::potentialSizes));
+		return math::exp(step * math::ceil(math::log(size) / step));
+	}
+
 	/// What an Ip2 functor makes of a pair, or where it cannot be asked without a true contact, of elastic bodies.
 	template <class Stiffness> Stiffness answer(Scene& scene, shared_ptr<Material> material1, shared_ptr<Material> material2,
 	        const shared_ptr<Interaction>& contact)
@@ -158,15 +166,16 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 const PotentialContacts::Stiffness& PotentialContacts::stiffness(const Body& part, Partners& partners, const Place& place, Scene& scene)
 {
 	const bool polytopes = partners.polytopes || polytopeOf(part);
-	const Key  key { part.material.get(), partners.material.get(), polytopes, place.arm, place.area };
+	const Real arm = roundedUp(place.arm), area = roundedUp(math::min(place.area, partners.area));
+	const Key  key { part.material.get(), partners.material.get(), polytopes, arm, area };
 	const auto found = asked_.find(key);
 	if (found != asked_.end()) return found->second;
 
 	auto geom         = polytopes ? shared_ptr<ScGeom>(new PolytopeGeom) : shared_ptr<ScGeom>(new ScGeom);
 	geom->normal      = Vector3r::UnitZ();
-	geom->refR1       = place.arm;
-	geom->refR2       = math::min(partners.radius, polytope::tolerance::potentialPartner * place.arm);
-	if (polytopes) static_cast<PolytopeGeom&>(*geom).contactArea = math::min(place.area, partners.area);
+	geom->refR1       = arm;
+	geom->refR2       = math::min(partners.radius, polytope::tolerance::potentialPartner * arm);
+	if (polytopes) static_cast<PolytopeGeom&>(*geom).contactArea = area;
 	const auto contact = shared_ptr<Interaction>(new Interaction(part.id, partners.one == part.id ? partners.other : partners.one));
 	contact->geom      = geom;
 	return asked_[key] = answer<Stiffness>(scene, part.material, partners.material, contact);
