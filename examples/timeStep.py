@@ -3,7 +3,7 @@
 
 	./run python examples/timeStep.py [SCENE …] [paper|conservative] [perContact|perArea] [FRACTION …]
 
-Scenes: heap (200 cubes), column (ten courses of masonry), slope (of jointed rock), block (rocks on its base until it stands). A row
+Scenes: heap (60 cubes), largeHeap (200), column (ten courses of masonry), slope (of jointed rock), block (rocks on its base until it stands). A row
 each: timestepSafetyCoefficient, steps and the machine's seconds for the simulated time, the unbalanced force ratio at the end, the fastest
 body and the mean height then, the last step, and what limited most steps. The last fraction may be sqrt, for O.dt = 0.2 √(m/k) without the
 engine, m the smallest mass, k the material's stiffness (per area: times a square metre).
@@ -48,17 +48,22 @@ def engines(model, perArea, damping=0.2, rockingDamping=0):
 	]
 
 
-def heap(model, perArea):
-	"""200 cubes of 1 m fall into a heap on a floor. Returns the simulated time."""
+def heap(model, perArea, rows=4, layers=3, seconds=12):
+	"""60 cubes of 1 m fall into a heap on a floor. Returns the simulated time."""
 	O.materials.append(RockJointMat(density=density, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6))
-	engines(model, perArea, damping=0.4)
+	engines(model, perArea, damping=0.4, rockingDamping=0.3)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (30, 30, 1), fixed=True))
 	random = np.random.default_rng(1)
-	for k in range(200):
-		place = 1.8 * np.array((k % 10 - 4.5, k // 10 % 5 - 2, k // 50 + 0.6)) + random.uniform(-0.1, 0.1, 3)
+	for k in range(5 * rows * layers):
+		place = 1.8 * np.array((k % 5 - 2, k // 5 % rows - rows / 2, k // (5 * rows) + 0.6)) + random.uniform(-0.1, 0.1, 3)
 		axis = Vector3(*random.normal(size=3)).normalized()
 		O.bodies.append(polytope.cuboid(tuple(place), (0.5, 0.5, 0.5), Quaternion(axis, random.uniform(0, 3))))
-	return 6
+	return seconds
+
+
+def largeHeap(model, perArea):
+	"""200 of them."""
+	return heap(model, perArea, rows=10, layers=4, seconds=18)
 
 
 def column(model, perArea):
@@ -109,7 +114,7 @@ def block(model, perArea):
 	return 10
 
 
-scenes = {'heap': heap, 'column': column, 'slope': slope, 'block': block}
+scenes = {'heap': heap, 'largeHeap': largeHeap, 'column': column, 'slope': slope, 'block': block}
 models = ('paper', 'conservative')
 rules = {'perContact': False, 'perArea': True}
 patience = 600
@@ -138,7 +143,7 @@ def settle(name, model, rule, fraction):
 	height = float(np.mean([float(state.pos[2]) for state in moving]))
 	label = fraction if fraction == 'sqrt' else f'{fraction:g}'
 	stopped = '' if O.time >= seconds else f', stopped at {O.time:.2f} s'
-	print(f'{name:6} {model:12} {rule:10} {label:>4} {O.iter:8} steps {took:6.1f} s  unbalanced {float(utils.unbalancedForce()):7.1e}  '
+	print(f'{name:9} {model:12} {rule:10} {label:>4} {O.iter:8} steps {took:6.1f} s  unbalanced {float(utils.unbalancedForce()):7.1e}  '
 	      f'fastest {fastest:7.1e} m/s  mean height {height:.3f} m  dt {float(O.dt):.2e} s  {max(limits, key=limits.get)}{stopped}', flush=True)
 
 
