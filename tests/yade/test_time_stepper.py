@@ -7,27 +7,7 @@ import tempfile
 
 import pytest
 from scenes import blockOnFloor, density, driven, gravity, joint, loop, stepUntil, stepper
-from yade import (
-	Bo1_Polytope_Aabb,
-	Bo1_Sphere_Aabb,
-	ForceResetter,
-	FrictMat,
-	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Polytope_PolytopeGeom,
-	Ig2_Sphere_Sphere_ScGeom,
-	InteractionLoop,
-	Ip2_FrictMat_FrictMat_FrictPhys,
-	Law2_ScGeom_FrictPhys_CundallStrack,
-	NewtonIntegrator,
-	O,
-	PolytopeCollider,
-	PolytopeTimeStepper,
-	Quaternion,
-	Vector3,
-	_polytope,
-	polytope,
-	utils,
-)
+from yade import O, PolytopeTimeStepper, Quaternion, Vector3, _polytope, polytope
 
 models = ('paper', 'conservative')
 
@@ -96,80 +76,6 @@ def testBodiesPutInLaterCountAtOnce():
 	small = O.bodies.append(polytope.cuboid((0, 0, 8), (0.05, 0.05, 0.05)))
 	O.step()
 	assert engine.limitingBody == small and O.dt == pytest.approx(first / 10**1.5, rel=1e-9)  # the same stiffness, a thousandth of the mass
-
-
-# ------------------------------------------------------------------------------------------------------------- other bodies, other laws
-
-
-def testFrictMatSpheresAndBlocks():
-	O.materials.append(FrictMat(density=density, young=1e8, poisson=0.3, frictionAngle=0.5))
-	O.engines = [
-		ForceResetter(),
-		PolytopeCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()], verletDist=0.01),
-		InteractionLoop(
-			[Ig2_Polytope_Polytope_PolytopeGeom(), Ig2_Sphere_Polytope_PolytopeGeom(), Ig2_Sphere_Sphere_ScGeom()],
-			[Ip2_FrictMat_FrictMat_FrictPhys()],
-			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
-		),
-		NewtonIntegrator(gravity=(0, 0, -gravity), damping=0.4),
-	]
-	engine = stepper()
-	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 3, 0.5), fixed=True))
-	ball = O.bodies.append(utils.sphere((0, 0, 0.3), 0.1))
-	O.step()
-	# YADE's stiffness of the ball on a wall, 2 E R, at most; κ = k (1/m + R²/I) = 3.5 k/m
-	mass = O.bodies[ball].state.mass
-	assert engine.limitingBody == ball
-	assert 0.4 / math.sqrt(3.5 * 2e8 * 0.1 / mass) <= O.dt <= 0.4 / math.sqrt(3.5 * 1e8 * 0.1 / mass)
-	O.bodies.append([utils.sphere((0.15 * (k - 1), 0.02 * k, 0.6 + 0.25 * k), 0.1) for k in range(3)])
-	O.bodies.append([polytope.regular(faces, 0.12, (0.2 * (faces % 3 - 1), 0.1, 1.5 + 0.03 * faces)) for faces in (4, 6, 8, 12, 20)])
-	stepUntil(4)
-	moving = [body.state for body in O.bodies if body.dynamic]
-	assert all(0 < state.pos[2] < 1 for state in moving)
-	assert max(float(state.vel.norm()) for state in moving) < 1  # some roll, none is thrown
-
-
-def testPolygons():
-	joint()
-	loop(gravity=(0, -gravity, 0), normalDamping=0.3, damping=0.2)
-	engine = stepper(timeStepUpdateInterval=10)
-	O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True))
-	square = O.bodies.append(polytope.polygon([(-0.5, 0.2), (0.5, 0.2), (0.5, 1.2), (-0.5, 1.2)]))
-	O.step()
-	# only the turn about z: κ = k (1/m + (L²/2)/(m L²/6)) = 4 k/m at a corner; dampers as the law has them
-	free = O.dt
-	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
-	O.run(10, wait=True)
-	assert O.dt == pytest.approx(0.4 / math.sqrt(4 * 1e8 / density), rel=1e-9) and free < O.dt
-	stepUntil(2)
-	assert O.bodies[square].state.pos[1] == pytest.approx(0.5, abs=1e-3)
-	assert engine.limitingBody == square
-
-
-def testClumpsHaveTheContactsOfTheirMembers():
-	joint()
-	loop()
-	stepper(timestepSafetyCoefficient=1)
-	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	left, right = (polytope.cuboid((x, 0, 0.4999), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5))
-	clump, _ = O.bodies.appendClumped([left, right])
-	O.step()
-	O.step()
-	contacts = _polytope.timeStepLimits()['contacts']
-	state = O.bodies[clump].state
-	translation = 2 * 1e8 / state.mass
-	assert 1 / contacts**2 >= 0.999 * translation  # both springs carry it
-	assert 1 / contacts**2 < 10 * translation
-
-
-def testFixedBodiesLimitNothing():
-	joint()
-	loop()
-	engine = stepper()
-	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), fixed=True))
-	O.dt = 0.123
-	O.step()
-	assert O.dt == 0.123 and engine.limitedBy == '' and engine.limitingBody == -1
 
 
 # ------------------------------------------------------------------------------------------------------------------------ what limits
