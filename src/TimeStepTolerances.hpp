@@ -18,6 +18,10 @@ constexpr double potentialPartner = 1e3;
 /// a range of sizes, take a few hundred questions. The step is shorter by half of it at most (stiffness per area or by radii), 1 %.
 constexpr double potentialSizes = 1.02;
 
+/// Updates of the time step between two looks at the contacts that bodies may have: these change with bodies, at whose number each update
+/// looks, and where a script changes stiffnesses or masses.
+constexpr unsigned potentialUpdates = 10;
+
 /// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
 constexpr double rockingShare = 0.5;
 

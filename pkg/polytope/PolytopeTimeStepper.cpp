@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeTimeStepper.hpp"
 
+#include <src/TimeStepTolerances.hpp>
+
 namespace yade {
 
 YADE_PLUGIN((PolytopeTimeStepper));
@@ -13,6 +15,10 @@ bool PolytopeTimeStepper::isActivated()
 
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 {
+	if (!hasRun_ || bodies_ != ofScene->bodies->size() || ++updates_ >= polytope::tolerance::potentialUpdates) {
+		material_ = potential_.limit(*ofScene);
+		updates_  = 0;
+	}
 	hasRun_ = true;
 	bodies_ = ofScene->bodies->size();
 
@@ -25,9 +31,8 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const TimeStepLimit material = potential_.limit(*ofScene);
-	const ContactLimit  contacts = contactLimit(*ofScene, timeStepUpdateInterval, material.step);
-	consider(material, timestepSafetyCoefficient, "material");
+	const ContactLimit  contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
+	consider(material_, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit), 1, "motion");
 	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {

@@ -25,7 +25,7 @@ public:
 	R"""(Keeps *O.dt* right for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes :yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
 
 * *contacts*, *rocking*: $\tau$ of all present contacts, normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and what :yref:`GlobalStiffnessTimeStepper` does not know, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
-* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`).
+* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`). Looked at when bodies are added and with each tenth update.
 
 and no more than what *motion* allows: no body moves by more than :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times its inscribed radius in a step.
 
@@ -35,7 +35,7 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
 		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it makes up more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing does, O.dt stays as it is."))
-		, /*ctor*/ timeStepUpdateInterval = 20;
+		, /*ctor*/ timeStepUpdateInterval = 50;
 		, /*py*/
 		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval, "Steps from one update of O.dt to the next, at least 1.")
 	);
@@ -43,6 +43,8 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 
 private:
 	PotentialContacts   potential_;
+	TimeStepLimit       material_; ///< of the last look at potential_
+	unsigned            updates_ = 0; ///< since then
 	bool                hasRun_ = false;
 	std::size_t         bodies_ = 0;
 	std::array<Real, 3> good_ { { timestepSafetyCoefficient, motionLimit, maxDt } };

@@ -103,7 +103,9 @@ namespace {
 		const Real elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
 		const Real force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
 		if (geom.energyPerStiffness >= 0) {
-			const Real growth = pair.phys.kn * math::max(pair.approach(), Real(0)) * pair.scene.dt * steps;
+			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
+			const Real growth = math::max(pair.approach(), Real(0))
+			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.criticalDamping(pair.phys.kn) / 2);
 			return (force + growth) * geom.rockingArm * across(geom.normal);
 		}
 		const polytope::ConvexShape* shape1 = geom.partner ? geom.partner.get() : shapeOf(pair.body1);
@@ -134,6 +136,16 @@ namespace {
 		springs.shearDamper  = law.shearDamping * pair.criticalDamping(phys.ks);
 		if (law.rockingDamping > 0)
 			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
+	}
+
+	bool hasContacts(const Body& body, const Scene& scene)
+	{
+		bool has = false;
+		forParts(body, scene, [&](const Body& part) {
+			for (const auto& known : part.intrs)
+				has = has || known.second->isReal();
+		});
+		return has;
 	}
 
 	/// All contacts of a body (or of a clump's members).
@@ -193,7 +205,7 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < count; ++id) {
 			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
-			if (!body || !isMovedByForces(*body)) continue;
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene)) continue;
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
 			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);

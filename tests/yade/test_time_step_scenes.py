@@ -132,7 +132,8 @@ def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 		O.step()
 		assert engine.limitingBody == 1 and engine.limitedBy
 		steps.append((_polytope.timeStepLimits()['contacts'], _polytope.timeStepLimits()['material']))
-	assert steps[1] == pytest.approx(steps[0], rel=1e-2)
+	# all planes of a polytope push with the conservative contact's barrier, its far ones by some per cent
+	assert steps[1] == pytest.approx(steps[0], rel=5e-2 if model == 'conservative' else 1e-2)
 
 
 @pytest.mark.parametrize('model', ['paper', 'conservative'])

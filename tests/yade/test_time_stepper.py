@@ -56,12 +56,12 @@ def testMaterialsChangedInTheRunCount():
 	O.step()
 	first = O.dt
 	block.material.normalStiffness *= 100  # the floor's, too: it is one material
-	O.run(engine.timeStepUpdateInterval, wait=True)
+	O.run(10 * engine.timeStepUpdateInterval, wait=True)
 	assert O.dt == pytest.approx(first / 10, rel=1e-9)
 	block.material.normalStiffness /= 100
 	block.state.mass *= 4
 	block.state.inertia *= 4
-	O.run(engine.timeStepUpdateInterval, wait=True)
+	O.run(10 * engine.timeStepUpdateInterval, wait=True)
 	assert O.dt == pytest.approx(2 * first, rel=1e-9)
 
 
