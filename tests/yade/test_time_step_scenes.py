@@ -73,7 +73,7 @@ def testPolygons():
 	# only the turn about z: κ = k (1/m + (L²/2)/(m L²/6)) = 4 k/m at a corner; dampers as the law has them
 	free = O.dt
 	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
-	O.run(10, wait=True)
+	O.run(100, wait=True)  # ten updates
 	assert O.dt == pytest.approx(0.4 / math.sqrt(4 * 1e8 / density), rel=1e-9) and free < O.dt
 	stepUntil(2)
 	assert O.bodies[square].state.pos[1] == pytest.approx(0.5, abs=1e-3)
