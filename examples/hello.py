@@ -27,8 +27,8 @@ O.engines = [
         NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
         PolytopeTimeStepper(),  # sets O.dt
 ]
-O.stopAtTime = 2
-O.run(wait=True)
+while O.time < 2:
+        O.run(100, wait=True)
 
 contact = O.interactions[0, block]
 weight = 9.81 * O.bodies[block].state.mass
