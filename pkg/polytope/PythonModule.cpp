@@ -7,6 +7,8 @@
 // classes and converters are registered by then.
 #include "PolytopeGeom.hpp"
 
+#include "PotentialContacts.hpp"
+
 #include "BuildInfo.hpp"
 
 #include <core/Body.hpp>
@@ -165,6 +167,18 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 
 template <class T, T polytope::ContactResult::* Member> T field(const Contact& contact) { return contact.result.*Member; }
 
+/// What PolytopeTimeStepper goes by, of the scene as it is: times [s], or None where nothing limits.
+py::dict timeStepLimits()
+{
+	const auto              scene  = yade::Omega::instance().getScene();
+	const auto              number = [](yade::Real step) { return yade::math::isfinite(step) ? py::object(step) : py::object(); };
+	yade::PotentialContacts potential;
+	py::dict                result;
+	result["contacts"] = number(yade::contactLimit(*scene, 0).step);
+	result["material"] = number(potential.limit(*scene).step);
+	return result;
+}
+
 } // namespace
 
 BOOST_PYTHON_MODULE(_polytope)
@@ -189,6 +203,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Normals and offsets of the convex hull of points.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
+	py::def("timeStepLimits", &timeStepLimits,
+	        "Safe time steps [s] (src/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
+	        "a dictionary; None where nothing limits.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

@@ -87,7 +87,7 @@ def requirements(O, measure=True):
 	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen, no cost of contacts is measured, and
 	the first line says so. What could not be looked at is named at the end. Overlaps are those of the present state (what was before is
 	known only where a counter of the functor tells: contact points deeper than the corner radius): look at the moment of the hardest blow,
-	too. A time step is near the limit above 1/ω of the fastest body, up to which stableTimeStep calls any heap stable.
+	too. A time step is near the limit above stableTimeStep(1), up to which any heap is stable.
 
 	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, and steps as it is and changed
 	(engines that run periodically, as recorders and PyRunner, are left out there). Changes may hang on one another, as the solver's cost on

@@ -9,10 +9,9 @@ import math
 
 import numpy as np
 import yade
-from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
+from yade import Body, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._scene import geometryFunctors, interactionLoops, laws
-from ..timeStep import stableTimeStep
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
 from .overlaps import cornerRadius, newtonTolerance
@@ -21,7 +20,7 @@ from .plane import dimension
 __all__ = ['checks']
 
 usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
-"""Time step over 1/ω of the fastest body: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
+"""Time step over τ, docs/time-step.md: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
 below which steps are many."""
 mostTwins = 50
 """Contacts that are looked at once more without the planes that own no face."""
@@ -243,19 +242,20 @@ def numbersOfBodies(scene):
 
 def timeStep(scene):
 	"""time step"""
-	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
-		return 'set by GlobalStiffnessTimeStepper', ''
+	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
+	if steppers:
+		return f'set by {" and ".join(steppers)}', 'keep one of them: each takes the step from the other' if steppers[1:] else ''
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
-	try:
-		limit = float(stableTimeStep(1))
-	except ValueError:
+	limit = _polytope.timeStepLimits()['contacts']
+	if limit is None:
 		return 'no contact limits it now'
+	limit = float(limit)
 	fraction = float(scene.O.dt) / limit
-	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (any heap is stable up to 1, one body up to 2)'
+	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of τ (1/ω of the fastest body, less with dampers; any heap is stable up to 1, one body up to 2)'
 	smaller = f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual}))'
 	if fraction > stable:
-		return seen, f'{smaller}: beyond the limit of stability of one body, 2/ω, unless damping and luck hold a heap together'
+		return seen, f'{smaller}: beyond the limit of stability of one body, 2 τ, unless damping and luck hold a heap together'
 	if fraction > safe:
 		return seen, f'{smaller}: near the limit of stability, beyond what is safe for any heap, stableTimeStep(1)'
 	if fraction < least:
