@@ -4,8 +4,8 @@
 	./run python examples/energy.py                 # one to three minutes; writes output/energy.png and prints the errors
 	./run python examples/energy.py --seconds 0.5   # shorter; --output FILE, --help
 
-The paper's averaged normal is no gradient of an energy: such a gas heats itself up, at any time step. With contactModel='conservative'
-the energy stays; what is left falls with the time step, so it is the integrator's.
+Stiffness times chord is no gradient of an energy: with the paper's averaged normal (normal='innerPotential'; this script leaves the default) such
+a gas heats itself up, at any time step. With contactModel='conservative' the energy stays; what is left falls with the time step, so it is the integrator's.
 """
 
 import argparse
