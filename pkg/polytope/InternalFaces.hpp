@@ -11,7 +11,7 @@
 /// A contact sees two bodies. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a sliver, and X's side
 /// face, which B covers, seems to stand in the way. Such a face is *internal*: nothing can press on it there. A plane of X that
 /// bounds the overlap is internal if a neighbour B fills the place just outside of it, at the height of the contact point; so a
-/// step higher than the overlap is deep, an edge that is free, and a gap wider than the overlap's ball are what they are.
+/// step higher than the overlap is deep, an edge that is free, and a gap wider than the largest ball in the overlap are what they are.
 ///
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
 namespace yade {
