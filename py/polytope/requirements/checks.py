@@ -154,9 +154,9 @@ def energy(scene):
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
 	if local == 0 and viscous == 0:
 		return (
-			"nothing damps the normal direction, and the paper's contact creates and destroys energy",
+			"nothing damps the normal direction, and contactModel 'paper' creates and destroys energy",
 			"contactModel = 'conservative' (which uses neither contactPoint nor solver), or damping: "
-			"with the paper's contact energy is not conserved at any time step",
+			"with contactModel 'paper' energy is not conserved at any time step",
 			None,
 			('contactModel', 'conservative'),
 		)
