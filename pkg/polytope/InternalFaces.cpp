@@ -85,25 +85,26 @@ namespace {
 		return !one.isDynamic() && !other.isDynamic();
 	}
 
-	/// Calls visit(neighbour, its centre from the contact point) for bodies that may touch body `mover` of the pair where the pair
-	/// touches. They are in the mover's list of pairs; the list of a free piece has those that touch the piece, and may be shorter.
-	template <class Visit> void forNeighbours(const TouchingPair& pair, int mover, const Visit& visit)
+	/// Fixed, or a member of a clump: it may be a piece of a larger solid.
+	bool isPiece(const Body& body) { return body.isClumpMember() || !body.isDynamic(); }
+
+	/// Calls visit(neighbour, its centre from the contact point) for the other pieces of the rigid support that body `mover` of the pair may touch:
+	/// they are in its list of pairs.
+	template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
 	{
-		const Body& body = bodyOf(pair, mover);
-		const Body& own  = bodyOf(pair, 1 - mover);
-		const bool  turn = own.isDynamic() && own.intrs.size() < body.intrs.size();
-		const Body& hub  = turn ? own : body;
-		const Vector3r hubCentre = pair.centre[turn ? 1 - mover : mover] - pair.point;
-		for (const auto& [id, contact] : hub.intrs) {
-			if (id == body.id || id == own.id || !contact) continue;
-			const shared_ptr<Body>& neighbour = Body::byId(id, pair.scene);
-			if (!neighbour || !neighbour->shape || !neighbour->maskOk(body.groupMask) || rigidTogether(*neighbour, body)) continue;
-			Vector3r way = neighbour->state->pos - hub.state->pos;
+		const Body&    body   = bodyOf(pair, mover);
+		const Body&    own    = bodyOf(pair, 1 - mover);
+		const Vector3r centre = pair.centre[mover] - pair.point;
+		for (const auto& [id, contact] : body.intrs) {
+			if (id == own.id || !contact) continue;
+			const shared_ptr<Body>& piece = Body::byId(id, pair.scene);
+			if (!piece || !piece->shape || !piece->maskOk(body.groupMask) || !rigidTogether(*piece, own)) continue;
+			Vector3r way = piece->state->pos - body.state->pos;
 			if (pair.scene->isPeriodic) {
 				const Vector3r shift = pair.scene->cell->intrShiftPos(contact->cellDist);
 				way += contact->getId2() == id ? shift : Vector3r(-shift);
 			}
-			visit(*neighbour, Vector3r(hubCentre + way));
+			visit(*piece, Vector3r(centre + way));
 		}
 	}
 
@@ -196,6 +197,8 @@ namespace {
 
 } // namespace
 
+bool mayHaveInternalFaces(const Body& body1, const Body& body2) { return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2); }
+
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {
 	std::vector<Candidate> candidates[2];
@@ -203,7 +206,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 	const Real             larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
 	const Real             step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
 	for (int piece = 0; piece < 2; ++piece) {
-		if (bounding.count[piece] < 2) continue;
+		if (bounding.count[piece] < 2 || !isPiece(bodyOf(pair, piece))) continue;
 		candidates[piece] = candidatesOf(pair, bounding, piece);
 		if (candidates[piece].empty()) continue;
 		Real near = 0;
@@ -212,7 +215,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
 		own.clear();
 		addPlanes(own, *pair.convex[1 - piece], pair.rotation[1 - piece], mover);
-		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
+		forOtherPieces(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
 			planes.clear();
 			addBody(planes, neighbour, centre, mover, near);
 			for (Candidate& one : candidates[piece]) {
@@ -243,8 +246,6 @@ Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& in
 {
 	for (int piece = 0; piece < 2; ++piece) {
 		if (internal.count[piece] == 0) continue;
-		const Body& own = bodyOf(pair, piece);
-		if (own.isDynamic() && !own.isClumpMember()) continue; // free bodies carry load on their own
 		const polytope::ConvexShape& convex = *pair.convex[1 - piece];
 		const Vector3r               mover  = pair.centre[1 - piece] - pair.point;
 		const Real                   reach  = 2 * convex.boundingRadius();
@@ -257,11 +258,9 @@ Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& in
                         if (planes.size() == covered) return Real(0);
                         return polytope::sectionArea(planes, pair.normal, reach, convex.dimension());
 		};
-		const Real here = areaOn(own, pair.centre[piece] - pair.point);
+		const Real here = areaOn(bodyOf(pair, piece), pair.centre[piece] - pair.point);
 		Real       all  = here;
-		forNeighbours(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
-			if (rigidTogether(neighbour, own)) all += areaOn(neighbour, centre);
-		});
+		forOtherPieces(pair, 1 - piece, [&](const Body& other, const Vector3r& centre) { all += areaOn(other, centre); });
 		if (all > 0) return math::max(here / all, Real(polytope::tolerance::leastShareOfSupport));
 	}
 	return 1;

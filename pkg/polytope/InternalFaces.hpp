@@ -6,11 +6,11 @@
 
 #include <src/ContactQuery.hpp>
 
-/// Bodies that lie on several pieces flush with each other: plates, boxes, facets of a mesh, blocks of jointed rock.
+/// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
 ///
 /// A contact sees two bodies. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a sliver, and X's side
 /// face, which B covers, seems to stand in the way. Such a face is *internal*: nothing can press on it there. A plane of X that
-/// bounds the overlap is internal if a neighbour B fills the place just outside of it, at the height of the contact point; so a
+/// bounds the overlap is internal if another piece B fills the place just outside of it, at the height of the contact point; so a
 /// step higher than the overlap is deep, an edge that is free, and a gap wider than the largest ball in the overlap are what they are.
 ///
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
@@ -34,6 +34,10 @@ struct TouchingPair {
 		return pair;
 	}
 };
+
+/// Whether one of two bodies is a piece of a rigid support, fixed or a member of a clump, that the other one moves on. Free pieces are bodies of
+/// their own: they may part, and their joints carry what the contacts say.
+bool mayHaveInternalFaces(const Body& body1, const Body& body2);
 
 /// Of the planes that bound the overlap those that are internal faces.
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);

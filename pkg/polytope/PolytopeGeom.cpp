@@ -115,7 +115,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::BoundingPlanes bounding;
 	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
-		if (turn || !geom.internalKnown || !wasReal) settings.bounding = &bounding;
+		if ((turn || !geom.internalKnown || !wasReal)
+		    && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
+			settings.bounding = &bounding;
 		settings.internal = geom.internal.get();
 	}
 	polytope::ContactResult result;
