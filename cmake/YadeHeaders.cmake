@@ -46,7 +46,7 @@ foreach(library IN LISTS YADE_PLUGIN_LIBRARIES)
 	list(APPEND yade_libraries "${YADE_LIBRARY_DIR}/${library}")
 endforeach()
 
-# YADE's Real for a target without YADE's classes: all that includes src/Real.hpp.
+# YADE's Real for a target without YADE's classes: all that includes src/numbers/Real.hpp.
 function(polytope_use_yade_real target)
 	target_compile_definitions(${target} PUBLIC ${YADE_DEFINITIONS} "POLYTOPE_REAL=yade::Real" "POLYTOPE_REAL_HEADER=<lib/high-precision/Real.hpp>")
 	target_include_directories(${target} SYSTEM PUBLIC "${YADE_SOURCE_DIR}")

@@ -5,7 +5,7 @@
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/Wall.hpp>
 
-#include <src/SectionArea.hpp>
+#include <src/contact/SectionArea.hpp>
 
 #include "Polytope.hpp"
 

@@ -4,7 +4,7 @@
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
 
-#include <src/ContactQuery.hpp>
+#include <src/contact/ContactQuery.hpp>
 
 /// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
 ///

@@ -4,7 +4,7 @@
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
-#include <src/ClosestPoint.hpp>
+#include <src/shape/ClosestPoint.hpp>
 
 namespace yade {
 

@@ -5,7 +5,7 @@
 #include <core/Dispatching.hpp>
 #include <core/Shape.hpp>
 
-#include <src/ConvexShape.hpp>
+#include <src/shape/ConvexShape.hpp>
 
 namespace yade {
 

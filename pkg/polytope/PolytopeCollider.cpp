@@ -4,7 +4,7 @@
 #include <core/Dispatching.hpp>
 #include <core/Scene.hpp>
 
-#include <src/Tolerances.hpp>
+#include <src/numbers/Tolerances.hpp>
 
 #include <limits>
 

@@ -4,8 +4,8 @@
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
-#include <src/IpoptCentre.hpp>
-#include <src/NumberText.hpp>
+#include <src/centre/IpoptCentre.hpp>
+#include <src/numbers/NumberText.hpp>
 
 #include "InternalFaces.hpp"
 #include "LookAhead.hpp"

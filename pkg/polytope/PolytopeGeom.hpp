@@ -6,7 +6,7 @@
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
-#include <src/ContactQuery.hpp>
+#include <src/contact/ContactQuery.hpp>
 
 namespace yade {
 

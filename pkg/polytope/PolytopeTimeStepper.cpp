@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeTimeStepper.hpp"
 
-#include <src/TimeStepTolerances.hpp>
+#include <src/timestep/TimeStepTolerances.hpp>
 
 namespace yade {
 

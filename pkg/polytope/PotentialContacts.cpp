@@ -6,8 +6,8 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 
-#include <src/RockingStiffness.hpp>
-#include <src/TimeStepTolerances.hpp>
+#include <src/timestep/RockingStiffness.hpp>
+#include <src/timestep/TimeStepTolerances.hpp>
 
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"

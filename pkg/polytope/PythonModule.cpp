@@ -13,8 +13,8 @@
 
 #include <core/Body.hpp>
 
-#include <src/IpoptCentre.hpp>
-#include <src/RegularSolids.hpp>
+#include <src/centre/IpoptCentre.hpp>
+#include <src/shape/RegularSolids.hpp>
 
 #include <boost/python.hpp>
 
@@ -195,7 +195,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "and decimal "
 	        "*digits*, as a dictionary.");
 	py::def("tolerances", &tolerances,
-	        "Tolerances of the numerical core that the module's advice is about, see src/Tolerances.hpp: *rounding* of this "
+	        "Tolerances of the numerical core that the module's advice is about, see src/numbers/Tolerances.hpp: *rounding* of this "
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
@@ -204,7 +204,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("timeStepLimits", &timeStepLimits,
-	        "Safe time steps [s] (src/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
+	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
 	        "a dictionary; None where nothing limits.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 

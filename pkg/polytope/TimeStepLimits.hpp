@@ -5,7 +5,7 @@
 #include <core/Clump.hpp>
 #include <core/Scene.hpp>
 
-#include <src/StableTimeStep.hpp>
+#include <src/timestep/StableTimeStep.hpp>
 
 #include <limits>
 
@@ -51,7 +51,7 @@ template <class Visit> void forParts(const Body& body, const Scene& scene, const
 		if (scene.bodies->exists(member.first)) visit(*(*scene.bodies)[member.first]);
 }
 
-/// τ of src/StableTimeStep.hpp from the springs and dampers of all present contacts.
+/// τ of src/timestep/StableTimeStep.hpp from the springs and dampers of all present contacts.
 struct ContactLimit : TimeStepLimit {
 	bool rocking = false; ///< rocking of contacts makes up more than half of the limiting body's ω²
 };

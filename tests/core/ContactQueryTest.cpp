@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // What holds for every pair: swap, rigid motion and scale change nothing but rounding; the answer says what it is.
-#include "ContactQuery.hpp"
+#include "contact/ContactQuery.hpp"
 #include "SameAnswer.hpp"
 
 #include <gtest/gtest.h>

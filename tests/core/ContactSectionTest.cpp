@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ContactSection.hpp"
+#include "contact/ContactSection.hpp"
 #include "PlaneRows.hpp"
 
 #include <gtest/gtest.h>

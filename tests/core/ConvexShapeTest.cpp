@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ConvexShape.hpp"
-#include "Lanes.hpp"
+#include "shape/ConvexShape.hpp"
+#include "numbers/Lanes.hpp"
 #include "PairSamples.hpp"
 
 #include <gtest/gtest.h>

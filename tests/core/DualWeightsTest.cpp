@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "DualWeights.hpp"
+#include "contact/DualWeights.hpp"
 #include "PlaneRows.hpp"
 #include "PrecisePair.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "HalfSpaces.hpp"
+#include "shape/HalfSpaces.hpp"
 
 #include "ShapeSamples.hpp"
 

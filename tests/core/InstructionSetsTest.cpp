@@ -3,7 +3,7 @@
 // The kernel for each lane width and instruction set this machine has, whichever of them ContactQuery.cpp chooses.
 // (vectors are handed over within this file only: no ABI to warn of)
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "ContactKernel.hpp"
+#include "contact/ContactKernel.hpp"
 #include "SameAnswer.hpp"
 
 #include <gtest/gtest.h>

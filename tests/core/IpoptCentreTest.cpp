@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Ipopt's centre against Newton's and against 113-bit arithmetic; what a build without Ipopt says instead.
-#include "IpoptCentre.hpp"
+#include "centre/IpoptCentre.hpp"
 #include "PrecisePair.hpp"
 
 #include <gtest/gtest.h>

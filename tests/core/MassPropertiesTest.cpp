@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "MassProperties.hpp"
+#include "shape/MassProperties.hpp"
 
 #include "ShapeSamples.hpp"
 

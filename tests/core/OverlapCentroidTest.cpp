@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "OverlapCentroid.hpp"
-#include "MassProperties.hpp"
+#include "contact/OverlapCentroid.hpp"
+#include "shape/MassProperties.hpp"
 #include "PlaneRows.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "ContactQuery.hpp"
-#include "RegularSolids.hpp"
+#include "contact/ContactQuery.hpp"
+#include "shape/RegularSolids.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "PairPlanes.hpp"
+#include "program/PairPlanes.hpp"
 #include "PairSamples.hpp"
 
 #include <vector>

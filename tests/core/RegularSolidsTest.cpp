@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "RegularSolids.hpp"
-#include "ConvexShape.hpp"
+#include "shape/RegularSolids.hpp"
+#include "shape/ConvexShape.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ShapeConstruction.hpp"
+#include "shape/ShapeConstruction.hpp"
 
-#include "MassProperties.hpp"
+#include "shape/MassProperties.hpp"
 #include "ShapeSamples.hpp"
 
 #include <limits>

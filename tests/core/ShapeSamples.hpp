@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "RegularSolids.hpp"
-#include "ShapeConstruction.hpp"
+#include "shape/RegularSolids.hpp"
+#include "shape/ShapeConstruction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "SimplexLp.hpp"
+#include "program/SimplexLp.hpp"
 #include "ExactLp.hpp"
 #include "PlaneRows.hpp"
 #include "PrecisePair.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "HalfSpaces.hpp"
+#include "shape/HalfSpaces.hpp"
 
 #include <cmath>
 #include <cstddef>

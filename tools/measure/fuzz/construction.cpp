@@ -3,9 +3,9 @@
 // Any numbers as planes or points: refused with a sentence that names the argument, or a sound shape.
 #include "Bytes.hpp"
 
-#include "ConstructionTolerances.hpp"
-#include "ConvexShape.hpp"
-#include "ShapeConstruction.hpp"
+#include "shape/ConstructionTolerances.hpp"
+#include "shape/ConvexShape.hpp"
+#include "shape/ShapeConstruction.hpp"
 
 #include <map>
 #include <set>

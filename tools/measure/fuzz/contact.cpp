@@ -4,7 +4,7 @@
 // poses that are rigid motions the answer is an optimum of the linear programme, whichever body comes first.
 #include "Bytes.hpp"
 
-#include "ContactQuery.hpp"
+#include "contact/ContactQuery.hpp"
 #include "tests/core/ExactLp.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Families.hpp"
 
-#include "ShapeConstruction.hpp"
+#include "shape/ShapeConstruction.hpp"
 
 namespace polytope::search {
 

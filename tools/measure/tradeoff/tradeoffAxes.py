@@ -29,7 +29,7 @@ tolerances = {
 }
 coarse = {name for name, changes in tolerances.items() if changes['newtonTolerance'] > 1e-10}
 """Tolerances that are not in effect where overlaps are deeper than 2e-4 of the size: the kernel takes the centre as far as a depth to 2e-14
-of the size needs (tolerance::depth in src/Tolerances.hpp), whatever the setting says. They are run to show that."""
+of the size needs (tolerance::depth in src/numbers/Tolerances.hpp), whatever the setting says. They are run to show that."""
 cold = {'cold start': {'warmStart': False}}
 ipopt = {'Ipopt': {'solver': 'ipopt'}}
 wide = {name: {'precision': name} for name in _builds.precisions if name != 'double'}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactFrame.hpp"
+#include "contact/ContactTypes.hpp"
+#include "contact/DualWeights.hpp"
+#include "contact/InnerPotential.hpp"
+
+/// Contact normal at the contact point: from balanced weights of the linear program (DualWeights.hpp), or the paper's average of
+/// two gradients (Boon et al. 2012, Eq. 17), and what stands in for it where there is none.
+namespace polytope {
+
+/// Direction (not of unit length) where the bodies have none: along the line of centres, or the smaller body's last axis.
+template <class R, int D> POLYTOPE_INLINE void lineOfCentres(const PairInput& in, const ContactFrame<R, D>& f, R* n)
+{
+	R line[D];
+	for (int k = 0; k < D; ++k)
+		line[k] = (*in.centre2)[k];
+	rotateBack<R, D>(f.world, line, n);
+	if (norm<R, D>(n) > R(tolerance::direction) * f.size) return;
+	for (int k = 0; k < D; ++k)
+		n[k] = f.own[f.home].m[D - 1][k];
+}
+
+/// Eq. 17 from both gradients (not of unit length); where a body has none the other's, where neither has the dual direction.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+{
+	R   weight[2];
+	R   g[2][D];
+	int directed = 0;
+	for (int body = 0; body < 2; ++body) {
+		innerPotentialGradient<R, D, W>(planes, body, x, in.shape[body]->cornerRadius(), g[body]);
+		const R    length = norm<R, D>(g[body]);
+		const bool has    = length > R(tolerance::direction) * f.size;
+		directed += has;
+		weight[body] = has ? (body == 0 ? R(1) : R(-1)) * settings.normalWeight[body] / length : R(0);
+	}
+	for (int k = 0; k < D; ++k)
+		n[k] = weight[0] * g[0][k] + weight[1] * g[1][k];
+	R length = norm<R, D>(n);
+	// a body of weight zero cannot be the only one that has a gradient
+	if (directed == 1 && !(length > 0)) {
+		const int body = norm<R, D>(g[0]) > norm<R, D>(g[1]) ? 0 : 1;
+		for (int k = 0; k < D; ++k)
+			n[k] = (body == 0 ? R(1) : R(-1)) * g[body][k];
+		length = norm<R, D>(n);
+	}
+	ContactStatus status = directed == 2 ? ContactStatus::Contact : ContactStatus::NormalFromOneBody;
+	if (directed == 0
+	        || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
+		status = ContactStatus::NormalFromDual;
+		for (int k = 0; k < D; ++k)
+			n[k] = dual[k];
+		length = norm<R, D>(n);
+	}
+	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
+}
+
+/// Unit normal of the plane with the least slack, as seen from body 1. Where balanced weights cancel that far, two faces lie between which
+/// n is by less than their own tilt.
+template <class R, int D> POLYTOPE_INLINE void nearestNormal(const PairPlanes<R, D>& planes, R* n)
+{
+	int nearest = 0;
+	for (int i = 1; i < planes.total; ++i)
+		if (planes.slack[i] < planes.slack[nearest]) nearest = i;
+	for (int k = 0; k < D; ++k)
+		n[k] = nearest < planes.first ? planes.normal[k][nearest] : -planes.normal[k][nearest];
+}
+
+/// Unit normal at x. Leaves slacks for the depth.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+{
+	ContactStatus status = ContactStatus::Contact;
+	if (settings.normal == NormalSource::DualWeights) {
+		const R weight = dualWeightsNormal<R, D, W>(planes, x, f.size, n);
+		if (!(norm<R, D>(n) > R(tolerance::direction) * weight)) {
+			if (settings.internal && settings.internal->count[0] + settings.internal->count[1] > 0) {
+				nearestNormal<R, D>(planes, n); // the dual direction may be that of a plane that is left out
+				return status;
+			}
+			for (int k = 0; k < D; ++k)
+				n[k] = dual[k];
+			status = norm<R, D>(dual) > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
+		}
+	} else status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);
+	const R length = norm<R, D>(n);
+	for (int k = 0; k < D; ++k)
+		n[k] /= length;
+	return status;
+}
+
+} // namespace polytope

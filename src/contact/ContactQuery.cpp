@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/ContactQuery.hpp"
+
+#include "contact/ContactKernel.hpp"
+#include "contact/PairOrder.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+namespace polytope {
+
+bool InternalPlanes::operator==(const InternalPlanes& other) const
+{
+	for (int body = 0; body < 2; ++body)
+		if (count[body] != other.count[body] || !std::equal(plane[body], plane[body] + count[body], other.plane[body])) return false;
+	return true;
+}
+
+Real* ContactWorkspace::rows(int rowCount, int length)
+{
+	const std::size_t needed = std::size_t(rowCount) * length;
+	if (rows_.size() < needed) rows_.resize(needed);
+	return rows_.data();
+}
+
+Real* ContactWorkspace::polygons(int length)
+{
+	if (polygons_.size() < std::size_t(length)) polygons_.resize(length);
+	return polygons_.data();
+}
+
+namespace {
+
+	using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
+
+	struct Kernels {
+		Kernel      flat;  ///< 2-D
+		Kernel      solid; ///< 3-D
+		const char* name;
+	};
+
+	// The kernel is compiled once per instruction set through function attributes, not per-file flags: inline functions
+	// of libraries that the linker merges across files stay baseline code.
+#if defined(__x86_64__) && !defined(POLYTOPE_REAL)
+#define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
+	template <int D>                                                                                                                   \
+	__attribute__((target(TARGET))) void NAME(                                                                                         \
+	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out) \
+	{                                                                                                                                  \
+		contactKernel<Real, D, WIDTH>(in, settings, memory, workspace, out);                                                       \
+	}
+	// four lanes with AVX-512 too: bodies have few faces, and its 32 registers hold the Hessian's sums
+	POLYTOPE_KERNEL(kernelV4, "arch=x86-64-v4", 4)
+	POLYTOPE_KERNEL(kernelV3, "arch=x86-64-v3", 4)
+	POLYTOPE_KERNEL(kernelV1, "arch=x86-64", 2)
+
+	Kernels chooseKernels()
+	{
+		__builtin_cpu_init();
+		if (__builtin_cpu_supports("x86-64-v4")) return { kernelV4<2>, kernelV4<3>, "AVX-512" };
+		if (__builtin_cpu_supports("x86-64-v3")) return { kernelV3<2>, kernelV3<3>, "AVX2" };
+		return { kernelV1<2>, kernelV1<3>, "SSE2" };
+	}
+#else
+	template <int D>
+	void kernelScalar(
+	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+	{
+		contactKernel<Real, D, 1>(in, settings, memory, workspace, out);
+	}
+	Kernels chooseKernels() { return { kernelScalar<2>, kernelScalar<3>, "scalar" }; }
+#endif
+
+	const Kernels kernels = chooseKernels();
+
+} // namespace
+
+void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
+        const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
+{
+	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
+	// in place: an assigned one would be made elsewhere first, which takes as long as a dismissal
+	std::destroy_at(&result);
+	new (&result) ContactResult;
+	if (settings.contactModel == ContactModel::Conservative && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
+		const Vector3   centre1 = -centre2;
+		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
+		exchangeBodies(memory);
+		kernel(in, settings, memory, workspace, result);
+		exchangeBodies(memory);
+		exchangeBodies(result, centre2, shape1.dimension());
+		return;
+	}
+	const PairInput in { { &shape1, &shape2 }, { &rotation1, &rotation2 }, &centre2 };
+	kernel(in, settings, memory, workspace, result);
+}
+
+const char* instructionSet() { return kernels.name; }
+
+} // namespace polytope

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactFrame.hpp"
+#include "contact/ContactTypes.hpp"
+#include "program/PairPlanes.hpp"
+#include "numbers/Tolerances.hpp"
+
+#include <cmath>
+
+/// Where a plane cuts the overlap of both bodies: polygon, area, centroid (3-D); length and midpoint (2-D).
+/// Used for the contact section (plane through the contact point, normal to n) and for the faces of the overlap.
+namespace polytope {
+
+template <class R, int D> struct Section {
+	R area        = 0;
+	R centroid[D] = {}; ///< in the frame of the planes
+};
+
+/// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
+template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>& planes, int i, int j, R size)
+{
+	R difference = 0;
+	for (int k = 0; k < D; ++k)
+		difference += abs(planes.normal[k][i] - planes.normal[k][j]);
+	return difference <= R(tolerance::violation) && abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
+}
+
+/// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half
+/// width; without the planes that lie on plane `skip`, if that is not −1. `buffer` holds 4 (total + 5) numbers.
+template <class R>
+POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer, int skip)
+{
+	const Rotation<R, 3> axes       = axesAround<R, 3>(normal);
+	R*                   here       = buffer;
+	R*                   there      = buffer + 2 * (planes.total + 5);
+	const R              corners[8] = { -halfWidth, -halfWidth, halfWidth, -halfWidth, halfWidth, halfWidth, -halfWidth, halfWidth };
+	int                  count      = 4;
+	for (int k = 0; k < 8; ++k)
+		here[k] = corners[k];
+	for (int i = 0; i < planes.total && count > 0; ++i) {
+		if (skip >= 0 && coincident<R, 3>(planes, skip, i, halfWidth)) continue;
+		R a[3], d;
+		planes.plane(i, a, d);
+		if (d >= R(padOffset) / 2) continue;
+		const R au = dot<R, 3>(a, axes.m[0]), av = dot<R, 3>(a, axes.m[1]);
+		const R rest  = d - dot<R, 3>(a, origin);
+		int     kept  = 0;
+		R       lastU = here[2 * count - 2], lastV = here[2 * count - 1];
+		R       last = au * lastU + av * lastV - rest;
+		for (int k = 0; k < count; ++k) {
+			const R u = here[2 * k], v = here[2 * k + 1];
+			const R value = au * u + av * v - rest;
+			if ((value > 0) != (last > 0)) {
+				const R t           = last / (last - value);
+				there[2 * kept]     = lastU + t * (u - lastU);
+				there[2 * kept + 1] = lastV + t * (v - lastV);
+				++kept;
+			}
+			if (!(value > 0)) {
+				there[2 * kept]     = u;
+				there[2 * kept + 1] = v;
+				++kept;
+			}
+			lastU = u;
+			lastV = v;
+			last  = value;
+		}
+		R* swap = here;
+		here    = there;
+		there   = swap;
+		count   = kept;
+	}
+	Section<R, 3> section;
+	R             moment[2] = { 0, 0 };
+	for (int k = 1; k + 1 < count; ++k) {
+		const R u1 = here[2 * k] - here[0], v1 = here[2 * k + 1] - here[1];
+		const R u2 = here[2 * k + 2] - here[0], v2 = here[2 * k + 3] - here[1];
+		const R twice = u1 * v2 - v1 * u2;
+		section.area += twice / 2;
+		moment[0] += twice * (u1 + u2) / 6;
+		moment[1] += twice * (v1 + v2) / 6;
+	}
+	if (section.area < 0) section.area = 0; // rounding of a sliver
+	const bool some = section.area > 0;
+	const R    u    = count > 0 ? here[0] + (some ? moment[0] / section.area : R(0)) : R(0);
+	const R    v    = count > 0 ? here[1] + (some ? moment[1] / section.area : R(0)) : R(0);
+	for (int k = 0; k < 3; ++k)
+		section.centroid[k] = origin[k] + u * axes.m[0][k] + v * axes.m[1][k];
+	return section;
+}
+
+/// 2-D: the segment of the line through origin, normal to `normal`, inside both bodies.
+template <class R>
+POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R* origin, const R* normal, R halfWidth, R*, int skip)
+{
+	const Rotation<R, 2> axes = axesAround<R, 2>(normal);
+	R                    low = -halfWidth, high = halfWidth;
+	for (int i = 0; i < planes.total; ++i) {
+		if (skip >= 0 && coincident<R, 2>(planes, skip, i, halfWidth)) continue;
+		R a[2], d;
+		planes.plane(i, a, d);
+		const R rate = dot<R, 2>(a, axes.m[0]);
+		const R rest = d - dot<R, 2>(a, origin);
+		if (rate > 0) high = minOf<R>(high, rest / rate);
+		else if (rate < 0) low = maxOf<R>(low, rest / rate);
+		else if (rest < 0) high = low;
+	}
+	Section<R, 2> section;
+	section.area = high > low ? high - low : R(0);
+	const R t    = section.area > 0 ? (low + high) / 2 : R(0);
+	for (int k = 0; k < 2; ++k)
+		section.centroid[k] = origin[k] + t * axes.m[0][k];
+	return section;
+}
+
+/// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n.
+template <class R, int D>
+POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* x,
+        const R* n, ContactWorkspace& workspace, ContactResult& out)
+{
+	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
+	out.area                    = section.area;
+	if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
+	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
+}
+
+} // namespace polytope

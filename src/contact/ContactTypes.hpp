@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/Status.hpp"
+#include "numbers/Tolerances.hpp"
+
+#include <array>
+#include <vector>
+
+/// What a contact query is asked (ContactSettings), keeps from step to step (PairMemory), works in (ContactWorkspace) and answers
+/// (ContactResult). Lengths in metres, world axes and from body 1's centre unless said otherwise; the normal points from body 1 to body 2.
+namespace polytope {
+
+enum class ContactPoint : int {
+	AnalyticCentre = 0, ///< Eq. 10
+	ChebyshevCentre,    ///< the LP's own point: centre of a largest ball in the overlap, cheapest, jumps where it is not unique
+	Centroid,           ///< of the overlap's volume (area in 2-D), dearest
+};
+
+/// Of the analytic centre.
+enum class CentreSolver : int {
+	Newton = 0, ///< AnalyticCentre.hpp; where it gives up, Ipopt if the build has it
+	Ipopt,      ///< IpoptCentre.hpp for every contact: a hundred to a thousand times slower, independent of Newton
+};
+
+enum class ContactModel : int {
+	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
+	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, normal, tolerance and normalWeight are not read
+};
+
+/// Of the contact model Paper.
+enum class NormalSource : int {
+	DualWeights = 0, ///< weights of the linear program on which both bodies agree (DualWeights.hpp)
+	InnerPotential,  ///< Eqs 13-17: gradients of both bodies' inner potential particles, averaged by normalWeight
+};
+
+/// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
+/// the first ones where there are more than fit.
+struct BoundingPlanes {
+	static constexpr int most = 16;
+	int                  count[2] = { 0, 0 };
+	int                  plane[2][most];
+	Real                 slack[2][most];
+	bool                 bounds[2][most]; ///< whether it cuts the overlap; else it is merely near
+};
+
+/// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
+/// nothing can press on them. The contact normal and the depth are those without them.
+struct InternalPlanes {
+	int  count[2] = { 0, 0 };
+	int  plane[2][BoundingPlanes::most];
+	bool none() const { return count[0] + count[1] == 0; }
+	bool operator==(const InternalPlanes& other) const;
+};
+
+struct ContactSettings {
+	ContactModel contactModel = ContactModel::Paper;
+	/// The conservative contact's μ over the smaller body's inscribed radius.
+	Real         barrier      = tolerance::barrier;
+	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
+	CentreSolver solver       = CentreSolver::Newton;
+	NormalSource normal       = NormalSource::DualWeights;
+	/// Contact when s* < −tolerance × the smaller body's circumradius.
+	Real tolerance = tolerance::contact;
+	/// Accepted remaining distance to the centre, in the overlap's own local norm (Newton; Ipopt goes to tolerance::ipoptMove).
+	Real newtonTolerance = tolerance::newton;
+	/// Start from the last query's basis and point, kept in PairMemory.
+	bool warmStart = true;
+	/// Also the contact section's area and centroid (length in 2-D).
+	bool section = false;
+	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
+	Real normalWeight[2] = { 1, 1 };
+	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
+	/// ends it.
+	bool geometryAcrossGap = false;
+	/// DualWeights: planes left out of normal and depth, or null.
+	const InternalPlanes* internal = nullptr;
+	/// Where the planes that bound a touching pair's overlap are written to, or null.
+	BoundingPlanes* bounding = nullptr;
+	/// Measure the LP's and the centre's time.
+	bool timed = false;
+};
+
+/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction.
+struct PairMemory {
+	bool                   hasBasis = false;
+	bool                   hasPoint = false;
+	std::array<int, 4>     basis { { 0, 0, 0, 0 } };                   ///< 2 × plane index + (0: body 1, 1: body 2)
+	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
+	/// Any value is safe. With a point: last dual direction, world axes. Without: LP dual λ of the basis' first planes (the last
+	/// one's is the rest).
+	Vector3 dual { Vector3::Zero() };
+	Real    level = 0; ///< last s of the conservative contact's minimiser; any value is safe
+};
+
+struct ContactResult {
+	ContactStatus status        = ContactStatus::Separated;
+	bool          inContact     = false;
+	bool          hasGeometry   = false;           ///< point, normal and depth are set
+	Real          infeasibility = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
+	Vector3       point         = Vector3::Zero(); ///< world axes, from body 1's centre
+	Vector3       normal        = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
+	Real          depth
+	        = 0; ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
+	Vector3 dualDirection = Vector3::
+	        Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
+	Real    area             = 0;               ///< contact section (times thickness in 2-D)
+	Vector3 sectionCentroid  = Vector3::Zero(); ///< world axes, from body 1's centre
+	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
+	Real    energy           = 0;               ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
+	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
+	bool    dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
+	int     simplexPivots    = 0;
+	int     newtonIterations = 0;
+	bool    ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int     ipoptIterations  = 0;
+	Real    decrement        = 0;                     ///< Newton decrement before the last step
+	long    lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };     ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } };   ///< LP dual λ of the basis
+};
+
+/// Buffers of one thread; grow to the largest pair seen, then stay.
+class ContactWorkspace {
+public:
+	Real* rows(int rowCount, int length);
+	Real* polygons(int length);
+
+private:
+	std::vector<Real> rows_, polygons_;
+};
+
+} // namespace polytope

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactFrame.hpp"
+#include "program/PairPlanes.hpp"
+
+/// Planes of the bodies, given in their own axes, in the frame of the contact: of one, or all into the rows of the pair.
+namespace polytope {
+
+/// Planes of `shape` into pair rows from `begin` on: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes
+/// `centre` (of the smaller body) and from there `origin` (of the rows' frame) are given: so a normal's rounding acts over the
+/// overlap only. `own`: T, from the rows' frame to the body's axes.
+template <class R, int D, int W>
+POLYTOPE_INLINE void placePlanes(
+        const ConvexShape& shape, const Rotation<R, D>& own, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
+{
+	using V = typename Lanes<R, W>::Type;
+	V T[D][D], C[D], O[D];
+	for (int j = 0; j < D; ++j) {
+		C[j] = broadcast<R, W>(centre[j]);
+		O[j] = broadcast<R, W>(origin[j]);
+		for (int k = 0; k < D; ++k)
+			T[j][k] = broadcast<R, W>(own.m[k][j]);
+	}
+	const R* source[D];
+	for (int k = 0; k < D; ++k)
+		source[k] = shape.normalArray(k);
+	const R* offsets = shape.offsetArray();
+	for (int i = 0; begin + i < end; i += W) {
+		V a[D];
+		V d = load<R, W>(offsets + i);
+		for (int k = 0; k < D; ++k) {
+			a[k] = load<R, W>(source[k] + i);
+			d -= a[k] * C[k];
+		}
+		for (int k = 0; k < D; ++k)
+			d -= a[k] * O[k];
+		store<R, W>(out.offset + begin + i, d);
+		for (int j = 0; j < D; ++j) {
+			V moved = T[j][0] * a[0];
+			for (int k = 1; k < D; ++k)
+				moved += T[j][k] * a[k];
+			store<R, W>(out.normal[j] + begin + i, moved);
+		}
+	}
+}
+
+/// One plane of a body in the frame.
+template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
+{
+	R own[D];
+	for (int k = 0; k < D; ++k)
+		own[k] = in.shape[body]->normalArray(k)[index];
+	rotateBack<R, D>(f.own[body], own, a);
+	d = (in.shape[body]->offsetArray()[index] - dot<R, D>(own, f.centre[body])) - dot<R, D>(own, f.origin[body]);
+}
+
+template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+{
+	for (int body = 0; body < 2; ++body)
+		placePlanes<R, D, W>(
+		        *in.shape[body], f.own[body], f.centre[body], f.origin[body], planes, planes.begin(body), planes.end(body));
+}
+
+/// As placePair() in the smaller body's own frame, where its planes stay as they are.
+template <class R, int D, int W>
+POLYTOPE_INLINE void placePairAtHome(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+{
+	const ConvexShape& own   = *in.shape[f.home];
+	const int          begin = planes.begin(f.home), count = own.paddedCount(), other = 1 - f.home;
+	for (int i = 0; i < count; i += W) {
+		for (int k = 0; k < D; ++k)
+			store<R, W>(planes.normal[k] + begin + i, load<R, W>(own.normalArray(k) + i));
+		store<R, W>(planes.offset + begin + i, load<R, W>(own.offsetArray() + i));
+	}
+	placePlanes<R, D, W>(
+	        *in.shape[other], f.own[other], f.centre[other], f.origin[other], planes, planes.begin(other), planes.end(other));
+}
+
+} // namespace polytope

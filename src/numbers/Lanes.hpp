@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Real.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+/// Vectors of numbers that the compiler maps to whatever registers the instruction set offers (GCC/Clang vector
+/// extensions): one source for SSE2, AVX2 and AVX-512VL, and plain scalars for arithmetics wider than double.
+namespace polytope {
+
+#define POLYTOPE_INLINE inline __attribute__((always_inline))
+#define POLYTOPE_INLINE_LAMBDA __attribute__((always_inline))
+
+/// Plane arrays are padded to a multiple of this with neutral planes (see padOffset), so every loop runs on whole vectors.
+constexpr int padWidth = 4;
+
+/// Offset of a neutral plane 0·x ≤ padOffset: never violated, weight 1/slack negligible against any plane of any scene.
+/// (Where the precision has more than 60 digits, its weight has to be smaller than those.)
+constexpr double padOffset = std::numeric_limits<Real>::digits > 150 ? 1e300 : 1e60;
+
+/// Four numbers of a type that has no vectors: what the linear programme's four rows are in long double.
+template <class R> struct Plain4 {
+	R             v[4];
+	R&            operator[](int k) { return v[k]; }
+	const R&      operator[](int k) const { return v[k]; }
+	Plain4        operator-() const { return { { -v[0], -v[1], -v[2], -v[3] } }; }
+	Plain4&       operator+=(const Plain4& o) { return *this = *this + o; }
+	Plain4&       operator-=(const Plain4& o) { return *this = *this - o; }
+	Plain4&       operator*=(const Plain4& o) { return *this = *this * o; }
+	friend Plain4 operator+(const Plain4& a, const Plain4& b) { return { { a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3] } }; }
+	friend Plain4 operator-(const Plain4& a, const Plain4& b) { return { { a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3] } }; }
+	friend Plain4 operator*(const Plain4& a, const Plain4& b) { return { { a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3] } }; }
+};
+
+template <class R, int W> struct Lanes { // W is 1 here
+	using Type = R;
+};
+template <class R> struct Lanes<R, 4> {
+	using Type = Plain4<R>;
+};
+template <> struct Lanes<double, 2> {
+	typedef double Type __attribute__((vector_size(16)));
+};
+template <> struct Lanes<double, 4> {
+	typedef double Type __attribute__((vector_size(32)));
+};
+template <class R, int W> constexpr bool isVector = !std::is_same_v<typename Lanes<R, W>::Type, Plain4<R>>;
+
+template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type load(const R* p)
+{
+	if constexpr (W == 1) return *p;
+	else if constexpr (isVector<R, W>) {
+		typename Lanes<R, W>::Type v;
+		std::memcpy(&v, p, sizeof v);
+		return v;
+	} else return { { p[0], p[1], p[2], p[3] } };
+}
+
+template <class R, int W> POLYTOPE_INLINE void store(R* p, const typename Lanes<R, W>::Type& v)
+{
+	if constexpr (W == 1) *p = v;
+	else if constexpr (isVector<R, W>) std::memcpy(p, &v, sizeof v);
+	else
+		for (int k = 0; k < W; ++k)
+			p[k] = v[k];
+}
+
+template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type broadcast(const R& x)
+{
+	if constexpr (W == 1) return x;
+	else if constexpr (isVector<R, W>) return x - typename Lanes<R, W>::Type {};
+	else return { { x, x, x, x } };
+}
+
+/// 0, 1, … W − 1.
+template <class R, int W> POLYTOPE_INLINE typename Lanes<R, W>::Type firstIndices()
+{
+	if constexpr (W == 1) return 0;
+	else {
+		typename Lanes<R, W>::Type v;
+		for (int k = 0; k < W; ++k)
+			v[k] = R(k);
+		return v;
+	}
+}
+
+template <class R, int W, class V> POLYTOPE_INLINE R horizontalSum(const V& v)
+{
+	if constexpr (W == 1) return v;
+	else {
+		// pairwise, so the compiler may use shuffles
+		if constexpr (W == 4) return (v[0] + v[2]) + (v[1] + v[3]);
+		else return v[0] + v[1];
+	}
+}
+
+/// Sums of N vectors' lanes: four at a time by transposing, which takes half the instructions of one after another.
+template <class R, int W, int N, class V> POLYTOPE_INLINE void horizontalSums(const V (&v)[N], R (&sums)[N])
+{
+	int k = 0;
+	if constexpr (W == 4 && isVector<R, W>)
+		for (; k + 4 <= N; k += 4) {
+			const V ab
+			        = __builtin_shufflevector(v[k], v[k + 1], 0, 4, 2, 6) + __builtin_shufflevector(v[k], v[k + 1], 1, 5, 3, 7);
+			const V cd = __builtin_shufflevector(v[k + 2], v[k + 3], 0, 4, 2, 6)
+			        + __builtin_shufflevector(v[k + 2], v[k + 3], 1, 5, 3, 7);
+			const V all = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+			for (int j = 0; j < 4; ++j)
+				sums[k + j] = all[j];
+		}
+	for (; k < N; ++k)
+		sums[k] = horizontalSum<R, W>(v[k]);
+}
+
+template <class V> POLYTOPE_INLINE V minOf(const V& a, const V& b) { return a < b ? a : b; }
+template <class V> POLYTOPE_INLINE V maxOf(const V& a, const V& b) { return a > b ? a : b; }
+
+template <class R, int W, class V> POLYTOPE_INLINE R horizontalMin(const V& v)
+{
+	if constexpr (W == 1) return v;
+	else if constexpr (W == 2) return minOf<R>(v[0], v[1]);
+	else if constexpr (!isVector<R, W>) return minOf<R>(minOf<R>(v[0], v[2]), minOf<R>(v[1], v[3]));
+	else {
+		const V pairs = minOf(v, V(__builtin_shufflevector(v, v, 2, 3, 0, 1)));
+		return minOf<R>(pairs[0], pairs[1]);
+	}
+}
+
+/// Four numbers as lanes: put together in registers, for a vector read back from four numbers just written has to wait for them.
+template <class R> POLYTOPE_INLINE typename Lanes<R, 4>::Type four(R a, R b, R c, R d)
+{
+	if constexpr (isVector<R, 4>) {
+		const typename Lanes<R, 4>::Type v = { a, b, c, d };
+		return v;
+	} else return { { a, b, c, d } };
+}
+
+/// Lanes a, b, c, d of v in this order.
+template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffled(const V& v)
+{
+	if constexpr (isVector<R, 4>) return __builtin_shufflevector(v, v, a, b, c, d);
+	else return { { v[a], v[b], v[c], v[d] } };
+}
+
+template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { abs(v[0]), abs(v[1]), abs(v[2]), abs(v[3]) } }; }
+template <class V> POLYTOPE_INLINE V         absolute(const V& v) { return v < 0 ? -v : v; }
+POLYTOPE_INLINE double                       absolute(double v) { return std::abs(v); }
+POLYTOPE_INLINE long double                  absolute(long double v) { return std::abs(v); }
+
+} // namespace polytope

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Real.hpp"
+
+#include <limits>
+
+/// Every threshold of the contact path: meaning, scale, reason. Lengths are relative to the pair's size, the
+/// smaller of the two bodies' circumradii; weights and decrements are pure numbers. (Shape construction has its own in ConstructionTolerances.hpp.)
+///
+/// In wider arithmetic than double a threshold that rounding sets is finer by as much as rounding is; one that says what is
+/// modelled (barrier, gapSkin) or which of two ways is shorter stays, so that all precisions answer the same question.
+namespace polytope::tolerance {
+
+/// Within this namespace: thresholds need no digits, only their exponent, and a double has one for every precision of YADE's.
+using Real = double;
+
+/// 2 to this power.
+constexpr Real powerOfTwo(int exponent)
+{
+	return exponent < 0 ? powerOfTwo(exponent + 1) / 2 : exponent > 0 ? powerOfTwo(exponent - 1) * 2 : 1;
+}
+
+/// Significant bits of polytope::Real.
+constexpr int digits = std::numeric_limits<polytope::Real>::digits;
+
+/// Distance from 1 to the next number.
+constexpr Real rounding = powerOfTwo(1 - digits);
+
+/// Rounding over double's: one in double.
+constexpr Real finer = rounding / std::numeric_limits<double>::epsilon();
+
+/// Default of `tolerance` (× size): a pair touches when s* < −tolerance. A plane moved into the contact frame is rounded
+/// by about 4 × rounding × size; below ten times that the sign of s* is not decided by the input.
+constexpr Real contact = 45 * rounding;
+
+/// × size: a plane counts as violated by the LP's point beyond this. Evaluating a·x − d near the contact costs a few
+/// roundings of the size; a smaller value would pivot on noise.
+constexpr Real violation = 8 * rounding;
+
+/// × both sizes: how far the bounds of s* from above and below may be apart at the optimum. With a few roundings of the
+/// bounds themselves that is the accuracy stated for s*, 8 roundings of the pair's reach; a smaller value would solve again,
+/// with more digits, where a weight that is zero has come out as −1e-15.
+constexpr Real certain = 6 * rounding;
+
+/// A basis with a weight λ below −this is not dual feasible and is repaired or refused (λ sum to 1). A quarter of the
+/// digits: a basis of nearly parallel planes carries weights this noisy, and the final test is on s*, not on λ.
+constexpr Real weight = 1024 * rounding;
+
+/// × LpBasis::noise: an entering column's components, and weights, below this have no sign. The sums behind them have
+/// four terms of three roundings each.
+constexpr Real noise = 16;
+
+/// Noise (rounding × length of an inverse row) from which a basis counts as singular: two normals nearer than 256 roundings
+/// are one normal to the simplex, of which the basis takes one.
+constexpr Real singularBasis = Real(1) / 256;
+
+/// Volume of three (area of two) differences of normals over the product of their lengths: from the first on they are
+/// chosen anew, so that nearly parallel normals are subtracted from each other; the second is no volume but rounding.
+constexpr Real smallVolume = 1e-3;
+constexpr Real noVolume    = 4 * rounding;
+
+/// The linear programme with twice the digits (WideLp.hpp): volume of differences of normals, over their lengths, that is
+/// rounding there; and part of a rounding × size by which a plane may be violated at its optimum.
+constexpr Real wideVolume = 64 * rounding * rounding;
+constexpr Real wideRest   = Real(1) / 16;
+
+/// Noise from which weights and point are refined (below it the inverse is as good), until what is corrected is below
+/// `refined`. Each refinement gains two digits at the least, or the basis is no good; some end on a residual of a few more
+/// roundings: up to `refinedLast` that is let pass.
+constexpr Real refinedBasis = 64 * rounding;
+constexpr Real refined      = 4 * rounding;
+constexpr Real refinedLast  = 16 * rounding;
+constexpr int  refinements  = 8 * digits / 53;
+
+/// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
+constexpr int stalledPivots = 12;
+
+/// Pivots after which the LP gives up, per plane: 20 × the largest count seen in the fuzz set (2 per plane).
+constexpr int pivotsPerPlane = 40;
+constexpr int pivotsAtLeast  = 200;
+
+/// × size: an overlap whose inscribed ball is smaller is thin. In a frame not made for it the Hessian loses 1/thin² of its
+/// digits and its planes 1/thin, so it gets one of its own; a thicker one does without.
+constexpr Real thin = 1e-3;
+
+/// Weight of a basis plane from which on it bounds the first guess of the analytic centre.
+constexpr Real leastShare = 1e-3;
+
+/// Default of `newtonTolerance`: the analytic centre is accepted when the step that follows is predicted shorter than
+/// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
+constexpr Real newton = 1e-10 * finer;
+
+/// Range of `newtonTolerance` that a script may set: from `rounding`, finer than which no centre can be, to this. A coarser one is
+/// anywhere in the overlap.
+constexpr Real coarsestNewton = 0.1;
+
+/// × size: how far the depth may be off for a centre not yet reached. The remaining step, in the local norm, is kept
+/// below this over |s*|; it binds in overlaps deeper than 2e-4 × size alone.
+constexpr Real depth = 2e-14 * finer;
+
+/// Determinant over the diagonal's product from which on a 3×3 Hessian may be inverted by cofactors, which lose the digits
+/// of both eliminations together.
+constexpr Real wellScaled = 1e-2;
+
+/// Part of a diagonal element of the Hessian that elimination must leave. Below the square root of rounding the centre
+/// loses more than a relative 1e-12 of the overlap's size along that axis.
+constexpr Real cancellation = 1e-8 * powerOfTwo((53 - digits) / 2);
+
+/// Times the axes are turned to the overlap's own before the centre is given up.
+constexpr int turns = 2;
+
+/// Newton decrement below which the full step is taken and convergence is quadratic (theory: any value < 0.38 for a
+/// self-concordant barrier); above it the step length comes from a line search.
+constexpr Real fullStep = 0.25;
+
+/// A full step that does not halve the decrement has met rounding: the centre is as good as the planes. Accepted as
+/// `RoundingLimited` when the decrement is below this; above it the solve has failed.
+constexpr Real stagnation = 0.1;
+
+constexpr int newtonIterations = 100;
+
+/// A step that would use up more than this part of the nearest plane's slack needs no line search.
+constexpr Real nearPole = 0.5;
+
+/// Line search stops when the slope has fallen to this fraction of its start: a crude search suffices, the next
+/// Hessian is worth more.
+constexpr Real lineSearchSlope = 0.1;
+constexpr int  lineSearchSteps = 30;
+
+/// Ipopt's `tol` (it knows doubles only), on numbers that are about one (see IpoptCentre.cpp).
+constexpr double ipopt           = 1e-12;
+constexpr int    ipoptIterations = 15;
+
+/// Ipopt's centre is accepted when solving once more, scaled anew, moves it by less than this in the local norm: a tenth of
+/// the 1e-8 in which it agrees with Newton's. The first round comes near, the second polishes, the third finds nothing to do.
+constexpr Real ipoptMove   = 1e-9;
+constexpr int  ipoptRounds = 20;
+
+/// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
+constexpr Real barrier = 3e-3;
+
+/// Range of `barrier` that a script may set. Above, bodies of many faces may never touch; below, weights leave the range of the numbers.
+constexpr Real leastBarrier = 1e-9, largestBarrier = 0.05;
+
+/// × s*: least μ of a pair apart whose geometry is asked for. Slacks at the barrier's minimum are about μ, and differences of
+/// numbers as large as s*: below, they have no digits. (No force depends on it: pairs that touch have s* < 0.)
+constexpr Real gapBarrier = 256 * rounding;
+
+/// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
+constexpr Real barrierStep = 0.95;
+
+/// × μ: by how much the barrier's start is above the linear programme's s (√2: where two opposite faces have it).
+constexpr Real barrierRoom = 1.4;
+
+/// × μ: a carried start may be this much above it.
+constexpr Real barrierDetour = 20;
+
+/// × size: how far apart two bodies may have carried the last contact point and still be followed to it. Steps of DEM move
+/// bodies against each other by a ten-thousandth.
+constexpr Real samePoint = 0.05;
+
+/// × thickness of the overlap over the size: the tangent up to which it may stand aslant in the frame. Across it the
+/// Hessian then loses no more than three digits, and its gradient none that the planes have.
+constexpr Real lean = 30;
+
+/// × −s: a carried point with this much slack to every plane is a good enough start of Newton's iterations as it is.
+constexpr Real carriedRoom = 0.25;
+
+/// A carried starting point may go at most this fraction of the way from the LP's point to the nearest plane.
+constexpr Real interiorStep = 0.9;
+
+/// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
+constexpr Real direction = 64 * rounding;
+
+/// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
+/// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
+constexpr Real leverage = 1e-2;
+
+/// Leverage from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
+/// inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
+constexpr Real nearLeverage = 1e-6;
+
+/// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this, or than the
+/// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
+constexpr Real flush = 1e-9;
+
+/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
+constexpr Real parallel = 1e-4;
+
+/// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
+/// most.
+constexpr Real thinContact = 0.1;
+
+/// × depth of a face below the one it slides on: a body is carried there if it overlaps a piece by a ball of this radius (two faces that lie
+/// on each other: ½).
+constexpr Real carriedBall = 0.25;
+
+/// Projections onto one plane after the other that look for that ball, each this much longer than need be; from beside a seam one or two
+/// lead there.
+constexpr int  mostProjections = 8;
+constexpr Real overProjection  = 1.2;
+
+/// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
+constexpr Real leastShareOfSupport = 1e-9;
+
+/// Steps between two looks for internal faces of a pair that touched before: while the faces of a seam are looked at once more, a body at
+/// 1 m/s moves by a hundredth of its size at most.
+constexpr int internalFacesEvery = 16;
+
+/// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).
+/// YADE normalises an orientation in each step, which changes its four numbers by a rounding each, to and fro; their product
+/// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.
+constexpr Real noTurn = 8 * rounding;
+
+/// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
+/// into overlap, so that its point is an analytic centre that continues the touching one's.
+constexpr Real gapSkin = 1e-6;
+
+} // namespace polytope::tolerance

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shape/CgalGeometry.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpzf.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <algorithm>
+#include <map>
+#include <type_traits>
+
+namespace polytope::exact {
+namespace {
+
+	// The one door to CGAL's numbers. Types wider than double go in exactly, as rationals.
+	constexpr bool isDouble = std::is_same<Real, double>::value;
+	using Number            = std::conditional_t<isDouble, double, CGAL::Gmpq>;
+	using ExactNumber       = std::conditional_t<isDouble, CGAL::Gmpzf, CGAL::Gmpq>;
+	using Kernel
+	        = std::conditional_t<isDouble, CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Simple_cartesian<CGAL::Gmpq>>;
+
+	/// Templates only so that the branch not taken is not compiled; what it names must depend on the parameters, or clang checks it.
+	template <class Value, class Result = Number> Result toNumber(Value value)
+	{
+		if constexpr (isDouble) {
+			return value;
+		} else {
+			using std::frexp;
+			int    exponent = 0;
+			Value  rest     = frexp(value, &exponent); // of size one: no part of it is beyond a double's range
+			Result sum(0);
+			while (rest != 0) {
+				const double part = double(rest);
+				sum += Result(part);
+				rest -= Value(part);
+			}
+			const Result scale(CGAL::Gmpz(1) << long(exponent < 0 ? -exponent : exponent));
+			return exponent < 0 ? Result(sum / scale) : Result(sum * scale);
+		}
+	}
+
+	/// Of a quotient, with all digits of Real.
+	template <class Quotient> Real toReal(const Quotient& quotient)
+	{
+		if constexpr (isDouble) {
+			return CGAL::to_double(quotient);
+		} else {
+			Number rest = quotient.numerator() / quotient.denominator();
+			Real   sum  = 0;
+			for (int bits = -2 * 52; bits < std::numeric_limits<Real>::digits && rest != Number(0); bits += 52) {
+				const double part = CGAL::to_double(rest);
+				sum += part;
+				rest -= Number(part);
+			}
+			return sum;
+		}
+	}
+
+	bool finite(const Real& value) { return (Eigen::numext::isfinite)(value); }
+
+} // namespace
+
+DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const Real& cap, const Bounds& bounds)
+{
+	CGAL::Quadratic_program<Number> programme(CGAL::SMALLER, false, Number(0), false, Number(0));
+	for (int k = 0; k < 3; ++k) {
+		if (finite(bounds.lower[k])) programme.set_l(k, true, toNumber(bounds.lower[k]));
+		if (finite(bounds.upper[k])) programme.set_u(k, true, toNumber(bounds.upper[k]));
+	}
+	for (std::size_t i = 0; i < normals.size(); ++i) {
+		for (int k = 0; k < 3; ++k)
+			programme.set_a(k, int(i), toNumber(normals[i][k]));
+		programme.set_a(3, int(i), Number(1));
+		programme.set_b(int(i), toNumber(offsets[i]));
+	}
+	programme.set_u(3, true, toNumber(cap));
+	programme.set_c(3, Number(-1));
+	// Bland's rule: with CGAL's default one degenerate programmes cycle without end (found by fuzzing)
+	CGAL::Quadratic_program_options options;
+	options.set_pricing_strategy(CGAL::QP_BLAND);
+	const auto solution = CGAL::solve_linear_program(programme, ExactNumber(), options);
+	DeepPoint  result;
+	auto       value = solution.variable_values_begin();
+	for (int k = 0; k < 3; ++k, ++value)
+		result.point[k] = toReal(*value);
+	result.depth = toReal(*value);
+	return result;
+}
+
+Triangles hullTriangles(const std::vector<Vector3>& points)
+{
+	using Point = Kernel::Point_3;
+	std::vector<Point>   corners;
+	std::map<Point, int> indexOf;
+	for (const Vector3& p : points) {
+		corners.emplace_back(toNumber(p.x()), toNumber(p.y()), toNumber(p.z()));
+		indexOf.emplace(corners.back(), int(corners.size()) - 1);
+	}
+	// a mesh, not CGAL's plain triangle list: with the traits that one chooses, planes are constructed inexactly
+	CGAL::Surface_mesh<Point> mesh;
+	CGAL::convex_hull_3(corners.begin(), corners.end(), mesh);
+	Triangles triangles;
+	for (const auto face : mesh.faces()) {
+		Triangle    triangle;
+		std::size_t k = 0;
+		for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+			triangle[k++] = indexOf.at(mesh.point(vertex));
+		std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+		triangles.push_back(triangle);
+	}
+	// CGAL's order follows addresses in memory, which differ from run to run
+	std::sort(triangles.begin(), triangles.end());
+	return triangles;
+}
+
+} // namespace polytope::exact

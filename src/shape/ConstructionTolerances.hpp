@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Real.hpp"
+
+#include <limits>
+
+/// Every threshold of shape construction (half-spaces, hulls, mass properties): meaning, scale, reason. All are pure
+/// numbers times a size the shape itself gives, never a length: a crystal of 1e-9 m and a block of 1e4 m are treated alike.
+///
+/// "Size" is the larger of two lengths: the shape's extent about an inner point, and that point's distance from the
+/// origin. The first bounds what a rounded normal moves within the shape, the second what a rounded offset moves: a
+/// 1 mm cube at coordinate 1e6 is defined by its offsets to 1e-10 m, whatever its extent.
+/// (The contact path has its own thresholds in Tolerances.hpp.)
+namespace polytope::construction {
+
+inline const Real rounding = std::numeric_limits<Real>::epsilon();
+
+/// × size: planes that all pass within this distance of one point make one vertex; points within this distance of one
+/// plane make one facet. 6e-14 in double. A script's plane carries some ten roundings (normalise, rotate, n·p); twenty
+/// times that is still far below the shortest edge promised, 1e-9 of the extent, unless the planes at its two ends turn
+/// by less than about 1e-4.
+inline const Real coincidence = 256 * rounding;
+
+/// × the tolerance of a fit: how far the body may reach beyond the fitted plane or point. A least-squares fit leaves up to
+/// one tolerance at its own corners; the rest is for a narrow facet's noise, carried on to its neighbours.
+inline const Real support = 4;
+
+/// × size: two neighbouring planes this close over the whole shape are one plane (the first is kept). It has to exceed
+/// twice `coincidence`: between the two, the vertices of one face could join either of two planes and tear it in two.
+inline const Real coplanarity = 4 * coincidence;
+
+/// × size: a set whose inscribed sphere is smaller has no interior. 9e-13 in double: sixteen times `coincidence`, so that
+/// merging can never close a shape that is let through. Plates and needles of aspect 1e8 pass with four digits to spare.
+inline const Real flatness = 16 * coincidence;
+
+/// A unit direction y with n·y at most this for every plane is a direction in which the set has no end. 1.4e-14 in
+/// double: the walls of a tube, rounded, close at 1e15 times its width; nobody meant them to. Kept below `flatness`, so a
+/// double cone of aspect 1e-12 is refused as flat and not as open.
+inline const Real recession = 64 * rounding;
+
+/// × inradius: a vertex farther than this, or one that planes added at `horizon` cut, is reason to ask for `recession`
+/// exactly (six small linear programmes); nearer ones are certainly no sign of an open set.
+inline const Real farVertex = 1e6;
+
+/// × inradius: where the closing planes stand. Beyond any vertex of a set that is not `recession`-open.
+inline const Real horizon = 1 / (rounding * rounding);
+
+/// Two unit normals (per component) and two offsets (× the larger of both, or the set's median offset where both are
+/// smaller) are the same plane. A plane written twice in different ways (other length, other order) differs by a few roundings.
+inline const Real duplicate = 16 * rounding;
+
+/// Lengths [m] that bodies and coordinates may have, in every unit anybody uses. Beyond, the fifth power of a length (inertia)
+/// leaves the range of double, and the contact path takes a plane at 1e60 for none.
+inline const Real smallestLength = 1e-50;
+inline const Real largestLength  = 1e50;
+
+/// A normal this near unit length is left untouched, so that normalising twice changes no bit.
+inline const Real unitLength = 4 * rounding;
+
+/// 2-D: a normal's z, or (× extent) a point's z, up to this is rounding (of a rotation, of a computed point) and is set to zero.
+inline const Real outOfPlane = 64 * rounding;
+
+/// × volume of the axis-parallel box: a shape with less volume than this is turned before its moments are summed. The sum's
+/// rounding is that of the box, so three digits are lost at most; a plate that lies along the axes is never turned.
+inline const Real slender = 1e-3;
+
+/// × largest moment: off-diagonal terms up to this are rounding, and the tensor's own axes are kept. 9e-13 in double.
+/// Vertices within `coincidence` of their planes move a product of inertia by several times 6e-14.
+inline const Real diagonal = 4096 * rounding;
+
+} // namespace polytope::construction

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "program/LpBasis.hpp"
+#include "shape/MassProperties.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace polytope {
+
+/// A validated convex particle in its body frame, immutable: what the contact path reads (padded plane arrays, inscribed
+/// ball) and what the rest of the house reads (vertices, faces, mass properties). Bodies of equal planes share one.
+class ConvexShape {
+public:
+	/// Refuses (std::invalid_argument naming `normals`, `offsets`, `dimension`, `thickness` or `cornerRadius`) everything
+	/// normalised() and polyhedron() refuse, and a cornerRadius that is negative, not finite, or not smaller than
+	/// boundingRadius(). From inscribedRadius() on the inner particle is empty, but its gradient, all that a contact uses,
+	/// has a direction at every depth. Planes are kept as given, redundant ones and repeated ones too, since each one
+	/// weighs in the analytic centre; withoutDuplicates() and withoutRedundant() are the caller's.
+	ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
+
+	/// The shared instance for these arguments; builds it only if no body holds one. Thread-safe.
+	static std::shared_ptr<const ConvexShape> shared(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
+
+	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded
+	/// shape, not another half-space. Its gradient is its own normal at any depth.
+	static std::shared_ptr<const ConvexShape> halfSpace(const Vector3& unitNormal, int dimension);
+
+	int  dimension() const { return planes_.dimension; }
+	int  planeCount() const { return int(planes_.size()); }
+	int  paddedCount() const { return padded_; }
+	Real cornerRadius() const { return cornerRadius_; }
+	Real thickness() const { return thickness_; }
+
+	/// Component k of all unit normals, or all offsets, padded to a multiple of padWidth with neutral planes.
+	const Real* normalArray(int k) const { return arrays_.data() + k * padded_; }
+	const Real* offsetArray() const { return arrays_.data() + dimension() * padded_; }
+
+	/// Largest inscribed ball (disc in 2-D) and the dimension + 1 planes that hold it: a basis of the phase-one LP that is
+	/// dual feasible whatever the other body does.
+	Real                      inscribedRadius() const { return inscribedRadius_; }
+	const std::array<int, 4>& inscribedBasis() const { return inscribedBasis_; }
+	/// That basis solved, in the body's axes; null where it has too few digits (planes nearly parallel), and for a half-space.
+	template <int D> const LpBasis<Real, D>* inscribedBall() const
+	{
+		const auto& ball = std::get<std::optional<LpBasis<Real, D>>>(inscribedBall_);
+		return ball ? &*ball : nullptr;
+	}
+
+	/// Radius of the smallest ball about the body's origin that holds it.
+	Real boundingRadius() const { return boundingRadius_; }
+
+	const HalfSpaces&     planes() const { return planes_; }
+	const Polyhedron&     polyhedron() const { return polyhedron_; }
+	const MassProperties& mass() const { return mass_; }
+
+private:
+	ConvexShape() = default; // for halfSpace
+	void fillArrays();
+
+	HalfSpaces         planes_;
+	Real               cornerRadius_ = 0;
+	Real               thickness_    = 1;
+	Polyhedron         polyhedron_;
+	MassProperties     mass_;
+	int                padded_ = 0;
+	std::vector<Real>  arrays_;
+	Real               inscribedRadius_ = 0;
+	Real               boundingRadius_  = 0;
+	std::array<int, 4> inscribedBasis_ { { 0, 0, 0, 0 } };
+
+	std::pair<std::optional<LpBasis<Real, 2>>, std::optional<LpBasis<Real, 3>>> inscribedBall_; ///< of the shape's dimension
+};
+
+} // namespace polytope

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Real.hpp"
+
+#include <vector>
+
+namespace polytope {
+
+/// A set {x : normals[i]·x ≤ offsets[i]}. Unit outward normals once it has passed normalised().
+/// For dimension 2 the set lies in the xy plane: every normal has z = 0.
+struct HalfSpaces {
+	std::vector<Vector3> normals;
+	std::vector<Real>    offsets;
+	int                  dimension = 3;
+
+	std::size_t size() const { return normals.size(); }
+};
+
+/// The same set with unit normals. Refuses (std::invalid_argument, naming `normals`, `offsets` or `dimension` and the
+/// remedy): lengths that differ, NaN or infinite values, a zero normal, fewer than dimension + 1 planes, in 2-D a
+/// normal that leaves the xy plane, a dimension other than 2 or 3.
+HalfSpaces normalised(const HalfSpaces& input);
+
+/// Without planes that repeat another one (same normal and offset to rounding; of parallel planes that differ in offset
+/// both are kept: the looser is redundant, not duplicate). Order of first appearance kept.
+HalfSpaces withoutDuplicates(const HalfSpaces& unit);
+
+/// The set moved by the rigid motion x ↦ rotation·x + translation.
+HalfSpaces moved(const HalfSpaces& set, const Matrix3& rotation, const Vector3& translation);
+
+} // namespace polytope

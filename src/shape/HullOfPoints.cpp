@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shape/ConstructionTolerances.hpp"
+#include "numbers/NumberText.hpp"
+#include "shape/ShapeConstruction.hpp"
+#include "shape/TriangleClusters.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+// hullOf: the points are brought to unit size about the middle of their box, the exact hull's triangles are joined into
+// facets (TriangleClusters.hpp), and each facet's plane is fitted to all of its points. In 2-D the polygon is made a prism first.
+namespace polytope {
+namespace {
+
+	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
+
+	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
+
+	struct UnitPoints {
+		std::vector<Vector3> points;
+		Vector3              centre;
+		Real                 unit; ///< a power of two: points · unit + centre are the caller's
+		Real size; ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
+	};
+
+	void check(const std::vector<Vector3>& points, int dimension, const Real& coplanar)
+	{
+		if (dimension != 2 && dimension != 3) refuse("dimension: " + std::to_string(dimension) + "; give 2 or 3");
+		if (points.size() < std::size_t(dimension) + 1)
+			refuse("points: " + std::to_string(points.size()) + " cannot span a body in " + std::to_string(dimension)
+			        + "-D; give at least " + std::to_string(dimension + 1));
+		for (std::size_t i = 0; i < points.size(); ++i)
+			for (int k = 0; k < 3; ++k)
+				if (!(Eigen::numext::isfinite)(points[i][k]))
+					refuse("points: entry " + std::to_string(i)
+					        + " (counted from 0) is not finite; remove NaN and infinite values");
+				else if (magnitude(points[i][k]) > construction::largestLength)
+					refuse("points: entry " + std::to_string(i)
+					        + " (counted from 0) is beyond 1e50; choose another unit of length");
+		if (!(coplanar >= 0 && coplanar <= Real(0.1)))
+			refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the size");
+	}
+
+	[[noreturn]] void refuseFlat(int dimension)
+	{
+		refuse(dimension == 2
+		                ? "points: they lie on a line; give at least three corners of a polygon"
+		                : "points: they lie in a plane; give points that span a volume (for a polygon use yade.polytope.polygon)");
+	}
+
+	UnitPoints atUnitSize(const std::vector<Vector3>& points, int dimension)
+	{
+		Vector3 low = points.front(), high = points.front();
+		for (const Vector3& p : points) {
+			low  = low.cwiseMin(p);
+			high = high.cwiseMax(p);
+		}
+		const Vector3 span    = high - low;
+		const int     used    = dimension; // in 2-D the extent is that of x and y
+		const Real    largest = span.head(used).maxCoeff();
+		if (!(largest > 0)) refuseFlat(dimension);
+		if (largest < construction::smallestLength)
+			refuse("points: they are less than " + numberText(construction::smallestLength)
+			        + " apart; choose another unit of length");
+		using std::frexp;
+		using std::ldexp;
+		int exponent = 0;
+		frexp(largest, &exponent);
+
+		UnitPoints result;
+		result.unit   = ldexp(Real(1), exponent);
+		result.centre = low + span / 2;
+		if (dimension == 2) {
+			if (std::max(magnitude(low.z()), magnitude(high.z())) > construction::outOfPlane * largest)
+				refuse("points: in 2-D they lie in the xy plane; give z = 0");
+			result.centre.z() = 0;
+		}
+		Real extent = 0;
+		for (const Vector3& p : points) {
+			Vector3 q = (p - result.centre) / result.unit;
+			extent    = std::max(extent, q.norm());
+			if (dimension == 3) {
+				result.points.push_back(q);
+				continue;
+			}
+			for (int side = -1; side <= 1; side += 2)
+				result.points.emplace_back(q.x(), q.y(), Real(side));
+		}
+		result.size = std::max(extent, Real(result.centre.norm() / result.unit));
+		return result;
+	}
+
+	/// The plane nearest to points (least squares).
+	struct Fit {
+		Vector3 normal;
+		Vector3 middle;
+		Real    misfit; ///< largest distance of a point from it
+		Real    width;  ///< root of the second largest moment of the points: near zero for points on a line
+	};
+
+	/// By QR and the singular values of its 3 × 3 factor: the scatter matrix would square the condition and lose thin facets.
+	Fit planeFit(const std::vector<Vector3>& points, const Indices& members)
+	{
+		Fit fit;
+		fit.middle = Vector3::Zero();
+		for (int i : members)
+			fit.middle += points[std::size_t(i)] / Real(members.size());
+		Eigen::Matrix<Real, Eigen::Dynamic, 3> rows(Eigen::Index(members.size()), 3);
+		for (std::size_t k = 0; k < members.size(); ++k)
+			rows.row(Eigen::Index(k)) = (points[std::size_t(members[k])] - fit.middle).transpose();
+		const Eigen::HouseholderQR<Eigen::Matrix<Real, Eigen::Dynamic, 3>> qr(rows);
+		const Matrix3                   factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
+		const Eigen::JacobiSVD<Matrix3> svd(factor, Eigen::ComputeFullV);
+		fit.normal = svd.matrixV().col(2);
+		fit.width  = svd.singularValues()[1];
+		fit.misfit = (rows * fit.normal).cwiseAbs().maxCoeff();
+		return fit;
+	}
+
+	Indices everyIndex(std::size_t count)
+	{
+		Indices all(count);
+		std::iota(all.begin(), all.end(), 0);
+		return all;
+	}
+
+	/// The same with the normal away from `inner`.
+	Fit outwardFit(const std::vector<Vector3>& points, const Indices& members, const Vector3& inner)
+	{
+		Fit fit = planeFit(points, members);
+		if (fit.normal.dot(fit.middle - inner) < 0) fit.normal = -fit.normal;
+		return fit;
+	}
+
+	/// The supporting plane of one facet in the caller's frame.
+	void addPlane(HalfSpaces& planes, const UnitPoints& set, const Indices& members, const Fit& fit)
+	{
+		Vector3 normal = fit.normal;
+		if (planes.dimension == 2) {
+			if (magnitude(normal.z()) > Real(0.5)) return; // a cap of the prism
+			normal.z() = 0;
+		}
+		normal.normalize();
+		Real reach = normal.dot(set.points[std::size_t(members.front())]);
+		for (int i : members)
+			reach = std::max(reach, Real(normal.dot(set.points[std::size_t(i)])));
+		planes.normals.push_back(normal);
+		planes.offsets.push_back(reach * set.unit + normal.dot(set.centre));
+	}
+
+	/// The middle of the hull's triangles: not of all points, which may crowd in a corner.
+	Vector3 innerPoint(const std::vector<Vector3>& points, const Triangles& triangles)
+	{
+		Vector3 inner = Vector3::Zero();
+		for (const exact::Triangle& t : triangles)
+			for (int corner : t)
+				inner += points[std::size_t(corner)] / Real(3 * triangles.size());
+		return inner;
+	}
+
+	/// The points that are corners of a triangle, each once.
+	Indices cornersOf(const Triangles& triangles)
+	{
+		Indices corners;
+		for (const exact::Triangle& t : triangles)
+			corners.insert(corners.end(), t.begin(), t.end());
+		std::sort(corners.begin(), corners.end());
+		corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+		return corners;
+	}
+
+} // namespace
+
+HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplanar)
+{
+	check(points, dimension, coplanar);
+	const UnitPoints set = atUnitSize(points, dimension);
+	// the fitted plane's misfit is at least half the set's width, and at most a few times that
+	if (planeFit(set.points, everyIndex(set.points.size())).misfit <= construction::flatness * set.size) refuseFlat(dimension);
+
+	const Triangles triangles = exact::hullTriangles(set.points);
+	const Edges     edges     = edgesOf(triangles);
+	const Vector3   inner     = innerPoint(set.points, triangles);
+	const Indices   corners   = cornersOf(triangles);
+	const Real      tolerance = std::max(construction::coincidence, coplanar) * set.size;
+	const auto      misfit    = [&set](const Indices& members) { return planeFit(set.points, members).misfit; };
+	const auto      outside   = [&](const Indices& members) {
+                const Fit fit   = outwardFit(set.points, members, inner);
+                Real      reach = 0;
+                for (int i : corners)
+                        reach = std::max(reach, Real(fit.normal.dot(set.points[std::size_t(i)] - fit.middle)));
+                return reach;
+	};
+	const Clusters facets = cluster(triangles, edges, misfit, outside, tolerance);
+
+	// in the order of their points: that of the triangles depends on how the hull cut the facets
+	std::vector<Indices> ordered;
+	for (std::size_t t = 0; t < triangles.size(); ++t)
+		if (facets.of[t] == int(t)) ordered.push_back(facets.members[t]);
+	std::sort(ordered.begin(), ordered.end());
+
+	HalfSpaces planes;
+	planes.dimension = dimension;
+	for (const Indices& members : ordered) {
+		const Fit fit = outwardFit(set.points, members, inner);
+		if (fit.width > tolerance) addPlane(planes, set, members, fit); // else it is an edge, and its neighbours bound it
+	}
+	return planes;
+}
+
+} // namespace polytope

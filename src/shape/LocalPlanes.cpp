@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shape/LocalPlanes.hpp"
+
+#include "shape/CgalGeometry.hpp"
+#include "shape/ConstructionTolerances.hpp"
+#include "numbers/NumberText.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace polytope {
+namespace {
+
+	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
+
+	[[noreturn]] void refuseOpen(const Vector3& direction)
+	{
+		std::ostringstream out;
+		out.precision(3);
+		out << "normals: the set is unbounded (it extends without end along (";
+		for (int k = 0; k < 3; ++k)
+			out << (k ? ", " : "") << (std::abs(double(direction[k])) < 5e-4 ? 0. : double(direction[k]));
+		out << ")); add planes that close it";
+		refuse(out.str());
+	}
+
+	/// A unit direction that no plane closes, or zero. Each face of the cube max|y_k| = 1 is asked in turn.
+	Vector3 openDirection(const HalfSpaces& set)
+	{
+		const std::vector<Real> level(set.size(), Real(0));
+		for (int k = 0; k < set.dimension; ++k)
+			for (int sign = -1; sign <= 1; sign += 2) {
+				exact::Bounds bounds { Vector3::Constant(-1), Vector3::Constant(1) };
+				if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
+				bounds.lower[k] = bounds.upper[k] = sign;
+				const exact::DeepPoint flattest   = exact::deepest(set.normals, level, 1, bounds);
+				if (flattest.depth >= -construction::recession) return flattest.point.normalized();
+			}
+		return Vector3::Zero();
+	}
+
+	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
+
+	/// The power of two below: dividing by it changes no digit.
+	Real powerOfTwo(const Real& size)
+	{
+		using std::frexp;
+		using std::ldexp;
+		int exponent = 0;
+		frexp(size, &exponent);
+		return ldexp(Real(1), exponent - 1);
+	}
+
+	/// Which of the two a negative depth means: no point, or flat and rounded. Measured by the farthest plane, for lack of
+	/// an extent; a needlessly far plane can only make a small gap read "flat".
+	void refuseIfEmpty(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const exact::DeepPoint& ball)
+	{
+		Real size = ball.point.norm();
+		for (std::size_t i = 0; i < normals.size(); ++i)
+			size = std::max(size, magnitude(offsets[i] - normals[i].dot(ball.point)));
+		if (ball.depth < -construction::coincidence * size)
+			refuse("offsets: the half-spaces have no common point; a plane is normal·x <= offset with the normal pointing out "
+			       "of the body: "
+			       "check the signs of normals and offsets");
+	}
+
+} // namespace
+
+void refuseIfOpen(const HalfSpaces& set)
+{
+	const Vector3 direction = openDirection(set);
+	if (direction.squaredNorm() > 0) refuseOpen(direction);
+}
+
+void refuseFlat(const HalfSpaces& set)
+{
+	refuseIfOpen(set);
+	refuse("offsets: the set is flat (it has points, but no interior to rounding); move opposite planes apart or, if the body lies "
+	       "far from the origin, describe it near the origin");
+}
+
+LocalPlanes aboutInnerPoint(const HalfSpaces& set)
+{
+	Real largest = 0;
+	for (const Real& offset : set.offsets)
+		largest = std::max(largest, magnitude(offset));
+	const Real        scale  = largest > 0 ? powerOfTwo(largest) : Real(1);
+	std::vector<Real> scaled = set.offsets;
+	for (Real& offset : scaled)
+		offset /= scale;
+	exact::Bounds bounds;
+	if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
+	// a bounded set's inradius is a weighted mean of its offsets, below 2 in this unit: the cap never cuts it
+	const exact::DeepPoint ball = exact::deepest(set.normals, scaled, 2, bounds);
+	if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
+	if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
+	if (ball.depth * scale < construction::smallestLength)
+		refuse("offsets: the body is smaller than " + numberText(construction::smallestLength) + "; choose another unit of length");
+
+	LocalPlanes local;
+	local.centre   = ball.point * scale;
+	local.unit     = powerOfTwo(ball.depth * scale);
+	local.distance = local.centre.norm() / local.unit;
+	local.inradius = ball.depth * scale / local.unit;
+	for (std::size_t i = 0; i < set.size(); ++i)
+		local.add(set.normals[i], (set.offsets[i] - set.normals[i].dot(local.centre)) / local.unit, int(i));
+	for (int side = -1; side <= 1 && set.dimension == 2; side += 2)
+		local.add(Vector3(0, 0, side), local.inradius, LocalPlanes::cap);
+	for (const Vector3& corner : { Vector3(1, 1, 1), Vector3(1, -1, -1), Vector3(-1, 1, -1), Vector3(-1, -1, 1) })
+		local.add(corner.normalized(), construction::horizon, LocalPlanes::closing);
+	return local;
+}
+
+} // namespace polytope

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shape/ShapeConstruction.hpp"
+
+#include "shape/ConstructionTolerances.hpp"
+#include "shape/LocalPlanes.hpp"
+#include "numbers/NumberText.hpp"
+#include "shape/TriangleClusters.hpp"
+
+#include <Eigen/QR>
+
+#include <stdexcept>
+#include <string>
+
+// The way from half-spaces to vertices:
+//  1. an exact linear programme finds the largest inscribed ball, hence an inner point c, or that there is none;
+//  2. the planes' polar duals n/(d − n·c) have a convex hull, whose triangles are the vertices of the set, three planes
+//     each. Rounding a dual point is the same as rounding its plane's normal and offset, whatever the set's aspect ratio;
+//  3. triangles whose planes all meet in one point to rounding are joined into one vertex (TriangleClusters.hpp), and
+//     faces that lose their area by it are dropped.
+namespace polytope {
+namespace {
+
+	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
+
+	Triangles dualHull(const LocalPlanes& local)
+	{
+		std::vector<Vector3> duals;
+		for (std::size_t i = 0; i < local.normals.size(); ++i)
+			duals.push_back(local.normals[i] / local.slacks[i]);
+		return exact::hullTriangles(duals);
+	}
+
+	/// The point nearest to all of the planes (least squares), and the largest distance left.
+	struct Meeting {
+		Vector3 point;
+		Real    misfit;
+	};
+
+	Meeting meeting(const LocalPlanes& local, const Indices& planes)
+	{
+		Eigen::Matrix<Real, Eigen::Dynamic, 3> normals(Eigen::Index(planes.size()), 3);
+		Eigen::Matrix<Real, Eigen::Dynamic, 1> slacks(Eigen::Index(planes.size()));
+		for (std::size_t k = 0; k < planes.size(); ++k) {
+			normals.row(Eigen::Index(k)) = local.normals[std::size_t(planes[k])].transpose();
+			slacks[Eigen::Index(k)]      = local.slacks[std::size_t(planes[k])];
+		}
+		Meeting result;
+		result.point  = normals.colPivHouseholderQr().solve(slacks);
+		result.misfit = (normals * result.point - slacks).cwiseAbs().maxCoeff();
+		return result;
+	}
+
+	/// How far a point lies outside the set: negative inside.
+	Real reachBeyond(const LocalPlanes& local, const Vector3& point)
+	{
+		Real farthest = -construction::horizon;
+		for (std::size_t i = 0; i < local.normals.size(); ++i)
+			farthest = std::max(farthest, Real(local.normals[i].dot(point) - local.slacks[i]));
+		return farthest;
+	}
+
+	/// Whether a vertex lies suspiciously far out. By Cramer's rule, which does not hide a vertex that rounding put at infinity.
+	bool mayBeOpen(const LocalPlanes& local, const Triangles& triangles)
+	{
+		for (const exact::Triangle& t : triangles) {
+			if (local.isClosing(t[0]) || local.isClosing(t[1]) || local.isClosing(t[2])) return true;
+			const Vector3 &a = local.normals[std::size_t(t[0])], &b = local.normals[std::size_t(t[1])],
+			              &c          = local.normals[std::size_t(t[2])];
+			const Vector3 scaledPoint = local.slacks[std::size_t(t[0])] * b.cross(c)
+			        + local.slacks[std::size_t(t[1])] * c.cross(a) + local.slacks[std::size_t(t[2])] * a.cross(b);
+			if (!(scaledPoint.norm() <= construction::farVertex * local.inradius * magnitude(a.dot(b.cross(c))))) return true;
+		}
+		return false;
+	}
+
+	/// Largest distance of a vertex from the inner point. Refuses what is unbounded, or flat to rounding.
+	Real checkedExtent(const HalfSpaces& set, const LocalPlanes& local, const Triangles& triangles)
+	{
+		if (mayBeOpen(local, triangles)) refuseIfOpen(set);
+		Real extent = 0, misfit = 0;
+		for (const exact::Triangle& t : triangles) {
+			const Meeting vertex = meeting(local, Indices(t.begin(), t.end()));
+			extent               = std::max(extent, vertex.point.norm());
+			misfit               = std::max(misfit, vertex.misfit);
+		}
+		// three planes that miss each other meet far out, where rounding does not tell
+		const Real least = construction::flatness * local.size(extent);
+		if (!(local.inradius > least && misfit <= least)) refuseFlat(set);
+		return extent;
+	}
+
+	/// Drops the later of two neighbouring planes that are one plane to rounding; whether there was any.
+	bool dropCoplanar(LocalPlanes& local, const Edges& edges, const Real& extent)
+	{
+		std::vector<bool> repeated(local.normals.size(), false);
+		for (const auto& edge : edges) {
+			const std::size_t i = std::size_t(edge.first.first), j = std::size_t(edge.first.second);
+			if (i > j || repeated[i]) continue;
+			const Real apart
+			        = (local.normals[i] - local.normals[j]).norm() * extent + magnitude(local.slacks[i] - local.slacks[j]);
+			if (apart <= construction::coplanarity * local.size(extent)) repeated[j] = true;
+		}
+		bool any = false;
+		for (std::size_t i = repeated.size(); i-- > 0;)
+			if (repeated[i]) {
+				local.drop(i);
+				any = true;
+			}
+		return any;
+	}
+
+	/// Each plane's clusters in counter-clockwise order, repetitions removed. Planes without a dual hull vertex: empty.
+	std::vector<Indices> faceRings(std::size_t planes, const Triangles& triangles, const Edges& edges, const Clusters& clusters)
+	{
+		Indices start(planes, -1);
+		for (std::size_t t = 0; t < triangles.size(); ++t)
+			for (int corner : triangles[t])
+				start[std::size_t(corner)] = int(t);
+		std::vector<Indices> rings(planes);
+		for (std::size_t i = 0; i < planes; ++i) {
+			if (start[i] < 0) continue;
+			Indices& ring = rings[i];
+			int      t    = start[i];
+			do {
+				const int vertex = clusters.of[std::size_t(t)];
+				if (ring.empty() || ring.back() != vertex) ring.push_back(vertex);
+				const exact::Triangle& corners = triangles[std::size_t(t)];
+				const std::size_t      here    = corners[0] == int(i) ? 0 : corners[1] == int(i) ? 1 : 2;
+				t                              = edges.at({ int(i), corners[(here + 2) % 3] });
+			} while (t != start[i]);
+			while (ring.size() > 1 && ring.front() == ring.back())
+				ring.pop_back();
+		}
+		return rings;
+	}
+
+	/// Removes faces with fewer than three vertices and then vertices on fewer than three faces, until all is well.
+	void removeDegenerate(std::vector<Indices>& rings, std::size_t vertices)
+	{
+		for (bool changed = true; changed;) {
+			changed = false;
+			Indices faces(vertices, 0);
+			for (Indices& ring : rings) {
+				if (ring.size() < 3) ring.clear();
+				for (int vertex : ring)
+					++faces[std::size_t(vertex)];
+			}
+			for (Indices& ring : rings) {
+				const auto end = std::remove_if(
+				        ring.begin(), ring.end(), [&](int vertex) { return faces[std::size_t(vertex)] < 3; });
+				changed |= end != ring.end();
+				ring.erase(end, ring.end());
+			}
+		}
+	}
+
+	/// Still in the local frame.
+	Polyhedron assembled(const LocalPlanes& local, const Triangles& triangles, const Edges& edges, const Clusters& clusters)
+	{
+		std::vector<Indices> rings = faceRings(local.normals.size(), triangles, edges, clusters);
+		removeDegenerate(rings, triangles.size());
+		Polyhedron shape;
+		Indices    number(triangles.size(), -1);
+		// each face begins with the same vertex whichever way the hull cut its coplanar facets into triangles
+		const auto earlier = [&](int a, int b) { return clusters.members[std::size_t(a)] < clusters.members[std::size_t(b)]; };
+		const auto addFace = [&](std::size_t i) {
+			std::rotate(rings[i].begin(), std::min_element(rings[i].begin(), rings[i].end(), earlier), rings[i].end());
+			for (int& vertex : rings[i]) {
+				int& final = number[std::size_t(vertex)];
+				if (final < 0) {
+					final = int(shape.vertices.size());
+					shape.vertices.push_back(meeting(local, clusters.members[std::size_t(vertex)]).point);
+				}
+				vertex = final;
+			}
+			shape.faces.push_back(rings[i]);
+			shape.planeOfFace.push_back(local.plane[i]);
+		};
+		for (std::size_t i = 0; i < rings.size(); ++i) // caps stand behind all others
+			if (!rings[i].empty()) addFace(i);
+		return shape;
+	}
+
+	/// Each edge shared by two faces that run through it in opposite directions, and Euler's V − E + F = 2.
+	bool isClosed(const Polyhedron& shape)
+	{
+		std::map<std::pair<int, int>, int> uses;
+		for (const Indices& face : shape.faces)
+			for (std::size_t k = 0; k < face.size(); ++k)
+				++uses[{ face[k], face[(k + 1) % face.size()] }];
+		for (const auto& use : uses)
+			if (use.second != 1 || uses.count({ use.first.second, use.first.first }) == 0) return false;
+		return shape.vertices.size() + shape.faces.size() == uses.size() / 2 + 2;
+	}
+
+} // namespace
+
+Polyhedron polyhedron(const HalfSpaces& unit, Real thickness)
+{
+	const HalfSpaces set = normalised(unit);
+	if (set.dimension == 2 && !(thickness > 0 && (Eigen::numext::isfinite)(thickness)))
+		throw std::invalid_argument("thickness: it must be positive and finite; give the body's length along z");
+	if (set.dimension == 2 && !(thickness >= construction::smallestLength && thickness <= construction::largestLength))
+		throw std::invalid_argument("thickness: it must lie between " + numberText(construction::smallestLength) + " and "
+		        + numberText(construction::largestLength) + "; choose another unit of length");
+
+	LocalPlanes local     = aboutInnerPoint(set);
+	Triangles   triangles = dualHull(local);
+	Real        extent    = checkedExtent(set, local, triangles);
+	while (dropCoplanar(local, edgesOf(triangles), extent)) {
+		triangles = dualHull(local);
+		extent    = checkedExtent(set, local, triangles);
+	}
+	const Edges edges     = edgesOf(triangles);
+	const Real  tolerance = construction::coincidence * local.size(extent);
+	const auto  misfit    = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
+	const auto  outside   = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
+	Polyhedron  shape     = assembled(local, triangles, edges, cluster(triangles, edges, misfit, outside, tolerance));
+	// joining can only fail where the set is as thin as rounding somewhere; slivers are the lesser evil then
+	if (!isClosed(shape)) shape = assembled(local, triangles, edges, Clusters(triangles));
+
+	for (Vector3& vertex : shape.vertices) {
+		const bool top = vertex.z() > 0;
+		vertex         = local.centre + local.unit * vertex;
+		if (set.dimension == 2) vertex.z() = top ? Real(thickness / 2) : Real(-thickness / 2);
+	}
+	return shape;
+}
+
+HalfSpaces withoutRedundant(const HalfSpaces& unit)
+{
+	HalfSpaces kept;
+	kept.dimension = unit.dimension;
+	for (int i : polyhedron(unit).planeOfFace) {
+		if (i < 0) continue;
+		kept.normals.push_back(unit.normals[std::size_t(i)]);
+		kept.offsets.push_back(unit.offsets[std::size_t(i)]);
+	}
+	return kept;
+}
+
+} // namespace polytope

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "shape/CgalGeometry.hpp"
+#include "shape/ConstructionTolerances.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+/// A hull of rounded points shows one facet as several triangles; which of them belong together?
+///
+/// Neighbouring triangles are joined while the misfit of all their corners together (the distance by which they miss a
+/// common plane) stays within a tolerance. The corners may be points (hullOf: joined triangles are a facet) or the polar
+/// duals of planes (polyhedron: joined triangles are a vertex in which many planes meet, and the misfit is how far these
+/// planes would have to move to meet in a point). The misfit is a backward error: it measures what the input's rounding
+/// can have done, whereas distances between nearby vertices grow without limit at a blunt or a sharp vertex.
+///
+/// A fit alone is not enough: corners that coincide or lie on a line fit planes of any direction, also such as cut through
+/// the body. So what was fitted must also leave the whole body on one side.
+namespace polytope {
+
+using Indices   = std::vector<int>;
+using Triangles = exact::Triangles;
+using Edges     = std::map<std::pair<int, int>, int>; ///< directed edge → the triangle on its left
+
+inline Edges edgesOf(const Triangles& triangles)
+{
+	Edges edges;
+	for (std::size_t t = 0; t < triangles.size(); ++t)
+		for (std::size_t k = 0; k < 3; ++k)
+			edges[{ triangles[t][k], triangles[t][(k + 1) % 3] }] = int(t);
+	return edges;
+}
+
+struct Clusters {
+	Indices              of;      ///< triangle → the number of its cluster
+	std::vector<Indices> members; ///< cluster → its corners, ascending; empty for numbers not in use
+
+	/// Each triangle on its own.
+	explicit Clusters(const Triangles& triangles) : of(triangles.size())
+	{
+		std::iota(of.begin(), of.end(), 0);
+		for (exact::Triangle triangle : triangles) {
+			std::sort(triangle.begin(), triangle.end());
+			members.emplace_back(triangle.begin(), triangle.end());
+		}
+	}
+
+	int root(int t) const
+	{
+		while (of[std::size_t(t)] != t)
+			t = of[std::size_t(t)];
+		return t;
+	}
+
+	Indices together(int a, int b) const
+	{
+		const Indices &first = members[std::size_t(a)], &second = members[std::size_t(b)];
+		Indices        both;
+		std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(both));
+		return both;
+	}
+};
+
+/// Neighbours that fit together, the best first.
+template <class Misfit>
+std::vector<std::pair<int, int>> fittingPairs(const Clusters& single, const Edges& edges, const Misfit& misfit, const Real& tolerance)
+{
+	std::vector<std::pair<Real, std::pair<int, int>>> pairs;
+	for (const auto& [edge, left] : edges) {
+		if (edge.first > edge.second) continue;
+		const int  right = edges.at({ edge.second, edge.first });
+		const Real error = misfit(single.together(left, right));
+		if (error <= tolerance) pairs.push_back({ error, { left, right } });
+	}
+	std::sort(pairs.begin(), pairs.end());
+	std::vector<std::pair<int, int>> result;
+	for (const auto& pair : pairs)
+		result.push_back(pair.second);
+	return result;
+}
+
+/// Joins neighbours where misfit(corners) ≤ tolerance and outside(corners) ≤ construction::support × tolerance: how far
+/// the body reaches beyond what fits these corners best.
+template <class Misfit, class Outside>
+Clusters cluster(const Triangles& triangles, const Edges& edges, const Misfit& misfit, const Outside& outside, const Real& tolerance)
+{
+	Clusters   result(triangles);
+	const auto pairs = fittingPairs(result, edges, misfit, tolerance);
+	// again while anything changes: a sliver that pointed anywhere by itself fits in once its neighbour has grown
+	for (bool changed = true; changed;) {
+		changed = false;
+		for (const auto& pair : pairs) {
+			int a = result.root(pair.first), b = result.root(pair.second);
+			if (a == b) continue;
+			if (result.members[std::size_t(a)].size() < result.members[std::size_t(b)].size())
+				std::swap(a, b); // keeps paths short
+			Indices both = result.together(a, b);
+			if (misfit(both) > tolerance || outside(both) > construction::support * tolerance) continue;
+			result.members[std::size_t(a)] = std::move(both);
+			result.members[std::size_t(b)].clear();
+			result.of[std::size_t(b)] = a;
+			changed                   = true;
+		}
+	}
+	for (std::size_t t = 0; t < triangles.size(); ++t)
+		result.of[t] = result.root(int(t));
+	return result;
+}
+
+} // namespace polytope
