@@ -2,7 +2,7 @@
 """Simulation A of Boon, Houlsby & Utili (2012): 200 regular polyhedra fall onto a floor between four walls.
 
 Runs one solid or all five and shows that they come to rest (the paper's Fig. 5) and what the contact detection costs: µs
-per contact problem against the number of planes of both bodies, for the linear programme, the centre by Newton's method
+per contact problem against the number of planes of both bodies, for the linear program, the centre by Newton's method
 and by Ipopt, warm-started from the last step's answer and cold (Fig. 6). Writes results, pictures, ParaView files and
 findings.json. Expected: all particles inside, no query without an answer, kinetic energy below 5e-4 N m g L at the end.
 Heaps are chaotic: other ranges are compared over several seeds. Ends with 1 if what must hold does not.
@@ -56,7 +56,7 @@ paperGrowth = {'lpColdMicroseconds': 'O(N)', 'ipoptMicroseconds': 'almost none'}
 """With N, the planes of both bodies."""
 paperBands = (1e3, 1e4, 'paper: IPOPT, “a few ms”'), (1e1, 1e2, 'paper: LP and log-barrier centre, “tens of µs”')
 """In Fig. 6: from, to [µs]."""
-paperText = 'tens of µs (linear programme by CPLEX, log-barrier centre) and a few ms (IPOPT)'
+paperText = 'tens of µs (linear program by CPLEX, log-barrier centre) and a few ms (IPOPT)'
 
 wholeNotNegative = number(least=0, whole=True)
 parameters = {

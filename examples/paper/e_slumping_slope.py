@@ -4,7 +4,7 @@
 Blocks between bedding that dips as the face and cross joints that dip into the slope; base and back are fixed. No block can slide out,
 even without friction. The script settles the slope, lowers the friction angle until a block has moved by more than 0.1 m, and finds
 the angle at which that happens; it then lets the slope fail and counts the types of contacts on the way. Beside it stands a limit
-analysis (static theorem, linear programme) with its mechanism: 19.75° for the geometry given here, the outer layer alone, its
+analysis (static theorem, linear program) with its mechanism: 19.75° for the geometry given here, the outer layer alone, its
 lower five blocks turning backward as one. Expected: a failure between 19° and 22.5°, by the same mechanism.
 Ends with 1 if the angle, the mode or the analysis is not as expected, or a contact query had no answer.
 
@@ -165,7 +165,7 @@ def main():
 	plotMechanism(given.output / 'mechanism.png', given.slope, report.limit, failure.motion[failure.failed])
 	findings.figure(
 		'mechanism.png',
-		'The mechanism: dual of the linear programme, and motion of the blocks when the slope has failed. Blue: blocks that turn.',
+		'The mechanism: dual of the linear program, and motion of the blocks when the slope has failed. Blue: blocks that turn.',
 	)
 	plotReduction(given.output / 'reduction.png', run.result, report.limit)
 	findings.figure('reduction.png', 'Motion since settling at each friction angle.')

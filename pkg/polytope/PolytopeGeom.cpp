@@ -22,9 +22,10 @@ polytope::PairMemory PolytopeGeom::memory() const
 		memory.basis[k] = basis[k];
 	memory.hasBasis = basis[4];
 	memory.hasPoint = basis[5];
+	memory.weights  = weights;
 	memory.point    = { point1, point2 };
 	memory.level    = level;
-	memory.dual     = dual;
+	memory.dualDirection = dual;
 	return memory;
 }
 
@@ -34,7 +35,8 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point1 = memory.point[0];
 	point2 = memory.point[1];
 	level  = memory.level;
-	dual   = memory.dual;
+	dual   = memory.dualDirection;
+	weights = memory.weights;
 }
 
 namespace {

@@ -213,7 +213,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "Whether the bodies touch: s* < −tolerance, in the conservative model Φ < 0.")
 	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
 	        .add_property("infeasibility", &field<Real, &ContactResult::infeasibility>,
-	                "Optimum s* of the phase-one linear programme [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
+	                "Optimum s* of the phase-one linear program [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
 	                "in the overlap.")
 	        .add_property(
 	                "point", +[](const Contact& c) { return c.point; },
@@ -233,12 +233,12 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; },
 	                "Centroid of the contact section, world coordinates [m].")
 	        .add_property("dualDirection", &field<Vector3r, &ContactResult::dualDirection>,
-	                "Σ over b1's planes of λ_i a_i, λ the linear programme's dual: moved by |s*|/|dualDirection| along it, b2 is free "
+	                "Σ over b1's planes of λ_i a_i, λ the linear program's dual: moved by |s*|/|dualDirection| along it, b2 is free "
 	                "of b1.")
 	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
 	        .add_property(
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
-	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear programme.");
+	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear program.");
 	py::def("contact", &contact,
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),

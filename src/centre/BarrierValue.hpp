@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-/// Value of the phase-one linear programme (SimplexLp.hpp) with an inverse barrier of length μ: over all planes of both bodies
+/// Value of the phase-one linear program (SimplexLp.hpp) with an inverse barrier of length μ: over all planes of both bodies
 ///
 ///     Φ = min over (x, s) of [ s + μ² Σ 1/σ_i ] − 2√2 μ,      σ_i = s + d_i − a_i·x > 0.
 ///
 /// Smooth in the bodies' poses, and the energy of the conservative contact is a function of it (ConservativeContact.hpp).
-/// With λ_i = μ²/σ_i² the minimiser has Σ λ_i a_i = 0, Σ λ_i = 1: weights of the linear programme's dual. Unit normals make
+/// With λ_i = μ²/σ_i² the minimiser has Σ λ_i a_i = 0, Σ λ_i = 1: weights of the linear program's dual. Unit normals make
 /// every λ_i ≤ ½ (λ_i = |Σ over the others of λ_j a_j| ≤ 1 − λ_i), hence Φ ≥ s*: separated bodies have Φ ≥ 0.
 ///
 /// Newton on D + 1 unknowns in primal-dual form: with u_i = √λ_i, the equations σ_i u_i = μ, Σ u_i² z_i = (0; 1) with

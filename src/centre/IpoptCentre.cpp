@@ -31,7 +31,7 @@ namespace {
 	private:
 		ApplicationReturnStatus optimise();
 
-		SmartPtr<IpoptProgramme>    programme_ = new IpoptProgramme;
+		SmartPtr<IpoptProgram>    program_ = new IpoptProgram;
 		SmartPtr<IpoptLinearSolver> linear_    = new IpoptLinearSolver;
 		SmartPtr<IpoptApplication>  application_;
 		SmartPtr<NLP>               adapter_;
@@ -65,7 +65,7 @@ namespace {
 		if (algorithm_) return application_->ReOptimizeNLP(adapter_);
 		SmartPtr<SymLinearSolver>  linear  = new TSymLinearSolver(GetRawPtr(linear_), nullptr);
 		SmartPtr<AlgorithmBuilder> builder = new AlgorithmBuilder(new StdAugSystemSolver(*linear), "block elimination");
-		adapter_                           = new TNLPAdapter(GetRawPtr(programme_), ConstPtr(application_->Jnlst()));
+		adapter_                           = new TNLPAdapter(GetRawPtr(program_), ConstPtr(application_->Jnlst()));
 		algorithm_                         = true;
 		return application_->OptimizeNLP(adapter_, builder);
 	}
@@ -74,20 +74,20 @@ namespace {
 	{
 		if (!IsValid(application_)) return IpoptOutcome::Failed;
 		linear_->setDimension(dimension);
-		programme_->start(dimension, count, normal, offset, x);
-		if (programme_->inside()) programme_->moveToMiddle();
+		program_->start(dimension, count, normal, offset, x);
+		if (program_->inside()) program_->moveToMiddle();
 		// A round ends where Ipopt's tolerance, rounding or the limit of iterations ends it. Each starts from the last one's
 		// point with a scaling of its own, until one finds nothing to do: then its numbers were about one.
 		for (int round = 0; round < tolerance::ipoptRounds; ++round) {
-			programme_->scale();
+			program_->scale();
 			const ApplicationReturnStatus status = optimise();
 			if (IsValid(application_->Statistics())) iterations += application_->Statistics()->IterationCount();
-			const Real moved  = programme_->moveToSolution();
-			const bool inside = programme_->inside();
+			const Real moved  = program_->moveToSolution();
+			const bool inside = program_->inside();
 			if (!(moved >= 0) || (!inside && status != Maximum_Iterations_Exceeded)) return IpoptOutcome::Failed;
 			if (inside && status == Solve_Succeeded && moved <= tolerance::ipoptMove) {
 				for (int k = 0; k < dimension; ++k)
-					x[k] = programme_->point()[k];
+					x[k] = program_->point()[k];
 				return IpoptOutcome::Converged;
 			}
 		}

@@ -3,7 +3,7 @@
 
 #include "numbers/Real.hpp"
 
-/// Analytic centre the way the paper solves it (Boon et al. 2012, section 2.6, Eqs 19-36): a nonlinear programme with one
+/// Analytic centre the way the paper solves it (Boon et al. 2012, section 2.6, Eqs 19-36): a nonlinear program with one
 /// slack variable a plane, scaled, handed to Ipopt (Wächter & Biegler 2006, Math. Program. 106:25-57). The way out where
 /// Newton on Eq. 10 (AnalyticCentre.hpp) gives up, and a second opinion on it.
 ///

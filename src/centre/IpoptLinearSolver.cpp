@@ -28,7 +28,7 @@ ESymSolverStatus IpoptLinearSolver::factorise(const Index* rows, const Index* co
 		const int row = std::max(rows[i], columns[i]) - 1, column = std::min(rows[i], columns[i]) - 1;
 		if (row == column) diagonal_[row] += values_[i];
 		else if (row >= firstMultiplier && column < dimension_) constraints_(row - firstMultiplier, column) += values_[i];
-		else if (row != column + planes_ || values_[i] != 1) return SYMSOLVER_FATAL_ERROR; // not this programme
+		else if (row != column + planes_ || values_[i] != 1) return SYMSOLVER_FATAL_ERROR; // not this program
 	}
 	Eigen::MatrixXd stack(dimension_ + planes_, dimension_);
 	stack.setZero();
@@ -36,7 +36,7 @@ ESymSolverStatus IpoptLinearSolver::factorise(const Index* rows, const Index* co
 		stack(k, k) = std::sqrt(diagonal_[k]);
 	for (int i = 0; i < planes_; ++i) {
 		const double p = diagonal_[dimension_ + i], delta = -diagonal_[firstMultiplier + i];
-		// P > 0 makes as many eigenvalues negative as there are planes; it is, for the programme is convex
+		// P > 0 makes as many eigenvalues negative as there are planes; it is, for the program is convex
 		if (!(p > 0)) return SYMSOLVER_WRONG_INERTIA;
 		stack.row(dimension_ + i) = std::sqrt(p / (1 + p * delta)) * constraints_.row(i);
 	}

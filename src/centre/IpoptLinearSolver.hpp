@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// Ipopt's linear systems for the programme of IpoptProgramme.hpp, in its unknowns u (2 or 3), slacks σ and multipliers λ (one a
+/// Ipopt's linear systems for the program of IpoptProgram.hpp, in its unknowns u (2 or 3), slacks σ and multipliers λ (one a
 /// plane each):
 ///
 ///     ⎡ E   0   Cᵀ ⎤ ⎡u⎤         E, P, Δ diagonal; σ and λ are eliminated, and what is left for u is
@@ -21,7 +21,7 @@ namespace polytope {
 
 class IpoptLinearSolver : public Ipopt::SparseSymLinearSolverInterface {
 public:
-	/// Number of unknowns u, to be set before a programme is solved.
+	/// Number of unknowns u, to be set before a program is solved.
 	void setDimension(int dimension) { dimension_ = dimension; }
 
 	bool                    InitializeImpl(const Ipopt::OptionsList&, const std::string&) override { return true; }

@@ -10,7 +10,7 @@ namespace polytope {
 
 using namespace Ipopt;
 
-void IpoptProgramme::start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x)
+void IpoptProgram::start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x)
 {
 	dimension_ = dimension;
 	normal_.clear();
@@ -29,12 +29,12 @@ void IpoptProgramme::start(int dimension, int count, const Real* const* normal, 
 	planes_ = int(slack_.size());
 }
 
-bool IpoptProgramme::inside() const
+bool IpoptProgram::inside() const
 {
 	return std::all_of(slack_.begin(), slack_.end(), [](const Real& slack) { return slack > 0; });
 }
 
-IpoptProgramme::Chord IpoptProgramme::chord(const std::vector<Real>& slacks, int k) const
+IpoptProgram::Chord IpoptProgram::chord(const std::vector<Real>& slacks, int k) const
 {
 	Chord chord { padOffset, padOffset };
 	for (int i = 0; i < planes_; ++i) {
@@ -45,7 +45,7 @@ IpoptProgramme::Chord IpoptProgramme::chord(const std::vector<Real>& slacks, int
 	return chord;
 }
 
-void IpoptProgramme::moveToMiddle()
+void IpoptProgram::moveToMiddle()
 {
 	for (int k = 0; k < dimension_; ++k) {
 		const Chord c    = chord(slack_, k);
@@ -56,7 +56,7 @@ void IpoptProgramme::moveToMiddle()
 	}
 }
 
-void IpoptProgramme::scale()
+void IpoptProgram::scale()
 {
 	solution_.clear();
 	// at a plane that passes through x₀: the length nearest to nothing that there is
@@ -81,7 +81,7 @@ void IpoptProgramme::scale()
 			coefficient_[std::size_t(i) * dimension_ + k] = double(plane(i, k) * unit_[k] / slackUnit_[i]);
 }
 
-Real IpoptProgramme::moveToSolution()
+Real IpoptProgram::moveToSolution()
 {
 	using std::sqrt;
 	if (solution_.empty()) return -1; // Ipopt ended in an error
@@ -102,7 +102,7 @@ Real IpoptProgramme::moveToSolution()
 	return sqrt(sum);
 }
 
-bool IpoptProgramme::get_nlp_info(Index& n, Index& m, Index& nonZerosJacobian, Index& nonZerosHessian, IndexStyleEnum& style)
+bool IpoptProgram::get_nlp_info(Index& n, Index& m, Index& nonZerosJacobian, Index& nonZerosHessian, IndexStyleEnum& style)
 {
 	n                = dimension_ + planes_;
 	m                = planes_;
@@ -112,7 +112,7 @@ bool IpoptProgramme::get_nlp_info(Index& n, Index& m, Index& nonZerosJacobian, I
 	return true;
 }
 
-bool IpoptProgramme::get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper)
+bool IpoptProgram::get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* constraintLower, Number* constraintUpper)
 {
 	constexpr Number infinite = 1e20; // beyond Ipopt's nlp_upper_bound_inf
 	for (Index j = 0; j < n; ++j) {
@@ -124,14 +124,14 @@ bool IpoptProgramme::get_bounds_info(Index n, Number* lower, Number* upper, Inde
 	return true;
 }
 
-bool IpoptProgramme::get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*)
+bool IpoptProgram::get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*)
 {
 	for (Index j = 0; j < n; ++j)
 		z[j] = j < dimension_ ? 0 : 1;
 	return true;
 }
 
-bool IpoptProgramme::eval_f(Index n, const Number* z, bool, Number& value)
+bool IpoptProgram::eval_f(Index n, const Number* z, bool, Number& value)
 {
 	value = 0;
 	for (Index j = dimension_; j < n; ++j) {
@@ -141,14 +141,14 @@ bool IpoptProgramme::eval_f(Index n, const Number* z, bool, Number& value)
 	return true;
 }
 
-bool IpoptProgramme::eval_grad_f(Index n, const Number* z, bool, Number* gradient)
+bool IpoptProgram::eval_grad_f(Index n, const Number* z, bool, Number* gradient)
 {
 	for (Index j = 0; j < n; ++j)
 		gradient[j] = j < dimension_ ? 0 : -1 / z[j];
 	return true;
 }
 
-bool IpoptProgramme::eval_g(Index, const Number* z, bool, Index m, Number* constraint)
+bool IpoptProgram::eval_g(Index, const Number* z, bool, Index m, Number* constraint)
 {
 	for (Index i = 0; i < m; ++i) {
 		constraint[i] = z[dimension_ + i];
@@ -158,7 +158,7 @@ bool IpoptProgramme::eval_g(Index, const Number* z, bool, Index m, Number* const
 	return true;
 }
 
-bool IpoptProgramme::eval_jac_g(Index, const Number*, bool, Index m, Index, Index* rows, Index* columns, Number* values)
+bool IpoptProgram::eval_jac_g(Index, const Number*, bool, Index m, Index, Index* rows, Index* columns, Number* values)
 {
 	Index next = 0;
 	for (Index i = 0; i < m; ++i)
@@ -173,7 +173,7 @@ bool IpoptProgramme::eval_jac_g(Index, const Number*, bool, Index m, Index, Inde
 	return true;
 }
 
-bool IpoptProgramme::eval_h(
+bool IpoptProgram::eval_h(
         Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows, Index* columns, Number* values)
 {
 	// the constraints are linear: of the Lagrangian only the objective's own diagonal is left
@@ -185,7 +185,7 @@ bool IpoptProgramme::eval_h(
 	return true;
 }
 
-void IpoptProgramme::finalize_solution(SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*,
+void IpoptProgram::finalize_solution(SolverReturn, Index n, const Number* z, const Number*, const Number*, Index, const Number*,
         const Number*, Number, const IpoptData*, IpoptCalculatedQuantities*)
 {
 	solution_.assign(z, z + n);

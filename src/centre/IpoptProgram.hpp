@@ -17,7 +17,7 @@ namespace polytope {
 /// one if x₀ is about in the middle of the overlap and D_k about half its width along axis k, however thin the overlap
 /// is. Outside, b_i is slack_i/S_i, down to −1: that slacks are unknowns of their own lets Ipopt start there, too.
 /// Unknowns: u (`dimension`), then σ (one a plane).
-class IpoptProgramme : public Ipopt::TNLP {
+class IpoptProgram : public Ipopt::TNLP {
 public:
 	/// Slacks at x₀ = x.
 	void start(int dimension, int count, const Real* const* normal, const Real* offset, const Real* x);
@@ -28,7 +28,7 @@ public:
 	/// Moves x₀, inside, along one axis after the other to the middle of the chord, across the overlap's thin axis last.
 	void moveToMiddle();
 
-	/// Makes half the chords' lengths the axes' units, and writes the programme's coefficients.
+	/// Makes half the chords' lengths the axes' units, and writes the program's coefficients.
 	void scale();
 
 	/// Moves x₀ to the solution. Gives how far that was, in the overlap's local norm at the old x₀: √Σ (a_i·step/S_i)²;

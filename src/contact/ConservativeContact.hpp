@@ -21,7 +21,7 @@
 namespace polytope {
 
 /// Start of the Newton iterations: the last minimiser, carried by both bodies, or, if that has become worse, the linear
-/// programme's optimum (x, s). Lifted until every slack has room.
+/// program's optimum (x, s). Lifted until every slack has room.
 template <class R, int D, int W>
 POLYTOPE_INLINE void startBarrier(const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, const PairMemory& memory, bool warm,
         const R* x, R s, R mu, BarrierPoint<R, D>& start)
@@ -40,49 +40,80 @@ POLYTOPE_INLINE void startBarrier(const PairPlanes<R, D>& planes, const ContactF
 	start.level = maxOf<R>(s + room, room / 4 - smallest);
 }
 
-/// After the linear programme: x its point in the planes' frame, s its value, `below` a bound of it from the weights alone.
-template <class R, int D, int W>
-POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
-        ContactFrame<R, D>& f, const R* x, R s, R below, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+/// Weak duality: any weights with Σ λ = 1, Σ λ a = 0 bound Φ from below by −Σ λ d + 2μ (Σ √λ − √2). `below`: −Σ λ d, at the least.
+template <class R, int D> POLYTOPE_INLINE bool apartByWeights(const LpBasis<R, D>& basis, R below, R mu)
 {
-	using std::isfinite;
 	using std::sqrt;
-	const R smaller = minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
-	const R given   = settings.barrier * smaller;
-	const R mu      = maxOf<R>(given, R(tolerance::gapBarrier) * s);
-	const R root2   = sqrt(R(2));
-	out.inContact   = false;
-	out.hasGeometry = false;
-	out.status      = ContactStatus::Separated;
-	if (!(given > 0) || !isfinite(given)) {
-		out.status = ContactStatus::Failed;
-		return;
-	}
-	// weak duality: any weights with Σ λ = 1, Σ λ a = 0 bound Φ from below by −Σ λ d + 2μ (Σ √λ − √2)
-	R sum = -root2;
+	R sum = -sqrt(R(2));
 	for (int k = 0; k <= D; ++k)
-		sum += sqrt(maxOf<R>(R(out.weights[k]), 0));
-	if (!settings.geometryAcrossGap && below + 2 * mu * sum >= 0) {
-		rememberWeights<D>(out.weights, memory);
-		return;
-	}
+		sum += sqrt(maxOf<R>(basis.weight[k], 0));
+	return below + 2 * mu * sum >= 0;
+}
 
-	BarrierPoint<R, D> point;
-	startBarrier<R, D, W>(planes, f, memory, settings.warmStart && memory.hasPoint, x, s, mu, point);
+/// Newton from `point`, in axes turned to the planes' own where those of the contact do not do; planes and frame turn with it.
+template <class R, int D, int W>
+POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+        BarrierPoint<R, D>& point, ContactResult& out)
+{
 	BarrierWeights weights = BarrierWeights::FromSlacks;
-	BarrierStatus  solved;
 	for (int turns = 0;; ++turns) {
-		solved = minimiseBarrier<R, D, W>(
+		const BarrierStatus solved = minimiseBarrier<R, D, W>(
 		        planes, mu, settings.newtonTolerance, point, weights, turns < tolerance::turns, out.newtonIterations);
-		if (solved != BarrierStatus::Skewed) break;
+		if (solved != BarrierStatus::Skewed) return solved;
 		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
 		turnPlanes<R, D, W>(turn, planes);
 		turnFrame(f, turn);
 		turnVector<R, D>(turn, point.x);
 		weights = BarrierWeights::Stepped; // as they were before the turn
 	}
-	out.decrement = point.change;
-	if (solved == BarrierStatus::NotConverged) out.status = ContactStatus::CentreNotConverged;
+}
+
+/// n to unit length; false for coincident bodies, or one wholly inside the other: there is no force, so any direction will do.
+template <class R, int D> POLYTOPE_INLINE bool unitDirection(R length, R* n)
+{
+	const bool some = length > R(tolerance::direction);
+	for (int k = 0; k < D; ++k)
+		n[k] = some ? n[k] / length : R(k == D - 1);
+	return some;
+}
+
+/// Status of a pair with Φ < 0, n its force direction of `length` before it is made a unit vector; `held`: what holds the point along a face.
+template <class R> POLYTOPE_INLINE ContactStatus barrierContactStatus(BarrierStatus solved, bool directed, R length, R held)
+{
+	if (!directed) return ContactStatus::NoDirection;
+	if (solved == BarrierStatus::NotConverged) return ContactStatus::CentreNotConverged;
+	// flat faces of thin bodies: far side planes' barrier is all that holds the point along the face, and planes tilted by their own
+	// rounding pull at it
+	const bool drifts = R(tolerance::noise * tolerance::rounding) * length > R(tolerance::stagnation) * held;
+	return solved == BarrierStatus::RoundingLimited || drifts ? ContactStatus::RoundingLimited : ContactStatus::Contact;
+}
+
+/// After the linear program, whose point x is in the planes' frame.
+template <class R, int D, int W>
+POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
+        ContactFrame<R, D>& f, const LpBasis<R, D>& basis, const R* x, R reach, PairMemory& memory, ContactWorkspace& workspace,
+        ContactResult& out)
+{
+	using std::isfinite;
+	const R s     = basis.infeasibility;
+	const R given = settings.barrier * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+	const R mu    = maxOf<R>(given, R(tolerance::gapBarrier) * s);
+	const bool may  = given > 0 && isfinite(given);
+	out.inContact   = false;
+	out.hasGeometry = false;
+	out.status      = may ? ContactStatus::Separated : ContactStatus::Failed;
+	if (!may) return;
+	if (!settings.geometryAcrossGap && apartByWeights<R, D>(basis, lowerBound<R, D>(basis, reach), mu)) {
+		rememberWeights<D>(basis.weight, memory);
+		return;
+	}
+
+	BarrierPoint<R, D> point;
+	startBarrier<R, D, W>(planes, f, memory, settings.warmStart && memory.hasPoint, x, s, mu, point);
+	const BarrierStatus solved    = solveBarrier<R, D, W>(settings, mu, planes, f, point, out);
+	const bool          converged = solved != BarrierStatus::NotConverged;
+	out.decrement                 = point.change;
+	if (!converged) out.status = ContactStatus::CentreNotConverged;
 
 	R       n[D], held;
 	const R value    = barrierValue<R, D, W>(planes, mu, point, n, held);
@@ -90,30 +121,17 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	out.barrierValue = value;
 	memory.level     = point.level;
 	memory.point     = { toBody<R, D>(f, 0, point.x), toBody<R, D>(f, 1, point.x) };
-	memory.hasPoint  = solved != BarrierStatus::NotConverged;
+	memory.hasPoint  = converged;
 	if (!(value < 0) && !settings.geometryAcrossGap) return;
 
-	out.inContact     = value < 0;
-	out.hasGeometry   = true;
-	out.depth         = -4 * value * length;
-	out.energy        = value < 0 ? 2 * value * value : R(0);
-	out.rockingArm    = solved == BarrierStatus::NotConverged ? R(0) : rockingArm<R, D>(point, n); // its Hessian is the minimiser's
-	out.dualDirection = worldDirection<R, D>(f, n);
-	if (out.inContact && solved != BarrierStatus::NotConverged)
-		out.status = solved == BarrierStatus::RoundingLimited ? ContactStatus::RoundingLimited : ContactStatus::Contact;
-	// flat faces of thin bodies: far side planes' barrier is all that holds the point along the face, and planes tilted by their own
-	// rounding pull at it
-	if (out.status == ContactStatus::Contact && R(tolerance::noise * tolerance::rounding) * length > R(tolerance::stagnation) * held)
-		out.status = ContactStatus::RoundingLimited;
-	if (length > R(tolerance::direction)) {
-		for (int k = 0; k < D; ++k)
-			n[k] /= length;
-	} else {
-		// coincident bodies, or one wholly inside the other: no force, so any direction will do
-		if (out.inContact) out.status = ContactStatus::NoDirection;
-		for (int k = 0; k < D; ++k)
-			n[k] = k == D - 1;
-	}
+	out.inContact       = value < 0;
+	out.hasGeometry     = true;
+	out.depth           = -4 * value * length;
+	out.energy          = value < 0 ? 2 * value * value : R(0);
+	out.rockingArm      = converged ? rockingArm<R, D>(point, n) : R(0); // its Hessian is the minimiser's
+	out.dualDirection   = worldDirection<R, D>(f, n);
+	const bool directed = unitDirection<R, D>(length, n);
+	if (out.inContact) out.status = barrierContactStatus<R>(solved, directed, length, held);
 	out.normal = worldDirection<R, D>(f, n);
 	out.point  = worldPoint<R, D>(in, f, memory.point[f.home]);
 

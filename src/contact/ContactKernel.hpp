@@ -1,106 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "centre/AnalyticCentre.hpp"
 #include "contact/BoundingPlanes.hpp"
 #include "contact/ConservativeContact.hpp"
-#include "contact/ContactNormal.hpp"
-#include "contact/FirstBasis.hpp"
-#include "centre/IpoptCentre.hpp"
-#include "contact/OverlapCentroid.hpp"
-#include "contact/PenetrationDepth.hpp"
-#include "program/SimplexLp.hpp"
-#include "contact/WarmStart.hpp"
+#include "contact/ContactPointRules.hpp"
+#include "contact/NormalAndDepth.hpp"
+#include "contact/PhaseOne.hpp"
 
 #include <chrono>
-#include <cmath>
 
 /// The stages of one query in order, for one dimension D and lane width W. Included by ContactQuery.cpp alone, which
 /// compiles it once per instruction set.
 namespace polytope {
 
-inline long nanoseconds()
-{
-	return long(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
-}
-
-/// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
-/// included, above `least`.
-template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
-{
-	R noise = 0;
-	for (int k = 0; k < D; ++k)
-		reach += abs((*in.centre2)[k]);
-	for (int k = 0; k <= D; ++k)
-		noise += basis.noise[k];
-	return maxOf<R>(lowerBound<R, D>(basis, reach) - noise * reach, least);
-}
-
-/// n_λ = Σ over body 1 of λ_k a_k in the planes' frame.
-template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, R* dual)
-{
-	R share[D + 1];
-	for (int k = 0; k <= D; ++k)
-		share[k] = basis.plane[k] < planes.first ? basis.weight[k] : R(0);
-	for (int j = 0; j < D; ++j) {
-		dual[j] = share[0] * basis.normal[j][0];
-		for (int k = 1; k <= D; ++k)
-			dual[j] += share[k] * basis.normal[j][k];
+/// Time of the stages, if asked for.
+class StageTimer {
+public:
+	explicit StageTimer(bool on)
+	        : on_(on)
+	        , last_(on ? now() : 0)
+	{
 	}
-}
 
-/// Goes from x (inside) towards `target` as far as it stays inside.
-template <class R, int D, int W> POLYTOPE_INLINE void moveInside(const PairPlanes<R, D>& planes, R* x, const R* target)
-{
-	using V = typename Lanes<R, W>::Type;
-	V X[D], step[D];
-	for (int k = 0; k < D; ++k) {
-		X[k]    = broadcast<R, W>(x[k]);
-		step[k] = broadcast<R, W>(target[k] - x[k]);
+	/// Since the last stage's end [ns].
+	void end(long& stage)
+	{
+		if (!on_) return;
+		const long time = now();
+		stage           = time - last_;
+		last_           = time;
 	}
-	V largest = broadcast<R, W>(R(tolerance::interiorStep));
-	for (int i = 0; i < planes.total; i += W) {
-		V rate  = load<R, W>(planes.normal[0] + i) * step[0];
-		V slack = load<R, W>(planes.offset + i) - load<R, W>(planes.normal[0] + i) * X[0];
-		for (int k = 1; k < D; ++k) {
-			const V a = load<R, W>(planes.normal[k] + i);
-			rate += a * step[k];
-			slack -= a * X[k];
-		}
-		largest = maxOf(largest, V(rate / slack));
-	}
-	// largest = 1/t_max where a plane is met before the target
-	const R t = R(tolerance::interiorStep) / -horizontalMin<R, W>(-largest);
-	if (!(t > 0)) return;
-	for (int k = 0; k < D; ++k)
-		x[k] += t * (target[k] - x[k]);
-}
 
-/// Newton from `start`, in axes turned to the overlap's own where those of the contact do not do; x and dual turn with them.
-template <class R, int D, int W>
-POLYTOPE_INLINE CentreStatus newtonCentre(
-        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
-{
-	for (int turns = 0;; ++turns) {
-		const CentreStatus centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
-		if (centre != CentreStatus::Skewed || turns == tolerance::turns) return centre;
-		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
-		turnPlanes<R, D, W>(turn, planes);
-		turnFrame<R, D>(f, turn);
-		turnVector<R, D>(turn, start);
-		turnVector<R, D>(turn, x);
-		turnVector<R, D>(turn, dual);
+private:
+	static long now()
+	{
+		return long(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
 	}
-}
 
-/// Ipopt from the LP's point x, which is left alone where it fails.
-template <class R, int D> POLYTOPE_INLINE ContactStatus ipoptCentre(const PairPlanes<R, D>& planes, R* x, ContactResult& out)
-{
-	const IpoptOutcome outcome = ipoptCentre(D, planes.total, planes.normal, planes.offset, x, out.ipoptIterations);
-	if (outcome == IpoptOutcome::NotAvailable) return ContactStatus::IpoptNotAvailable;
-	out.ipoptSolved = true;
-	return outcome == IpoptOutcome::Converged ? ContactStatus::CentreByIpopt : ContactStatus::CentreNotConverged;
-}
+	bool on_;
+	long last_;
+};
 
 template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairInput& in, ContactWorkspace& workspace)
 {
@@ -116,240 +55,137 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	return planes;
 }
 
-/// Moves internal faces out of reach, and back; `offset`: room for what they had.
-template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
+/// Whether the last step's weights still hold the bodies apart, before a plane is looked at.
+template <class R, int D>
+POLYTOPE_INLINE bool dismissedByLastWeights(const PairInput& in, const ContactSettings& settings, const PairMemory& memory,
+        const ContactFrame<R, D>& f, const ProgramLimits<R>& limits, ContactResult& out)
 {
-	for (int body = 0, next = 0; body < 2; ++body)
-		for (int k = 0; k < internal.count[body]; ++k) {
-			R& one         = planes.offset[planes.begin(body) + internal.plane[body][k]];
-			offset[next++] = one;
-			one            = R(padOffset);
-		}
+	if (!settings.warmStart || !memory.hasBasis || memory.hasPoint || settings.geometryAcrossGap) return false;
+	if (!heldApart<R, D>(in, memory, f.home, f.size, limits.reach, out.infeasibility)) return false;
+	out.dismissed = true;
+	return true;
 }
 
-template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes, const InternalPlanes& internal, const R* offset)
+/// Turns the frame to the optimum's dual direction and moves its origin to x, unless the overlap is so thick, or has turned so little, that
+/// the digits of the present frame are enough. Whether it did; x and dual go along.
+template <class R, int D, int W>
+POLYTOPE_INLINE bool alignFrame(const PairInput& in, StartBasis start, bool pivoted, const LpBasis<R, D>& basis, ContactFrame<R, D>& f,
+        PairPlanes<R, D>& planes, R* x, R* dual)
 {
-	for (int body = 0, next = 0; body < 2; ++body)
-		for (int k = 0; k < internal.count[body]; ++k)
-			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
+	const R thickness = -basis.infeasibility / f.size;
+	if (thickness > R(tolerance::thin)) return false;
+	const bool aimed = start == StartBasis::LastContact ? !leans<R, D>(dual, thickness) : !pivoted && start != StartBasis::AimedFar;
+	if (aimed) return false;
+	const Rotation<R, D> turn = aim<R, D>(f, dual, x);
+	placePair<R, D, W>(in, f, planes);
+	turnVector<R, D>(turn, dual);
+	for (int k = 0; k < D; ++k)
+		x[k] = 0;
+	return true;
 }
 
-/// Largest depth of a contact of two flush faces, which is what is left where internal faces are taken out.
-template <class R> POLYTOPE_INLINE R internalDepth(const PairInput& in)
+/// Grows both bodies, which are `apart`, until they just overlap: there a pair across a gap has point, normal and section. Returns by how
+/// much [m].
+template <class R, int D> POLYTOPE_INLINE R growUntilTouching(PairPlanes<R, D>& planes, R apart, R size)
 {
-	return 2 * R(tolerance::thinContact) * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+	const R grown = apart + R(tolerance::gapSkin) * size;
+	for (int i = 0; i < planes.total; ++i)
+		planes.offset[i] += grown;
+	return grown;
 }
 
-/// Depth along n through the contact point, whose slacks are in the planes (an overlap thinner than the planes' rounding may have its
-/// point outside).
-template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>& planes, const R* n)
+/// `n`: unit normal in the planes' frame; x: contact point. The next step begins there.
+template <class R, int D>
+POLYTOPE_INLINE void publishContact(const PairInput& in, const ContactFrame<R, D>& f, ContactStatus status, const R* x, const R* n,
+        PairMemory& memory, ContactResult& out)
 {
-	return maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
+	out.status      = status;
+	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
+	memory.hasPoint = true;
+	out.normal      = worldDirection<R, D>(f, n);
+	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
+}
+
+/// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program; x: its point, dual: n_λ, both in the
+/// planes' frame. `atOrigin`: the frame's origin is the last step's point.
+template <class R, int D, int W>
+POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+        const LpBasis<R, D>& basis, LpStatus lp, bool touching, bool atOrigin, R* x, R* dual, StageTimer& timer, PairMemory& memory,
+        ContactWorkspace& workspace, ContactResult& out)
+{
+	const R       grown  = touching ? R(0) : growUntilTouching<R, D>(planes, basis.infeasibility, f.size);
+	ContactStatus status = lp == LpStatus::Undecided
+	        ? ContactStatus::LpNotConverged
+	        : contactPoint<R, D, W>(settings, planes, f, basis, memory, touching, atOrigin, x, dual, workspace, out);
+	timer.end(out.centreNanoseconds);
+
+	R n[D];
+	if (touching) {
+		if (settings.bounding) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
+		const ContactStatus normal = normalInOverlap<R, D, W>(in, settings, planes, f, x, dual, n, out.depth);
+		if (status == ContactStatus::Contact) status = normal;
+	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
+
+	publishContact<R, D>(in, f, status, x, n, memory, out);
+	if (settings.section) contactSection<R, D>(in, f, planes, x, n, workspace, out);
+	failUnlessFinite<D>(memory, out);
 }
 
 template <class R, int D, int W>
 POLYTOPE_INLINE void contactKernel(
         const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
-	const long         started   = settings.timed ? nanoseconds() : 0;
-	ContactFrame<R, D> f         = unplacedFrame<R, D>(in);
-	const bool         paper     = settings.contactModel == ContactModel::Paper; // the conservative contact begins where Φ = 0
-	const R            tolerance = paper ? settings.tolerance * f.size : R(0);
-	const R            dismiss   = settings.geometryAcrossGap ? R(padOffset) : -tolerance;
-	// no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
-	const R larger = in.shape[1 - f.home]->boundingRadius();
-	const R reach  = 2 * (larger < R(padOffset) ? larger : f.size);
-
-	const bool known = settings.warmStart && memory.hasBasis;
-	if (known && !memory.hasPoint && !settings.geometryAcrossGap
-	        && heldApart<R, D>(in, memory, f.home, f.size, reach, out.infeasibility)) {
-		out.dismissed = true;
-		if (settings.timed) out.lpNanoseconds = nanoseconds() - started;
+	StageTimer             timer(settings.timed);
+	ContactFrame<R, D>     f      = unplacedFrame<R, D>(in);
+	const ProgramLimits<R> limits = programLimits<R, D>(in, settings, f);
+	if (dismissedByLastWeights<R, D>(in, settings, memory, f, limits, out)) {
+		timer.end(out.lpNanoseconds);
 		return;
 	}
 
-	// 1. the last step's contact, where both bodies have carried it along: its frame and basis
-	LpBasis<R, D>    basis;
 	PairPlanes<R, D> planes = pairRows<R, D>(in, workspace);
-	R                dual[D];
-	setCentres<R, D>(in, f);
-	bool followed = known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dual);
-	bool solved   = false;
-	bool far      = false;
-	if (followed) {
-		placePair<R, D, W>(in, f, planes);
-		recallBasis<R, D>(planes, memory, basis);
-		followed = solved = solveBasis<R, D>(planes, basis) && dualFeasible<R, D>(basis);
+	LpBasis<R, D>    basis;
+	const StartBasis start = startBasis<R, D, W>(in, settings, limits, memory, f, planes, basis);
+	if (start == StartBasis::NoPose) {
+		fail(memory, out);
+		return;
 	}
-	if (!followed) {
-		if (!finitePose<R, D>(in)) { // planes that are no numbers hold nobody off
-			fail(memory, out);
-			return;
-		}
-		homeFrame<R, D>(in, f);
-		// else a first basis, the last step's or the smaller inscribed ball's, in the smaller body's frame
-		const bool warm = known && startFrom<R, D>(in, f, memory.basis, basis, dual) && dualFeasible<R, D>(basis);
-		if (!warm && startFromOwnBall<R, D>(in, f, memory, basis)) {
-			placePairAtHome<R, D, W>(in, f, planes);
-			recallBasis<R, D>(planes, memory, basis);
-			solved = true;
-		} else {
-			if (!warm) startFromBall<R, D>(in, f, memory, basis, dual);
-			const R least = memory.hasBasis ? lowerBound<R, D>(basis, reach) : -R(padOffset);
-			if (least > dismiss) {
-				out.status        = ContactStatus::Separated;
-				out.infeasibility = separatedBound<R, D>(basis, reach, in, -tolerance);
-				out.dismissed     = true;
-				rememberWeights<D>(basis.weight, memory);
-				if (settings.timed) out.lpNanoseconds = nanoseconds() - started;
-				return;
-			}
-
-			// 2. all planes, in a frame turned and moved by what that basis knows
-			// (its point may be far outside both bodies: there every plane would lose digits)
-			const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
-			far          = away > 1;
-			R origin[D];
-			for (int k = 0; k < D; ++k)
-				origin[k] = basis.point[k] / away;
-			const Rotation<R, D> turn = aim<R, D>(f, dual, origin);
-			placePair<R, D, W>(in, f, planes);
-			recallBasis<R, D>(planes, memory, basis);
-			solved = memory.hasBasis && moveBasis<R, D>(planes, turn, origin, -R(tolerance::thin) * f.size, basis);
-		}
+	if (start == StartBasis::Separating) {
+		publishSeparation<R, D>(in, limits, basis, memory, out);
+		timer.end(out.lpNanoseconds);
+		return;
 	}
 
-	// 3. LP
-	const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
-	LpStatus  lp    = LpStatus::Undecided;
-	if (solved) lp = solveLp<R, D, W>(planes, basis, f.size, dismiss, reach, limit, out.simplexPivots);
-	if (lp == LpStatus::Undecided) {
-		if (solveWide<R, D>(planes, basis, f.size, limit, out.simplexPivots)) lp = LpStatus::Optimal;
-		else if (!memory.hasBasis) { // no basis at all
-			fail(memory, out);
-			return;
-		}
+	int            pivots = 0;
+	const LpStatus lp     = solvePhaseOne<R, D, W>(start, planes, limits, f.size, basis, pivots);
+	out.simplexPivots     = pivots;
+	if (lp == LpStatus::Undecided && start == StartBasis::None) {
+		fail(memory, out);
+		return;
 	}
-	rememberBasis<R, D>(planes, basis, memory, out);
-	const long lpDone   = settings.timed ? nanoseconds() : 0;
-	out.lpNanoseconds   = lpDone - started;
-	out.infeasibility   = lp == LpStatus::Separated ? separatedBound<R, D>(basis, reach, in, -tolerance) : basis.infeasibility;
-	const bool touching = basis.infeasibility < -tolerance;
-	dualDirection<R, D>(planes, basis, dual);
-	out.dualDirection = worldDirection<R, D>(f, dual);
+	R dual[D];
+	publishProgram<R, D>(in, f, planes, basis, lp, limits, memory, dual, out);
+	timer.end(out.lpNanoseconds);
+	const bool touching = basis.infeasibility < -limits.tolerance;
 	if (!touching && !settings.geometryAcrossGap) {
-		out.status = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
 		rememberWeights<D>(basis.weight, memory);
 		return;
 	}
-	memory.dual     = out.dualDirection;
-	out.inContact   = touching;
-	out.hasGeometry = true;
+	out.inContact        = touching;
+	out.hasGeometry      = true;
+	memory.dualDirection = out.dualDirection;
 
-	// 4. the frame for the centre: turned to the optimum's dual direction, origin at the LP's point
 	R x[D];
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
-	// (where the overlap is thick, or has hardly turned, the frame there is does: its digits are enough; a far point was not its origin)
-	const R    thickness = -basis.infeasibility / f.size;
-	const bool skew      = followed ? leans<R, D>(dual, thickness) : out.simplexPivots > 0 || far;
-	const bool anew      = skew && !(thickness > R(tolerance::thin));
-	if (anew) {
-		const Rotation<R, D> turn = aim<R, D>(f, dual, x);
-		placePair<R, D, W>(in, f, planes);
-		R turned[D];
-		rotate<R, D>(turn, dual, turned);
-		for (int k = 0; k < D; ++k) {
-			dual[k] = turned[k];
-			x[k]    = 0;
-		}
-	}
+	const bool aligned = alignFrame<R, D, W>(in, start, pivots > 0, basis, f, planes, x, dual);
 	if (settings.contactModel == ContactModel::Conservative) {
-		conservativeContact<R, D, W>(
-		        in, settings, planes, f, x, basis.infeasibility, lowerBound<R, D>(basis, reach), memory, workspace, out);
-		if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
+		conservativeContact<R, D, W>(in, settings, planes, f, basis, x, limits.reach, memory, workspace, out);
+		timer.end(out.centreNanoseconds);
 		return;
 	}
-	// a separated pair gets the point, normal and section it would have if both bodies were grown until they just overlap
-	R grown = 0;
-	if (!touching) {
-		grown = basis.infeasibility + R(tolerance::gapSkin) * f.size;
-		for (int i = 0; i < planes.total; ++i)
-			planes.offset[i] += grown;
-	}
-
-	// 5. contact point
-	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
-	if (lp == LpStatus::Undecided) outcome = ContactStatus::LpNotConverged;
-	else if (settings.contactPoint == ContactPoint::AnalyticCentre) {
-		const R deep = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
-		R       start[D], target[D];
-		for (int k = 0; k < D; ++k)
-			start[k] = x[k];
-		if (followed && !anew && smallestOffset<R, D, W>(planes) > R(tolerance::carriedRoom) * deep) {
-			// the frame's origin is the carried point
-			for (int k = 0; k < D; ++k)
-				start[k] = 0;
-		} else {
-			if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
-			else simplexCentre<R, D>(basis, deep, x, target);
-			moveInside<R, D, W>(planes, start, target);
-		}
-		// what is left of the way to the centre moves the depth by at most that part of itself
-		const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
-		const CentreStatus centre = settings.solver == CentreSolver::Newton
-		        ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)
-		        : CentreStatus::NotConverged;
-		if (centre == CentreStatus::NotConverged || centre == CentreStatus::Skewed) {
-			// planes are rounded by the larger body's size: an overlap may be thinner, with no inside in this frame
-			R room;
-			mostViolated<R, D, W>(planes, x, room);
-			const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(planes, x, out) : ContactStatus::RoundingLimited;
-			if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching)
-				outcome = byIpopt;
-		} else {
-			if (centre == CentreStatus::RoundingLimited && touching) outcome = ContactStatus::RoundingLimited;
-			for (int k = 0; k < D; ++k)
-				x[k] = start[k];
-		}
-	} else if (settings.contactPoint == ContactPoint::Centroid) {
-		overlapCentroid<R, D>(planes, x, 2 * f.size, workspace.polygons(4 * (planes.total + 5)));
-	}
-
-	if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
-
-	if (settings.bounding && touching) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
-
-	// 6. normal and depth, without internal faces where what is left bounds the contact
-	R             n[D];
-	ContactStatus normal = outcome;
-	if (settings.internal && touching) {
-		R internalOffset[2 * BoundingPlanes::most];
-		takeOut<R, D>(planes, *settings.internal, internalOffset);
-		normal    = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
-		out.depth = chord<R, D, W>(planes, n);
-		putBack<R, D>(planes, *settings.internal, internalOffset);
-	}
-	const bool bounded = settings.internal && touching && out.depth < internalDepth<R>(in);
-	if (!bounded) normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
-	if (outcome == ContactStatus::Contact) outcome = normal;
-	if (touching) {
-		if (!bounded) out.depth = chord<R, D, W>(planes, n);
-	} else {
-		// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
-		const R apart = maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
-		out.depth     = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -apart);
-	}
-
-	out.status      = outcome;
-	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
-	memory.hasPoint = true;
-	out.normal      = worldDirection<R, D>(f, n);
-	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
-
-	// 7. contact section, for laws that ask for it
-	if (settings.section) contactSection<R, D>(in, f, planes, x, n, workspace, out);
-	failUnlessFinite<D>(memory, out);
+	const bool atOrigin = start == StartBasis::LastContact && !aligned;
+	paperContact<R, D, W>(in, settings, planes, f, basis, lp, touching, atOrigin, x, dual, timer, memory, workspace, out);
 }
 
 } // namespace polytope

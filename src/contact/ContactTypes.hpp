@@ -83,14 +83,16 @@ struct ContactSettings {
 
 /// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction.
 struct PairMemory {
-	bool                   hasBasis = false;
-	bool                   hasPoint = false;
-	std::array<int, 4>     basis { { 0, 0, 0, 0 } };                   ///< 2 × plane index + (0: body 1, 1: body 2)
+	bool               hasBasis = false; ///< `basis` is known, and, without a point, `weights`
+	bool               hasPoint = false; ///< `point` and `dualDirection` are known
+	std::array<int, 4> basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
+	/// LP dual λ of the basis' first planes (the last one's is the rest). Any value is safe.
+	Vector3                weights { Vector3::Zero() };
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
-	/// Any value is safe. With a point: last dual direction, world axes. Without: LP dual λ of the basis' first planes (the last
-	/// one's is the rest).
-	Vector3 dual { Vector3::Zero() };
-	Real    level = 0; ///< last s of the conservative contact's minimiser; any value is safe
+	/// Last n_λ, world axes. Any value is safe.
+	Vector3 dualDirection { Vector3::Zero() };
+	/// Last s of the conservative contact's minimiser [m]. Any value is safe.
+	Real level = 0;
 };
 
 struct ContactResult {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/ContactTypes.hpp"
+#include "shape/ConvexShape.hpp"
 
 /// An order of a pair's two bodies that does not depend on which one the caller names first: sums of rounded numbers taken
 /// in it give both callers the same bits, so that exchanging the bodies exchanges the forces exactly.
@@ -42,7 +43,7 @@ inline void exchangeBodies(PairMemory& memory)
 	const Vector3 first = memory.point[0];
 	memory.point[0]     = memory.point[1];
 	memory.point[1]     = first;
-	if (memory.hasPoint) memory.dual = -memory.dual;
+	memory.dualDirection = -memory.dualDirection;
 }
 
 /// The answer for the pair under exchanged names; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

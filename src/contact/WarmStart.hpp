@@ -4,6 +4,7 @@
 #include "program/BasisSolver.hpp"
 #include "contact/ContactFrame.hpp"
 #include "contact/ContactTypes.hpp"
+#include "program/PairPlanes.hpp"
 
 #include <cmath>
 
@@ -29,12 +30,13 @@ template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, Conta
 	if (!isfinite(all)) fail(memory, out);
 }
 
-/// Of a pair that is apart; `weights`: of its basis.
+/// Of a pair that is apart; `weights`: of its basis, which is in the memory.
 template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weights& weights, PairMemory& memory)
 {
+	memory.hasBasis = true;
 	memory.hasPoint = false;
 	for (int k = 0; k < D; ++k)
-		memory.dual[k] = weights[k];
+		memory.weights[k] = weights[k];
 }
 
 template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)
@@ -69,7 +71,7 @@ POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, in
 		const int          index  = memory.basis[k] >> 1;
 		const bool         second = memory.basis[k] & 1;
 		const ConvexShape& shape  = *in.shape[second];
-		const R            weight = maxOf<R>(k < D ? R(memory.dual[k]) : rest, 0);
+		const R            weight = maxOf<R>(k < D ? R(memory.weights[k]) : rest, 0);
 		// both sums take it, one as zero: to choose one sends it through memory
 		const R share[2] = { second ? R(0) : weight, second ? weight : R(0) };
 		rest -= weight;

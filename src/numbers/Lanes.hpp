@@ -23,7 +23,7 @@ constexpr int padWidth = 4;
 /// (Where the precision has more than 60 digits, its weight has to be smaller than those.)
 constexpr double padOffset = std::numeric_limits<Real>::digits > 150 ? 1e300 : 1e60;
 
-/// Four numbers of a type that has no vectors: what the linear programme's four rows are in long double.
+/// Four numbers of a type that has no vectors: what the linear program's four rows are in long double.
 template <class R> struct Plain4 {
 	R             v[4];
 	R&            operator[](int k) { return v[k]; }

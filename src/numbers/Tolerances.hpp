@@ -60,7 +60,7 @@ constexpr Real singularBasis = Real(1) / 256;
 constexpr Real smallVolume = 1e-3;
 constexpr Real noVolume    = 4 * rounding;
 
-/// The linear programme with twice the digits (WideLp.hpp): volume of differences of normals, over their lengths, that is
+/// The linear program with twice the digits (WideLp.hpp): volume of differences of normals, over their lengths, that is
 /// rounding there; and part of a rounding × size by which a plane may be violated at its optimum.
 constexpr Real wideVolume = 64 * rounding * rounding;
 constexpr Real wideRest   = Real(1) / 16;
@@ -150,7 +150,7 @@ constexpr Real gapBarrier = 256 * rounding;
 /// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
 constexpr Real barrierStep = 0.95;
 
-/// × μ: by how much the barrier's start is above the linear programme's s (√2: where two opposite faces have it).
+/// × μ: by how much the barrier's start is above the linear program's s (√2: where two opposite faces have it).
 constexpr Real barrierRoom = 1.4;
 
 /// × μ: a carried start may be this much above it.

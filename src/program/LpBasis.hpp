@@ -4,7 +4,7 @@
 #include "numbers/Lanes.hpp"
 #include "numbers/Tolerances.hpp"
 
-/// One basis of the phase-one linear programme (see SimplexLp.hpp): D + 1 planes, their weights λ with Σ λ_k a_k = 0 and
+/// One basis of the phase-one linear program (see SimplexLp.hpp): D + 1 planes, their weights λ with Σ λ_k a_k = 0 and
 /// Σ λ_k = 1, and the point x and value s with a_k·x − d_k = s.
 namespace polytope {
 

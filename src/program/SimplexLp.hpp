@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-/// Phase-one linear programme (Boon et al. 2012, Eq. 9): over all planes of both bodies
+/// Phase-one linear program (Boon et al. 2012, Eq. 9): over all planes of both bodies
 ///
 ///     s* = min s   subject to   a_i·x − d_i ≤ s,
 ///

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-/// The linear programme of SimplexLp.hpp where the digits of Real do not decide it: bases of planes that are parallel but for
+/// The linear program of SimplexLp.hpp where the digits of Real do not decide it: bases of planes that are parallel but for
 /// the last digits have weights that are mostly rounding. The planes as they stand are taken for exact numbers and the
 /// simplex is run on them with twice the digits; differences of nearly parallel normals are exact in it. Much
 /// slower, and rare.

@@ -67,23 +67,23 @@ namespace {
 
 DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const Real& cap, const Bounds& bounds)
 {
-	CGAL::Quadratic_program<Number> programme(CGAL::SMALLER, false, Number(0), false, Number(0));
+	CGAL::Quadratic_program<Number> program(CGAL::SMALLER, false, Number(0), false, Number(0));
 	for (int k = 0; k < 3; ++k) {
-		if (finite(bounds.lower[k])) programme.set_l(k, true, toNumber(bounds.lower[k]));
-		if (finite(bounds.upper[k])) programme.set_u(k, true, toNumber(bounds.upper[k]));
+		if (finite(bounds.lower[k])) program.set_l(k, true, toNumber(bounds.lower[k]));
+		if (finite(bounds.upper[k])) program.set_u(k, true, toNumber(bounds.upper[k]));
 	}
 	for (std::size_t i = 0; i < normals.size(); ++i) {
 		for (int k = 0; k < 3; ++k)
-			programme.set_a(k, int(i), toNumber(normals[i][k]));
-		programme.set_a(3, int(i), Number(1));
-		programme.set_b(int(i), toNumber(offsets[i]));
+			program.set_a(k, int(i), toNumber(normals[i][k]));
+		program.set_a(3, int(i), Number(1));
+		program.set_b(int(i), toNumber(offsets[i]));
 	}
-	programme.set_u(3, true, toNumber(cap));
-	programme.set_c(3, Number(-1));
-	// Bland's rule: with CGAL's default one degenerate programmes cycle without end (found by fuzzing)
+	program.set_u(3, true, toNumber(cap));
+	program.set_c(3, Number(-1));
+	// Bland's rule: with CGAL's default one degenerate programs cycle without end (found by fuzzing)
 	CGAL::Quadratic_program_options options;
 	options.set_pricing_strategy(CGAL::QP_BLAND);
-	const auto solution = CGAL::solve_linear_program(programme, ExactNumber(), options);
+	const auto solution = CGAL::solve_linear_program(program, ExactNumber(), options);
 	DeepPoint  result;
 	auto       value = solution.variable_values_begin();
 	for (int k = 0; k < 3; ++k, ++value)

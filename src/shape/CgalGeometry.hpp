@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-/// The two questions of shape construction that must not be decided by rounding, asked of CGAL: a linear programme in
+/// The two questions of shape construction that must not be decided by rounding, asked of CGAL: a linear program in
 /// exact arithmetic and a convex hull with exact predicates. No other file includes CGAL.
 namespace polytope::exact {
 

@@ -40,7 +40,7 @@ inline const Real flatness = 16 * coincidence;
 inline const Real recession = 64 * rounding;
 
 /// × inradius: a vertex farther than this, or one that planes added at `horizon` cut, is reason to ask for `recession`
-/// exactly (six small linear programmes); nearer ones are certainly no sign of an open set.
+/// exactly (six small linear programs); nearer ones are certainly no sign of an open set.
 inline const Real farVertex = 1e6;
 
 /// × inradius: where the closing planes stand. Beyond any vertex of a set that is not `recession`-open.

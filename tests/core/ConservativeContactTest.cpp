@@ -121,7 +121,7 @@ TEST_P(ConservativeContact, ForceAndTorqueAreDifferencesOfTheEnergy)
 	        dimension, contacts, worstEnergy, worstForce, worstTorque);
 }
 
-TEST_P(ConservativeContact, ValueIsNotBelowTheLinearProgrammes)
+TEST_P(ConservativeContact, ValueIsNotBelowTheLinearPrograms)
 {
 	const int trials = 60000;
 	int       apart = 0, overlapping = 0, contacts = 0;
@@ -288,7 +288,7 @@ TEST_P(ConservativeContact, AnyBasisPointAndLevelAreAGoodEnoughStart)
 		for (Vector3& point : memory.point)
 			point = decades(random, -3, 3) * pair.size() * randomDirection(random, dimension);
 		memory.level             = uniform(random, -1, 1) * decades(random, -6, 3) * pair.size();
-		memory.dual              = decades(random, -3, 3) * randomDirection(random, dimension);
+		memory.dualDirection     = decades(random, -3, 3) * randomDirection(random, dimension);
 		const ContactResult warm = query(pair, conservative(), &memory), cold = query(pair, conservative());
 		ASSERT_TRUE(usable(warm.status)) << statusName(warm.status);
 		// a positive Φ is no force, and is not computed where the optimum's weights (of one basis or another) show its sign
@@ -332,7 +332,7 @@ TEST_P(ConservativeContact, NoPairFails)
 	EXPECT_GT(contacts, trials * moves / 2);
 	EXPECT_LT(most, 50);
 	EXPECT_LT(sum / solved, 12);
-	std::printf("%d-D: Newton iterations from the linear programme's point %.2f, at most %d\n", dimension, sum / solved, most);
+	std::printf("%d-D: Newton iterations from the linear program's point %.2f, at most %d\n", dimension, sum / solved, most);
 }
 
 TEST_P(ConservativeContact, IsContinuousAcrossTheGap)
@@ -632,7 +632,7 @@ TEST(ConservativeContactOf, CornersActAsIfRoundedByMuAndAsSoftAsTheirWeightsSay)
 	}
 }
 
-// Across a gap the linear programme's point lies where both bodies, grown, meet: a sliver's sharp tip, grown by a tenth of its length, may
+// Across a gap the linear program's point lies where both bodies, grown, meet: a sliver's sharp tip, grown by a tenth of its length, may
 // reach a million times that far. Warm, with no pivot, the frame stayed at the body: coordinates were rounded by more than μ.
 TEST(ConservativeContactOf, SharpSliversAcrossAGapAreReachedWarmAsCold)
 {

@@ -204,7 +204,7 @@ TEST(IpoptCentre, WithoutIpoptTheStatusSaysSo)
 	}
 	EXPECT_EQ(result.status, ContactStatus::IpoptNotAvailable);
 	EXPECT_FALSE(result.ipoptSolved);
-	// the linear programme's point: the centre of a ball that touches the overlap's planes
+	// the linear program's point: the centre of a ball that touches the overlap's planes
 	EXPECT_NEAR(Real(PrecisePair(pair).violation(precise(result.point))), result.infeasibility, 1e-14);
 	EXPECT_NEAR(result.normal.norm(), 1, 1e-14);
 	EXPECT_GT(result.depth, 0);

@@ -15,9 +15,9 @@ using namespace polytope::samples;
 namespace {
 
 // Rectangles with near copies of their planes, the second turned by 1e-14 against the first, overlap 2e-15 of the size. A linear
-// programme in double alone takes one of two normals that agree to rounding and its point violates the other by more than the
+// program in double alone takes one of two normals that agree to rounding and its point violates the other by more than the
 // overlap's thickness: contact was said where there is none by the tolerance, and Newton had no inside to start from.
-TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgrammeSeesBoth)
+TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgramSeesBoth)
 {
 	HalfSpaces set;
 	set.dimension          = 2;

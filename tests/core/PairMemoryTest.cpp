@@ -74,7 +74,7 @@ TEST_P(Walks, SmallStepsAreCheaperAndTheSame)
 	EXPECT_GT(warm.contacts, 2000);
 	EXPECT_GT(warm.separated, 1000);
 	EXPECT_LT(warm.pivots, 0.3 * cold.pivots);
-	EXPECT_LT(warm.iterations, 0.9 * cold.iterations); // a thin overlap's point is no nearer than the linear programme's
+	EXPECT_LT(warm.iterations, 0.9 * cold.iterations); // a thin overlap's point is no nearer than the linear program's
 }
 
 TEST_P(Walks, LargeStepsAreTheSame)
@@ -97,8 +97,9 @@ TEST(PairMemory, AnyBasisAndPointAreAGoodEnoughStart)
 		PairMemory memory;
 		memory.hasBasis = true;
 		memory.hasPoint = trial % 2 == 0;
-		memory.dual     = decades(random, -3, 3) * randomDirection(random);
-		if (trial % 16 < 2) memory.dual[trial % 3] = std::numeric_limits<Real>::quiet_NaN();
+		memory.dualDirection = decades(random, -3, 3) * randomDirection(random);
+		if (trial % 16 < 2) memory.dualDirection[trial % 3] = std::numeric_limits<Real>::quiet_NaN();
+		memory.weights = memory.dualDirection;
 		for (int& code : memory.basis) {
 			const int body = int(random() % 2);
 			code           = 2 * int(random() % pair.shape[body]->planeCount()) + body;
@@ -123,8 +124,8 @@ TEST(PairMemory, AnyDirectionIsAGoodEnoughStart)
 		moveTo(pair, randomDirection(random), -decades(random, -9, -1));
 		PairMemory memory;
 		query(pair, {}, &memory);
-		memory.dual = decades(random, -3, 3) * randomDirection(random);
-		if (trial % 16 < 2) memory.dual *= std::numeric_limits<Real>::infinity();
+		memory.dualDirection = decades(random, -3, 3) * randomDirection(random);
+		if (trial % 16 < 2) memory.dualDirection *= std::numeric_limits<Real>::infinity();
 		const ContactResult result = query(pair, {}, &memory);
 		expectSameAsCold(pair, result);
 		kept += result.inContact;

@@ -61,7 +61,7 @@ inline ContactResult query(const Pair& pair, const ContactSettings& settings = {
 }
 
 /// The LP alone, without dismissal: a tolerance so negative that every pair counts as touching.
-inline ContactResult linearProgramme(const Pair& pair)
+inline ContactResult linearProgram(const Pair& pair)
 {
 	ContactSettings settings;
 	settings.tolerance    = -1e6;
@@ -69,7 +69,7 @@ inline ContactResult linearProgramme(const Pair& pair)
 	return query(pair, settings);
 }
 
-inline Real infeasibility(const Pair& pair) { return linearProgramme(pair).infeasibility; }
+inline Real infeasibility(const Pair& pair) { return linearProgram(pair).infeasibility; }
 
 /// Moves body 2 along the direction from body 1 until s* = target (s* is convex along it; bisection to rounding).
 inline void moveTo(Pair& pair, const Vector3& direction, Real target)

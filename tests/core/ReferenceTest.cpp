@@ -191,7 +191,7 @@ TEST_P(Reference, MovedRigidly)
 
 TEST_P(Reference, LpPoint)
 {
-	const ContactResult result = linearProgramme(pair);
+	const ContactResult result = linearProgram(pair);
 	// centre of a largest ball, whether or not there are several
 	EXPECT_LE(Real(PrecisePair(pair).violation(precise(result.point))), expected.s + 1e-13 * size);
 	if (!expected.pointUnique) return;

@@ -105,7 +105,7 @@ TEST(SimplexLp, NearlyParallelPlanesAgreeWithTheExactOptimum)
 /// is large where the basis has nearly parallel planes.
 void expectOptimal(const Pair& pair, Real noise)
 {
-	const ContactResult result = linearProgramme(pair);
+	const ContactResult result = linearProgram(pair);
 	const PrecisePair   exact(pair);
 	const QuadVector    x        = precise(result.point);
 	const Real          rounding = tolerance::rounding * pair.reach();

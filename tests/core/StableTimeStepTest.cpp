@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <RegularSolids.hpp>
-#include <RockingStiffness.hpp>
-#include <StableTimeStep.hpp>
+#include "shape/RegularSolids.hpp"
+#include "timestep/RockingStiffness.hpp"
+#include "timestep/StableTimeStep.hpp"
 
 #include <gtest/gtest.h>
 

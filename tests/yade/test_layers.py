@@ -69,6 +69,32 @@ def testTheCoreKnowsNothingAboveIt():
 				assert name in own, f'{path.name} includes {name} of pkg'
 
 
+folders = 'numbers', 'program', 'shape', 'centre', 'contact', 'timestep'
+"""Of src, in this order."""
+
+
+def testEachFolderOfTheCoreIncludesToTheLeftOnly():
+	assert sorted(folders) == sorted(path.name for path in (project / 'src').iterdir() if path.is_dir())
+	for path in files(project / 'src', '.hpp', '.cpp'):
+		level = folders.index(path.parent.name)
+		for name in includes(path):
+			if (project / 'src' / name).is_file():
+				folder = name.split('/')[0]
+				assert folders.index(folder) <= level, f'{path.parent.name}/{path.name} includes {name}'
+
+
+@pytest.mark.parametrize('folder', ['src', 'pkg/polytope'])
+def testNoHeaderIncludesItselfThroughOthers(folder):
+	place = {path.name: path for path in files(project / folder, '.hpp')}
+	within = {path: {place[name] for name in map(lambda name: pathlib.Path(name).name, includes(path)) if name in place} for path in place.values()}
+	for path in within:
+		reached, ahead = set(), set(within[path])
+		while ahead:
+			reached |= ahead
+			ahead = set().union(*(within[one] for one in ahead)) - reached
+		assert path not in reached, f'{path.name} includes itself'
+
+
 def testThePlugInUsesTheCoreAndYadeAlone():
 	own = {path.name for path in files(project / 'pkg/polytope', '.hpp', '.in')} | {'BuildInfo.hpp'}
 	for path in files(project / 'pkg/polytope', '.hpp', '.cpp'):

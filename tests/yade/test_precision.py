@@ -104,7 +104,7 @@ def distance(a, b):
 
 
 @pairs
-def testLinearProgrammeHasAllDigits(pair, planesOf):
+def testLinearProgramHasAllDigits(pair, planesOf):
 	bodies = pair()
 	infeasibility = mpf(polytope.contact(*bodies).infeasibility)
 	point = numbers(polytope.contact(*bodies, contactPoint='chebyshevCentre').point)

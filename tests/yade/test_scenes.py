@@ -103,7 +103,7 @@ def testWatchHasTimesHoweverOftenAnotherProgramTakesTheProcessor(monkeypatch, mo
 	assert watch.summary()['lpMicroseconds'] > 0 and watch.summary()['centreMicroseconds'] > 0
 
 
-def testDismissedPairsCountForTheTimeOfTheLinearProgramme():
+def testDismissedPairsCountForTheTimeOfTheLinearProgram():
 	"""In free fall nearly all pairs are dismissed by the last step's weights; that takes time too."""
 	scene = FallingPolyhedra(number=36).build()
 	O.run(1, True)

@@ -26,7 +26,7 @@ class RunWatch:
 
 	The loop's time is taken with O.timingEnabled. The contact functor's own clock (Ig2_….timing) costs more than what it
 	measures in a dismissed pair, so it runs in some steps only, and these do not count for the loop's time. A step in which
-	another program took the processor counts for neither the programme's nor the centre's time. Steps are taken with O.step in
+	another program took the processor counts for neither the program's nor the centre's time. Steps are taken with O.step in
 	the calling thread: O.run(…, wait=True) looks every 40 ms whether it is done.
 	"""
 

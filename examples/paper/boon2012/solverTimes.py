@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a linear programme and a contact point cost with other settings of the contact functor than those of the run."""
+"""What a linear program and a contact point cost with other settings of the contact functor than those of the run."""
 
 import collections
 import itertools

@@ -15,7 +15,7 @@ namespace {
 	using Digits150 = boost::multiprecision::number<cpp_bin_float<150>, boost::multiprecision::et_off>;
 	using Vector    = PreciseVector<Digits150>;
 
-	/// Of the linear programme, whatever the dimension.
+	/// Of the linear program, whatever the dimension.
 	struct ExactOptimum {
 		Digits150 infeasibility;
 		Vector    point {};
@@ -62,7 +62,7 @@ namespace {
 	{
 		if (status == ContactStatus::NormalFromDual) {
 			normal = precise<Digits150>(
-			        dual.normalized()); // not unique where the programme's basis is not: checked by its property instead
+			        dual.normalized()); // not unique where the program's basis is not: checked by its property instead
 			return true;
 		}
 		return exact.balancedNormal(x, normal) > 0;
@@ -96,7 +96,7 @@ namespace {
 		c.depthRounding = glance * (roundings / c.size + c.normalRounding * c.depth);
 	}
 
-	/// Freedom from each other after the way the dual direction promises, in the exact programme.
+	/// Freedom from each other after the way the dual direction promises, in the exact program.
 	bool isFree(const Pair& pair, const ContactResult& r, const Digits150& infeasibility)
 	{
 		const Real length = r.dualDirection.norm();

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-/// One pair's contact in double beside the reference: the linear programme in exact rational arithmetic, everything else
+/// One pair's contact in double beside the reference: the linear program in exact rational arithmetic, everything else
 /// in 150 digits. All lengths are over the pair's size (the smaller circumradius), angles in radians.
 namespace polytope::samples {
 
@@ -31,7 +31,7 @@ struct Comparison {
 	long nanoseconds = 0;     ///< of one query, the least of three, cold
 };
 
-/// The linear programme's optimum, which both models share.
+/// The linear program's optimum, which both models share.
 class PairReference {
 public:
 	explicit PairReference(const Pair& pair);

@@ -111,7 +111,7 @@ class Study:
 			self.worst(sharp, 'normal').jump,
 			'rad',
 			accept=(1, 2),
-			note='the linear programme\'s dual direction changes with its basis',
+			note='the linear program\'s dual direction changes with its basis',
 		)
 		self._flatNormals()
 		self._redundant()

@@ -142,7 +142,7 @@ axes = {
 		'Overlap beyond the corner radius',
 		'overlap −s* (conservative: −Φ) over the corner radius',
 		[*depths, Limit('contact point over the overlap', 'centreError', 1e-9)],
-		'Deeper than cornerRadius in one body the normal is the other’s (normalFromOneBody), in both the programme’s dual direction '
+		'Deeper than cornerRadius in one body the normal is the other’s (normalFromOneBody), in both the program’s dual direction '
 		'(normalFromDual), checked to lead out: moved along it by what it promises, the pair is free in exact arithmetic.',
 	),
 	'units': Axis(

@@ -2,7 +2,7 @@
 """Pairs taken along thirteen axes from easy to the point of breaking: error and status in double against exact arithmetic.
 
 The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), asks the contact kernel for both contact models, and
-holds its answers against the linear programme in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
+holds its answers against the linear program in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
 become one table and one plot per axis. Ends with 1 if an answer is not a number, unbounded, a missed or false contact, or in error beyond
 rounding without a status that says so; or if an error is above the limit that the README states.
 
@@ -127,7 +127,7 @@ def main(arguments=None):
 	findings = Findings('pairs', 'Pairs at the extremes', given.output, {'samples': given.samples, 'quick': given.quick})
 	findings.text(
 		'Each mark stands for all samples of a kind of pair in random orientations. The references take the input’s doubles as they stand: the '
-		'linear programme is solved in rational arithmetic, the centre, the normal and the depth (of the conservative contact: minimiser, Φ and its '
+		'linear program is solved in rational arithmetic, the centre, the normal and the depth (of the conservative contact: minimiser, Φ and its '
 		'gradient) in 150 digits. Lengths are over the size, the smaller circumradius; the contact point’s error is in the local norm of the '
 		'barrier, where 1 is about the overlap’s own size in that direction.'
 	)

@@ -54,7 +54,7 @@ class Sample:
 		"""An error beyond what rounding of the planes explains, with a status that raises no doubt."""
 		if self.status not in (*quiet, 'separated'):
 			return False
-		# s*: the programme's certificate has roundings of its own (tolerance::certain), so twice as much. 2e-14: what the depth's definition leaves to a centre accepted at newtonTolerance
+		# s*: the program's certificate has roundings of its own (tolerance::certain), so twice as much. 2e-14: what the depth's definition leaves to a centre accepted at newtonTolerance
 		pairs = [(self.infeasibilityError, 2 * self.infeasibilityRounding)]
 		if self.compared:
 			pairs += [

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-/// The linear programme (Eq. 9) by CLP: a new model for each pair, as YADE's PotentialBlock does it, or one model whose
+/// The linear program (Eq. 9) by CLP: a new model for each pair, as YADE's PotentialBlock does it, or one model whose
 /// rows are filled anew.
 namespace {
 

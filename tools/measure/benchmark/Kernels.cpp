@@ -2,8 +2,8 @@
 #include "PairSets.hpp"
 #include "Peer.hpp"
 
-#include <ContactQuery.hpp>
-#include <SimplexLp.hpp>
+#include <src/contact/ContactQuery.hpp>
+#include <src/program/SimplexLp.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -42,7 +42,7 @@ namespace {
 			        workspace, result);
 		}
 
-		/// Paper's model: the linear programme's own way out frees the pair.
+		/// Paper's model: the linear program's own way out frees the pair.
 		bool wayOutIsRight(const Pair& pair) const
 		{
 			if (!result.inContact) return !set->touching;
@@ -125,7 +125,7 @@ namespace {
 		return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / count;
 	}
 
-	/// The linear programme alone, frames and placing of planes included, by the kernel's own clock.
+	/// The linear program alone, frames and placing of planes included, by the kernel's own clock.
 	void runLp(benchmark::State& state, const PairSet& set, bool warm)
 	{
 		Ours ours { &set, {}, warm, {}, {}, {} };
@@ -330,7 +330,7 @@ namespace {
 				ours.settings.section = true;
 				ours.run(state);
 			});
-			// a pair that its first basis dismisses has no linear programme to time
+			// a pair that its first basis dismisses has no linear program to time
 			if (set.touching)
 				for (const bool warm : { false, true })
 					add(std::string("ours, LP alone ") + (warm ? "warm" : "cold"), set,

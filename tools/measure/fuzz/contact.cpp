@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Any two shapes, poses, settings and memories: a bounded number of iterations, a status, numbers that are finite; and for
-// poses that are rigid motions the answer is an optimum of the linear programme, whichever body comes first.
+// poses that are rigid motions the answer is an optimum of the linear program, whichever body comes first.
 #include "Bytes.hpp"
 
 #include "contact/ContactQuery.hpp"
@@ -147,7 +147,7 @@ PairMemory readMemory(Bytes& bytes, const Pair& pair)
 		const int body               = bytes.below(2);
 		memory.basis[std::size_t(k)] = 2 * (bytes.byte() % pair.shape[body]->planeCount()) + body;
 	}
-	memory.dual = bytes.vector();
+	memory.weights = memory.dualDirection = bytes.vector();
 	if (kind < 3) return memory;
 	memory.hasPoint = true;
 	for (Vector3& point : memory.point)
@@ -245,11 +245,11 @@ Real exactInfeasibility(const Pair& pair)
 	return pair.dimension() == 2 ? Real(samples::ExactLp<2>(pair).infeasibility) : Real(samples::ExactLp<3>(pair).infeasibility);
 }
 
-/// The linear programme's answer is an optimum: its point attains it and its weights prove that none is lower; where they
+/// The linear program's answer is an optimum: its point attains it and its weights prove that none is lower; where they
 /// are too uncertain to (nearly parallel planes), exact arithmetic has the last word. The same with the bodies exchanged.
 void checkOptimum(const Pair& pair)
 {
-	const ContactResult result = samples::linearProgramme(pair);
+	const ContactResult result = samples::linearProgram(pair);
 	if (!result.hasGeometry || result.status == ContactStatus::LpNotConverged) return; // dismissed from far off; or says so
 	const Real   allowed = 64 * tolerance::rounding * pair.reach();
 	const Planes planes(pair);
@@ -261,7 +261,7 @@ void checkOptimum(const Pair& pair)
 		        "s* = %.17g, exactly %.17g: %g apart, %g allowed (point %g, weights %g)", result.infeasibility, exact,
 		        std::abs(result.infeasibility - exact), allowed, above, below);
 	}
-	const ContactResult other = samples::linearProgramme(samples::swapped(pair));
+	const ContactResult other = samples::linearProgram(samples::swapped(pair));
 	if (!other.hasGeometry || other.status == ContactStatus::LpNotConverged) return;
 	POLYTOPE_REQUIRE(std::abs(other.infeasibility - result.infeasibility) <= allowed, "s* = %.17g, with the bodies exchanged %.17g",
 	        result.infeasibility, other.infeasibility);

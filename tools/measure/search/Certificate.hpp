@@ -40,7 +40,7 @@ public:
 		}
 	}
 
-	/// Bounds of s* from a solved linear programme's point and dual weights.
+	/// Bounds of s* from a solved linear program's point and dual weights.
 	void bracket(const ContactResult& solved)
 	{
 		const ExtendedVector x = extended(solved.point);

@@ -22,7 +22,7 @@ struct Family {
 const std::vector<Family>& families();
 
 /// Moves body 2 along a unit direction until s* = target, as samples::moveTo(), but by Newton's method on the convex
-/// piecewise linear function s* of the way: some five linear programmes instead of sixty.
+/// piecewise linear function s* of the way: some five linear programs instead of sixty.
 void approach(samples::Pair& pair, const Vector3& direction, Real target);
 
 /// An s* worth a look: overlaps and gaps from rounding to half the inscribed radius, many about the border of contact.

@@ -203,7 +203,7 @@ namespace {
 			rotation           = Eigen::AngleAxis<Real>(uniform(random, -stride, stride), axis).toRotationMatrix() * rotation;
 		}
 		if (random() % 2) return;
-		const ContactResult result = linearProgramme(pair);
+		const ContactResult result = linearProgram(pair);
 		const Real          length = result.dualDirection.norm();
 		if (length > 0.05)
 			pair.centre2 += (someInfeasibility(pair, random) - result.infeasibility) / (length * length) * result.dualDirection;

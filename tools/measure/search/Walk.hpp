@@ -17,7 +17,7 @@ enum class Defect : int {
 	FalseContact,   ///< contact said without such an overlap
 	Infeasibility,  ///< s* off by more than rounding
 	Centre,         ///< contact said, but the point is not the analytic centre, and the status does not say so
-	NotConverged,   ///< the linear programme or the query gave up
+	NotConverged,   ///< the linear program or the query gave up
 	NotFinite,      ///< a number that is none, a normal that is not unit, a depth that is not positive
 	ForceAcrossGap, ///< conservative: contact without overlap
 	BelowLp,        ///< conservative: Φ < s*

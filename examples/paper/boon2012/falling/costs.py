@@ -14,8 +14,8 @@ curves = {
 	'ipoptMicroseconds': 'centre by Ipopt, cold start',
 	'centreColdMicroseconds': 'centre by Newton, cold start',
 	'centreMicroseconds': 'centre by Newton, warm start',
-	'lpColdMicroseconds': 'linear programme, cold start',
-	'lpMicroseconds': 'linear programme, warm start',
+	'lpColdMicroseconds': 'linear program, cold start',
+	'lpMicroseconds': 'linear program, warm start',
 }
 """Name in the results → label."""
 

@@ -172,7 +172,7 @@ class SlopeReport:
 	mostInnerMotion = 0.02
 	"""Of the inner layers when the slope has failed [m]."""
 	limitAngle, limitTolerance, limitTogether = 19.75, 0.005, 5
-	"""Of the reference geometry [°], by an independent linear programme; so many outer blocks turn as one."""
+	"""Of the reference geometry [°], by an independent linear program; so many outer blocks turn as one."""
 
 	def __init__(self, findings, given, layers):
 		self.findings, self.given, self.layers = findings, given, layers
@@ -216,7 +216,7 @@ class SlopeReport:
 			'°',
 			theory=self._ifReference(self.limitAngle),
 			accept=self._ifReference((self.limitAngle - self.limitTolerance, self.limitAngle + self.limitTolerance)),
-			note='static theorem; closed form: an independent linear programme',
+			note='static theorem; closed form: an independent linear program',
 		)
 		self.findings.row(
 			'the same if no block could turn',

@@ -3,7 +3,7 @@
 
 Static theorem for rigid blocks with rough joints that take no tension (Livesley 1978, Int. J. Numer. Methods Eng. 12:1853-1871): the
 blocks stand if forces can be found at both ends of every joint that balance all weights with N ≥ 0 and |T| ≤ N tan φ. That is a linear
-programme; its dual are the velocities of the mechanism by which they fail (with the associated flow rule: sliding blocks also part).
+program; its dual are the velocities of the mechanism by which they fail (with the associated flow rule: sliding blocks also part).
 """
 
 import dataclasses
@@ -124,7 +124,7 @@ def largestOutwardLoad(free, found, friction, outward=(-1, 0), rotations=True):
 	if solution.status == 3:
 		return math.inf, None
 	if solution.status:
-		raise RuntimeError(f'the linear programme has no answer: {solution.message}')
+		raise RuntimeError(f'the linear program has no answer: {solution.message}')
 	velocities = -solution.eqlin.marginals.reshape(count, -1)
 	if not rotations:
 		velocities = np.column_stack([velocities, np.zeros(count)])

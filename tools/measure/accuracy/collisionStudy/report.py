@@ -144,7 +144,7 @@ class EnergyStudy:
 			f'{sharp}: median error at 100 steps',
 			spreads[sharp][100]['median'],
 			accept=(0, 0.3 * spreads[paper][100]['median']),
-			note="normal from the linear programme's dual (status normalFromDual): nearly a gradient while overlaps are small",
+			note="normal from the linear program's dual (status normalFromDual): nearly a gradient while overlaps are small",
 		)
 
 	def _samePhysics(self, found):
@@ -185,7 +185,7 @@ class EnergyStudy:
 			+ [[conservative, overlap, '', *cells(s)] for overlap, s in smooth.items()],
 		)
 		plotCorners(self.findings.folder / 'corner_radii.png', found)
-		self.findings.figure('corner_radii.png', 'Corner radius 0 stands for the direction of the linear programme\'s dual.')
+		self.findings.figure('corner_radii.png', 'Corner radius 0 stands for the direction of the linear program\'s dual.')
 		least = overlaps[0]
 		self.findings.row(
 			f'{paper}: median error, default corner radius over 0, overlap {100 * least:g} %',

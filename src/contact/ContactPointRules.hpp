@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "centre/AnalyticCentre.hpp"
+#include "centre/IpoptCentre.hpp"
+#include "contact/OverlapCentroid.hpp"
+#include "contact/WarmStart.hpp"
+
+/// The contact point by each of the rules of ContactPoint, from the linear program's point.
+namespace polytope {
+
+/// Goes from x (inside) towards `target` as far as it stays inside.
+template <class R, int D, int W> POLYTOPE_INLINE void moveInside(const PairPlanes<R, D>& planes, R* x, const R* target)
+{
+	using V = typename Lanes<R, W>::Type;
+	V X[D], step[D];
+	for (int k = 0; k < D; ++k) {
+		X[k]    = broadcast<R, W>(x[k]);
+		step[k] = broadcast<R, W>(target[k] - x[k]);
+	}
+	V largest = broadcast<R, W>(R(tolerance::interiorStep));
+	for (int i = 0; i < planes.total; i += W) {
+		V rate  = load<R, W>(planes.normal[0] + i) * step[0];
+		V slack = load<R, W>(planes.offset + i) - load<R, W>(planes.normal[0] + i) * X[0];
+		for (int k = 1; k < D; ++k) {
+			const V a = load<R, W>(planes.normal[k] + i);
+			rate += a * step[k];
+			slack -= a * X[k];
+		}
+		largest = maxOf(largest, V(rate / slack));
+	}
+	// largest = 1/t_max where a plane is met before the target
+	const R t = R(tolerance::interiorStep) / -horizontalMin<R, W>(-largest);
+	if (!(t > 0)) return;
+	for (int k = 0; k < D; ++k)
+		x[k] += t * (target[k] - x[k]);
+}
+
+/// Newton from `start`, in axes turned to the overlap's own where those of the contact do not do; x and dual turn with them.
+template <class R, int D, int W>
+POLYTOPE_INLINE CentreStatus newtonCentre(
+        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
+{
+	for (int turns = 0;; ++turns) {
+		const CentreStatus centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
+		if (centre != CentreStatus::Skewed || turns == tolerance::turns) return centre;
+		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
+		turnPlanes<R, D, W>(turn, planes);
+		turnFrame<R, D>(f, turn);
+		turnVector<R, D>(turn, start);
+		turnVector<R, D>(turn, x);
+		turnVector<R, D>(turn, dual);
+	}
+}
+
+/// Ipopt from the LP's point x, which is left alone where it fails.
+template <class R, int D> POLYTOPE_INLINE ContactStatus ipoptCentre(const PairPlanes<R, D>& planes, R* x, ContactResult& out)
+{
+	const IpoptOutcome outcome = ipoptCentre(D, planes.total, planes.normal, planes.offset, x, out.ipoptIterations);
+	if (outcome == IpoptOutcome::NotAvailable) return ContactStatus::IpoptNotAvailable;
+	out.ipoptSolved = true;
+	return outcome == IpoptOutcome::Converged ? ContactStatus::CentreByIpopt : ContactStatus::CentreNotConverged;
+}
+
+/// Where the search for the analytic centre begins: the last step's point, which the frame's origin is (`atOrigin`) or both bodies have
+/// carried along, else the centre of the optimal basis' planes; from x, the linear program's point, as far as that is inside. `deep`: of
+/// the overlap at x.
+template <class R, int D, int W>
+POLYTOPE_INLINE void startOfCentre(const ContactSettings& settings, const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f,
+        const LpBasis<R, D>& basis, const PairMemory& memory, bool atOrigin, R deep, const R* x, R* start)
+{
+	if (atOrigin && smallestOffset<R, D, W>(planes) > R(tolerance::carriedRoom) * deep) {
+		for (int k = 0; k < D; ++k)
+			start[k] = 0;
+		return;
+	}
+	R target[D];
+	for (int k = 0; k < D; ++k)
+		start[k] = x[k];
+	if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
+	else simplexCentre<R, D>(basis, deep, x, target);
+	moveInside<R, D, W>(planes, start, target);
+}
+
+/// Eq. 10: x from the linear program's point, or `start`, to the analytic centre by the chosen solver; frame, planes and dual turn with it.
+/// Where Newton gives up, Ipopt, if the build has it.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus centrePoint(const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, bool touching,
+        R deep, R* start, R* x, R* dual, ContactResult& out)
+{
+	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
+	// what is left of the way to the centre moves the depth by at most that part of itself
+	const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
+	const CentreStatus centre = settings.solver == CentreSolver::Newton ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)
+	                                                                    : CentreStatus::NotConverged;
+	if (centre == CentreStatus::NotConverged || centre == CentreStatus::Skewed) {
+		// planes are rounded by the larger body's size: an overlap may be thinner, with no inside in this frame
+		R room;
+		mostViolated<R, D, W>(planes, x, room);
+		const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(planes, x, out) : ContactStatus::RoundingLimited;
+		if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching) outcome = byIpopt;
+		return outcome;
+	}
+	for (int k = 0; k < D; ++k)
+		x[k] = start[k];
+	return centre == CentreStatus::RoundingLimited && touching ? ContactStatus::RoundingLimited : outcome;
+}
+
+/// x: from the linear program's point to the contact point. `atOrigin`: the frame's origin is the last step's point.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus contactPoint(const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+        const LpBasis<R, D>& basis, const PairMemory& memory, bool touching, bool atOrigin, R* x, R* dual, ContactWorkspace& workspace,
+        ContactResult& out)
+{
+	if (settings.contactPoint == ContactPoint::AnalyticCentre) {
+		const R deep = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
+		R       start[D];
+		startOfCentre<R, D, W>(settings, planes, f, basis, memory, atOrigin, deep, x, start);
+		return centrePoint<R, D, W>(settings, planes, f, touching, deep, start, x, dual, out);
+	}
+	if (settings.contactPoint == ContactPoint::Centroid)
+		overlapCentroid<R, D>(planes, x, 2 * f.size, workspace.polygons(4 * (planes.total + 5)));
+	return touching ? ContactStatus::Contact : ContactStatus::Separated; // x is the Chebyshev centre as it comes
+}
+
+} // namespace polytope

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactNormal.hpp"
+#include "contact/PenetrationDepth.hpp"
+
+/// Normal and depth at the contact point, by all planes or without those of internal faces.
+namespace polytope {
+
+/// Moves internal faces out of reach, and back; `offset`: room for what they had.
+template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k) {
+			R& one         = planes.offset[planes.begin(body) + internal.plane[body][k]];
+			offset[next++] = one;
+			one            = R(padOffset);
+		}
+}
+
+template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes, const InternalPlanes& internal, const R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k)
+			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
+}
+
+/// Largest depth of a contact of two flush faces, which is what is left where internal faces are taken out.
+template <class R> POLYTOPE_INLINE R internalDepth(const PairInput& in)
+{
+	return 2 * R(tolerance::thinContact) * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+}
+
+/// Depth along n through the contact point, whose slacks are in the planes (an overlap thinner than the planes' rounding may have its
+/// point outside).
+template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>& planes, const R* n)
+{
+	return maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
+}
+
+/// A touching pair, at x. Internal faces are left out where what is left bounds the contact.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n, R& depth)
+{
+	if (settings.internal) {
+		R offset[2 * BoundingPlanes::most];
+		takeOut<R, D>(planes, *settings.internal, offset);
+		const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+		depth                      = chord<R, D, W>(planes, n);
+		putBack<R, D>(planes, *settings.internal, offset);
+		if (depth < internalDepth<R>(in)) return status;
+	}
+	const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	depth                      = chord<R, D, W>(planes, n);
+	return status;
+}
+
+/// A pair across a gap, at x in the overlap of both bodies grown by `grown`: the depth is minus the way between the surfaces. `apart`: s*.
+template <class R, int D, int W>
+POLYTOPE_INLINE void normalAcrossGap(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, R grown, R apart, const R* x, const R* dual, R* n, R& depth)
+{
+	contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
+	const R least = maxOf<R>(apart, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
+	depth         = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -least);
+}
+
+} // namespace polytope
