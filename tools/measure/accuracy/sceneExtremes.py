@@ -123,7 +123,7 @@ def timeStep(findings, quick):
 	findings.row(f'{title}: from 1.1 of it on, least growth of the swing: it shows', above, accept=(10, math.inf))
 	findings.text(
 		f'{title}. A block swings on a floor about its rest for 2000 steps, undamped. polytope.stableTimeStep(2) is the limit of one body from all '
-		'stiffnesses, rocking of both contact models included (docs/time-step.md). Below it the swing is the scheme’s own; past it the block turns, is thrown off, and gains energy each time it '
+		'stiffnesses, rocking of both contact models included (docs/time-step.md), here where the overlap of the swing is deepest. Below it the swing is the scheme’s own; past it the block turns, is thrown off, and gains energy each time it '
 		'comes back: kinetic energy tells at once, and every number stays finite.'
 	)
 	findings.table('timeStep', f'{title}; value: over polytope.stableTimeStep(2)', *cells(results))
