@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import re
+import runpy
 import sys
 
 import pytest
@@ -141,3 +142,17 @@ def testBlockOfTheFirstSceneRestsOnItsFace(name, tmp_path, monkeypatch):
 	assert contact.geom.normal.dot(yade.Vector3(0, 0, 1)) == pytest.approx(1, abs=1e-9)
 	assert contact.phys.normalForce.norm() == pytest.approx(weight, rel=1e-6)
 	assert yade.O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
+
+
+def testExamplesThatTheFirstPagesNameRun(tmp_path, monkeypatch, capsys):
+	"""examples/hello.py, and examples/oneContact.py, which draws docs/one-contact.png."""
+	monkeypatch.setattr(sys, 'argv', ['hello.py'])
+	scene = runpy.run_path(str(project / 'examples/hello.py'))
+	assert scene['contact'].phys.normalForce.norm() == pytest.approx(scene['weight'], rel=1e-6)
+	yade.O.reset()
+	picture = tmp_path / 'one-contact.png'
+	monkeypatch.setattr(sys, 'argv', ['oneContact.py', str(picture)])
+	names = runpy.run_path(str(project / 'examples/oneContact.py'))
+	found, ahead, behind = names['found'], *names['ends']
+	assert found.status == 'contact' and found.infeasibility < 0 and (ahead - behind).dot(found.normal) == pytest.approx(found.depth, rel=1e-12)
+	assert picture.read_bytes().startswith(b'\x89PNG') and f'drawn as {picture}' in capsys.readouterr().out
