@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One pair without a scene: two polygons overlap; prints what `polytope.contact` finds and draws it.
 
-The largest circle in the overlap is the linear program's answer, its radius -s*; the contact point is the analytic centre of all half-spaces of
-both bodies; the depth is the chord along the normal through it.
+The largest circle in the overlap is the linear program's answer, its radius -s*; the contact point is the analytic centre of all
+half-spaces of both bodies; the depth is the chord along the normal through it.
 
 	./run python examples/oneContact.py [FILE.png]          writes one-contact.png
 """
@@ -38,7 +38,10 @@ def along(body, direction, start):
 
 
 # forwards to where the chord leaves body 1, backwards to where it leaves body 2
-ends = [found.point + along(bodies[0], found.normal, found.point) * found.normal, found.point - along(bodies[1], -found.normal, found.point) * found.normal]
+ends = [
+	found.point + along(bodies[0], found.normal, found.point) * found.normal,
+	found.point - along(bodies[1], -found.normal, found.point) * found.normal,
+]
 assert abs((ends[0] - ends[1]).norm() - found.depth) < 1e-12
 
 

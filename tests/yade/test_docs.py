@@ -87,7 +87,8 @@ def testCommandsThatAreNamedExist(name):
 def testReadmeIsShortAndHasTheCommandsOfContinuousIntegration():
 	lines = readme.read_text().splitlines()
 	assert len(lines) <= longestReadme, f'{len(lines)} lines; what is more belongs into docs/'
-	commands = [line.split('#')[0].strip() for block in fence.findall(readme.read_text()) if block[1] == 'sh' for line in block[2].splitlines()]
+	shell = [body for _, kind, body in fence.findall(readme.read_text()) if kind == 'sh']
+	commands = [line.split('#')[0].strip() for body in shell for line in body.splitlines()]
 	assert commands == ['./run demo', './run test']
 	assert '/../run" test' in (project / '.ci/run').read_text()
 
@@ -119,7 +120,8 @@ def snippets(page):
 
 def runs(page):
 	"""Names after a page's snippets have run as in a script of `yade`, which has these names from the start."""
-	given = {**vars(yade.utils), **vars(yade), **vars(math), '__file__': str(project / 'tools/measure/benchmark/bench.py'), '__name__': 'script'}
+	given = {**vars(yade.utils), **vars(yade), **vars(math), '__name__': 'script'}
+	given['__file__'] = str(project / 'tools/measure/benchmark/bench.py')  # docs/measuring.md is about programs there
 	exec(compile(snippets(page), str(page), 'exec'), given)
 	return given
 
@@ -154,5 +156,6 @@ def testExamplesThatTheFirstPagesNameRun(tmp_path, monkeypatch, capsys):
 	monkeypatch.setattr(sys, 'argv', ['oneContact.py', str(picture)])
 	names = runpy.run_path(str(project / 'examples/oneContact.py'))
 	found, ahead, behind = names['found'], *names['ends']
-	assert found.status == 'contact' and found.infeasibility < 0 and (ahead - behind).dot(found.normal) == pytest.approx(found.depth, rel=1e-12)
+	assert found.status == 'contact' and found.infeasibility < 0
+	assert (ahead - behind).dot(found.normal) == pytest.approx(found.depth, rel=1e-12)
 	assert picture.read_bytes().startswith(b'\x89PNG') and f'drawn as {picture}' in capsys.readouterr().out
