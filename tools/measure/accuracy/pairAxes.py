@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in the README."""
+"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in docs/accuracy.md."""
 
 import dataclasses
 import math

@@ -2,8 +2,8 @@
 """Scenes in YADE taken along six axes from easy to the point of breaking, each beside its closed form, with both contact models.
 
 Stiffness ratio to 1e6, mass ratio to 1e9, time step to past the critical one, a tower of 50 blocks, 1e6 steps at rest and a slide of 1e6
-steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that the
-README states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
+steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that
+docs/accuracy.md states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
 
 	./run python tools/measure/accuracy/sceneExtremes.py --quick
 	./run python tools/measure/accuracy/sceneExtremes.py --axes tower rest
