@@ -8,7 +8,7 @@
 #include <src/numbers/NumberText.hpp>
 
 #include "InternalFaces.hpp"
-#include "LookAhead.hpp"
+#include "Prefetch.hpp"
 #include "RockJoint.hpp"
 
 namespace yade {
@@ -96,7 +96,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
         const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
         const shared_ptr<Interaction>& c)
 {
-	lookAheadOf(*c, *scene);
+	prefetchAfter(*c, *scene);
 	// a thread's own buffers; they grow to the largest pair it has met
 	static thread_local polytope::ContactWorkspace workspace;
 	auto&                                          geom    = geometry(c);
@@ -106,7 +106,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it at once
+	settings.section                   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it at once
 	settings.normalWeight[0]           = geom.normalWeight;
 	settings.normalWeight[1]           = 1 - geom.normalWeight;
 	settings.geometryAcrossGap         = wasReal || force;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "AreaUsers.hpp"
 #include "Polytope.hpp"
 
 #include <core/Dispatching.hpp>
@@ -37,7 +38,7 @@ public:
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
-		((bool, needsArea, false, Attr::readonly, "Whether this contact's law uses :yref:`contactArea<PolytopeGeom.contactArea>`; set when the contact's physics are made."))
+		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`; set when they are made. A law that uses it for all contacts is found by the geometry functor."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
 		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
@@ -138,6 +139,7 @@ protected:
 
 private:
 	polytope::ContactSettings    settings_;
+	AreaUsers                    areaUsers_;
 	std::vector<ContactCounters> counters_         = std::vector<ContactCounters>(omp_get_max_threads());
 	std::string                  goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodNormal_ = "dualWeights",
 	                             goodSolver_ = "newton";

@@ -10,7 +10,7 @@
 #include <src/timestep/TimeStepTolerances.hpp>
 
 #include "PolytopeGeom.hpp"
-#include "RockJoint.hpp"
+#include "RockJointPhysics.hpp"
 #include "RockJointLaw.hpp"
 
 namespace yade {

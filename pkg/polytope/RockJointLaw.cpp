@@ -144,10 +144,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	phys.normalForce   = normal * geom.normal;
 	phys.shearViscous  = shearViscous;
 	phys.shearForce    = shear + shearViscous;
-	if (rockingDamping > 0 || last.moment != Vector3r::Zero()) {
-		geom.needsArea     = geom.needsArea || rockingDamping > 0;
-		phys.rockingMoment = rockingDamper(pair, phys, normal);
-	}
+	if (rockingDamping > 0 || last.moment != Vector3r::Zero()) phys.rockingMoment = rockingDamper(pair, phys, normal);
 	if (!apply(pair, phys)) return true;
 
 	if (!scene->trackEnergy) phys.lastStored = -1;

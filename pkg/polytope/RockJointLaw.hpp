@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "AreaUsers.hpp"
+
 #include <core/Dispatching.hpp>
 
 #include <array>
@@ -14,11 +16,12 @@ namespace yade {
 class PolytopeGeom;
 class RockJointPhys;
 
-class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor, public UsesContactArea {
 public:
 	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* contact) override;
 	/// Refuses negative damping, naming the attribute, and restores the last good values.
 	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
+	bool usesContactArea() const override { return rockingDamping > 0; }
 	Real ratioSlidingContacts() const;
 	long nonFiniteForces() const { return nonFinite_; }
 	FUNCTOR2D(PolytopeGeom, RockJointPhys);

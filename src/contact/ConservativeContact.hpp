@@ -5,6 +5,7 @@
 #include "centre/BarrierValue.hpp"
 #include "contact/ContactTypes.hpp"
 #include "contact/ContactSection.hpp"
+#include "contact/MoveInside.hpp"
 #include "program/SimplexLp.hpp"
 #include "contact/WarmStart.hpp"
 
@@ -50,9 +51,9 @@ template <class R, int D> POLYTOPE_INLINE bool apartByWeights(const LpBasis<R, D
 	return below + 2 * mu * sum >= 0;
 }
 
-/// Newton from `point`, in axes turned to the planes' own where those of the contact do not do; planes and frame turn with it.
+/// Newton from `point`, in axes turned to the planes' own where those of the contact do not do; planes, frame and x turn with it.
 template <class R, int D, int W>
-POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* x,
         BarrierPoint<R, D>& point, ContactResult& out)
 {
 	BarrierWeights weights = BarrierWeights::FromSlacks;
@@ -64,11 +65,12 @@ POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu
 		turnPlanes<R, D, W>(turn, planes);
 		turnFrame(f, turn);
 		turnVector<R, D>(turn, point.x);
+		turnVector<R, D>(turn, x);
 		weights = BarrierWeights::Stepped; // as they were before the turn
 	}
 }
 
-/// n to unit length; false for coincident bodies, or one wholly inside the other: there is no force, so any direction will do.
+/// n to unit length; false for coincident bodies, or one wholly inside the other, from which no direction leads out: any will do.
 template <class R, int D> POLYTOPE_INLINE bool unitDirection(R length, R* n)
 {
 	const bool some = length > R(tolerance::direction);
@@ -88,11 +90,23 @@ template <class R> POLYTOPE_INLINE ContactStatus barrierContactStatus(BarrierSta
 	return solved == BarrierStatus::RoundingLimited || drifts ? ContactStatus::RoundingLimited : ContactStatus::Contact;
 }
 
+/// Section through the minimiser, or, where that is outside the overlap, through the last point inside on the way there from x, the linear
+/// program's point. Bodies apart (`s` above zero) are grown until they just overlap.
+template <class R, int D, int W>
+POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes, R s, const R* target,
+        const R* n, R* x, ContactWorkspace& workspace, ContactResult& out)
+{
+	const R grown = maxOf<R>(0, s + R(tolerance::gapSkin) * f.size);
+	for (int i = 0; i < planes.total; ++i)
+		planes.offset[i] += grown;
+	moveInside<R, D, W>(planes, x, target);
+	contactSection<R, D>(in, f, planes, x, n, workspace, out);
+}
+
 /// After the linear program, whose point x is in the planes' frame.
 template <class R, int D, int W>
 POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
-        ContactFrame<R, D>& f, const LpBasis<R, D>& basis, const R* x, R reach, PairMemory& memory, ContactWorkspace& workspace,
-        ContactResult& out)
+        ContactFrame<R, D>& f, const LpBasis<R, D>& basis, R* x, R reach, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	using std::isfinite;
 	const R s     = basis.infeasibility;
@@ -110,7 +124,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 
 	BarrierPoint<R, D> point;
 	startBarrier<R, D, W>(planes, f, memory, settings.warmStart && memory.hasPoint, x, s, mu, point);
-	const BarrierStatus solved    = solveBarrier<R, D, W>(settings, mu, planes, f, point, out);
+	const BarrierStatus solved    = solveBarrier<R, D, W>(settings, mu, planes, f, x, point, out);
 	const bool          converged = solved != BarrierStatus::NotConverged;
 	out.decrement                 = point.change;
 	if (!converged) out.status = ContactStatus::CentreNotConverged;
@@ -126,7 +140,8 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 
 	out.inContact       = value < 0;
 	out.hasGeometry     = true;
-	out.depth           = -4 * value * length;
+	// bodies that coincide are in balance; what rounding is worth in the length of n is enough to begin to part them
+	out.depth           = -4 * value * maxOf<R>(length, R(tolerance::direction));
 	out.energy          = value < 0 ? 2 * value * value : R(0);
 	out.rockingArm      = converged ? rockingArm<R, D>(point, n) : R(0); // its Hessian is the minimiser's
 	out.dualDirection   = worldDirection<R, D>(f, n);
@@ -135,13 +150,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	out.normal = worldDirection<R, D>(f, n);
 	out.point  = worldPoint<R, D>(in, f, memory.point[f.home]);
 
-	if (settings.section) {
-		// the point may be outside by as much as s: of bodies grown by that
-		const R grown = maxOf<R>(0, point.level + R(tolerance::gapSkin) * f.size);
-		for (int i = 0; i < planes.total; ++i)
-			planes.offset[i] += grown;
-		contactSection<R, D>(in, f, planes, point.x, n, workspace, out);
-	}
+	if (settings.section) conservativeSection<R, D, W>(in, f, planes, s, point.x, n, x, workspace, out);
 	failUnlessFinite<D>(memory, out);
 }
 

@@ -61,7 +61,7 @@ POLYTOPE_INLINE bool dismissedByLastWeights(const PairInput& in, const ContactSe
         const ContactFrame<R, D>& f, const ProgramLimits<R>& limits, ContactResult& out)
 {
 	if (!settings.warmStart || !memory.hasBasis || memory.hasPoint || settings.geometryAcrossGap) return false;
-	if (!heldApart<R, D>(in, memory, f.home, f.size, limits.reach, out.infeasibility)) return false;
+	if (!separatedByWeights<R, D>(in, memory, f.home, f.size, limits.reach, out.infeasibility)) return false;
 	out.dismissed = true;
 	return true;
 }

@@ -62,7 +62,7 @@ POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis
 /// taken on, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
 /// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
 template <class R, int D>
-POLYTOPE_INLINE bool heldApart(const PairInput& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
+POLYTOPE_INLINE bool separatedByWeights(const PairInput& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
 {
 	using std::sqrt;
 	R sum[2][D] = {}, world[2][D];

@@ -139,15 +139,16 @@ TEST(Counters, SeparatedPairsAreDismissedAtOnce)
 	}
 }
 
-/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions>,<cold|warm|apart>
-/// queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left.
+/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions>,
+/// <cold|warm|averaged|apart> queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left.
+/// averaged: warm, with the paper's averaged normal.
 TEST(Counters, DISABLED_Queries)
 {
 	const char* text = std::getenv("POLYTOPE_COUNTED");
 	ASSERT_NE(text, nullptr);
 	int  faces = 0, repetitions = 0;
-	char kind[6] = "";
-	ASSERT_EQ(std::sscanf(text, "%d,%d,%5s", &faces, &repetitions, kind), 3);
+	char kind[9] = "";
+	ASSERT_EQ(std::sscanf(text, "%d,%d,%8s", &faces, &repetitions, kind), 3);
 	const bool cold = std::string(kind) == "cold", apart = std::string(kind) == "apart";
 	std::printf("instruction set: %s\n", instructionSet());
 	std::mt19937_64   random(1);
@@ -157,10 +158,12 @@ TEST(Counters, DISABLED_Queries)
 		moved.push_back(afterStep(pairs.back(), random));
 	}
 	std::vector<PairMemory> memories(pairs.size());
-	int                     contacts = 0;
+	ContactSettings         settings;
+	if (std::string(kind) == "averaged") settings.normal = NormalSource::InnerPotential;
+	int contacts = 0;
 	for (int i = 0; i <= repetitions; ++i)
 		for (std::size_t k = 0; k < pairs.size(); ++k)
-			contacts += query(i % 2 ? moved[k] : pairs[k], {}, cold ? nullptr : &memories[k]).inContact;
+			contacts += query(i % 2 ? moved[k] : pairs[k], settings, cold ? nullptr : &memories[k]).inContact;
 	EXPECT_EQ(contacts, apart ? 0 : (repetitions + 1) * int(pairs.size()));
 }
 

@@ -12,11 +12,14 @@ import sys
 
 bounds = {
         'cold': {4: 3460, 6: 4400, 12: 6190, 20: 9560},
-        'warm': {6: 3170, 20: 4370},
+        'averaged': {6: 3170, 20: 4370},
         'apart': {6: 400},
 }
 """Faces of the regular solids: instructions a pair, measured and a tenth more. Touching pairs without and with what the last step has left,
-and pairs that are apart, with it."""
+and pairs that are apart, with it. averaged: touching, with what the last step has left, and the paper's averaged normal."""
+
+warm = 1.15
+"""The same with the default normal: at most so many times the instructions of the averaged one."""
 
 pairs = 20
 few, many = 5, 55
@@ -39,13 +42,16 @@ def main():
 		print('no valgrind')
 		return 77
 	failed = False
-	for kind, faces, bound in [(kind, *one) for kind, solids in bounds.items() for one in solids.items()]:
+	counted = {}
+	kinds = [(kind, *one) for kind, solids in bounds.items() for one in solids.items()]
+	for kind, faces, bound in [*kinds, *(('warm', faces, None) for faces in bounds['averaged'])]:
 		(first, printed), (second, _) = run(sys.argv[1], kind, faces, few), run(sys.argv[1], kind, faces, many)
 		if 'instruction set: AVX2' not in printed:
 			print('the bounds are for AVX2')
 			return 77
-		each = (second - first) / ((many - few) * pairs)
-		print(f'{kind}, {faces} faces: {each:.0f} instructions a query, bound {bound}', flush=True)
+		each = counted[kind, faces] = (second - first) / ((many - few) * pairs)
+		bound = bound or warm * counted['averaged', faces]
+		print(f'{kind}, {faces} faces: {each:.0f} instructions a query, bound {bound:.0f}', flush=True)
 		failed |= not bound / 2 < each <= bound  # far below: not the query was counted
 	return failed
 

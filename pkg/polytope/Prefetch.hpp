@@ -13,7 +13,7 @@
 /// known a few pairs before its turn: first the pair itself, then what it points to, then what its bodies point to.
 namespace yade {
 
-namespace lookAhead {
+namespace prefetch {
 
 	/// How many pairs ahead. The gaps let each address arrive before it is followed; half and twice of all three cost the same within a
 	/// tenth in a heap of 10 000 cubes.
@@ -29,11 +29,11 @@ namespace lookAhead {
 			__builtin_prefetch(reinterpret_cast<const void*>(at));
 	}
 
-} // namespace lookAhead
+} // namespace prefetch
 
 /// To be called from a functor's go(). Bodies and the list of pairs stay as they are while the loop runs; other shapes and
 /// geometries than ours are smaller.
-inline void lookAheadOf(const Interaction& now, const Scene& scene)
+inline void prefetchAfter(const Interaction& now, const Scene& scene)
 {
 	if (now.linIx < 0) return; // a pair outside the loop
 	InteractionContainer& pairs  = *scene.interactions;
@@ -41,18 +41,18 @@ inline void lookAheadOf(const Interaction& now, const Scene& scene)
                 const std::size_t index = std::size_t(now.linIx) + std::size_t(ahead);
                 return index < pairs.size() ? pairs[index].get() : nullptr;
 	};
-	if (const Interaction* next = beyond(lookAhead::pair)) lookAhead::fetch(next, sizeof(Interaction));
-	if (const Interaction* next = beyond(lookAhead::parts)) {
-		lookAhead::fetch(next->geom.get(), sizeof(PolytopeGeom));
-		lookAhead::fetch(next->phys.get(), sizeof(RockJointPhys));
+	if (const Interaction* next = beyond(prefetch::pair)) prefetch::fetch(next, sizeof(Interaction));
+	if (const Interaction* next = beyond(prefetch::parts)) {
+		prefetch::fetch(next->geom.get(), sizeof(PolytopeGeom));
+		prefetch::fetch(next->phys.get(), sizeof(RockJointPhys));
 		for (const Body::id_t id : { next->getId1(), next->getId2() })
-			lookAhead::fetch((*scene.bodies)[id].get(), sizeof(Body));
+			prefetch::fetch((*scene.bodies)[id].get(), sizeof(Body));
 	}
-	if (const Interaction* next = beyond(lookAhead::bodyParts)) {
+	if (const Interaction* next = beyond(prefetch::bodyParts)) {
 		for (const Body::id_t id : { next->getId1(), next->getId2() })
 			if (const Body* body = (*scene.bodies)[id].get()) {
-				lookAhead::fetch(body->state.get(), sizeof(State));
-				lookAhead::fetch(body->shape.get(), sizeof(Polytope));
+				prefetch::fetch(body->state.get(), sizeof(State));
+				prefetch::fetch(body->shape.get(), sizeof(Polytope));
 			}
 	}
 }
