@@ -197,54 +197,66 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c
 	return c->isReal();
 }
 
-void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
+namespace {
+
+	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
+
+	/// What the attribute's name stands for. `names`: as the message lists them.
+	template <class Value>
+	Value meaning(const char* attribute, const std::string& name, const std::string& names, std::initializer_list<std::pair<const char*, Value>> all)
+	{
+		for (const auto& [one, value] : all)
+			if (name == one) return value;
+		refuse(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
+	}
+
+	void requireWithin(const char* attribute, Real value, Real least, Real most, const std::string& leastIs, const std::string& of)
+	{
+		if (value >= least && value <= most) return;
+		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and " + polytope::numberText(most)
+		       + " (a fraction of " + of + ")");
+	}
+
+} // namespace
+
+polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() const
 {
-	const auto refuse = [&](const std::string& message) {
-		contactModel    = goodContactModel_;
-		barrier         = goodBarrier_;
-		contactPoint    = goodContactPoint_;
-		normal          = goodNormal_;
-		tolerance       = goodTolerance_;
-		newtonTolerance = goodNewtonTolerance_;
-		solver          = goodSolver_;
-		throw std::invalid_argument(message);
-	};
-	if (contactModel == "paper") settings_.contactModel = polytope::ContactModel::Paper;
-	else if (contactModel == "conservative") settings_.contactModel = polytope::ContactModel::Conservative;
-	else refuse("contactModel: must be 'paper' or 'conservative', not '" + contactModel + "'");
-	if (!(barrier >= polytope::tolerance::leastBarrier && barrier <= polytope::tolerance::largestBarrier))
-		refuse("barrier: must lie between " + polytope::numberText(polytope::tolerance::leastBarrier) + " and "
-		        + polytope::numberText(polytope::tolerance::largestBarrier)
-		        + " (a fraction of the smaller body's inscribed radius)");
-	if (contactPoint == "analyticCentre") settings_.contactPoint = polytope::ContactPoint::AnalyticCentre;
-	else if (contactPoint == "chebyshevCentre") settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
-	else if (contactPoint == "centroid") settings_.contactPoint = polytope::ContactPoint::Centroid;
-	else refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
-	if (normal == "dualWeights") settings_.normal = polytope::NormalSource::DualWeights;
-	else if (normal == "innerPotential") settings_.normal = polytope::NormalSource::InnerPotential;
-	else refuse("normal: must be 'dualWeights' or 'innerPotential', not '" + normal + "'");
-	if (solver == "newton") settings_.solver = polytope::CentreSolver::Newton;
-	else if (solver != "ipopt") refuse("solver: must be 'newton' or 'ipopt', not '" + solver + "'");
-	else if (!polytope::ipoptVersion())
+	using namespace polytope;
+	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
+	ContactSettings result;
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'paper' or 'conservative'",
+	        { { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative } });
+	requireWithin("barrier", barrier, limit::leastBarrier, limit::largestBarrier, "", "the smaller body's inscribed radius");
+	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
+	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
+	                { "centroid", ContactPoint::Centroid } });
+	result.normal = meaning<NormalSource>("normal", normal, "'dualWeights' or 'innerPotential'",
+	        { { "dualWeights", NormalSource::DualWeights }, { "innerPotential", NormalSource::InnerPotential } });
+	result.solver = meaning<CentreSolver>(
+	        "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
+	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
 		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
 		       "-DPOLYTOPE_IPOPT=ON");
-	else settings_.solver = polytope::CentreSolver::Ipopt;
 	if (!(tolerance >= 0 && tolerance < 1))
 		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
-	if (!(newtonTolerance >= polytope::tolerance::rounding && newtonTolerance <= polytope::tolerance::coarsestNewton))
-		refuse("newtonTolerance: must lie between " + polytope::numberText(polytope::tolerance::rounding)
-		        + " (the rounding of this precision's numbers) and " + polytope::numberText(polytope::tolerance::coarsestNewton)
-		        + " (a fraction of the overlap's own size)");
-	settings_.tolerance       = tolerance;
-	settings_.newtonTolerance = newtonTolerance;
-	settings_.barrier         = barrier;
-	goodContactModel_         = contactModel;
-	goodBarrier_              = barrier;
-	goodContactPoint_         = contactPoint;
-	goodNormal_               = normal;
-	goodSolver_               = solver;
-	goodTolerance_            = tolerance;
-	goodNewtonTolerance_      = newtonTolerance;
+	requireWithin("newtonTolerance", newtonTolerance, limit::rounding, limit::coarsestNewton,
+	        " (the rounding of this precision's numbers)", "the overlap's own size");
+	result.tolerance       = tolerance;
+	result.newtonTolerance = newtonTolerance;
+	result.barrier         = barrier;
+	return result;
+}
+
+void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
+{
+	auto options = std::tie(contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance);
+	try {
+		settings_ = checkedSettings();
+	} catch (...) {
+		options = goodOptions_;
+		throw;
+	}
+	goodOptions_ = options;
 }
 
 boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const

@@ -9,6 +9,8 @@
 
 #include <src/contact/ContactQuery.hpp>
 
+#include <tuple>
+
 namespace yade {
 
 struct TouchingPair;
@@ -132,6 +134,9 @@ protected:
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
+	/// Settings from the attributes. Refuses unknown names and numbers out of range with std::invalid_argument naming the attribute.
+	polytope::ContactSettings checkedSettings() const;
+
 	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron).
 	bool failed(const shared_ptr<Interaction>& c);
 
@@ -141,10 +146,9 @@ private:
 	polytope::ContactSettings    settings_;
 	AreaUsers                    areaUsers_;
 	std::vector<ContactCounters> counters_         = std::vector<ContactCounters>(omp_get_max_threads());
-	std::string                  goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodNormal_ = "dualWeights",
-	                             goodSolver_ = "newton";
-	Real                         goodBarrier_   = polytope::tolerance::barrier;
-	Real                         goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
+	/// contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance, as they were last accepted.
+	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal, solver,
+		barrier, tolerance, newtonTolerance };
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
 

@@ -181,6 +181,7 @@ py::dict timeStepLimits()
 
 } // namespace
 
+// The list of all that the module has, a statement an entry: long, and without a branch.
 BOOST_PYTHON_MODULE(_polytope)
 {
 	using polytope::ContactResult;

@@ -5,7 +5,6 @@
 #include <lib/high-precision/Constants.hpp>
 
 #include "PolytopeGeom.hpp"
-#include "RockJoint.hpp"
 
 namespace yade {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "RockJoint.hpp"
+
 #include <core/Dispatching.hpp>
 #include <pkg/common/MatchMaker.hpp>
 
