@@ -5,6 +5,7 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
+#include "Construction.hpp"
 #include "PolytopeGeom.hpp"
 
 #include "BuildInfo.hpp"
@@ -13,6 +14,7 @@
 
 #include <src/IpoptCentre.hpp>
 #include <src/RegularSolids.hpp>
+#include <src/ShapeFactory.hpp>
 
 #include <boost/python.hpp>
 
@@ -49,12 +51,7 @@ py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.n
 
 py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
 
-py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::Real coplanar)
-{
-	return asTuple(polytope::hullOf(points, dimension, coplanar));
-}
-
-/// Corners, planes with a face, volume, centroid and inscribed ball of a set of half-spaces where it is.
+/// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
 py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
 {
 	const polytope::HalfSpaces set
@@ -76,33 +73,16 @@ py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vecto
 py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness,
         bool keepRedundant)
 {
-	polytope::HalfSpaces given;
-	given.normals            = normals;
-	given.offsets            = offsets;
-	given.dimension          = dimension;
-	polytope::HalfSpaces set = polytope::withoutDuplicates(polytope::normalised(given));
-	if (!keepRedundant) set = polytope::withoutRedundant(set);
-	// first to the centroid, then to the axes: a small body far out has no digits to spare for its inertia
-	yade::Vector3r position = polytope::massProperties(polytope::polyhedron(set, thickness)).centroid;
-	if (dimension == 2) position[2] = 0;
-	set       = polytope::moved(set, yade::Matrix3r::Identity(), -position);
-	auto mass = polytope::massProperties(polytope::polyhedron(set, thickness));
-	// far out the centroid itself was rounded, perhaps by more than the frame may be
-	yade::Vector3r rest = mass.centroid;
-	if (dimension == 2) rest[2] = 0;
-	if (rest.norm() > yade::Polytope::frameTolerance / 100 * cbrt(mass.volume)) {
-		position += rest;
-		set  = polytope::moved(set, yade::Matrix3r::Identity(), -rest);
-		mass = polytope::massProperties(polytope::polyhedron(set, thickness));
-	}
-	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
-	const auto central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
+	polytope::ShapeOptions options;
+	options.thickness     = thickness;
+	options.keepRedundant = keepRedundant;
+	const auto placed     = polytope::placedShape({ normals, offsets, dimension }, options);
 	py::dict   result;
-	result["normals"]         = central.normals;
-	result["offsets"]         = central.offsets;
-	result["position"]        = position;
-	result["orientation"]     = yade::Quaternionr(axes.rotation);
-	result["inscribedRadius"] = polytope::ConvexShape(central, 0, thickness).inscribedRadius();
+	result["normals"]         = placed.shape->planes().normals;
+	result["offsets"]         = placed.shape->planes().offsets;
+	result["position"]        = placed.position;
+	result["orientation"]     = yade::Quaternionr(placed.rotation);
+	result["inscribedRadius"] = placed.shape->inscribedRadius();
 	return result;
 }
 
@@ -183,11 +163,10 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
-	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
-	        "Normals and offsets of the convex hull of points.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
+	yade::defineConstruction();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>,
