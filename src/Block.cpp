@@ -68,12 +68,11 @@ namespace {
 			const std::size_t a = std::size_t(crossing.low), b = std::size_t(crossing.high);
 			const Real        part = heights[a] / (heights[a] - heights[b]);
 			crossing.point         = block.corners[a] + part * (block.corners[b] - block.corners[a]);
-			const Plane & first = all[std::size_t(crossing.planes[0])], &second = all[std::size_t(crossing.planes[1])];
-			const Vector3 normals[3] = { first.normal, second.normal, plane.normal };
-			const Real    offsets[3] = { first.offset, second.offset, plane.offset };
-			Meeting       exact;
-			if (meetingOfThree(normals, offsets, exact) && (exact.point - crossing.point).squaredNorm() <= on * on)
-				crossing.point = exact.point;
+			const Plane&  first = all[std::size_t(crossing.planes[0])], &second = all[std::size_t(crossing.planes[1])];
+			Vector3       exact;
+			if (meetingOfThree(first.normal, second.normal, plane.normal, Vector3(first.offset, second.offset, plane.offset), exact)
+			        && (exact - crossing.point).squaredNorm() <= on * on)
+				crossing.point = exact;
 		}
 	};
 

@@ -35,6 +35,7 @@ namespace {
 		explicit Quickhull(const std::vector<Vector3>& points)
 		        : points_(points), next_(points.size(), -1), facetFrom_(points.size(), -1)
 		{
+			facets_.reserve(4 * points.size());
 			startWith(spanningTetrahedron());
 			while (!open_.empty()) {
 				const int f = open_.back();

@@ -32,6 +32,7 @@ namespace {
 			while (!waiting_.empty()) {
 				const int n = waiting_.back();
 				waiting_.pop_back();
+				++rock_.boxes;
 				const Node& node = nodes_[std::size_t(n)];
 				if (abs(joint.normal.dot(node.middle) - joint.offset) >= joint.normal.cwiseAbs().dot(node.half)) continue;
 				if (node.block >= 0) cutLeaf(n, plane);

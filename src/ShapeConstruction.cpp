@@ -105,7 +105,8 @@ namespace {
 		for (std::size_t i = 0; i < planes; ++i) {
 			if (start[i] < 0) continue;
 			Indices& ring = rings[i];
-			int      t    = start[i];
+			ring.reserve(8);
+			int t = start[i];
 			do {
 				const int vertex = clusters.of[std::size_t(t)];
 				if (ring.empty() || ring.back() != vertex) ring.push_back(vertex);
@@ -158,7 +159,7 @@ namespace {
 				}
 				vertex = final;
 			}
-			shape.faces.push_back(rings[i]);
+			shape.faces.push_back(std::move(rings[i]));
 			shape.planeOfFace.push_back(local.plane[i]);
 		};
 		for (std::size_t i = 0; i < rings.size(); ++i) // caps stand behind all others
@@ -170,6 +171,7 @@ namespace {
 	bool isClosed(const Polyhedron& shape)
 	{
 		std::vector<std::pair<int, int>> edges;
+		edges.reserve(4 * shape.faces.size());
 		for (const Indices& face : shape.faces)
 			for (std::size_t k = 0; k < face.size(); ++k)
 				edges.push_back({ face[k], face[(k + 1) % face.size()] });
@@ -246,6 +248,8 @@ void placeVertices(const HalfSpaces& unit, const Real& thickness, Polyhedron& sh
 	for (int plane : shape.planeOfFace)
 		if (plane >= 0 && !(unit.offsets[std::size_t(plane)] > 0)) return; // the origin is not inside
 	std::vector<Indices> planes(shape.vertices.size());
+	for (Indices& at : planes)
+		at.reserve(8);
 	for (std::size_t f = 0; f < shape.faces.size(); ++f)
 		for (int vertex : shape.faces[f])
 			if (shape.planeOfFace[f] >= 0) planes[std::size_t(vertex)].push_back(shape.planeOfFace[f]);

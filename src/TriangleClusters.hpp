@@ -77,6 +77,7 @@ struct Clusters {
 	explicit Clusters(const Triangles& triangles) : of(triangles.size())
 	{
 		std::iota(of.begin(), of.end(), 0);
+		members.reserve(triangles.size());
 		for (Triangle triangle : triangles) {
 			std::sort(triangle.begin(), triangle.end());
 			members.emplace_back(triangle.begin(), triangle.end());
@@ -94,6 +95,7 @@ struct Clusters {
 	{
 		const Indices &first = members[std::size_t(a)], &second = members[std::size_t(b)];
 		Indices        both;
+		both.reserve(first.size() + second.size());
 		std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(both));
 		return both;
 	}
