@@ -26,7 +26,8 @@ namespace {
 		std::vector<int>          sides;   ///< −1 below, 0 on it, 1 above
 		std::vector<Crossing>     crossings;
 
-		Cut(const Block& block, const std::vector<Plane>& all, const Plane& plane, const Real& on) : block(block), all(all), plane(plane)
+		Cut(const Block& block, const std::vector<Plane>& all, const Plane& plane, const Real& on)
+		        : block(block), all(all), plane(plane)
 		{
 			for (const Vector3& corner : block.corners) {
 				heights.push_back(plane.normal.dot(corner) - plane.offset);
@@ -68,9 +69,10 @@ namespace {
 			const std::size_t a = std::size_t(crossing.low), b = std::size_t(crossing.high);
 			const Real        part = heights[a] / (heights[a] - heights[b]);
 			crossing.point         = block.corners[a] + part * (block.corners[b] - block.corners[a]);
-			const Plane&  first = all[std::size_t(crossing.planes[0])], &second = all[std::size_t(crossing.planes[1])];
-			Vector3       exact;
-			if (meetingOfThree(first.normal, second.normal, plane.normal, Vector3(first.offset, second.offset, plane.offset), exact)
+			const Plane &first = all[std::size_t(crossing.planes[0])], &second = all[std::size_t(crossing.planes[1])];
+			Vector3      exact;
+			if (meetingOfThree(
+			            first.normal, second.normal, plane.normal, Vector3(first.offset, second.offset, plane.offset), exact)
 			        && (exact - crossing.point).squaredNorm() <= on * on)
 				crossing.point = exact;
 		}
@@ -82,7 +84,8 @@ namespace {
 		std::vector<std::pair<int, int>> edges; // in the new face's direction
 		for (std::size_t f = 0; f < part.faces(); ++f)
 			for (int k = part.begin(f); k < part.end(f); ++k) {
-				const int a = part.rings[std::size_t(k)], b = part.rings[std::size_t(k + 1 < part.end(f) ? k + 1 : part.begin(f))];
+				const int a = part.rings[std::size_t(k)],
+				          b = part.rings[std::size_t(k + 1 < part.end(f) ? k + 1 : part.begin(f))];
 				if (!onCut[std::size_t(a)] || !onCut[std::size_t(b)]) continue;
 				const auto other = std::find(edges.begin(), edges.end(), std::make_pair(a, b));
 				if (other != edges.end()) edges.erase(other); // the neighbour has it
@@ -170,7 +173,7 @@ Real Block::volume() const
 		const Vector3 a = corners[std::size_t(rings[std::size_t(begin(f))])] - inner;
 		for (int k = begin(f) + 2; k < end(f); ++k)
 			six += a.dot((corners[std::size_t(rings[std::size_t(k - 1)])] - inner)
-			                     .cross(corners[std::size_t(rings[std::size_t(k)])] - inner));
+			                .cross(corners[std::size_t(rings[std::size_t(k)])] - inner));
 	}
 	return six / 6;
 }

@@ -23,8 +23,8 @@ namespace {
 		const Real cx = c.x() - p.x(), cy = c.y() - p.y(), cz = c.z() - p.z();
 		const Real bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
 		const Real value  = az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay);
-		const Real spread = magnitude(az) * (magnitude(bxcy) + magnitude(cxby)) + magnitude(bz) * (magnitude(cxay) + magnitude(axcy))
-		        + magnitude(cz) * (magnitude(axby) + magnitude(bxay));
+		const Real spread = magnitude(az) * (magnitude(bxcy) + magnitude(cxby))
+		        + magnitude(bz) * (magnitude(cxay) + magnitude(axcy)) + magnitude(cz) * (magnitude(axby) + magnitude(bxay));
 		certain = magnitude(value) > construction::volumeRounding * spread;
 		return -value;
 	}
@@ -60,7 +60,7 @@ namespace {
 	private:
 		struct Facet {
 			Triangle corner;
-			Triangle beside; ///< [k]: the facet beyond the edge from corner k to the next
+			Triangle beside;                ///< [k]: the facet beyond the edge from corner k to the next
 			int      first = -1, last = -1; ///< points above it, in the order of `next_`
 			int      farthest = -1;
 			Real     most     = 0;
@@ -116,7 +116,8 @@ namespace {
 			if (exact::orientation(a, at(corner[1]), at(corner[2]), at(corner[3])) != 0) return corner;
 			for (int i = 0; i < count; ++i) // rounding has hidden what spans space
 				for (int j = 0; j < i; ++j)
-					if (exact::orientation(a, at(corner[1]), at(i), at(j)) != 0) return { { corner[0], corner[1], i, j } };
+					if (exact::orientation(a, at(corner[1]), at(i), at(j)) != 0)
+						return { { corner[0], corner[1], i, j } };
 			throw std::logic_error("hullTriangles: the points lie in a plane");
 		}
 
@@ -146,8 +147,8 @@ namespace {
 				const Real most  = above(facet.corner, p);
 				if (!(most > 0)) continue;
 				(facet.first < 0 ? facet.first : next_[std::size_t(facet.last)]) = p;
-				facet.last                                                        = p;
-				next_[std::size_t(p)]                                             = -1;
+				facet.last                                                       = p;
+				next_[std::size_t(p)]                                            = -1;
 				if (most > facet.most) {
 					facet.most     = most;
 					facet.farthest = p;
@@ -164,19 +165,19 @@ namespace {
 			const std::size_t begin = facets_.size();
 			for (const Rim& edge : rim_) {
 				Facet facet;
-				facet.corner                    = { { edge.from, edge.to, apex } };
-				facet.beside                    = { { edge.outside, -1, -1 } };
+				facet.corner                       = { { edge.from, edge.to, apex } };
+				facet.beside                       = { { edge.outside, -1, -1 } };
 				facetFrom_[std::size_t(edge.from)] = int(facets_.size());
-				Facet& outside                  = facets_[std::size_t(edge.outside)];
+				Facet& outside                     = facets_[std::size_t(edge.outside)];
 				for (std::size_t k = 0; k < 3; ++k)
 					if (outside.corner[k] == edge.to && outside.corner[(k + 1) % 3] == edge.from)
 						outside.beside[k] = int(facets_.size());
 				facets_.push_back(facet);
 			}
 			for (std::size_t f = begin; f < facets_.size(); ++f) {
-				const int following                              = facetFrom_[std::size_t(facets_[f].corner[1])];
-				facets_[f].beside[1]                             = following;
-				facets_[std::size_t(following)].beside[2]        = int(f);
+				const int following                       = facetFrom_[std::size_t(facets_[f].corner[1])];
+				facets_[f].beside[1]                      = following;
+				facets_[std::size_t(following)].beside[2] = int(f);
 			}
 			for (int f : seen_)
 				for (int p = facets_[std::size_t(f)].first; p >= 0;) {
@@ -195,7 +196,7 @@ namespace {
 			rim_.clear();
 			facets_[std::size_t(from)].visible = true;
 			for (std::size_t s = 0; s < seen_.size(); ++s) {
-				const Facet& facet                        = facets_[std::size_t(seen_[s])];
+				const Facet& facet                   = facets_[std::size_t(seen_[s])];
 				facets_[std::size_t(seen_[s])].alive = false;
 				for (std::size_t k = 0; k < 3; ++k) {
 					Facet& other = facets_[std::size_t(facet.beside[k])];

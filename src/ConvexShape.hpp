@@ -27,8 +27,8 @@ public:
 
 	/// The shared instance of planes whose faces and approximate vertices are known: nothing is looked for anew. Without a corner
 	/// radius, `cornerFraction` of the inscribed ball's. For ShapeFactory.
-	static std::shared_ptr<const ConvexShape> ofFaces(const HalfSpaces& planes, Polyhedron faces, const std::optional<Real>& cornerRadius,
-	        const Real& cornerFraction, const Real& thickness);
+	static std::shared_ptr<const ConvexShape> ofFaces(const HalfSpaces& planes, Polyhedron faces,
+	        const std::optional<Real>& cornerRadius, const Real& cornerFraction, const Real& thickness);
 
 	/// The shared instance of this shape with another corner radius, of which nothing else depends.
 	std::shared_ptr<const ConvexShape> withCornerRadius(const Real& radius) const;
@@ -68,8 +68,8 @@ public:
 private:
 	ConvexShape() = default; // for halfSpace
 	ConvexShape(const HalfSpaces& unit, Polyhedron faces, const Real& thickness);
-	void fillArrays();
-	void roundCorners(const Real& radius);
+	void                                      fillArrays();
+	void                                      roundCorners(const Real& radius);
 	static std::shared_ptr<const ConvexShape> known(std::shared_ptr<const ConvexShape> shape);
 
 	HalfSpaces         planes_;

@@ -105,11 +105,12 @@ namespace {
 	/// Of a triangle that is no sliver: its plane by a cross product.
 	bool fitOfTriangle(const std::vector<Vector3>& points, const Indices& members, Fit& fit)
 	{
-		const Vector3 &a = points[std::size_t(members[0])], &b = points[std::size_t(members[1])], &c = points[std::size_t(members[2])];
-		const Vector3  ab = b - a, ac = c - a;
-		const Real     longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), Real((c - b).squaredNorm()) });
-		fit.normal             = ab.cross(ac);
-		const Real area2       = fit.normal.norm(); // twice the area
+		const Vector3 &a = points[std::size_t(members[0])], &b = points[std::size_t(members[1])],
+		              &c = points[std::size_t(members[2])];
+		const Vector3 ab = b - a, ac = c - a;
+		const Real    longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), Real((c - b).squaredNorm()) });
+		fit.normal            = ab.cross(ac);
+		const Real area2      = fit.normal.norm(); // twice the area
 		if (!(area2 >= construction::sliver * longest)) return false;
 		fit.normal /= area2;
 		fit.middle = (a + b + c) / 3;
@@ -127,11 +128,12 @@ namespace {
 	bool missEachOther(const std::vector<Vector3>& points, const std::array<int, 4>& corners, const Real& tolerance)
 	{
 		const Vector3& o = points[std::size_t(corners[3])];
-		const Vector3  a = points[std::size_t(corners[0])] - o, b = points[std::size_t(corners[1])] - o, c = points[std::size_t(corners[2])] - o;
-		const Vector3  ab = a.cross(b), bc = b.cross(c), ca = c.cross(a);
-		const Real     largest = std::max({ ab.norm(), bc.norm(), ca.norm(), Real((ab + bc + ca).norm()), Real(a.cross(c - b).norm()),
+		const Vector3  a = points[std::size_t(corners[0])] - o, b = points[std::size_t(corners[1])] - o,
+		              c  = points[std::size_t(corners[2])] - o;
+		const Vector3 ab = a.cross(b), bc = b.cross(c), ca = c.cross(a);
+		const Real largest = std::max({ ab.norm(), bc.norm(), ca.norm(), Real((ab + bc + ca).norm()), Real(a.cross(c - b).norm()),
 		        Real(b.cross(c - a).norm()), Real(c.cross(b - a).norm()) });
-		const Real     rounded = construction::minorRounding * a.norm() * b.norm() * c.norm();
+		const Real rounded = construction::minorRounding * a.norm() * b.norm() * c.norm();
 		return abs(c.dot(ab)) - rounded > 2 * tolerance * largest * (1 + construction::minorRounding);
 	}
 
@@ -148,8 +150,8 @@ namespace {
 		for (std::size_t k = 0; k < members.size(); ++k)
 			rows.row(Eigen::Index(k)) = (points[std::size_t(members[k])] - fit.middle).transpose();
 		const Eigen::HouseholderQR<Rows> qr(rows);
-		const Matrix3                   factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
-		const Eigen::JacobiSVD<Matrix3> svd(factor, Eigen::ComputeFullV);
+		const Matrix3                    factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
+		const Eigen::JacobiSVD<Matrix3>  svd(factor, Eigen::ComputeFullV);
 		fit.normal = svd.matrixV().col(2);
 		fit.width  = svd.singularValues()[1];
 		fit.misfit = (rows * fit.normal).cwiseAbs().maxCoeff();

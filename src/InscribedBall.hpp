@@ -15,7 +15,8 @@ public:
 	/// `arrays`: D component arrays of unit normals, then the offsets, each of `padded` numbers (see ConvexShape). The simplex starts
 	/// from D + 1 artificial planes at a distance `reach` from the origin, which must hold the ball.
 	InscribedBall(const Real* arrays, int padded, int count, const Real& reach)
-	        : padded_(padded), reach_(reach), limit_(1000 + 100 * count), rows_(std::size_t(D + 3) * std::size_t(padded + padWidth), Real(0))
+	        : padded_(padded), reach_(reach), limit_(1000 + 100 * count),
+	          rows_(std::size_t(D + 3) * std::size_t(padded + padWidth), Real(0))
 	{
 		const int total = padded + padWidth;
 		for (int k = 0; k < D; ++k)
@@ -39,7 +40,8 @@ public:
 	{
 		int pivots = 0;
 		solveBasis<Real, D>(planes_, basis_);
-		if (solveLp<Real, D, 1>(planes_, basis_, reach_, Real(padOffset), reach_, limit_, pivots) != LpStatus::Optimal) return false;
+		if (solveLp<Real, D, 1>(planes_, basis_, reach_, Real(padOffset), reach_, limit_, pivots) != LpStatus::Optimal)
+			return false;
 		for (int k = 0; k <= D; ++k)
 			if (basis_.plane[k] >= padded_) return false;
 		return true;

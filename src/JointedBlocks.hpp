@@ -12,11 +12,11 @@
 namespace polytope {
 
 struct JointedBlocks {
-	std::vector<Plane> planes;  ///< the region's, then two for each joint, facing each other
-	std::vector<Block> blocks;  ///< of cuts made later, those below the joint stand before those above it
-	std::vector<bool>  cutting; ///< joint → whether it has cut a block
-	std::size_t        uncut  = 0; ///< cuts not made: they would have left a piece that holds no ball of radius `smallest`
-	std::size_t        boxes  = 0; ///< looked at in the tree, for all joints together
+	std::vector<Plane> planes;    ///< the region's, then two for each joint, facing each other
+	std::vector<Block> blocks;    ///< of cuts made later, those below the joint stand before those above it
+	std::vector<bool>  cutting;   ///< joint → whether it has cut a block
+	std::size_t        uncut = 0; ///< cuts not made: they would have left a piece that holds no ball of radius `smallest`
+	std::size_t        boxes = 0; ///< looked at in the tree, for all joints together
 };
 
 /// Joints cut one after the other. A joint that passes no farther inside a block than construction::touching follows a face or a

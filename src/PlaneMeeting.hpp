@@ -34,8 +34,8 @@ inline bool meetingOfThree(const Vector3& n0, const Vector3& n1, const Vector3& 
 /// the condition, but of a correction that is small where the planes do meet; where they do not, no digits are asked for.
 inline bool meetingFromThree(const std::vector<Vector3>& normals, const std::vector<Real>& slacks, const Indices& planes, Vector3& point)
 {
-	const auto normal = [&](std::size_t k) -> const Vector3& { return normals[std::size_t(planes[k])]; };
-	const auto slack  = [&](std::size_t k) -> const Real& { return slacks[std::size_t(planes[k])]; };
+	const auto  normal = [&](std::size_t k) -> const Vector3& { return normals[std::size_t(planes[k])]; };
+	const auto  slack  = [&](std::size_t k) -> const Real& { return slacks[std::size_t(planes[k])]; };
 	std::size_t second = 1, third = 2;
 	if (planes.size() > 3) {
 		Real most = 0;
@@ -64,7 +64,8 @@ inline bool meetingFromThree(const std::vector<Vector3>& normals, const std::vec
 		square += normal(k) * normal(k).transpose();
 		right += normal(k) * (slack(k) - normal(k).dot(point));
 	}
-	const Vector3 rows[3] = { square.row(1).cross(square.row(2)), square.row(2).cross(square.row(0)), square.row(0).cross(square.row(1)) };
+	const Vector3 rows[3]
+	        = { square.row(1).cross(square.row(2)), square.row(2).cross(square.row(0)), square.row(0).cross(square.row(1)) };
 	point += Vector3(rows[0].dot(right), rows[1].dot(right), rows[2].dot(right)) / rows[0].dot(square.row(0));
 	return true;
 }

@@ -28,10 +28,7 @@ namespace {
 		return hullTriangles(duals);
 	}
 
-	Meeting meeting(const LocalPlanes& local, const Indices& planes)
-	{
-		return polytope::meeting(local.normals, local.slacks, planes);
-	}
+	Meeting meeting(const LocalPlanes& local, const Indices& planes) { return polytope::meeting(local.normals, local.slacks, planes); }
 
 	/// How far a point lies outside the set: negative inside.
 	Real reachBeyond(const LocalPlanes& local, const Vector3& point)
@@ -60,7 +57,7 @@ namespace {
 	Real checkedExtent(const HalfSpaces& set, const LocalPlanes& local, const Triangles& triangles)
 	{
 		if (mayBeOpen(local, triangles)) refuseIfOpen(set);
-		Real extent = 0, misfit = 0;
+		Real    extent = 0, misfit = 0;
 		Indices planes(3);
 		for (const Triangle& t : triangles) {
 			std::copy(t.begin(), t.end(), planes.begin());
@@ -110,9 +107,9 @@ namespace {
 			do {
 				const int vertex = clusters.of[std::size_t(t)];
 				if (ring.empty() || ring.back() != vertex) ring.push_back(vertex);
-				const Triangle& corners = triangles[std::size_t(t)];
-				const std::size_t      here    = corners[0] == int(i) ? 0 : corners[1] == int(i) ? 1 : 2;
-				t                              = edges.left(int(i), corners[(here + 2) % 3]);
+				const Triangle&   corners = triangles[std::size_t(t)];
+				const std::size_t here    = corners[0] == int(i) ? 0 : corners[1] == int(i) ? 1 : 2;
+				t                         = edges.left(int(i), corners[(here + 2) % 3]);
 			} while (t != start[i]);
 			while (ring.size() > 1 && ring.front() == ring.back())
 				ring.pop_back();
@@ -205,12 +202,11 @@ namespace {
 		}
 		const Real tolerance = construction::coincidence * local.size(extent);
 		const auto apart     = [&](int left, int right) {
-                        return missEachOther(
-                                local, cornersOfTwo(triangles[std::size_t(left)], triangles[std::size_t(right)]), tolerance);
+                        return missEachOther(local, cornersOfTwo(triangles[std::size_t(left)], triangles[std::size_t(right)]), tolerance);
 		};
-		const auto misfit   = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
-		const auto outside  = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
-		Polyhedron shape    = assembled(local, triangles, edges, cluster(triangles, edges, apart, misfit, outside, tolerance));
+		const auto misfit  = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
+		const auto outside = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
+		Polyhedron shape   = assembled(local, triangles, edges, cluster(triangles, edges, apart, misfit, outside, tolerance));
 		// joining can only fail where the set is as thin as rounding somewhere; slivers are the lesser evil then
 		if (!isClosed(shape)) shape = assembled(local, triangles, edges, Clusters(triangles));
 		return shape;

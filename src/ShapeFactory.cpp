@@ -18,11 +18,16 @@ namespace {
 
 	using Known = KnownShapes<KnownPlaced>;
 
+	/// Numbers of an input that is remembered. A mesh of more than a thousand points is read in longer than its hull is made, and a key
+	/// of its size would stay as long as the body does.
+	constexpr std::size_t longestKey = 4096;
+
 	/// The numbers that make the shape.
-	Known::Key keyOf(int kind, const std::vector<Vector3>& vectors, const std::vector<Real>& numbers, int dimension, const ShapeOptions& options)
+	Known::Key keyOf(
+	        int kind, const std::vector<Vector3>& vectors, const std::vector<Real>& numbers, int dimension, const ShapeOptions& options)
 	{
-		Known::Key key { Real(kind), Real(dimension), options.thickness, Real(options.keepRedundant), Real(options.cornerRadius ? 1 : 0),
-			options.cornerRadius ? *options.cornerRadius : options.cornerFraction };
+		Known::Key key { Real(kind), Real(dimension), options.thickness, Real(options.keepRedundant),
+			Real(options.cornerRadius ? 1 : 0), options.cornerRadius ? *options.cornerRadius : options.cornerFraction };
 		key.reserve(key.size() + 3 * vectors.size() + numbers.size());
 		for (const Vector3& v : vectors)
 			key.insert(key.end(), { v[0], v[1], v[2] });
@@ -33,6 +38,7 @@ namespace {
 	/// What is known by this key, or what `make` makes.
 	template <class Make> PlacedShape knownOr(Known::Key key, const Make& make)
 	{
+		if (key.size() > longestKey) return make();
 		static Known known;
 		PlacedShape  result;
 		KnownPlaced  found;
@@ -89,7 +95,8 @@ namespace {
 		if (set.dimension == 2) centroid.z() = 0;
 		if (!central)
 			for (std::size_t i = 0; i < set.size(); ++i)
-				set.offsets[i] = (set.offsets[i] - set.normals[i].dot(local.centre)) - local.unit * set.normals[i].dot(centroid);
+				set.offsets[i]
+				        = (set.offsets[i] - set.normals[i].dot(local.centre)) - local.unit * set.normals[i].dot(centroid);
 
 		result.rotation = principalAxes(mass.inertia, set.dimension).rotation;
 		if (result.rotation != Matrix3::Identity())
@@ -97,7 +104,8 @@ namespace {
 				normal = (result.rotation.transpose() * normal).eval();
 		for (Vector3& vertex : local.shape.vertices)
 			vertex = result.rotation.transpose() * Vector3(local.unit * (vertex - centroid));
-		result.shape = ConvexShape::ofFaces(set, std::move(local.shape), options.cornerRadius, options.cornerFraction, options.thickness);
+		result.shape = ConvexShape::ofFaces(
+		        set, std::move(local.shape), options.cornerRadius, options.cornerFraction, options.thickness);
 		return result;
 	}
 
@@ -110,7 +118,8 @@ PlacedShape placedShape(const HalfSpaces& planes, const ShapeOptions& options)
 
 PlacedShape placedHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options)
 {
-	return knownOr(keyOf(1, points, { coplanar }, dimension, options), [&] { return made(hullOf(points, dimension, coplanar), options); });
+	return knownOr(
+	        keyOf(1, points, { coplanar }, dimension, options), [&] { return made(hullOf(points, dimension, coplanar), options); });
 }
 
 } // namespace polytope

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "ConvexHull.hpp"
 #include "ConstructionTolerances.hpp"
+#include "ConvexHull.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -45,7 +45,7 @@ public:
 		Indices place = begin_;
 		for (std::size_t t = 0; t < triangles.size(); ++t)
 			for (std::size_t k = 0; k < 3; ++k) {
-				const int from = triangles[t][k];
+				const int from                                  = triangles[t][k];
 				edges_[std::size_t(place[std::size_t(from)]++)] = { from, triangles[t][(k + 1) % 3], int(t) };
 			}
 		for (std::size_t corner = 0; corner + 1 < begin_.size(); ++corner)

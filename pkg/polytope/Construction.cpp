@@ -40,8 +40,8 @@ namespace {
 		return polytope::placedShape({ normals, offsets, 3 }, options(1, keepRedundant, cornerRadius, cornerFraction));
 	}
 
-	PlacedShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness, const py::object& cornerRadius,
-	        Real cornerFraction)
+	PlacedShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
+	        const py::object& cornerRadius, Real cornerFraction)
 	{
 		return polytope::placedHull(points, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
 	}
@@ -85,7 +85,7 @@ namespace {
 		state.refPos = state.pos;
 		state.refOri = state.ori;
 		body->setBounded(true);
-		const bool flat = shape->dimension == 2;
+		const bool flat   = shape->dimension == 2;
 		state.blockedDOFs = fixed ? State::DOF_ALL : flat ? State::DOF_Z | State::DOF_RX | State::DOF_RY : State::DOF_NONE;
 		// a polygon turns about z only, so its other moments never enter
 		body->setAspherical(!flat && inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
@@ -103,8 +103,8 @@ namespace {
 	}
 
 	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
-	py::dict jointedBlocks(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, const std::vector<Vector3r>& jointNormals,
-	        const std::vector<Real>& jointOffsets, Real smallest)
+	py::dict jointedBlocks(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets,
+	        const std::vector<Vector3r>& jointNormals, const std::vector<Real>& jointOffsets, Real smallest)
 	{
 		std::vector<polytope::Plane> joints;
 		for (std::size_t j = 0; j < jointNormals.size(); ++j)
@@ -136,7 +136,8 @@ namespace {
 void defineConstruction()
 {
 	py::class_<PlacedShape>("PlacedShape", "A shape of ShapeFactory, and where it is.", py::no_init)
-	        .add_property("position", +[](const PlacedShape& p) { return p.position; }, "Centroid [m].")
+	        .add_property(
+	                "position", +[](const PlacedShape& p) { return p.position; }, "Centroid [m].")
 	        .add_property("orientation", +[](const PlacedShape& p) { return Quaternionr(Matrix3r(p.rotation)); }, "Principal axes.");
 	py::def("ofHalfSpaces", &ofHalfSpaces, "Shape of planes: normals, offsets, keepRedundant, cornerRadius or None, cornerFraction.");
 	py::def("ofPoints", &ofPoints, "Shape of a hull: points, dimension, coplanar, thickness, cornerRadius or None, cornerFraction.");

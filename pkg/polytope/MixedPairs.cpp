@@ -102,8 +102,8 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	auto& geom = geometry(c);
-	const auto& box = static_cast<const Box&>(*shape1);
+	auto&       geom = geometry(c);
+	const auto& box  = static_cast<const Box&>(*shape1);
 	// scripts may change the extents of a box in a run
 	if (!geom.partner || !isBox(*geom.partner, box)) geom.partner = solidOr([&] { return boxOf(box, *convex); });
 	if (!geom.partner) return failed(c);
@@ -120,7 +120,7 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const 
 	if (!geom.partner || !c->isReal()) {
 		// the side is settled when the contact begins, and kept while it lasts
 		const Vector3r centre = state1.ori.conjugate() * (state2.pos + shift2 - state1.pos);
-		geom.side = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
+		geom.side             = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
 	}
 	// nor need its corners be the same as in the step before
 	const auto planes = facetPlanes(facet, *convex, geom.side);

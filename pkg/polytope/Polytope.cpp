@@ -64,7 +64,7 @@ void Polytope::postLoad(Polytope&)
 		}
 	}
 	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): planes are still to come from an archive
-	if (convex_) { // the corner radius is the only attribute that can have changed
+	if (convex_) {                                              // the corner radius is the only attribute that can have changed
 		try {
 			adopt(convex_->withCornerRadius(cornerRadius));
 		} catch (const std::invalid_argument&) {

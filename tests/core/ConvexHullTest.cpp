@@ -36,7 +36,8 @@ void expectHull(const Points& points, const Triangles& triangles)
 	for (const Triangle& t : triangles) {
 		bool any = false;
 		for (const Vector3& p : points) {
-			const int side = exact::orientation(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])], p);
+			const int side
+			        = exact::orientation(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])], p);
 			EXPECT_LE(side, 0);
 			any = any || side < 0;
 		}
@@ -82,7 +83,7 @@ TEST(ConvexHull, pointsThatMissCommonPlanesByRounding)
 			Points points;
 			for (int k = 0; k < 40; ++k) { // on the faces of a turned box, rounded
 				Vector3 p(along(random), along(random), along(random));
-				p[k % 3] = k % 2 ? 1 : -1;
+				p[k % 3]           = k % 2 ? 1 : -1;
 				const Matrix3 turn = Eigen::AngleAxis<Real>(i, Vector3(1, 2, 3).normalized()).toRotationMatrix();
 				points.push_back(turn * p + away * Vector3(1, -1, Real(0.5)));
 			}
@@ -90,9 +91,10 @@ TEST(ConvexHull, pointsThatMissCommonPlanesByRounding)
 			expectHull(points, triangles);
 			for (const Triangle& t : triangles) // in double the sign would now and then be wrong
 				for (const Vector3& p : points) {
-					const Vector3 a = points[std::size_t(t[0])] - p, b = points[std::size_t(t[1])] - p, c = points[std::size_t(t[2])] - p;
-					const Real    volume = a.dot(b.cross(c));
-					const int     side = exact::orientation(
+					const Vector3 a = points[std::size_t(t[0])] - p, b = points[std::size_t(t[1])] - p,
+					              c   = points[std::size_t(t[2])] - p;
+					const Real volume = a.dot(b.cross(c));
+					const int  side   = exact::orientation(
                                                 points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])], p);
 					inexact += (volume < 0 ? 1 : volume > 0 ? -1 : 0) != side;
 				}

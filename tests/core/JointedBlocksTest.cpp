@@ -69,7 +69,8 @@ TEST(JointedBlocks, fillTheRegionOnceAtEverySize)
 			for (const Block& block : rock.blocks) {
 				bool inside = true;
 				for (int plane : block.planes)
-					inside = inside && rock.planes[std::size_t(plane)].normal.dot(p) < rock.planes[std::size_t(plane)].offset;
+					inside = inside
+					        && rock.planes[std::size_t(plane)].normal.dot(p) < rock.planes[std::size_t(plane)].offset;
 				found += inside;
 			}
 			EXPECT_EQ(found, 1);
@@ -92,7 +93,7 @@ TEST(JointedBlocks, jointsThroughEdgesAndCorners)
 				}
 			for (Plane& joint : joints)
 				joint.normal = rotation * joint.normal;
-			const auto rock = cutByJoints(moved(box(length, length, length), rotation, Vector3::Zero()), joints, 0);
+			const auto rock     = cutByJoints(moved(box(length, length, length), rotation, Vector3::Zero()), joints, 0);
 			const auto straight = cutByJoints(box(length, length, length), joints, 0);
 			EXPECT_GT(rock.blocks.size(), 300u);
 			EXPECT_EQ(rock.uncut, 0u);
@@ -118,7 +119,7 @@ TEST(JointedBlocks, noPieceHoldsLessThanAsked)
 		small += !block.holdsBall(fine.planes, Real(0.02));
 	EXPECT_GT(small, 10);
 	for (const Block& block : coarse.blocks) {
-		const MassProperties mass = massProperties(polyhedron(planesOf(coarse, block)));
+		const MassProperties mass  = massProperties(polyhedron(planesOf(coarse, block)));
 		const HalfSpaces     about = moved(planesOf(coarse, block), Matrix3::Identity(), -mass.centroid);
 		EXPECT_GE(ConvexShape(about, 0).inscribedRadius(), Real(0.02) * (1 - 1e-12));
 	}

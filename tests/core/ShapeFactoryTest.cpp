@@ -95,8 +95,8 @@ TEST(ShapeFactory, theSamePlanesBuiltAnewAreTheSameToTheLastBit)
 	};
 	for (int i = 0; i < 50; ++i) {
 		expectSame(placedHull(pointsOnSphere(6 + i, random), 3, 0, withCorner()));
-		expectSame(placedShape(moved(regularSolid(std::vector<int> { 4, 6, 8, 12, 20 }[std::size_t(i % 5)], 1), someRotation(random),
-		                               3 * someDirection(random)),
+		expectSame(placedShape(moved(regularSolid(std::vector<int> { 4, 6, 8, 12, 20 }[std::size_t(i % 5)], 1),
+		                               someRotation(random), 3 * someDirection(random)),
 		        withCorner()));
 		HalfSpaces polygon = moved(regularPolygon(3 + i % 9, 2), Matrix3::Identity(), Vector3(1, 2, 0));
 		expectSame(placedShape(polygon, withCorner()));
@@ -134,7 +134,8 @@ TEST(ShapeFactory, refusesWithTheWordsOfConstruction)
 	HalfSpaces open = box(1, 1, 1);
 	open.normals.pop_back();
 	open.offsets.pop_back();
-	EXPECT_TRUE(says(refusal([&] { placedShape(open, {}); }), "normals: the set is unbounded (it extends without end along (0, 0, 1))"));
+	EXPECT_TRUE(
+	        says(refusal([&] { placedShape(open, {}); }), "normals: the set is unbounded (it extends without end along (0, 0, 1))"));
 	EXPECT_TRUE(says(refusal([&] { placedShape(box(1, 0, 1), {}); }), "offsets: the set is flat"));
 	EXPECT_TRUE(says(refusal([&] { placedHull({ Vector3(0, 0, 0) }, 3, 0, {}); }), "points: 1 cannot span a body"));
 	ShapeOptions options;
