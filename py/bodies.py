@@ -93,7 +93,7 @@ def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
-	if not all(0 < h < float('inf') for h in half):
+	if not all(0 < half[k] < float('inf') for k in range(3)):
 		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
 	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), vector(center, 'center'), rotation(orientation), **body)
 
