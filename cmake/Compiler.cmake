@@ -35,7 +35,7 @@ if(POLYTOPE_SANITIZE)
 		message(FATAL_ERROR "POLYTOPE_SANITIZE=${POLYTOPE_SANITIZE} needs clang: -DCMAKE_CXX_COMPILER=clang++")
 	endif()
 	set(sanitize "-fsanitize=${POLYTOPE_SANITIZE}" "-fno-sanitize-recover=all" "-fno-omit-frame-pointer"
-		"-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzz/ignored.txt")
+		"-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tools/measure/fuzz/ignored.txt")
 	target_compile_options(polytope_options INTERFACE -O1 -g -UNDEBUG ${sanitize})
 	target_compile_definitions(polytope_options INTERFACE CGAL_NDEBUG _GLIBCXX_ASSERTIONS)
 	target_link_options(polytope_options INTERFACE ${sanitize})

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from tabulate import tabulate
 from tqdm import tqdm
 from yade import O, polytope
-from yade.polytope.scenes import FallingPolyhedra
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 fraction = 0.02
 """Of sqrt(mass / stiffness): the longest time step. In it a body of 3 m/s moves by half the length of the barrier."""

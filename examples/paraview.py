@@ -4,7 +4,7 @@
 	./run python examples/paraview.py          then open output/paraview/bodies.pvd and contacts.pvd in ParaView
 """
 from yade import O, PolytopeVTKRecorder
-from yade.polytope.scenes import FallingPolyhedra
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 FallingPolyhedra(faces=(4, 6, 8, 12, 20), number=60, columns=4).build()
 O.engines = O.engines + [PolytopeVTKRecorder(fileName='output/paraview/', iterPeriod=100)]

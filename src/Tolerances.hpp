@@ -173,6 +173,11 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
+/// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).
+/// YADE normalises an orientation in each step, which changes its four numbers by a rounding each, to and fro; their product
+/// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.
+constexpr Real noTurn = 8 * rounding;
+
 /// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;

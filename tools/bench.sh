@@ -18,7 +18,7 @@ coalPrefix() {
 benchmark() {
 	local programs=$build/bench coal said
 	# options first: nothing is built for a wrong one, nor for --help
-	said=$(python3 "$project/tests/benchmark/bench.py" --programs "$programs" "$@" --check) || exit
+	said=$(python3 "$project/tools/measure/benchmark/bench.py" --programs "$programs" "$@" --check) || exit
 	[ -z "$said" ] || { echo "$said" && exit; }
 	build
 	coal=$(coalPrefix)
@@ -34,5 +34,5 @@ benchmark() {
 			*) (step "building YADE's PotentialBlock and Polyhedra" "The benchmark goes on without." ninja -j 2 -k 0 -C "$programs" yadePeers) || true ;;
 		esac
 	) 9>"$cache/build.lock"
-	exec python3 "$project/tests/benchmark/bench.py" --programs "$programs/tests/benchmark" "$@"
+	exec python3 "$project/tools/measure/benchmark/bench.py" --programs "$programs/tools/measure/benchmark" "$@"
 }

@@ -9,7 +9,7 @@ export UCX_ERROR_SIGNALS='' OMPI_MCA_opal_signal=''
 # stacks with names; clang's own tool for it is another package
 symbols=external_symbolizer_path=$(command -v addr2line)
 export ASAN_OPTIONS=$symbols UBSAN_OPTIONS=print_stacktrace=1:$symbols
-export LSAN_OPTIONS=print_suppressions=0:suppressions=$project/tests/fuzz/leaks.txt
+export LSAN_OPTIONS=print_suppressions=0:suppressions=$project/tools/measure/fuzz/leaks.txt
 
 fuzzUsage() {
 	cat <<'END'
@@ -90,10 +90,10 @@ fuzz() {
 
 # One line of the table; on a crash what it was and how to see it again.
 fuzzTarget() {
-	local target=$1 seconds=$2 programs=$build/checked/tests/fuzz work=$build/fuzz/$1 log=$logs/fuzz-$1.log crashed=0 file
+	local target=$1 seconds=$2 programs=$build/checked/tools/measure/fuzz work=$build/fuzz/$1 log=$logs/fuzz-$1.log crashed=0 file
 	rm -rf "$work/crashes"
 	mkdir -p "$work/corpus" "$work/crashes" "$logs"
-	"$programs/polytope_replay_$target" --unpack "$work/seeds" "$project/tests/fuzz/$target.corpus" || return 1
+	"$programs/polytope_replay_$target" --unpack "$work/seeds" "$project/tools/measure/fuzz/$target.corpus" || return 1
 	"$programs/polytope_fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=60 -print_final_stats=1 \
 		-artifact_prefix="$work/crashes/" "$work/corpus" "$work/seeds" >"$log" 2>&1 </dev/null || crashed=1
 	awk -v target="$target" -v seconds="$seconds" -v crashes=$crashed '

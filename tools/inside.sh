@@ -98,12 +98,12 @@ search() {
 	logFile=$project/output/search/log-$(date -u +%Y%m%d-%H%M%S).txt
 	mkdir -p "$project/output/search"
 	POLYTOPE_REVISION=$(git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || true) \
-		"$build/tests/search/polytope_search" --log "$logFile" "$@"
+		"$build/tools/measure/search/polytope_search" --log "$logFile" "$@"
 }
 
 # The full run looks at every precision that its scenes name and that is installed; the quick one at those that happen to be built.
 tradeoff() {
-	local script=$project/examples/tradeoffPaper.py said other needed
+	local script=$project/tools/measure/tradeoff/tradeoffPaper.py said other needed
 	# options first: a mistake, or --help, has its answer before anything is built
 	said=$(python3 "$script" --check "$@") || exit
 	[ -z "$said" ] || { echo "$said" && exit; }
@@ -121,7 +121,7 @@ format() {
 	local check=() files
 	[ "${1:-}" = --check ] && check=(--dry-run --Werror)
 	cd "$project"
-	mapfile -t files < <(find src pkg tests -name '*.cpp' -o -name '*.hpp')
+	mapfile -t files < <(find src pkg tests tools -name '*.cpp' -o -name '*.hpp')
 	clang-format -i "${check[@]}" "${files[@]}"
 	if command -v ruff >/dev/null; then
 		if [ "${1:-}" = --check ]; then ruff format --check . && ruff check .; else ruff format . && ruff check --fix .; fi

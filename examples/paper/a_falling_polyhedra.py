@@ -12,7 +12,7 @@ Heaps are chaotic: other ranges are compared over several seeds. Ends with 1 if 
 	./run python examples/paper/a_falling_polyhedra.py --seeds 8   # as `./run paper` does: five minutes
 	./run yade -n -x examples/paper/a_falling_polyhedra.py --quick
 
-What the paper leaves open (sizes, stiffness, damping, time step) is set in yade.polytope.scenes.FallingPolyhedra.
+What the paper leaves open (sizes, stiffness, damping, time step) is set in yade.polytope.fallingPolyhedra.FallingPolyhedra.
 """
 
 import argparse
@@ -25,16 +25,18 @@ if __name__ == '__main__':  # --threads counts when YADE is loaded; within `yade
 	early = argparse.ArgumentParser(add_help=False)
 	early.add_argument('--threads', default=os.environ['OMP_NUM_THREADS'])
 	os.environ['OMP_NUM_THREADS'] = early.parse_known_args()[0].threads
+	# `yade`, unlike `python`, does not look beside a script for what it imports
+	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from yade import O
-from yade.polytope.findings import Findings
-from yade.polytope.scenes import solids
-from yade.polytope.studies.contactCostReport import ContactCostReport
-from yade.polytope.studies.fallingPolyhedra import FallingRun, save
-from yade.polytope.studies.fallingPolyhedraReport import FallingPolyhedraReport
-from yade.polytope.studies.fallingPolyhedraTables import showCosts, showOutcome, showStates
-from yade.polytope.studies.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
-from yade.polytope.studies.script import conclude
+from boon2012.reporting.findings import Findings
+from yade.polytope.fallingPolyhedra import solids
+from boon2012.falling.costs import ContactCostReport
+from boon2012.falling.run import FallingRun, save
+from boon2012.falling.report import FallingPolyhedraReport
+from boon2012.falling.tables import showCosts, showOutcome, showStates
+from boon2012.reporting.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
+from boon2012.reporting.script import conclude
 
 fullNumber, fullSteps = 200, 7000
 expected = {

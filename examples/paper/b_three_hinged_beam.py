@@ -21,17 +21,19 @@ import sys
 from itertools import product
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
+if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
+from boon2012.beam.limits import BeamLimits
+from boon2012.beam.report import BeamReport, noIpopt
+from boon2012.beam.study import BeamStudy, solverNames
+from boon2012.beam.theory import BeamBetweenWalls
+from boon2012.reporting.findings import Findings
+from boon2012.reporting.options import angle, contactPoints, fraction, number, paperParser, positive, refusing, shown
+from boon2012.reporting.script import conclude
+from boon2012.solverTimes import hasSolver
 from tqdm import tqdm
-from yade.polytope.findings import Findings
-from yade.polytope.studies.beam import BeamStudy, solverNames
-from yade.polytope.studies.beamLimits import BeamLimits
-from yade.polytope.studies.beamReport import BeamReport, noIpopt
-from yade.polytope.studies.options import angle, contactPoints, fraction, number, paperParser, positive, refusing, shown
-from yade.polytope.studies.script import conclude
-from yade.polytope.studies.solverTimes import hasSolver
-from yade.polytope.theory.beam import BeamBetweenWalls
 
 length, height = 0.138, 0.046
 """The paper's half-beams [m]."""

@@ -18,14 +18,17 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
+if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
+from boon2012.reporting.findings import Findings
+from boon2012.reporting.options import positive, refusing, shown
+from boon2012.reporting.script import conclude
+from boon2012.slidingWedge.study import SlidingWedgeCase, SlidingWedgeReport, limitEquilibrium, plotLockedShear
+from boon2012.wedges.blockGeometry import BlockGeometry
+from boon2012.wedges.scene import WedgeScene
+from boon2012.wedges.study import parseWedge, plotReduction, wedgeParser
 from tqdm import tqdm
-from yade.polytope.findings import Findings
-from yade.polytope.scenes import BlockGeometry, WedgeScene
-from yade.polytope.studies.options import positive, refusing, shown
-from yade.polytope.studies.script import conclude
-from yade.polytope.studies.slidingWedge import SlidingWedgeCase, SlidingWedgeReport, limitEquilibrium, plotLockedShear
-from yade.polytope.studies.wedges import parseWedge, plotReduction, wedgeParser
 
 paperAngle, paperTheory, angleOf3dec = 33.23, 33.36, 33.19
 """Critical friction angle: the paper's DEM, its limit equilibrium, and 3DEC [°]."""

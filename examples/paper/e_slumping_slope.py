@@ -21,10 +21,11 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; thirty bodies are too few for more
+if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-from yade.polytope.findings import Findings
-from yade.polytope.scenes import readSlope
-from yade.polytope.studies.options import (
+from boon2012.reporting.findings import Findings
+from boon2012.reporting.options import (
 	Decreasing,
 	angle,
 	contactPoints,
@@ -37,9 +38,10 @@ from yade.polytope.studies.options import (
 	refusing,
 	shown,
 )
-from yade.polytope.studies.script import conclude
-from yade.polytope.studies.slopePlots import drawBlocks, plotFailure, plotMechanism, plotReduction, sideBySide
-from yade.polytope.studies.slumpingSlope import Failure, SlopeReport, SlopeRun
+from boon2012.reporting.script import conclude
+from boon2012.slope.plots import drawBlocks, plotFailure, plotMechanism, plotReduction, sideBySide
+from boon2012.slope.scene import readSlope
+from boon2012.slope.study import Failure, SlopeReport, SlopeRun
 
 start, quickStart = 40.0, 26.0
 steps, quickSteps = [1.0, 0.1], [1.0, 0.25]

@@ -20,13 +20,15 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; two bodies are too few for more
+if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-from yade.polytope.findings import Findings
-from yade.polytope.scenes import readBlocks
-from yade.polytope.studies.collisionPlots import drawSequence, plotJumps, plotOverview, plotTransitions
-from yade.polytope.studies.collisions import CollisionReport, CollisionRun, labels
-from yade.polytope.studies.options import contactPoints, fraction, isReference, notNegative, paperParser, positive, refusing, shown
-from yade.polytope.studies.script import conclude
+from boon2012.collisions.plots import drawSequence, plotJumps, plotOverview, plotTransitions
+from boon2012.collisions.scene import readBlocks
+from boon2012.collisions.study import CollisionReport, CollisionRun, labels
+from boon2012.reporting.findings import Findings
+from boon2012.reporting.options import contactPoints, fraction, isReference, notNegative, paperParser, positive, refusing, shown
+from boon2012.reporting.script import conclude
 
 paperFigures = {'vertexFace': 'Fig. 12', 'edgeEdge': 'Fig. 13'}
 

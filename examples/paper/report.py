@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The six simulations of Boon, Houlsby & Utili (2012), and one report of what came out: the program behind `./run paper`.
 
-Each script of this folder runs as a program of its own and leaves its findings (yade.polytope.findings) in a folder of its
+Each script of this folder runs as a program of its own and leaves its findings (boon2012.reporting.findings) in a folder of its
 own. Out of these come report.html, with all figures and tables, and results.csv, with all rows paper / closed form / ours.
 A simulation that is complete, of the same source and with the same options, is not run again: an interrupted call goes on
 where it stood. Ends with 1, and says why, if a row that must hold was missed or a script failed.
@@ -18,9 +18,9 @@ import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the scripts
 
-from yade.polytope.studies.options import count
-from yade.polytope.studies.paperRuns import Run, sourceHash
-from yade.polytope.studies.reportRun import endOnTerm, outputFolder, report
+from boon2012.reporting.options import count
+from boon2012.reporting.report import endOnTerm, outputFolder, report
+from boon2012.reporting.runs import Run, sourceHash
 
 here = scripts = pathlib.Path(__file__).resolve().parent
 
@@ -35,7 +35,7 @@ simulations = {
 """Letter: script, title, options of the full run besides --output; the quick one's are --quick alone."""
 
 ofTheReport = [pathlib.Path('examples/paper') / name for name in ('report.py', 'report.html.jinja')]
-ofTheReport += [pathlib.Path('py/studies') / name for name in ('paperReport.py', 'paperRuns.py', 'reportRun.py')]
+ofTheReport += [pathlib.Path('examples/paper/boon2012/reporting') / name for name in ('page.py', 'runs.py', 'report.py')]
 """What no simulation depends on."""
 
 

@@ -4,6 +4,8 @@
 #include <core/Dispatching.hpp>
 #include <core/Scene.hpp>
 
+#include <src/Tolerances.hpp>
+
 #include <limits>
 
 namespace yade {
@@ -18,7 +20,8 @@ const Body* PolytopeCollider::bodyOf(std::size_t id) const
 
 Real PolytopeCollider::way(const Turn& turn, const Body& body)
 {
-	return 2 * turn.radius * (body.state->ori.conjugate() * turn.from).vec().norm();
+	const Real sine = (body.state->ori.conjugate() * turn.from).vec().norm(); // of half the angle
+	return sine <= polytope::tolerance::noTurn ? Real(0) : 2 * turn.radius * sine;
 }
 
 bool PolytopeCollider::turnedOutOfBox() const

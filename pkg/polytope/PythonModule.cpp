@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The extension module yade._polytope: what yade.polytope (py/) needs beyond YADE's classes.
+// The extension module yade._polytope: what yade.polytope (py/polytope/) needs beyond YADE's classes.
 //
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own

@@ -58,6 +58,31 @@ void RockJointMat::postLoad(RockJointMat&)
 
 // ---------------------------------------------------------------------------------------------------- physics
 
+void RockJointPhys::setStiffnesses()
+{
+	if (normalStiffness > 0) kn = normalStiffness * contactArea;
+	else if (normalStiffnessPerContact != 0) kn = normalStiffnessPerContact;
+	if (shearStiffness > 0) ks = shearStiffness * contactArea;
+	else if (shearStiffnessPerContact != 0) ks = shearStiffnessPerContact;
+}
+
+void RockJointPhys::setKn(Real value)
+{
+	kn = value;
+	if (!(normalStiffness > 0)) normalStiffnessPerContact = value;
+}
+
+void RockJointPhys::setKs(Real value)
+{
+	ks = value;
+	if (!(shearStiffness > 0)) shearStiffnessPerContact = value;
+}
+
+void RockJointPhys::slide(const Vector3r& excess)
+{
+	if (ks > 0) slip -= excess / ks;
+}
+
 void RockJointPhys::fail()
 {
 	intact = false;
@@ -129,13 +154,14 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
 		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
-		if (stiffnessPerArea) {
-			phys->normalStiffness = normal;
-			phys->shearStiffness  = shear;
-		}
-	} else phys->contactArea = nominalArea(contact->geom.get());
-	phys->kn      = stiffnessPerArea ? normal * phys->contactArea : normal;
-	phys->ks      = stiffnessPerArea ? shear * phys->contactArea : shear;
+		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
+		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
+		phys->setStiffnesses();
+	} else {
+		phys->contactArea = nominalArea(contact->geom.get());
+		phys->kn          = stiffnessPerArea ? normal * phys->contactArea : normal;
+		phys->ks          = stiffnessPerArea ? shear * phys->contactArea : shear;
+	}
 	contact->phys = phys;
 }
 

@@ -58,8 +58,14 @@ class RockJointPhys : public FrictPhys {
 public:
 	virtual ~RockJointPhys() = default;
 
+	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact as they are.
+	void setStiffnesses();
 	/// Whether the joint has a peak strength to lose.
 	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
+	/// Whether an open joint differs from one that is made anew when it closes.
+	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()); }
+	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
+	void slide(const Vector3r& excess);
 	/// The joint fails: peak values give way to residual ones.
 	void fail();
 	/// Whether the joint holds a tensile force [N].
@@ -69,12 +75,20 @@ public:
 	/// ½ fₙ²/kₙ + ½ |fₛ|²/kₛ of the given elastic parts [J].
 	Real storedEnergy(Real normalEnergy, const Vector3r& shear) const;
 
+	/// NormPhys' and NormShearPhys' attributes; of a joint with stiffness per contact they are set for good.
+	Real getKn() const { return kn; }
+	Real getKs() const { return ks; }
+	void setKn(Real value);
+	void setKs(Real value);
+
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RockJointPhys, FrictPhys,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointPhys, FrictPhys,
 	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses [N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present friction, peak or residual.)""",
-		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` in each step; 0: *kn* stays as it is."))
+		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` in each step; 0: stiffness per contact."))
 		((Real, shearStiffness, 0, , "Shear stiffness per area [Pa/m], in the same way for $k_s$."))
-		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the joint is open. For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
+		((Real, normalStiffnessPerContact, 0, , "$k_n$ of a joint with stiffness per contact [N/m]; 0: *kn* stays as it is. A script that sets *kn* of such a joint sets this."))
+		((Real, shearStiffnessPerContact, 0, , "$k_s$ of such a joint [N/m], in the same way."))
+		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none to lose and are never intact."))
@@ -82,7 +96,7 @@ public:
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))
 		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
-		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal."))
+		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than the bodies have moved."))
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
 		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
@@ -91,6 +105,9 @@ public:
 		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
 		((Real, lastStored, -1, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy; -1: was not tracked)"))
 		, /*ctor*/ createIndex();
+		, /*py*/
+		.add_property("kn", &RockJointPhys::getKn, &RockJointPhys::setKn, "Present normal stiffness [N/m].")
+		.add_property("ks", &RockJointPhys::getKs, &RockJointPhys::setKs, "Present shear stiffness [N/m].")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(RockJointPhys, FrictPhys);

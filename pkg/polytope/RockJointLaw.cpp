@@ -5,6 +5,7 @@
 
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"
+#include "ShearSpring.hpp"
 
 namespace yade {
 
@@ -89,12 +90,13 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 
 /// What the last step left, before this one changes it.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
-	Vector3r force, shear, shearViscous, moment;
-	Real     normalViscous, elasticNormal, dilation;
+	Vector3r    force, shearViscous, moment;
+	ShearSpring shear;
+	Real        normalViscous, elasticNormal, dilation;
 
 	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
-	        : force(phys.normalForce + phys.shearForce), shear(turnedShear), shearViscous(phys.shearViscous),
-	          moment(phys.rockingMoment), normalViscous(phys.normalViscous.dot(normal)),
+	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment),
+	          shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
 	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation)
 	{
 	}
@@ -113,26 +115,25 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	auto&      phys = static_cast<RockJointPhys&>(*iphys);
 	const Pair pair(*contact, geom, scene);
 
+	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
+	turnWithContact(geom, elasticShear);
+	turnWithContact(geom, phys.slip);
+	const Last last(phys, elasticShear, geom.normal);
+
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
 	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
-	if (phys.normalStiffness > 0) phys.kn = phys.normalStiffness * phys.contactArea;
-	if (phys.shearStiffness > 0) phys.ks = phys.shearStiffness * phys.contactArea;
-
-	Vector3r shear = phys.shearForce - phys.shearViscous;
-	turnWithContact(geom, shear);
-	turnWithContact(geom, phys.slip);
-	const Last last(phys, shear, geom.normal);
+	phys.setStiffnesses();
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
 
-	const Real elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation);
-	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last);
+	const Vector3r trial         = last.shear.forceWith(phys.ks) - phys.ks * geom.shearIncrement();
+	const Real     elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation);
+	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, trial);
 	const Real viscous = normalDamping > 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
-	shear -= phys.ks * geom.shearIncrement();
-	const Vector3r trial = shear;
-	if (!limitShear(phys, normal, shear)) return open(pair, phys, last);
+	Vector3r shear = trial;
+	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
 	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
 
 	phys.normalViscous = viscous * geom.normal;
@@ -147,9 +148,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	if (!scene->trackEnergy) phys.lastStored = -1;
 	else {
-		StepWork work;
-		if (phys.isSliding && phys.ks > 0) work.plastic = (last.shear + shear).dot(trial - shear) / (2 * phys.ks);
-		work.plastic -= (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		StepWork   work;
+		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		work.plastic        = last.shear.loss(phys.ks, trial, shear) - lifting;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = -(last.shearViscous + shearViscous).dot(geom.shearIncrement()) / 2;
@@ -174,7 +175,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 	if (phys.isSliding) {
 		const Vector3r excess = (1 - strength / math::sqrt(square)) * shear;
 		shear -= excess;
-		if (phys.ks > 0) phys.slip -= excess / phys.ks;
+		phys.slide(excess);
 	}
 	return true;
 }
@@ -231,17 +232,19 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 	return true;
 }
 
-/// The joint is open: no force. False ends the contact.
-bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last)
+/// The joint is open: no force, and what the bodies move along each other is slip, with what the spring held. False ends the contact.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial)
 {
 	StepWork work;
 	work.fractured = phys.intact;
 	if (phys.intact) phys.fail();
+	else work.plastic = last.shear.loss(phys.ks, trial, Vector3r::Zero());
+	phys.slide(trial);
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding                                                                                   = false;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStored = -1;
-	return phys.hasPeak() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
+	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
 }
 
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()

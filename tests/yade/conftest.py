@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every test starts from an empty scene; scenes.py is importable from all of them."""
+"""Every test starts from an empty scene; scenes.py, the package boon2012 and the studies of accuracy are importable from all of them."""
 import numbers
 import os
 import sys
@@ -24,6 +24,9 @@ if polytope.buildInfo()['precision'] != 'double':
 	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+# last: both have a report.py, which no test takes by its name
+for folder in ('examples/paper', 'tools/measure/accuracy'):
+	sys.path.append(os.path.abspath(os.path.join(__file__, '../../..', folder)))
 
 
 @pytest.fixture(autouse=True)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`./run accuracy`: its quick variants hold the limits that the README states, and a fault would be seen."""
 import csv
+import importlib.util
 import json
 import os
 import pathlib
@@ -11,12 +12,15 @@ import pytest
 from yade import Quaternion, Vector3
 from yade import polytope
 
-folder = pathlib.Path(__file__).resolve().parents[1] / 'accuracy'
-program = folder.parents[1] / 'build/tests/accuracy/polytope_extremes'
-sys.path.append(str(folder))
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
+program = folder.parents[2] / 'build/tools/measure/accuracy/polytope_extremes'
 
 import pairTables
-import report
+
+# by its path: `./run paper` has a report.py, too
+specification = importlib.util.spec_from_file_location('accuracyReport', folder / 'report.py')
+report = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(report)
 
 
 def run(script, where, *options):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scenes import driven, joint, loop
 from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, Polytope, PolytopeCollider, Quaternion, Vector3, polytope
-from yade.polytope.scenes.falling import FallingPolyhedra
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 colliders = [InsertionSortCollider, PolytopeCollider]
 
@@ -102,6 +102,60 @@ def testBodySpinningInPlaceDoesNotKeepTheColliderBusy():
 		O.step()
 		O.step()
 	assert spinner.bound.max[2] < 0.3
+
+
+def runsOfTheCollider(kind, steps):
+	"""Runs in these steps, after the first two, and the number of bodies whose orientation changed in them (YADE normalises it)."""
+	busy = collider(kind, 0.05)
+	O.dt = 1e-4
+	O.run(2, True)
+	before, orientations = busy.numAction, [Quaternion(body.state.ori) for body in O.bodies]
+	changed = set()
+	for _ in range(steps):
+		O.step()
+		changed.update(body.id for body, old in zip(O.bodies, orientations) if body.state.ori != old)
+	return busy.numAction - before, len(changed)
+
+
+def testFixedObliqueBodyDoesNotKeepTheColliderBusy():
+	"""A body that cannot turn has no room to, and YADE normalises every orientation in each step: it differs by a rounding."""
+	runs = []
+	for kind in colliders:
+		O.reset()
+		joint()
+		loop()
+		O.bodies.append(polytope.fromVertices(np.random.default_rng(11).uniform(-1, 1, (8, 3)), fixed=True))
+		runs.append(runsOfTheCollider(kind, 100)[0])
+	assert runs == [0, 0]
+
+
+def testTwoThousandFixedObliqueBodiesDoNotKeepTheColliderBusy():
+	"""Of any orientation, and far from the origin, too; some of them are changed by the normalisation in each step."""
+	joint()
+	loop()
+	random = np.random.default_rng(5)
+	for k in range(2500):
+		angle = random.uniform(0, 2 * math.pi)
+		at = Vector3(1e3 * (k % 50), 1e3 * (k // 50), 0)
+		O.bodies.append(polytope.cuboid(at, (.5, .4, .3), Quaternion(Vector3(*random.normal(0, 1, 3)).normalized(), angle), fixed=True))
+	runs, changed = runsOfTheCollider(PolytopeCollider, 20)
+	assert changed > 0 or polytope.buildInfo()['precision'] != 'double'
+	assert runs == 0
+
+
+def testSlowestTurnThatIsOneIsSeen():
+	"""A fixed body turned by the script, by as little as moves a vertex by more than rounding: its box is made anew."""
+	joint()
+	loop()
+	rod = polytope.cuboid((0, 0, 0), (1, .1, .1), Quaternion((1, 2, 3), .4), fixed=True)
+	O.bodies.append(rod)
+	runs, _ = runsOfTheCollider(PolytopeCollider, 10)
+	assert runs == 0
+	for tiny in (1e-14, 1e-9):
+		before, turned = O.engines[1].numAction, rod.state.ori * Quaternion((0, 0, 1), tiny)
+		rod.state.ori = turned
+		O.run(3, True)
+		assert O.engines[1].numAction == before + 1
 
 
 def tightBoxes():

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from yade import O, Ig2_Polytope_Polytope_PolytopeGeom, Quaternion, Vector3
 from yade import polytope
-from yade.polytope.scenes import FallingPolyhedra
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 from scenes import blockOnFloor, density, gravity, joint, loop
 

@@ -10,7 +10,7 @@ import sys
 import paperScripts
 import pytest
 
-example = pathlib.Path(__file__).resolve().parents[2] / 'examples/contactModels.py'
+example = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/contactModels.py'
 
 
 def testBothModelsAgreeWithClosedForms(tmp_path):

@@ -8,12 +8,12 @@ import pathlib
 
 import numpy as np
 import pytest
-from yade.polytope.studies.collisionEnergy import Bounces, Collisions, lastEnergies, meetings, spread
-from yade.polytope.studies.collisionEnergyScene import Contact
-from yade.polytope.studies.contactPath import Zoom, scan, smoothness, warmAnswers, zoom
-from yade.polytope.studies.contactPathScenes import paths, variants
+from collisionStudy.meetings import Bounces, Collisions, lastEnergies, meetings, spread
+from collisionStudy.scene import Contact
+from pathStudy.path import Zoom, scan, smoothness, warmAnswers, zoom
+from pathStudy.scenes import paths, variants
 
-folder = pathlib.Path(__file__).resolve().parents[2] / 'tests/accuracy'
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
 
 
 def study(name, where, *options):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from yade.polytope.findings import Findings, rowCells
+from boon2012.reporting.findings import Findings, rowCells
 
 
 @pytest.fixture

@@ -3,8 +3,8 @@
 import pytest
 from scenes import joint, loop
 from yade import Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Ig2_Facet_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, O, polytope, utils
-from yade.polytope.report import stateHash
-from yade.polytope.scenes import FallingPolyhedra
+from boon2012.runWatch import stateHash
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 
 def heap():

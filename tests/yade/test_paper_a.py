@@ -12,12 +12,12 @@ import types
 
 import pytest
 from yade import O
-from yade.polytope.findings import Findings
-from yade.polytope.report import stateHash
-from yade.polytope.scenes import FallingPolyhedra, solids
-from yade.polytope.studies.contactCostReport import curves
-from yade.polytope.studies.fallingPolyhedraReport import FallingPolyhedraReport
-from yade.polytope.studies.solverTimes import StateSample, hasSolver
+from boon2012.reporting.findings import Findings
+from boon2012.runWatch import stateHash
+from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
+from boon2012.falling.costs import curves
+from boon2012.falling.report import FallingPolyhedraReport
+from boon2012.solverTimes import StateSample, hasSolver
 
 path = pathlib.Path(__file__).resolve().parents[2] / 'examples' / 'paper' / 'a_falling_polyhedra.py'
 specification = importlib.util.spec_from_file_location('fallingPolyhedra', path)

@@ -7,10 +7,10 @@ import math
 import pytest
 from paperScripts import results, run, runHere
 from yade import O
-from yade.polytope.scenes import ThreeHingedBeam
-from yade.polytope.studies.beamLimits import BeamLimits
-from yade.polytope.studies.solverTimes import hasSolver
-from yade.polytope.theory import beam as theory
+from boon2012.beam.scene import ThreeHingedBeam
+from boon2012.beam.limits import BeamLimits
+from boon2012.solverTimes import hasSolver
+from boon2012.beam import theory
 
 script = 'b_three_hinged_beam'
 short = ('--quick', '--no-pictures', '--contact-point', 'centroid', '--points', '7', '--drive-steps', '2000')

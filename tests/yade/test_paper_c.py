@@ -11,7 +11,8 @@ from paperScripts import expectRefusal, folder, results, run, runHere
 from scenes import blockOnFloor, contact, joint, loop
 from yade import MatchMaker, O, polytope
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
-from yade.polytope.scenes import BlockGeometry, WedgeScene
+from boon2012.wedges.blockGeometry import BlockGeometry
+from boon2012.wedges.scene import WedgeScene
 
 geometryFile = folder / 'geometry/c_sliding_wedge.json'
 script = 'c_sliding_wedge'
@@ -63,7 +64,7 @@ def testNoQueryFailed(quick):
 
 def testAMissedRowEndsTheScriptWithAnError(quick):
 	"""What the full-range checks above rest on: with another answer the same row is missed."""
-	from yade.polytope.findings import Findings
+	from boon2012.reporting.findings import Findings
 
 	where, _, rows = quick
 	findings = Findings('C', 'another answer', where / 'other')

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from paperScripts import expectRefusal, folder, results, run, runHere
 from yade import O
-from yade.polytope.scenes import BlockGeometry, RoofWedge, touchingRoofBlocks
-from yade.polytope.theory.wedges import stressShare
+from boon2012.roofWedge.scene import RoofWedge
+from boon2012.wedges.blockGeometry import BlockGeometry, touchingRoofBlocks
+from boon2012.wedges.theory import stressShare
 
 geometryFile = folder / 'geometry/d_roof_wedge.json'
 script = 'd_roof_wedge'

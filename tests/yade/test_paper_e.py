@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 from paperScripts import folder, results, run, runHere
 from yade import O
-from yade.polytope.findings import Findings
-from yade.polytope.scenes import SlumpingSlope, readSlope
-from yade.polytope.studies.slumpingSlope import SlopeReport
+from boon2012.reporting.findings import Findings
+from boon2012.slope.scene import SlumpingSlope, readSlope
+from boon2012.slope.study import SlopeReport
 
 name, quick = 'e_slumping_slope', ('--quick', '--no-pictures')
 geometry = folder / 'geometry/e_slope.json'

@@ -8,7 +8,7 @@ import pytest
 from paperScripts import folder, results, run, runHere
 from yade import O
 from yade.polytope.motionRecord import MotionRecord
-from yade.polytope.scenes import Block, Collision, readBlocks
+from boon2012.collisions.scene import Block, Collision, readBlocks
 
 name, quick = 'f_collisions', ('--quick', '--no-pictures')
 geometry = folder / 'geometry/f_collisions.json'

@@ -7,7 +7,7 @@ import sys
 from types import SimpleNamespace
 
 import pytest
-from yade.polytope.studies.options import (
+from boon2012.reporting.options import (
 	Decreasing,
 	angle,
 	count,

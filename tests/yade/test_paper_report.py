@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 
 import pytest
-from yade.polytope.studies.paperRuns import sourceHash
+from boon2012.reporting.runs import sourceHash
 
 path = pathlib.Path(__file__).resolve().parents[2] / 'examples' / 'paper' / 'report.py'
 specification = importlib.util.spec_from_file_location('paperReport', path)
@@ -43,7 +43,7 @@ class Project:
 		self.folder, self.output = folder, folder / 'out'
 
 	def write(self, letter, ours=1.5, end=''):
-		findings = str(path.parents[2] / 'py' / 'findings.py')
+		findings = str(path.parent / 'boon2012/reporting/findings.py')
 		(self.folder / f'{letter.lower()}_script.py').write_text(script.format(letter=letter, ours=ours, end=end, findings=findings))
 
 	def run(self, *options):

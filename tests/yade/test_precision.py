@@ -12,7 +12,7 @@ import yade
 from mpmath import mpf
 from yade import O, Quaternion
 from yade import polytope
-from yade.polytope.tradeoffEnergy import Energy
+from yade.polytope.tradeoff.energy import Energy
 
 import highPrecisionPair as exact
 import precisionScenes

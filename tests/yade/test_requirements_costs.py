@@ -9,9 +9,10 @@ import tempfile
 import pytest
 from requirementsScenes import row
 from yade import O, PyRunner, polytope
-from yade.polytope import requirementsCosts, requirementsWorker
-from yade.polytope.report import stateHash
-from yade.polytope.studies.solverTimes import hasSolver
+from yade.polytope.requirements import costs as requirementsCosts
+from yade.polytope.requirements import worker as requirementsWorker
+from boon2012.runWatch import stateHash
+from boon2012.solverTimes import hasSolver
 
 needsIpopt = pytest.mark.skipif(not hasSolver('ipopt'), reason='this build has no Ipopt')
 

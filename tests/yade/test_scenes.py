@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 from yade import O
-from yade.polytope.report import RunWatch, stateHash
-from yade.polytope.scenes import FallingPolyhedra, circumradiusOfUnitVolume
+from boon2012.runWatch import RunWatch, stateHash
+from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
 
 # of the solid of volume 1: circumradius, inradius and moment of inertia over mass
 table = {

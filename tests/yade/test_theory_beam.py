@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from yade.polytope.theory.beam import BeamBetweenWalls, BeamOfTwoBlocks
+from boon2012.beam.theory import BeamBetweenWalls, BeamOfTwoBlocks
 
 beam = BeamBetweenWalls()
 

@@ -7,7 +7,7 @@ import pathlib
 
 import numpy as np
 import pytest
-from yade.polytope.theory.slope import centroid, criticalFrictionAngle, joints, largestOutwardLoad
+from boon2012.slope.theory import centroid, criticalFrictionAngle, joints, largestOutwardLoad
 
 slopeFile = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/geometry/e_slope.json'
 

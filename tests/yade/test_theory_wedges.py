@@ -5,8 +5,8 @@ from math import atan, cos, degrees, isclose, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
-from yade.polytope.theory import wedges
-from yade.polytope.theory.wedges import SlidingWedge
+from boon2012.wedges import theory as wedges
+from boon2012.wedges.theory import SlidingWedge
 
 roofArea, roofWeight, inclination = 2 / sqrt(3), 0.5773502691896258 * 2000 * 10, radians(30)
 

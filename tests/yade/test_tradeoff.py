@@ -18,8 +18,8 @@ from yade import (
 	RockJointMat,
 	polytope,
 )
-from yade.polytope import tradeoffPrecision
-from yade.polytope.tradeoffTable import Row, TradeoffTable
+from yade.polytope import _builds
+from yade.polytope.tradeoff.table import Row, TradeoffTable
 
 weight, stiffness = 8 * 1000 * 10.0, 1e8
 
@@ -102,7 +102,7 @@ def testVectorsAndMeansOfTheRunItself():
 
 
 def testWhatGoesWrongIsSaid():
-	missing = [name for name in tradeoffPrecision.precisions if not tradeoffPrecision.available(name)]
+	missing = [name for name in _builds.precisions if not _builds.available(name)]
 	settings = {'a': {}, **{name: {'precision': name} for name in missing[:1]}}
 	table = run(settings)
 	assert table['a'].error < 1e-6
@@ -152,8 +152,8 @@ def testDigitsBeyondDoubleCount():
 
 def testPresetsStandInTheirOrder(monkeypatch):
 	"""As the rule of polytope.settings says, in two of its scenes: cost, and error."""
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/geometry'))
-	from yade.polytope.studies.tradeoffAxes import allScenes
+	monkeypatch.syspath_prepend(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/tradeoff'))
+	from tradeoffAxes import allScenes
 
 	for letter in ('D', 'F'):
 		scene = allScenes()[letter]
@@ -177,9 +177,9 @@ def tableOf(**results):
 
 
 def testRankingLeavesOutWhatDoesNotStand(monkeypatch):
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/geometry'))
-	from yade.polytope.studies.tradeoffAxes import allScenes
-	from yade.polytope.studies.tradeoffReport import ranking
+	monkeypatch.syspath_prepend(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/tradeoff'))
+	from tradeoffAxes import allScenes
+	from tradeoffReport import ranking
 
 	tables = {
 		'B': tableOf(default=(1, 5), good=(1, 9), bad=(1, 1), heapless=(1, 1)),  # of one law only: does not count

@@ -12,8 +12,8 @@ import sys
 import numpy as np
 import pytest
 from yade import NewtonIntegrator, O, RockJointMat, polytope
-from yade.polytope.tradeoffPlot import plotTradeoff
-from yade.polytope.tradeoffTable import Row, TradeoffTable
+from yade.polytope.tradeoff.plot import plotTradeoff
+from yade.polytope.tradeoff.table import Row, TradeoffTable
 
 here = pathlib.Path(__file__).resolve()
 
@@ -68,7 +68,7 @@ def testAPlotRefusesAFloorThatIsNone(floor, tmp_path):
 def testEveryPointHasItsOwnNumber(tmp_path):
 	names = {f'setting {k}': (1 + k * 1e-4, 1.1) for k in range(12)}
 	drawn = []
-	import yade.polytope.tradeoffPlot as module
+	from yade.polytope.tradeoff import plot as module
 	from matplotlib.text import Text  # its own box, without the line to the point
 
 	class Kept(module.Figure):
@@ -90,9 +90,9 @@ def testACoarseNewtonToleranceIsNotInEffectAndTheReportSaysSo(monkeypatch, tmp_p
 	cubes = [polytope.cuboid((0.1 * k, 0.2 * k, 0.98 * k), (0.5, 0.5, 0.5), material=RockJointMat()) for k in range(2)]
 	fine, coarse = (polytope.contact(*cubes, newtonTolerance=tolerance) for tolerance in (1e-10, 1e-2))
 	assert fine.point == coarse.point and fine.newtonIterations == coarse.newtonIterations
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(here.parents[2] / 'examples/paper/geometry'))
-	from yade.polytope.studies.tradeoffAxes import allScenes
-	from yade.polytope.studies.tradeoffReport import notRun, reportScene, summary, writeSummary
+	monkeypatch.syspath_prepend(str(here.parents[2] / 'tools/measure/tradeoff'))
+	from tradeoffAxes import allScenes
+	from tradeoffReport import notRun, reportScene, summary, writeSummary
 
 	scenes, table = allScenes(), tableOf(**{'default': (1, 2.0), 'Newton tolerance 1e-2': (1, 2.0)})
 	findings, _ = reportScene(scenes['B'], table, tmp_path, None)

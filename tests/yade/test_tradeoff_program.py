@@ -8,10 +8,10 @@ import subprocess
 import sys
 
 import pytest
-from yade.polytope.tradeoffTable import Row, TradeoffTable
+from yade.polytope.tradeoff.table import Row, TradeoffTable
 
 project = pathlib.Path(__file__).resolve().parents[2]
-paperScript = project / 'examples/tradeoffPaper.py'
+paperScript = project / 'tools/measure/tradeoff/tradeoffPaper.py'
 
 
 @pytest.mark.parametrize(
@@ -47,10 +47,9 @@ def testOnlyThePrecisionsThatAreAskedForAreBuilt(arguments, precisions):
 
 
 def testLettersAreThoseOfTheScenes(monkeypatch):
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(project / 'examples/paper/geometry'))
 	monkeypatch.syspath_prepend(str(paperScript.parent))
 	import tradeoffPaper
-	from yade.polytope.studies.tradeoffAxes import allScenes
+	from tradeoffAxes import allScenes
 
 	assert list(tradeoffPaper.letters) == list(allScenes())
 
@@ -65,7 +64,6 @@ def tableOf(**answers):
 
 @pytest.fixture
 def program(monkeypatch, tmp_path):
-	monkeypatch.setenv('POLYTOPE_GEOMETRY', str(project / 'examples/paper/geometry'))
 	monkeypatch.syspath_prepend(str(paperScript.parent))
 	import tradeoffPaper
 

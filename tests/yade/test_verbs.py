@@ -18,7 +18,7 @@ def inside(*arguments):
 
 
 def search(*arguments):
-	return subprocess.run([os.path.join(build, 'tests', 'search', 'polytope_search'), *arguments], capture_output=True, text=True, timeout=300)
+	return subprocess.run([os.path.join(build, 'tools', 'measure', 'search', 'polytope_search'), *arguments], capture_output=True, text=True, timeout=300)
 
 
 @pytest.mark.parametrize('verb, options', [('fuzz', ['--seconds', '--target', '--dry-run']), ('sanitize', ['--only', 'core', 'threads', 'fuzz', 'valgrind', '--dry-run'])])

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Engines and functors of the present scene that *tradeoff*, *requirements* and *frictionReduction* look at or change."""
+
+from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O
+
+__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws']
+
+
+def interactionLoops():
+	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]
+
+
+def geometryFunctors():
+	"""The scene's contact functors of polytopes, mixed pairs included."""
+	functors = (functor for loop in interactionLoops() for functor in loop.geomDispatcher.functors)
+	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
+
+
+def colliders():
+	return [engine for engine in O.engines if isinstance(engine, InsertionSortCollider)]
+
+
+def laws():
+	"""The plug-in's laws of the scene."""
+	functors = (functor for loop in interactionLoops() for functor in loop.lawDispatcher.functors)
+	return [functor for functor in functors if isinstance(functor, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb)]

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The layers depend on each other one way only, and what is installed is the product alone.
+
+	src  <  pkg  <  py/polytope  <  examples/paper/boon2012  <  tools/measure
+
+Each may use what stands to its left. Files are read as text: an import within a function counts as one at the top of a file.
+"""
+
+import ast
+import pathlib
+import re
+import sys
+
+import pytest
+from yade import polytope
+
+project = pathlib.Path(__file__).resolve().parents[2]
+
+product, reproduction, measurement = project / 'py/polytope', project / 'examples/paper', project / 'tools/measure'
+ofTheProduct = set('numpy scipy mpmath matplotlib tabulate tqdm trimesh vtk'.split())
+"""Packages of others that it may use."""
+
+
+def files(folder, *endings):
+	found = sorted(path for path in folder.rglob('*') if path.suffix in endings and '__pycache__' not in path.parts)
+	assert found, f'nothing in {folder}'
+	return found
+
+
+def includes(path):
+	"""What a C++ file includes, as written."""
+	return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(), re.MULTILINE)
+
+
+def imports(path, package=None):
+	"""Names of the modules that a Python file imports, relative ones from the folder *package* as 'package.….module'."""
+	names = []
+	for node in ast.walk(ast.parse(path.read_text())):
+		if isinstance(node, ast.Import):
+			names += [alias.name for alias in node.names]
+		elif isinstance(node, ast.ImportFrom) and not node.level:
+			names += [node.module] + [f'{node.module}.{alias.name}' for alias in node.names]
+		elif isinstance(node, ast.ImportFrom):
+			place = path.parents[node.level - 1].relative_to(package.parent)  # ValueError: above the package
+			module = '.'.join([*place.parts, *([node.module] if node.module else [])])
+			names += [module] + [f'{module}.{alias.name}' for alias in node.names]
+	return names
+
+
+def modules(folder):
+	"""What `import NAME` could take from the programs and packages of this folder."""
+	paths = files(folder, '.py')
+	return {path.stem for path in paths} | {path.parent.name for path in paths if path.name == '__init__.py'}
+
+
+def foreign(names):
+	"""Top-level names that are neither Python's own nor YADE's."""
+	return {name.split('.')[0] for name in names} - set(sys.stdlib_module_names) - {'yade'}
+
+
+def testTheCoreKnowsNothingAboveIt():
+	"""src includes its own files, and of YADE the numbers alone (Real.hpp)."""
+	own = {path.relative_to(project / 'src').as_posix() for path in files(project / 'src', '.hpp')}
+	for path in files(project / 'src', '.hpp', '.cpp'):
+		for name in includes(path):
+			ofAnother = name.startswith(('pkg/', 'py/', 'tests/', 'tools/', 'examples/', 'core/', 'lib/', 'boost/python')) or name == 'Python.h'
+			assert not ofAnother or (path.name == 'Real.hpp' and name.startswith('lib/high-precision/')), f'{path.name} includes {name}'
+			if name.endswith('.hpp') and (project / 'pkg/polytope' / pathlib.Path(name).name).is_file():
+				assert name in own, f'{path.name} includes {name} of pkg'
+
+
+def testThePlugInUsesTheCoreAndYadeAlone():
+	own = {path.name for path in files(project / 'pkg/polytope', '.hpp', '.in')} | {'BuildInfo.hpp'}
+	for path in files(project / 'pkg/polytope', '.hpp', '.cpp'):
+		for name in includes(path):
+			assert not name.startswith(('py/', 'tests/', 'tools/', 'examples/')), f'{path.name} includes {name}'
+			if (project / name).is_file():
+				assert name.startswith('src/'), f'{path.name} includes {name}'
+			elif '/' not in name and name.endswith('.hpp'):
+				assert name in own, f'{path.name} includes {name}, which is none of pkg: as <src/{name}>?'
+
+
+def testTheProductImportsNothingOfReproductionAndMeasurement():
+	for path in files(product, '.py'):
+		names = imports(path, product)
+		assert foreign(names) <= ofTheProduct | {'polytope'}, f'{path.name} imports {foreign(names) - ofTheProduct}'
+		for name in names:
+			assert not re.match(r'yade\.polytope\b', name), f'{path.name} imports {name}; within the product imports are relative'
+
+
+@pytest.mark.parametrize('folder', ['tradeoff', 'requirements'])
+def testPackagesOfTheProductDoNotBorrowFromEachOther(folder):
+	others = {path.parent.name for path in product.glob('*/__init__.py')} - {folder}
+	for path in files(product / folder, '.py'):
+		borrowed = [name for name in imports(path, product) if name.split('.')[1:2] and name.split('.')[1] in others]
+		assert not borrowed, f'{path.name} imports {borrowed}; what both need stands in a module beside them'
+
+
+def testTheReproductionImportsNothingOfMeasurement():
+	for path in files(reproduction, '.py'):
+		package = reproduction / 'boon2012'
+		names = imports(path, package)
+		own = foreign(name for name in names if not name.startswith('boon2012'))
+		assert not own & modules(measurement), f'{path.name} imports {own & modules(measurement)}'
+
+
+def testClosedFormsNeedNoYade():
+	for path in reproduction.glob('boon2012/*/theory.py'):
+		names = imports(path, reproduction / 'boon2012')
+		assert foreign(names) <= {'numpy', 'scipy', 'boon2012'} and not any(name.split('.')[0] == 'yade' for name in names), path
+
+
+def testNothingOfReproductionAndMeasurementIsInstalled():
+	"""The module that runs here is the product's folder as the overlay links it; `cmake --install` copies the same one."""
+	assert pathlib.Path(polytope.__file__).resolve() == product / '__init__.py'
+	assert {path.name for path in (project / 'py').iterdir() if path.name != '__pycache__'} == {'polytope'}
+	rules = (project / 'pkg/polytope/CMakeLists.txt').read_text()
+	installed = re.findall(r'DIRECTORY\s+"\$\{PROJECT_SOURCE_DIR\}/([^"]+)"', rules)
+	assert installed == ['py/polytope/']

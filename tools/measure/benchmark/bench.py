@@ -1,0 +1,267 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Speed of the contact query and of whole scenes beside other libraries and YADE's own shapes (`./run bench`).
+
+Prints one table with target, ours, peer, ratio, and whether the target is met; writes raw results and pictures. Every ratio
+is of two measurements of this run, on one pinned core, medians of repetitions in random order. Absolute times mean
+something on a machine that does nothing else.
+"""
+import argparse
+import csv
+import dataclasses
+import datetime
+import json
+import math
+import os
+import pathlib
+import platform
+import subprocess
+import sys
+
+import kernels
+import plots
+import scenes
+import shapes
+import targets
+from tabulate import tabulate
+
+here = pathlib.Path(__file__).resolve().parent
+groups = ('kernels', 'shapes', 'scenes', 'growth', 'threads')
+outputs = (
+        'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
+        'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
+)
+
+
+def arguments():
+	parser = argparse.ArgumentParser(prog='./run bench', description=__doc__.split('\n\n')[1].replace('\n', ' '))
+	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
+	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
+	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
+	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only look at the options
+	parser.add_argument('--programs', required=True, help=argparse.SUPPRESS)  # ./run gives it: folder of what was built
+	options = parser.parse_args()
+	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{options.only}' if options.only else '')
+	try:
+		pathlib.Path(options.output).mkdir(parents=True, exist_ok=True)
+	except OSError as error:
+		parser.error(f'--output: cannot make the folder: {error}')
+	return options
+
+
+def machine(programs):
+	"""What the results belong to."""
+	project = here.parents[2]
+
+	def output(*command):
+		result = subprocess.run(command, capture_output=True, text=True)
+		return result.stdout.strip() if result.returncode == 0 else ''
+
+	with open('/proc/cpuinfo') as file:
+		models = [line.split(':', 1)[1].strip() for line in file if line.startswith('model name')]
+	git = ('git', '-c', f'safe.directory={project}', '-C', str(project))
+	built = pathlib.Path(programs).parents[2]
+	with open(built / 'compile_commands.json') as file:
+		flags = [entry['command'].split(' -o ')[0] for entry in json.load(file) if entry['file'].endswith(('/ContactQuery.cpp', '/Kernels.cpp'))]
+	return {
+	        'date': datetime.datetime.now(datetime.timezone.utc).isoformat(timespec='seconds'),
+	        'revision': output(*git, 'rev-parse', 'HEAD'),
+	        'changed': bool(output(*git, 'status', '--porcelain', '--untracked-files=no')),
+	        'revisionDate': output(*git, 'show', '-s', '--format=%cI', 'HEAD'),
+	        'processor': models[0] if models else platform.processor(),
+	        'cores': os.cpu_count(),
+	        'system': platform.platform(),
+	        'compiler': output('c++', '--version').split('\n')[0],
+	        'flags': flags,
+	        'loadAverage': os.getloadavg(),
+	        'python': platform.python_version(),
+	}
+
+
+def writeCsv(path, rows):
+	if rows:
+		with open(path, 'w', newline='') as file:
+			writer = csv.DictWriter(file, rows[0].keys())
+			writer.writeheader()
+			writer.writerows(rows)
+
+
+def kernelGroup(run):
+	heap = run.scenes.contactsOfHeap(run.output / 'heap-contacts.csv')
+	found, context = kernels.run(run.programs, run.core, run.quick, run.output, heap)
+	run.results['kernels'] = {
+	        'context': context,
+	        'measurements': [dict(dataclasses.asdict(one), median=one.median, spread=one.spread) for one in found.values()],
+	}
+	run.results['machine']['instructionSet'] = context['instruction set']
+	writeCsv(
+	        run.output / 'kernels.csv', [
+	                {
+	                        'method': one.method,
+	                        'set': one.set,
+	                        'µs': one.median,
+	                        'spread': one.spread,
+	                        'wrong': one.wrong,
+	                        'pairs': one.pairs,
+	                        'pivots': one.pivots,
+	                        'iterations': one.iterations,
+	                        'contacts': one.contacts,
+	                } for one in found.values()
+	        ]
+	)
+	methods = list(dict.fromkeys(one.method for one in found.values()))
+	sets = list(dict.fromkeys(one.set for one in found.values()))
+	show = [method for method in methods if 'centroid' not in method and 'Chebyshev' not in method and 'area' not in method]
+
+	def cell(method, name):
+		one = found.get((method, name))
+		return '' if one is None else f'{one.median:.3f} ±{100 * one.spread:.0f}%' + (f' ({one.wrong} wrong)' if one.wrong else '')
+
+	pairs = next(iter(found.values())).pairs
+	run.say(f'µs a pair, median ± half the quartiles\' range of the repetitions; wrong answers of {pairs} pairs in brackets:\n')
+	run.say(tabulate([[name] + [cell(method, name) for method in show] for name in sets], ['', *show]) + '\n')
+	if not any(method.startswith('coal') for method in methods):
+		run.note('coal was not to be had from PyPI: its rows are missing.')
+	for name in ('cube', 'icosahedron', 'hull 50'):
+		for start in ('cold', 'warm'):
+			parts = plots.stages(found, name, start)
+			floor = found['one pass', name].median
+			text = ', '.join(f'{stage} {1000 * cost:.0f} ns ({cost / floor:.1f} passes)' for stage, cost in parts.items())
+			run.say(f'{name}, {start}: one pass {1000 * floor:.0f} ns; {text}')
+	flat, solid = found['ours warm', 'squares, 2-D'].median, found['ours warm', 'cube'].median
+	run.say(f'two dimensions instead of three: squares {1000 * flat:.0f} ns, cubes {1000 * solid:.0f} ns, warm\n')
+	plots.costAgainstPlanes(found, run.output / 'cost-against-planes.png')
+	plots.breakdown(found, run.output / 'breakdown.png')
+	plots.costBySet(found, run.output / 'cost-by-set.png')
+	return targets.kernelRows(found)
+
+
+def shapeGroup(run):
+	found = shapes.run(run.core, run.quick)
+	run.results['shapes'] = found
+	run.say(tabulate([[name, cost] for name, cost in found['microseconds'].items()], ['bodies made, blocks cut', 'µs each'], floatfmt='.1f') + '\n')
+	return targets.shapeRows(found)
+
+
+def describe(run, results):
+	"""Table of heaps: pairs, contacts, µs."""
+
+	def row(name, one):
+		low, high = min(one['perPair']), max(one['perPair'])
+		return [
+		        name, one['request']['method'] + (' with area' if one['request']['area'] else ''), one['bodies'], one['threads'], one['pairs'], one['contacts'],
+		        1e6 * scenes.median(one['perPair']), f'{1e6 * low:.3f} … {1e6 * high:.3f}', 1e6 * scenes.median(one['perContact']),
+		        1e6 * scenes.median(one['perBody'])
+		]
+
+	head = ['', 'method', 'bodies', 'threads', 'pairs', 'contacts', 'µs/pair', 'range', 'µs/contact', 'µs/body and step']
+	run.say(tabulate([row(name, one) for name, one in results if one], head, floatfmt='.3f') + '\n')
+
+
+def sceneGroup(run):
+	heaps = run.scenes.solids()
+	settled = run.scenes.settledCubes()
+	describe(
+	        run, [(name, one) for name, methods in heaps.items() for one in methods.values()] + [('settled cubes, spheres', one) for one in settled.values()]
+	)
+	plots.heaps(heaps, run.output / 'heaps.png')
+	showExtras(run)
+	return targets.sceneRows(heaps) + targets.settledRows(settled)
+
+
+def showExtras(run):
+	"""What is not asked for costs nothing: what it costs where it is."""
+	found = run.scenes.extras()
+	costs = {name: 1e6 * scenes.meanStep(one) for name, one in found.items()}
+	without = costs['nothing']
+	rows = [[name, found[name]['pairs'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()]
+	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'µs/step', 'more', '%']
+	run.say(tabulate(rows, head, floatfmt=('', '', '.0f', '+.0f', '+.1f')) + '\n')
+	plots.extras(costs, run.output / 'asked-for.png')
+
+
+def growthGroup(run):
+	found, memory = run.scenes.growth()
+	describe(run, [('cubes', one) for one in found.values()])
+	for name, one in memory.items():
+		if one:
+			run.say(f'memory, 2000 cubes, {name}: {scenes.memoryPerBody(one):.0f} B a body, {scenes.memoryPerContact(one):.0f} B a contact')
+	run.say('')
+	plots.growth(found, run.output / 'growth.png')
+	if run.quick:
+		run.note('--quick leaves out heaps of 20 000 and 100 000: those are what growth is about.')
+	return targets.growthRows(found, memory)
+
+
+def threadGroup(run):
+	found = run.scenes.threads()
+	describe(run, [('cubes', one) for one in found.values()])
+	return targets.threadRows(found)
+
+
+class Run:
+	"""State of one run: options, what was said, results."""
+
+	def __init__(self, options):
+		self.programs, self.quick, self.core = options.programs, options.quick, os.cpu_count() - 1
+		self.output = pathlib.Path(options.output).resolve()
+		for name in outputs:  # of an earlier run, which may have measured more
+			(self.output / name).unlink(missing_ok=True)
+		self.text, self.notes = [], []
+		self.results = {'quick': options.quick, 'machine': machine(options.programs), 'heaps': []}
+		self.scenes = scenes.Scenes(options.programs, self.core, options.quick, self.results['heaps'], self.note)
+
+	def say(self, text):
+		print(text, flush=True)
+		self.text.append(text)
+
+	def note(self, text):
+		self.notes.append(text)
+
+
+def main():
+	options = arguments()
+	if options.check:
+		return 0
+	run = Run(options)
+	about = run.results['machine']
+	run.say(f"{about['processor']}, {about['cores']} cores; {about['compiler']}; revision {about['revision'][:12]}{' with changes' if about['changed'] else ''}")
+	load = about['loadAverage'][0]
+	if load > 0.5:
+		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times say little, ratios are noisy.')
+	rows, interrupted = [], False
+	for name, group in zip(groups, (kernelGroup, shapeGroup, sceneGroup, growthGroup, threadGroup), strict=True):
+		if options.only in (None, name):
+			print(f'\n{name}', flush=True)
+			try:
+				rows += group(run)
+			except KeyboardInterrupt:
+				interrupted = True
+				run.note(f'interrupted in {name}: the results are those of what was measured before.')
+				break
+	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.3g}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
+	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
+	judged = [row for row in rows if row.met is not None]
+	run.say(f'\n{sum(row.met for row in judged)} of {len(judged)} targets met')
+	for note in run.notes:
+		run.say('Note: ' + note)
+	run.results.update(targets=[dataclasses.asdict(row) for row in rows], notes=run.notes)
+	(run.output / 'results.json').write_text(json.dumps(run.results, indent='\t', ensure_ascii=False, default=float).replace('NaN', 'null'))
+	(run.output / 'results.txt').write_text('\n'.join(run.text) + '\n')
+	writeCsv(run.output / 'targets.csv', [dataclasses.asdict(row) for row in rows])
+	writeCsv(
+	        run.output / 'heaps.csv', [
+	                {
+	                        **{key: value for key, value in one['request'].items() if key not in ('save', 'load', 'pairs')}, 'threads': one['threads'],
+	                        **row, 'bodies': one['bodies'], 'largestSpeed': one['largestSpeed'],
+	                        'bytesPerBody': scenes.memoryPerBody(one),
+	                        'bytesPerContact': scenes.memoryPerContact(one)
+	                } for one in run.results['heaps'] for row in one['rows']
+	        ]
+	)
+	print(f'Results and pictures: {run.output}')
+	return 130 if interrupted else 0
+
+
+if __name__ == '__main__':
+	sys.exit(main())

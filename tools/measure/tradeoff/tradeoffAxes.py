@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What `./run tradeoff` varies, one thing at a time, in each of its scenes, and what each answer is held against."""
+
+import dataclasses
+import math
+
+import numpy as np
+import tradeoffScenes as scenes
+from boon2012.beam.theory import BeamBetweenWalls
+from boon2012.slidingWedge.study import limitEquilibrium
+from boon2012.wedges.theory import roofWedgeFrictionAngle
+from yade.polytope import _builds
+from yade.polytope.settings import presets
+
+__all__ = ['Scene', 'allScenes', 'coarse', 'default', 'isNumerical', 'scatter']
+
+default = 'default'
+
+points = {'Chebyshev centre': {'contactPoint': 'chebyshevCentre'}, 'centroid': {'contactPoint': 'centroid'}}
+models = {
+	'conservative': {'contactModel': 'conservative'},
+	'conservative, barrier 1e-3': {'contactModel': 'conservative', 'barrier': 1e-3},
+	'conservative, barrier 1e-2': {'contactModel': 'conservative', 'barrier': 1e-2},
+}
+tolerances = {
+	'Newton tolerance 1e-2': {'newtonTolerance': 1e-2},
+	'Newton tolerance 1e-6': {'newtonTolerance': 1e-6},
+	'Newton tolerance 1e-14': {'newtonTolerance': 1e-14},
+}
+coarse = {name for name, changes in tolerances.items() if changes['newtonTolerance'] > 1e-10}
+"""Tolerances that are not in effect where overlaps are deeper than 2e-4 of the size: the kernel takes the centre as far as a depth to 2e-14
+of the size needs (tolerance::depth in src/Tolerances.hpp), whatever the setting says. They are run to show that."""
+cold = {'cold start': {'warmStart': False}}
+ipopt = {'Ipopt': {'solver': 'ipopt'}}
+wide = {name: {'precision': name} for name in _builds.precisions if name != 'double'}
+times = {f'time step × {factor:g}': {'timeStepFactor': factor} for factor in (0.25, 0.5, 2, 4)}
+stiffnesses = {f'stiffness × {factor:g}': {'stiffness': factor} for factor in (0.1, 10)}
+seeds = {f'seed {seed}': {'seed': seed} for seed in range(2, 7)}
+
+numerical = {**tolerances, **cold, **ipopt, **wide}
+"""These change how exactly the same model is computed, not the model."""
+
+
+def isNumerical(name):
+	return name == default or name in numerical
+
+
+@dataclasses.dataclass
+class Scene:
+	"""One scene with its settings.
+
+	:ivar str answer: what is measured
+	:ivar truth: the closed form; None: there is none
+	:ivar str because: where it comes from
+	:ivar bool ofAnyLaw: whether the closed form holds whatever the law between depth and force
+	:ivar float timedSeconds: of polytope.tradeoff
+	"""
+
+	letter: str
+	title: str
+	build: object
+	measure: object
+	settings: dict
+	answer: str
+	truth: float = None
+	because: str = ''
+	ofAnyLaw: bool = True
+	timedSeconds: float = 0.3
+
+	def __post_init__(self):
+		for name, preset in presets.items():
+			if name != 'balanced':  # that is the default
+				timeless = not self.settings.keys() & times.keys()  # statics: no answer hangs on the time step
+				changes = {key: value for key, value in preset.items() if not (timeless and key == 'timeStepFactor')}
+				self.settings = {**self.settings, f"settings('{name}')": changes}
+
+	def chosen(self, quick):
+		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
+		if not quick:
+			return self.settings
+		left = {'Newton tolerance 1e-14', 'Newton tolerance 1e-6', 'conservative, barrier 1e-3', 'time step × 0.25', 'seed 4', 'seed 5', 'seed 6'}
+		left |= {'mpfr150'} if self.letter in 'CDFA' or self.letter == 'rest' else set()
+		left |= {'Ipopt', 'longdouble', 'float128'} if self.letter in 'CDA' or self.letter == 'rest' else set()
+		return {name: changes for name, changes in self.settings.items() if name not in left}
+
+	def numericalReference(self, settings):
+		"""Name of the setting with the finest arithmetic among those that were run; None if there is none but double."""
+		there = [name for name in wide if name in settings and _builds.available(name)]
+		return there[-1] if there else None
+
+
+def allScenes():
+	"""letter → Scene."""
+	of = {default: {}}
+	ten = {'time step × 10': {'timeStepFactor': 10}}  # of the paper's 0.02 √(m/k)
+	statics = {**of, **points, **models, **numerical}
+	dynamics = {**of, **points, **models, **numerical, **times, **stiffnesses}
+	# face on face the conservative contact rocks faster than the time step of the wedge in the roof can follow
+	factors = dict(zip(models, (0.5, 0.15, 1), strict=True))
+	finer = {name: {**changes, 'timeStepFactor': factors[name]} for name, changes in models.items()}
+	tooSlow = {'C': ('mpfr150',), 'A': ('Ipopt', 'float128', 'mpfr150')}
+	wedge = limitEquilibrium(scenes.BlockGeometry.read(scenes.geometry('c_sliding_wedge.json')))
+
+	def without(settings, letter):
+		return {name: changes for name, changes in settings.items() if name not in tooSlow[letter]}
+
+	listed = [
+		Scene('pair', 'Overlapping pairs', scenes.buildPairs, scenes.measurePairs, statics, 'forces of 60 contacts'),
+		Scene(
+			'B',
+			'Three-hinged beam',
+			scenes.buildBeam,
+			scenes.measureBeam,
+			statics,
+			'peak load',
+			BeamBetweenWalls().peak()[0],
+			'Appendix A of Boon et al. (2012), whose forces act at the centroid of the overlap',
+			ofAnyLaw=False,
+		),
+		Scene(
+			'C',
+			'Sliding wedge',
+			scenes.buildSlidingWedge,
+			scenes.measureSlidingWedge,
+			without(dynamics, 'C'),
+			'critical friction angle',
+			math.degrees(wedge.frictionAngle()),
+			'limit equilibrium (Hoek & Bray 1981)',
+		),
+		Scene(
+			'D',
+			'Roof wedge',
+			scenes.buildRoofWedge,
+			scenes.measureRoofWedge,
+			{**dynamics, **finer},
+			'critical friction angle',
+			_roofAngle(),
+			'φ = α + atan(W/ΣH)',
+		),
+		Scene(
+			'F',
+			'Collisions without loss',
+			scenes.buildCollision,
+			scenes.measureCollision,
+			{**dynamics, **ten},
+			'energy after four collisions over that of the fall',
+			1.0,
+			'it is conserved',
+			timedSeconds=0,  # afterwards the blocks are apart
+		),
+		Scene(
+			'rest',
+			'Cube at rest (F1)',
+			scenes.buildRest,
+			scenes.measureRest,
+			{**dynamics, **ten},
+			'height at rest + m g/kₙ',
+			0.5,
+			'½ edge − m g/kₙ',
+		),
+		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number'),
+	]
+	return {scene.letter: scene for scene in listed}
+
+
+def _roofAngle():
+	"""[°], of the geometry file with the scene's own stress, density and gravity."""
+	scene = scenes.buildRoofWedge()
+	horizontal = scene.horizontalStress * sum(joint.area for joint in scene.joints) * math.cos(scene.inclinations[0])
+	angle = math.degrees(roofWedgeFrictionAngle(scene.weight, horizontal, scene.inclinations[0]))
+	scenes.O.reset()
+	return angle
+
+
+def scatter(table):
+	"""(mean, standard deviation) of the answer over default and seeds."""
+	values = [float(row.answer) for row in table.rows if row.answer is not None and (row.name == default or row.name in seeds)]
+	return float(np.mean(values)), float(np.std(values, ddof=1)) if len(values) > 1 else math.nan
