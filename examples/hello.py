@@ -8,7 +8,7 @@ from math import radians
 from yade import (
         Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
         Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        PolytopeCollider, RockJointMat, polytope
+        PolytopeCollider, PolytopeTimeStepper, RockJointMat, polytope
 )
 
 # stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
@@ -25,9 +25,10 @@ O.engines = [
                 [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)]
         ),
         NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
+        PolytopeTimeStepper(),  # sets O.dt
 ]
-O.dt = 2e-4
-O.run(10000, wait=True)
+while O.time < 2:
+        O.run(100, wait=True)
 
 contact = O.interactions[0, block]
 weight = 9.81 * O.bodies[block].state.mass

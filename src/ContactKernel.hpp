@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AnalyticCentre.hpp"
+#include "BoundingPlanes.hpp"
 #include "ConservativeContact.hpp"
 #include "ContactNormal.hpp"
 #include "FirstBasis.hpp"
@@ -113,6 +114,37 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	planes.slack  = row + (D + 1) * planes.total;
 	planes.rate   = row + (D + 2) * planes.total;
 	return planes;
+}
+
+/// Moves internal faces out of reach, and back; `offset`: room for what they had.
+template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k) {
+			R& one         = planes.offset[planes.begin(body) + internal.plane[body][k]];
+			offset[next++] = one;
+			one            = R(padOffset);
+		}
+}
+
+template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes, const InternalPlanes& internal, const R* offset)
+{
+	for (int body = 0, next = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k)
+			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
+}
+
+/// Largest depth of a contact of two flush faces, which is what is left where internal faces are taken out.
+template <class R> POLYTOPE_INLINE R internalDepth(const PairInput& in)
+{
+	return 2 * R(tolerance::thinContact) * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+}
+
+/// Depth along n through the contact point, whose slacks are in the planes (an overlap thinner than the planes' rounding may have its
+/// point outside).
+template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>& planes, const R* n)
+{
+	return maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
 }
 
 template <class R, int D, int W>
@@ -286,13 +318,24 @@ POLYTOPE_INLINE void contactKernel(
 
 	if (settings.timed) out.centreNanoseconds = nanoseconds() - lpDone;
 
-	// 6. normal and depth
-	R                   n[D];
-	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	if (settings.bounding && touching) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
+
+	// 6. normal and depth, without internal faces where what is left bounds the contact
+	R             n[D];
+	ContactStatus normal = outcome;
+	if (settings.internal && touching) {
+		R internalOffset[2 * BoundingPlanes::most];
+		takeOut<R, D>(planes, *settings.internal, internalOffset);
+		normal    = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+		out.depth = chord<R, D, W>(planes, n);
+		putBack<R, D>(planes, *settings.internal, internalOffset);
+	}
+	const bool bounded = settings.internal && touching && out.depth < internalDepth<R>(in);
+	if (!bounded) normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (outcome == ContactStatus::Contact) outcome = normal;
-	// (an overlap thinner than the planes' rounding may have its point outside)
-	if (touching) out.depth = maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
-	else {
+	if (touching) {
+		if (!bounded) out.depth = chord<R, D, W>(planes, n);
+	} else {
 		// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
 		const R apart = maxOf<R>(basis.infeasibility, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
 		out.depth     = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -apart);

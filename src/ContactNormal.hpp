@@ -3,14 +3,28 @@
 
 #include "ContactFrame.hpp"
 #include "ContactQuery.hpp"
+#include "DualWeights.hpp"
 #include "InnerPotential.hpp"
 
-/// Contact normal (Boon et al. 2012, Eq. 17), and what stands in for it where a body has no gradient.
+/// Contact normal at the contact point: from balanced weights of the linear program (DualWeights.hpp), or the paper's average of
+/// two gradients (Boon et al. 2012, Eq. 17), and what stands in for it where there is none.
 namespace polytope {
 
-/// Normal at x (Eq. 17) from both gradients, or what stands in for it. Leaves slacks for the depth.
+/// Direction (not of unit length) where the bodies have none: along the line of centres, or the smaller body's last axis.
+template <class R, int D> POLYTOPE_INLINE void lineOfCentres(const PairInput& in, const ContactFrame<R, D>& f, R* n)
+{
+	R line[D];
+	for (int k = 0; k < D; ++k)
+		line[k] = (*in.centre2)[k];
+	rotateBack<R, D>(f.world, line, n);
+	if (norm<R, D>(n) > R(tolerance::direction) * f.size) return;
+	for (int k = 0; k < D; ++k)
+		n[k] = f.own[f.home].m[D - 1][k];
+}
+
+/// Eq. 17 from both gradients (not of unit length); where a body has none the other's, where neither has the dual direction.
 template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
         const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
 {
 	R   weight[2];
@@ -41,20 +55,40 @@ POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSe
 			n[k] = dual[k];
 		length = norm<R, D>(n);
 	}
-	if (!(length > R(tolerance::direction) * R(directed == 0))) {
-		// concentric bodies: along the line of centres, or the last axis
-		status = ContactStatus::NoDirection;
-		R line[D];
-		for (int k = 0; k < D; ++k)
-			line[k] = (*in.centre2)[k];
-		rotateBack<R, D>(f.world, line, n);
-		length = norm<R, D>(n);
-		if (!(length > R(tolerance::direction) * f.size)) {
+	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
+}
+
+/// Unit normal of the plane with the least slack, as seen from body 1. Where balanced weights cancel that far, two faces lie between which
+/// n is by less than their own tilt.
+template <class R, int D> POLYTOPE_INLINE void nearestNormal(const PairPlanes<R, D>& planes, R* n)
+{
+	int nearest = 0;
+	for (int i = 1; i < planes.total; ++i)
+		if (planes.slack[i] < planes.slack[nearest]) nearest = i;
+	for (int k = 0; k < D; ++k)
+		n[k] = nearest < planes.first ? planes.normal[k][nearest] : -planes.normal[k][nearest];
+}
+
+/// Unit normal at x. Leaves slacks for the depth.
+template <class R, int D, int W>
+POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+{
+	ContactStatus status = ContactStatus::Contact;
+	if (settings.normal == NormalSource::DualWeights) {
+		const R weight = dualWeightsNormal<R, D, W>(planes, x, f.size, n);
+		if (!(norm<R, D>(n) > R(tolerance::direction) * weight)) {
+			if (settings.internal && settings.internal->count[0] + settings.internal->count[1] > 0) {
+				nearestNormal<R, D>(planes, n); // the dual direction may be that of a plane that is left out
+				return status;
+			}
 			for (int k = 0; k < D; ++k)
-				n[k] = f.own[f.home].m[D - 1][k];
-			length = norm<R, D>(n);
+				n[k] = dual[k];
+			status = norm<R, D>(dual) > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
 		}
-	}
+	} else status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);
+	const R length = norm<R, D>(n);
 	for (int k = 0; k < D; ++k)
 		n[k] /= length;
 	return status;

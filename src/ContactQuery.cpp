@@ -4,10 +4,18 @@
 #include "ContactKernel.hpp"
 #include "PairOrder.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
 namespace polytope {
+
+bool InternalPlanes::operator==(const InternalPlanes& other) const
+{
+	for (int body = 0; body < 2; ++body)
+		if (count[body] != other.count[body] || !std::equal(plane[body], plane[body] + count[body], other.plane[body])) return false;
+	return true;
+}
 
 Real* ContactWorkspace::rows(int rowCount, int length)
 {

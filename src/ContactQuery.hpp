@@ -25,8 +25,33 @@ enum class CentreSolver : int {
 };
 
 enum class ContactModel : int {
-	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along an averaged normal
-	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, tolerance and normalWeight are not read
+	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
+	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, normal, tolerance and normalWeight are not read
+};
+
+/// Of the contact model Paper.
+enum class NormalSource : int {
+	DualWeights = 0, ///< weights of the linear program on which both bodies agree (DualWeights.hpp)
+	InnerPotential,  ///< Eqs 13-17: gradients of both bodies' inner potential particles, averaged by normalWeight
+};
+
+/// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
+/// the first ones where there are more than fit.
+struct BoundingPlanes {
+	static constexpr int most = 16;
+	int                  count[2] = { 0, 0 };
+	int                  plane[2][most];
+	Real                 slack[2][most];
+	bool                 bounds[2][most]; ///< whether it cuts the overlap; else it is merely near
+};
+
+/// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
+/// nothing can press on them. The contact normal and the depth are those without them.
+struct InternalPlanes {
+	int  count[2] = { 0, 0 };
+	int  plane[2][BoundingPlanes::most];
+	bool none() const { return count[0] + count[1] == 0; }
+	bool operator==(const InternalPlanes& other) const;
 };
 
 struct ContactSettings {
@@ -35,6 +60,7 @@ struct ContactSettings {
 	Real         barrier      = tolerance::barrier;
 	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
 	CentreSolver solver       = CentreSolver::Newton;
+	NormalSource normal       = NormalSource::DualWeights;
 	/// Contact when s* < −tolerance × the smaller body's circumradius.
 	Real tolerance = tolerance::contact;
 	/// Accepted remaining distance to the centre, in the overlap's own local norm (Newton; Ipopt goes to tolerance::ipoptMove).
@@ -43,11 +69,15 @@ struct ContactSettings {
 	bool warmStart = true;
 	/// Also the contact section's area and centroid (length in 2-D).
 	bool section = false;
-	/// Weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
+	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
 	/// ends it.
 	bool geometryAcrossGap = false;
+	/// DualWeights: planes left out of normal and depth, or null.
+	const InternalPlanes* internal = nullptr;
+	/// Where the planes that bound a touching pair's overlap are written to, or null.
+	BoundingPlanes* bounding = nullptr;
 	/// Measure the LP's and the centre's time.
 	bool timed = false;
 };

@@ -173,6 +173,41 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
+/// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
+/// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
+constexpr Real leverage = 1e-2;
+
+/// Leverage from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
+/// inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
+constexpr Real nearLeverage = 1e-6;
+
+/// × the larger body's circumradius: faces of two pieces count as one face if one is not higher than this, or than the
+/// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
+constexpr Real flush = 1e-9;
+
+/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
+constexpr Real parallel = 1e-4;
+
+/// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
+/// most.
+constexpr Real thinContact = 0.1;
+
+/// × depth of a face below the one it slides on: a body is carried there if it overlaps a piece by a ball of this radius (two faces that lie
+/// on each other: ½).
+constexpr Real carriedBall = 0.25;
+
+/// Projections onto one plane after the other that look for that ball, each this much longer than need be; from beside a seam one or two
+/// lead there.
+constexpr int  mostProjections = 8;
+constexpr Real overProjection  = 1.2;
+
+/// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
+constexpr Real leastShareOfSupport = 1e-9;
+
+/// Steps between two looks for internal faces of a pair that touched before: while the faces of a seam are looked at once more, a body at
+/// 1 m/s moves by a hundredth of its size at most.
+constexpr int internalFacesEvery = 16;
+
 /// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).
 /// YADE normalises an orientation in each step, which changes its four numbers by a rounding each, to and fro; their product
 /// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.

@@ -4,15 +4,19 @@
 # `./run bench`: builds the comparators in a folder of their own, so that the ordinary build stays as it is, and measures.
 # Part of inside.sh.
 
-# coal comes from PyPI; without it the benchmark goes on.
+# coal comes from PyPI, in the versions of coal.txt; without it the benchmark goes on.
 coalPrefix() {
-	local venv=$cache/bench-venv
-	if [ ! -e "$venv/complete" ]; then
+	local venv=$cache/bench-venv wanted=$project/tools/coal.txt
+	if ! cmp -s "$venv/complete" "$wanted"; then
 		rm -rf "$venv"
-		(step "fetching coal from PyPI" "The benchmark goes on without it." \
-			bash -c 'python3 -m venv "$0" && "$0/bin/pip" install --disable-pip-version-check coal && touch "$0/complete"' "$venv") >&2 || return 0
+		(step "fetching coal from PyPI" "The benchmark goes on without it." installCoal "$venv" "$wanted") >&2 || return 0
 	fi
 	echo "$venv"/lib/python3*/site-packages/cmeel.prefix
+}
+
+installCoal() { # FOLDER REQUIREMENTS
+	python3 -m venv "$1" &&
+		"$1/bin/pip" install --disable-pip-version-check --only-binary :all: --require-hashes -r "$2" && cp "$2" "$1/complete"
 }
 
 benchmark() {

@@ -4,7 +4,22 @@
 # What this machine's package system knows. Needs `project` and `cache`.
 # shellcheck disable=SC2154
 
-packages() { sed -E 's/#.*//; s/[[:space:]]+//g; /^$/d' "$project/tools/packages.txt"; }
+# The packages of these purposes, each once.
+packages() { # PURPOSE…
+	local purpose
+	for purpose in "$@"; do grep -q "^\[$purpose\]" "$project/tools/packages.txt" || fail "tools/packages.txt has no purpose '$purpose'."; done
+	awk -v wanted=" $* " '
+		{ sub(/#.*/, ""); gsub(/[[:space:]]/, "") }
+		/^\[.*\]$/ { purpose = substr($0, 2, length($0) - 2); next }
+		$0 && index(wanted, " " purpose " ") && !seen[$0]++' "$project/tools/packages.txt"
+}
+
+# Those of the packages on standard input that are not installed, in the root folder $1 (default /).
+missingPackages() {
+	local installed
+	installed=" $(dpkg-query --admindir="${1:-}/var/lib/dpkg" -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ') "
+	while read -r package; do case $installed in *" $package "*) ;; *) echo "$package" ;; esac done
+}
 
 # Version of the installed package $1, in the root folder $2 (default /); fails if it is not installed.
 installedVersion() {
@@ -23,6 +38,7 @@ hasRecentYade() {
 	[ "${YADE_POLYTOPE_OWN_ROOT:-0}" = 1 ] && return 1
 	command -v dpkg-query apt-cache >/dev/null || return 1
 	recentYade "$(installedVersion yade)" && return 0
+	[ ! -d "$cache/debian13" ] || return 1 # a root was made here: as before, and apt need not be asked
 	local candidate
 	candidate=$(LC_ALL=C apt-cache policy yade 2>/dev/null | sed -n 's/^  Candidate: //p')
 	if [ -z "$candidate" ] || [ "$candidate" = "(none)" ]; then
@@ -33,23 +49,26 @@ hasRecentYade() {
 	recentYade "$candidate"
 }
 
-installMissingPackages() {
-	local missing=() package
-	while read -r package; do
-		installedVersion "$package" >/dev/null || missing+=("$package")
-	done < <(packages)
+installMissingPackages() { # PURPOSE…
+	local missing
+	mapfile -t missing < <(packages "$@" | missingPackages)
 	[ ${#missing[@]} -eq 0 ] && return
 	local line="apt-get install --no-install-recommends ${missing[*]}"
 	if [ "$(id -u)" -ne 0 ]; then
 		fail "${#missing[@]} packages are missing on this machine. Have them installed:" "sudo $line" \
 			"or let yade-polytope make a Debian root of its own: YADE_POLYTOPE_OWN_ROOT=1 ./run …"
 	fi
+	cat <<-TEXT
+		  You are root, and this machine has a YADE that fits: ${#missing[@]} packages are installed on the machine itself, from its archives:
+		    ${missing[*]}
+		  To leave the machine as it is, interrupt and let yade-polytope make a Debian root of its own: YADE_POLYTOPE_OWN_ROOT=1 ./run …
+	TEXT
 	step "reading the package lists" "Check apt's sources and the network." apt-get update
 	# shellcheck disable=SC2086
-	DEBIAN_FRONTEND=noninteractive step "installing ${#missing[@]} packages" "Try by hand: $line" ${line/install/install -y}
+	DEBIAN_FRONTEND=noninteractive step "installing ${#missing[@]} packages on this machine" "Try by hand: $line" ${line/install/install -y}
 }
 
-# The archives of the distribution $1 that apt knows here: a line "URI SUITE COMPONENT" each. apt itself reads its source
+# The archives of the distribution $1 with the label $2 that apt knows here: a line "URI SUITE COMPONENT" each. apt itself reads its source
 # files, in whatever format. Without package lists it cannot tell whose an archive is: then they are read into a folder of
 # our own.
 archivesOf() {
@@ -61,15 +80,32 @@ archivesOf() {
 		lists=(-o "Dir::State::lists=$cache/apt/lists" -o "APT::Sandbox::User=$(id -un)")
 		apt-get "${lists[@]}" update >/dev/null 2>&1 || true
 	fi
-	apt-get "${lists[@]}" indextargets --format "$format" 'Created-By: Packages' | sed -n "s/^$1|$1|//Ip" | tr '|' ' ' | sort -u
+	apt-get "${lists[@]}" indextargets --format "$format" 'Created-By: Packages' | sed -n "s/^$1|$2|//Ip" | tr '|' ' ' | sort -u
 }
-ownArchives() { archivesOf "$(osRelease ID)"; }
+ownArchives() { archivesOf "$(osRelease ID)" "$(osRelease ID)"; }
 
 # The address Debian 13 is fetched from.
 debianMirror() {
 	if [ -n "${YADE_POLYTOPE_MIRROR:-}" ]; then
 		echo "$YADE_POLYTOPE_MIRROR"
 	else
-		archivesOf Debian | cut -d ' ' -f 1 | head -n 1
+		archivesOf Debian Debian | cut -d ' ' -f 1 | head -n 1
 	fi
 }
+
+# The address of Debian's security archive that goes with the mirror $1; nothing where it cannot be reached.
+securityMirror() {
+	local candidate file
+	file=$(mktemp)
+	for candidate in "${YADE_POLYTOPE_SECURITY:-}" "$(archivesOf Debian Debian-Security | cut -d ' ' -f 1 | head -n 1)" \
+		"$(sed -E 's,/debian/*$,/debian-security/,; t; d' <<<"$1")"; do
+		if [ -n "$candidate" ] && /usr/lib/apt/apt-helper -o "APT::Sandbox::User=$(id -un)" \
+			download-file "${candidate%/}/dists/trixie-security/InRelease" "$file" >/dev/null 2>&1; then
+			echo "$candidate" && break
+		fi
+	done
+	rm -f "$file"
+}
+
+# The machine's own way to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.
+aptWay() { apt-config dump | grep -E '^Acquire::(Retries|https?)(::|[[:space:]])' || true; }

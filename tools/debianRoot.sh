@@ -4,7 +4,7 @@
 # A Debian 13 root of our own, for machines whose YADE is older or absent; and running a command in it.
 #
 # As root it is an ordinary chroot, as an ordinary user the same within a user namespace. Either way the mounts are
-# private to the command: nothing is left mounted after it. Needs `project`.
+# private to the command: nothing is left mounted after it. Needs `project` and debian.sh.
 # shellcheck disable=SC2154
 
 debianKeyring=/usr/share/keyrings/debian-archive-keyring.gpg
@@ -51,22 +51,75 @@ installRootTools() {
 	step "installing ${missing[*]}" "Install it by hand." apt-get install -y --no-install-recommends "${missing[@]}"
 }
 
-# makeDebianRoot FOLDER MIRROR: made aside and then renamed, so that a folder of this name is always a whole root
+# makeDebianRoot FOLDER MIRROR SECURITY PACKAGE…: made aside and then renamed, so that a folder of this name is always a whole
+# root. SECURITY: address of the security archive, or nothing.
 makeDebianRoot() {
-	local folder=$1 mirror=$2 work=$1.partial
-	removeDebianRoot "$work"
-	mkdir -p "$work"
+	local folder=$1 mirror=$2 security=$3 aside=$1.partial signed="deb [signed-by=$debianKeyring]"
+	shift 3
+	removeDebianRoot "$aside"
+	# others cannot look into the folder: the settings of apt, which mmdebstrap writes into the root, may have a password
+	mkdir -m 700 "$aside"
+	aptWay >"$aside/apt.conf"
 	# force-unsafe-io: no waiting for the disk after each file; a root that was not finished is thrown away anyway
-	# the machine's own way to its mirror: proxies and certificates
-	apt-config dump | grep -E '^Acquire::(Retries|https?)(::|[[:space:]])' >"$folder.apt.conf" || true
-	inNamespace mmdebstrap --mode=root --variant=minbase --include="$(packages | paste -s -d ,)" \
-		--aptopt="$folder.apt.conf" --aptopt='APT::Install-Recommends "false"' --aptopt='APT::Sandbox::User "root"' \
+	if inNamespace mmdebstrap --mode=root --variant=minbase --include="$(printf '%s\n' "$@" | paste -s -d ,)" \
+		--aptopt="$aside/apt.conf" --aptopt='APT::Install-Recommends "false"' --aptopt='APT::Sandbox::User "root"' \
 		--dpkgopt=force-unsafe-io \
-		trixie "$work" "deb [signed-by=$debianKeyring] $mirror trixie main" &&
-		mv "$work" "$folder" && rm -f "$folder.apt.conf"
+		trixie "$aside/root" "$signed $mirror trixie main" ${security:+"$signed $security trixie-security main"} &&
+		withoutSettings "$aside/root" &&
+		date +%s >"$folder.made" && mv "$aside/root" "$folder"; then
+		removeDebianRoot "$aside"
+	else
+		rm -f "$aside/apt.conf"
+		removeDebianRoot "$aside"
+		return 1
+	fi
 }
 
-removeDebianRoot() { [ ! -e "$1" ] || inNamespace rm -rf --one-file-system "$1"; }
+# Instead of the settings that mmdebstrap leaves in the root: nothing of the way to the mirror, and files are written safely again.
+withoutSettings() { # ROOT
+	# shellcheck disable=SC2016
+	inNamespace bash -c '
+		printf "%s\n" "APT::Install-Recommends \"false\";" "APT::Sandbox::User \"root\";" >"$0/etc/apt/apt.conf.d/99mmdebstrap"
+		rm -f "$0/etc/dpkg/dpkg.cfg.d/99mmdebstrap"' "$1"
+}
+
+# An ordinary user's root has files of his subordinate ids; root removes it as it is, within a root like this one, too.
+removeDebianRoot() {
+	if [ ! -e "$1" ]; then return 0; fi
+	if [ "$(id -u)" -eq 0 ]; then rm -rf --one-file-system "$1"; else inNamespace rm -rf --one-file-system "$1"; fi
+}
+
+# Held as long as this process and those it starts run in the root $1: file descriptor 7.
+holdDebianRoot() {
+	exec 7>>"$1.lock"
+	flock -s 7
+}
+
+# Is anybody in the root $1? By the lock, and by the processes whose root it is (older versions took no lock).
+debianRootInUse() {
+	local process
+	for process in /proc/[0-9]*/root; do [ "$(readlink "$process" 2>/dev/null)" != "$1" ] || return 0; done
+	[ -e "$1.lock" ] || return 1
+	! flock -n -x "$1.lock" true
+}
+
+# dropDebianRoot FOLDER: removed, unless somebody is in it
+dropDebianRoot() {
+	if debianRootInUse "$1"; then
+		echo "  $1 is in use, and stays."
+		return 1
+	fi
+	echo "  removing $1 …"
+	removeDebianRoot "$1" && rm -f "$1.made" "$1.lock"
+}
+
+# installInDebianRoot FOLDER PACKAGE…: into the root as it is; those who are in it go on
+installInDebianRoot() {
+	local folder=$1 way
+	shift
+	way=$(aptWay)
+	inNamespace env APT_WAY="$way" bash "$project/tools/installInRoot.sh" "$folder" "$@"
+}
 
 # inDebianRoot FOLDER COMMAND ARGS…: in the same working folder, with the same paths
 inDebianRoot() { inNamespace bash "$project/tools/enterRoot.sh" "$@"; }

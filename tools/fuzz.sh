@@ -64,6 +64,7 @@ checkedBuild() {
 checkedMemory() { checkedBuild "$build/checked" address,undefined,float-cast-overflow "$@"; }
 
 # fuzz OPTIONS…: see fuzzUsage
+# shellcheck disable=SC2120
 fuzz() {
 	local seconds=60 targets=() target result=0
 	while [ $# -gt 0 ]; do
@@ -125,6 +126,7 @@ checkThreads() {
 		"$build/checked-threads/tests/core/polytope_core_tests" --gtest_filter='ParallelQueries.*:ConvexShape.SharingIsThreadSafe'
 }
 
+# shellcheck disable=SC2119
 checkFuzz() { fuzz; }
 
 checkValgrind() {

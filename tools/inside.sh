@@ -12,10 +12,14 @@ build=$project/build # of double; those of the other precisions are in it
 ipopt=AUTO
 if [ "${YADE_POLYTOPE_IPOPT:-}" = OFF ]; then build=$project/build-without-ipopt && ipopt=OFF; fi
 widePrecisions="longdouble float128 mpfr150"
+measuringPrograms="accuracy/polytope_extremes search/polytope_search" # that tests and reports run
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
 # a second clone of the project finds what the first one compiled
 export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
 export YADE_PREFIX=$build/overlay # of all precisions
+cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) # nproc takes OMP_NUM_THREADS for the number of cores
+# One thread unless asked for, as the program `yade` does: with few bodies, threads wait for each other longer than they work
+export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
 # YADE is built with MPI, which refuses to run as root unless told
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
@@ -48,48 +52,64 @@ configure() { # FOLDER PRECISION
 	echo "$buildKey" >"$1/key"
 }
 
+buildFolder() { [ "$1" = double ] && echo "$build" || echo "$build/$1"; } # PRECISION
+
+# One number for all that the plug-in, or with `tests` its test programs, are compiled from.
+sourcesKey() { # [tests]
+	local folders=(src pkg cmake CMakeLists.txt)
+	[ $# -eq 0 ] || folders+=(tests tools/measure)
+	{
+		echo "$buildKey"
+		cd "$project" && find "${folders[@]}" -type f -regex '.*\.\([ch]pp\|txt\|in\|cmake\|py\)' ! -path 'tests/*.py' ! -path 'tools/*.py' -print0 | sort -z | xargs -0 sha256sum
+	} | sha256sum
+}
+
+# What was built from other sources than the present ones is taken out of the way: no test or report is to judge it in their place.
+dropStale() {
+	local name folder key
+	[ -d "$build" ] || return 0 # nothing was built
+	key=$(sourcesKey)
+	for name in double $widePrecisions; do
+		folder=$(buildFolder "$name")
+		[ "$name" != "$precision" ] && [ -e "$folder/overlay.complete" ] && [ "$(cat "$folder/sources" 2>/dev/null)" != "$key" ] || continue
+		find "$build/overlay" -maxdepth 3 -name "yade-$name" -exec rm -rf {} +
+		rm -f "$folder/overlay.complete"
+		echo "  $name: built from other sources than the present ones; not used until it is built again"
+	done
+	key=$(sourcesKey tests)
+	for name in $measuringPrograms; do
+		[ "$(cat "$build/tools/measure/$name.sources" 2>/dev/null)" = "$key" ] || rm -f "$build/tools/measure/$name"
+	done
+}
+
 # Builds one precision, whichever is in use.
 buildPrecision() { # PRECISION TARGETS…
-	local folder=$build name=$1 of=
+	local folder name=$1 of= program
 	shift
-	[ "$name" = double ] || { folder=$build/$name && of=" for $name"; }
+	folder=$(buildFolder "$name")
+	[ "$name" = double ] || of=" for $name"
 	(
 		flock 9 # two calls at a time build one after the other
 		configure "$folder" "$name"
+		case " $* " in *" overlay "*) rm -f "$folder/sources" ;; esac
 		step "building$of" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
+		case " $* " in *" overlay "*) sourcesKey >"$folder/sources" ;; esac
+		for program in $measuringPrograms; do
+			case " $* " in *" testPrograms "* | *" ${program#*/} "*) sourcesKey tests >"$build/tools/measure/$program.sources" ;; esac
+		done
 	) 9>"$cache/build.lock"
 }
 
-build() { buildPrecision "$precision" "$@"; }
-
-# Tests of the core (in double alone), then of the plug-in; both run whatever the first says.
-runTests() {
-	local result=0
-	if [ "$precision" = double ]; then
-		echo
-		ctest --test-dir "$build" --output-on-failure -j "$(nproc)" || result=1
-	fi
-	echo
-	# `pytest` as a program: `python3 -m pytest` would put the project's folder first, and its py/ hides the module `py`
-	(cd "$project" && pytest tests/yade "$@") || result=1
-	return $result
+# The plug-in of the precision in use, unless targets are named.
+build() { # [TARGETS…]
+	[ $# -gt 0 ] || set -- overlay
+	(flock 9 && dropStale) 9>"$cache/build.lock"
+	buildPrecision "$precision" "$@"
 }
 
-# All tests in double, then in long double those that tests/yade/conftest.py names for wider precisions.
-testAll() {
-	local result=0
-	build
-	if hasPrecision longdouble; then buildPrecision longdouble; fi # now: tests in double look at it, too
-	runTests "$@" || result=1
-	echo
-	if hasPrecision longdouble; then
-		usePrecision longdouble
-		echo "long double:"
-		(cd "$project" && pytest tests/yade "$@") || [ $? -eq 5 ] || result=1 # 5: these arguments select none of them
-	else
-		echo "long double: not tested, this machine's YADE has none"
-	fi
-	return $result
+# A program of the core's, in double whatever the precision in use is, and the plug-in.
+buildWith() { # TARGET
+	if [ "$precision" = double ]; then build overlay "$1"; else build && buildPrecision double "$1"; fi
 }
 
 # Random pairs against an exact predicate; a log beside what it prints.
@@ -110,8 +130,8 @@ tradeoff() {
 	build
 	needed=$(python3 "$script" --precisions "$@") || exit
 	for other in $widePrecisions; do
-		if grep -qx $other <<<"$needed" && hasPrecision $other; then
-			(buildPrecision $other) || echo "  $other: its rows say that it was not built"
+		if grep -qx "$other" <<<"$needed" && hasPrecision "$other"; then
+			(buildPrecision "$other" overlay) || echo "  $other: its rows say that it was not built"
 		fi
 	done
 	exec python3 "$script" "$@"
@@ -133,11 +153,12 @@ shift
 usePrecision "${YADE_POLYTOPE_PRECISION:-double}"
 case $command in
 	build) build "$@" ;;
-	test) if [ -n "${YADE_POLYTOPE_PRECISION:-}" ]; then build && runTests "$@"; else testAll "$@"; fi ;;
+	test) . "$project/tools/test.sh" && test_ "$@" ;;
 	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
 	tradeoff) tradeoff "$@" ;;
-	search) build && search "$@" ;;
+	search) buildPrecision double polytope_search && search "$@" ;;
+	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;
 	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;

@@ -84,6 +84,7 @@ def options():
 	parser.add_argument('--threads', type=count, default=O.numThreads, help=inSameState)
 	parser.add_argument('--seed', type=int, default=1, help='of the orientations')
 	parser.add_argument('--seeds', type=count, default=1, help='so many runs of each solid, with this seed and the next ones')
+	parser.add_argument('--normal', choices=('innerPotential', 'dualWeights'), default='innerPotential', help="innerPotential: the paper's; dualWeights: the plug-in's default")
 	parser.add_argument('--contact-model', choices=contactModels, default='paper', help='conservative: with --time-step-fraction 0.05 --steps 28000')
 	parser.add_argument('--contact-point', choices=contactPoints, default='analyticCentre')
 	for name, (kind, meaning) in parameters.items():

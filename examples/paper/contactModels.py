@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The paper's contact and the conservative one on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
+"""The default contact, the paper's and the conservative one on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
 the sliding and the roof wedge (C, D), and settled heaps of polyhedra (A), beside closed forms.
 
 	./run python examples/paper/contactModels.py            # some minutes; table as output/contactModels/models.csv, too
@@ -31,12 +31,17 @@ from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 from yade.polytope.frictionReduction import FrictionReduction
 from yade.utils import kineticEnergy
 
-models = ('paper', 'conservative')
+contacts = {
+	'default': {'normal': 'dualWeights'},
+	'paper': {'normal': 'innerPotential'},
+	'conservative': {'contactModel': 'conservative'},
+}
+"""What the scenes are asked for: the linear program's own normal, the paper's averaged one, the contact that keeps energy."""
 geometry = pathlib.Path(__file__).parent / 'geometry'
 barrier = 3e-3
 """Default of Ig2_Polytope_Polytope_PolytopeGeom."""
-wedgeSteps = {'paper': 0.2, 'conservative': 0.025}
-heapSteps = {'paper': 0.2, 'conservative': 0.05}
+wedgeSteps = {'default': 0.2, 'paper': 0.2, 'conservative': 0.025}
+heapSteps = {'default': 0.2, 'paper': 0.2, 'conservative': 0.05}
 """Time steps over sqrt(mass / stiffness): face on face the conservative contact is stiff in rocking."""
 columns = 4
 """Of the heaps' starting lattice: some four layers of bodies lie on each other at the end."""
@@ -71,14 +76,14 @@ def conservativePeak(beam):
 
 
 def beam(given):
-	"""Rows: quantity, closed form, paper's model, conservative; the load does not depend on --quick."""
+	"""Rows: quantity, closed form, default, paper's normal, conservative; the load does not depend on --quick."""
 	shape = {name: getattr(ThreeHingedBeam, name) for name in ('length', 'height', 'abutmentStiffness', 'midspanStiffness')}
 	abutment = {name: getattr(ThreeHingedBeam, name) for name in ('abutmentHeight', 'abutmentLength')}
 	for point, theory in (('centroid', BeamBetweenWalls(**shape)), ('analyticCentre', BeamOfTwoBlocks(**shape, **abutment))):
-		peak = ThreeHingedBeam(contactPoint=point).build().peak().load
-		yield f'B: peak load [N], {point}', theory.peak()[0], peak, None
-	scene = ThreeHingedBeam(contactModel='conservative').build()
-	yield 'B: peak load [N], from the energy', conservativePeak(scene), None, scene.peak().load
+		peaks = [ThreeHingedBeam(contactPoint=point, **contacts[model]).build().peak().load for model in ('default', 'paper')]
+		yield f'B: peak load [N], {point}', theory.peak()[0], *peaks, None
+	scene = ThreeHingedBeam(**contacts['conservative']).build()
+	yield 'B: peak load [N], from the energy', conservativePeak(scene), None, None, scene.peak().load
 
 
 def critical(scene, model, given):
@@ -100,7 +105,7 @@ def slidingWedge(given):
 	blocks = BlockGeometry.read(geometry / 'c_sliding_wedge.json')
 
 	def angle(model):
-		scene = WedgeScene(blocks, contactModel=model, timeStepFraction=wedgeSteps[model]).build()
+		scene = WedgeScene(blocks, timeStepFraction=wedgeSteps[model], **contacts[model]).build()
 		scene.establishContacts()
 		return critical(scene, model, given)
 
@@ -112,7 +117,7 @@ def roofWedge(given):
 
 	def angle(model):
 		nonlocal closed
-		scene = RoofWedge(blocks, contactModel=model, timeStepFraction=wedgeSteps[model]).build()
+		scene = RoofWedge(blocks, timeStepFraction=wedgeSteps[model], **contacts[model]).build()
 		if pressed:
 			scene.pressByBoundary()
 		else:
@@ -132,7 +137,8 @@ def heap(faces, model, given):
 	number = 100 if given.quick else 200
 	lattice = {'columns': 3 if given.quick else columns, 'number': number, 'seed': given.seed}
 	scene = FallingPolyhedra(faces=faces, timeStepFraction=heapSteps[model], **lattice).build()
-	scene.geometryFunctor.contactModel = model
+	for name, value in contacts[model].items():
+		setattr(scene.geometryFunctor, name, value)
 	size, particles = scene.size, scene.particles()
 	O.run(round(leastTime / O.dt), wait=True)
 	unit = number * scene.mass * scene.gravity * size
@@ -156,7 +162,7 @@ def heaps(given):
 
 
 def each(measure, label):
-	return [measure(model) for model in tqdm(models, label, leave=False, disable=None)]
+	return [measure(model) for model in tqdm(contacts, label, leave=False, disable=None)]
 
 
 parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'A': heaps}
@@ -171,7 +177,7 @@ def main():
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/contactModels'), help='folder of the table')
 	given = parser.parse_args()
 	given.solids = given.solids or (['cube'] if given.quick else list(solids))
-	head = ['quantity', 'closed form', "paper's model", 'conservative model']
+	head = ['quantity', 'closed form', 'default', "paper's normal", 'conservative']
 	rows = [row for name in given.only for row in parts[name](given)]
 	print(tabulate(rows, head, floatfmt='.6g', missingval=''))
 	given.output.mkdir(parents=True, exist_ok=True)

@@ -7,6 +7,7 @@
 #include <src/IpoptCentre.hpp>
 #include <src/NumberText.hpp>
 
+#include "InternalFaces.hpp"
 #include "LookAhead.hpp"
 #include "RockJoint.hpp"
 
@@ -110,12 +111,42 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
+	// a new contact, and the others every few steps, each in its turn
+	polytope::BoundingPlanes bounding;
+	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
+		if ((turn || !geom.internalKnown || !wasReal)
+		    && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
+			settings.bounding = &bounding;
+		settings.internal = geom.internal.get();
+	}
 	polytope::ContactResult result;
-	const Vector3r          centre2 = state2.pos + shift2 - frame1.origin;
-	polytope::contactQuery(
-	        convex1, frame1.rotation, convex2, state2.ori.toRotationMatrix(), centre2, settings, memory, workspace, result);
+	const Vector3r          centre2   = state2.pos + shift2 - frame1.origin;
+	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
+	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	if (result.inContact && (settings.bounding || geom.internal)) {
+		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
+			{ frame1.rotation, rotation2 }, frame1.origin + result.point, result.normal, -result.infeasibility };
+		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
+			settings.bounding = nullptr;
+			settings.internal = geom.internal.get();
+			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+		}
+		geom.share = geom.internal && geom.needsShare ? shareOfSupport(pair.withNormal(result.normal), *geom.internal) : Real(1);
+	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
+{
+	const polytope::InternalPlanes found = internalPlanes(pair, bounding);
+	const bool same = geom.internal ? found == *geom.internal : found.none();
+	geom.internalKnown = true;
+	if (same) return false;
+	if (found.none()) geom.internal.reset();
+	else geom.internal = std::make_unique<polytope::InternalPlanes>(found);
+	return true;
 }
 
 bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
@@ -170,6 +201,7 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 		contactModel    = goodContactModel_;
 		barrier         = goodBarrier_;
 		contactPoint    = goodContactPoint_;
+		normal          = goodNormal_;
 		tolerance       = goodTolerance_;
 		newtonTolerance = goodNewtonTolerance_;
 		solver          = goodSolver_;
@@ -186,6 +218,9 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	else if (contactPoint == "chebyshevCentre") settings_.contactPoint = polytope::ContactPoint::ChebyshevCentre;
 	else if (contactPoint == "centroid") settings_.contactPoint = polytope::ContactPoint::Centroid;
 	else refuse("contactPoint: must be 'analyticCentre', 'chebyshevCentre' or 'centroid', not '" + contactPoint + "'");
+	if (normal == "dualWeights") settings_.normal = polytope::NormalSource::DualWeights;
+	else if (normal == "innerPotential") settings_.normal = polytope::NormalSource::InnerPotential;
+	else refuse("normal: must be 'dualWeights' or 'innerPotential', not '" + normal + "'");
 	if (solver == "newton") settings_.solver = polytope::CentreSolver::Newton;
 	else if (solver != "ipopt") refuse("solver: must be 'newton' or 'ipopt', not '" + solver + "'");
 	else if (!polytope::ipoptVersion())
@@ -204,6 +239,7 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 	goodContactModel_         = contactModel;
 	goodBarrier_              = barrier;
 	goodContactPoint_         = contactPoint;
+	goodNormal_               = normal;
 	goodSolver_               = solver;
 	goodTolerance_            = tolerance;
 	goodNewtonTolerance_      = newtonTolerance;

@@ -10,6 +10,8 @@
 
 namespace yade {
 
+struct TouchingPair;
+
 class PolytopeGeom : public ScGeom {
 public:
 	virtual ~PolytopeGeom() = default;
@@ -18,17 +20,25 @@ public:
 	std::shared_ptr<const polytope::ConvexShape> partner;
 	int                                          side = 0;
 
+	/// Planes that neighbours cover (InternalFaces.hpp), if there are any, and whether they were looked for since the pair was made or loaded.
+	std::unique_ptr<polytope::InternalPlanes> internal;
+	bool                                      internalKnown = false;
+
+	/// Whether the contact's physics have a stiffness per contact, which `share` is a part of.
+	bool needsShare = true;
+
 	polytope::PairMemory memory() const;
 	void                 remember(const polytope::PairMemory& memory);
 	std::string          statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
-	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the gradient of their inner potential particles, the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
+	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the direction on which the linear program's weights of both bodies agree (or the average of the gradients of their inner potential particles, see :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>`), the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear programme [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
+		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's law uses :yref:`contactArea<PolytopeGeom.contactArea>`; set when the contact's physics are made."))
-		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the contact normal, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
+		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear programme with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
 		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
@@ -40,7 +50,7 @@ public:
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
-		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear programme's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear programme's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);
@@ -80,9 +90,10 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
-		((string, contactModel, "paper", Attr::triggerPostLoad, "*paper*: stiffness times chord along the averaged normal of the inner potential particles [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear programme with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
-		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Edges and corners act as if blunted by 1.5 to 5 times this length; face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
+		((string, contactModel, "paper", Attr::triggerPostLoad, "*paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear programme with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *normal*, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
+		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Pressed straight, edges and corners act as if blunted by 1.5 to 5 times this length; a face tilted by $\\theta$ carries $\\mu\\sqrt{2/\\theta}$ inside its edge (23 times where a block topples); face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear programme's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
+		((string, normal, "dualWeights", Attr::triggerPostLoad, "Contact normal of the model *paper*: *dualWeights* (from weights of the linear program on which both bodies agree: the normal of a face where an edge or vertex lies on it; faces that neighbours cover, as between flush plates, have no part in it) or *innerPotential* (average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>`, Eqs 13-17 of [Boon2012]_: leans by up to 45° where an edge lies on a face, and on every seam of a floor; to reproduce the paper)."))
 		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it gives up on a contact, Ipopt takes over if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
@@ -112,6 +123,9 @@ protected:
 	bool query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
 	        const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
+	/// Looks for internal faces; true if they are others than the geometry has, which then has these.
+	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
+
 	/// Counts the result and, for a contact, hands it to ScGeom. `origin1`: what result.point is relative to.
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
@@ -124,7 +138,8 @@ protected:
 private:
 	polytope::ContactSettings    settings_;
 	std::vector<ContactCounters> counters_         = std::vector<ContactCounters>(omp_get_max_threads());
-	std::string                  goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodSolver_ = "newton";
+	std::string                  goodContactModel_ = "paper", goodContactPoint_ = "analyticCentre", goodNormal_ = "dualWeights",
+	                             goodSolver_ = "newton";
 	Real                         goodBarrier_   = polytope::tolerance::barrier;
 	Real                         goodTolerance_ = polytope::tolerance::contact, goodNewtonTolerance_ = polytope::tolerance::newton;
 };

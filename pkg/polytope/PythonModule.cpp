@@ -8,6 +8,8 @@
 #include "Construction.hpp"
 #include "PolytopeGeom.hpp"
 
+#include "PotentialContacts.hpp"
+
 #include "BuildInfo.hpp"
 
 #include <core/Body.hpp>
@@ -109,7 +111,8 @@ struct Contact {
 };
 
 Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
-        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier)
+        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
+        const std::string& normal)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
@@ -122,6 +125,7 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	functor.newtonTolerance = newtonTolerance;
 	functor.solver          = solver;
 	functor.contactModel    = contactModel;
+	functor.normal          = normal;
 	functor.barrier         = barrier;
 	functor.callPostLoad();
 	polytope::ContactSettings settings = functor.settings();
@@ -142,6 +146,18 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 }
 
 template <class T, T polytope::ContactResult::* Member> T field(const Contact& contact) { return contact.result.*Member; }
+
+/// What PolytopeTimeStepper goes by, of the scene as it is: times [s], or None where nothing limits.
+py::dict timeStepLimits()
+{
+	const auto              scene  = yade::Omega::instance().getScene();
+	const auto              number = [](yade::Real step) { return yade::math::isfinite(step) ? py::object(step) : py::object(); };
+	yade::PotentialContacts potential;
+	py::dict                result;
+	result["contacts"] = number(yade::contactLimit(*scene, 0).step);
+	result["material"] = number(potential.limit(*scene).step);
+	return result;
+}
 
 } // namespace
 
@@ -165,6 +181,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
+	py::def("timeStepLimits", &timeStepLimits,
+	        "Safe time steps [s] (src/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
+	        "a dictionary; None where nothing limits.");
 	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 	yade::defineConstruction();
 
@@ -203,11 +222,12 @@ BOOST_PYTHON_MODULE(_polytope)
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
-	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier)),
+	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier),
+	                py::arg("normal") = "dualWeights"),
 	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier: as on "
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "

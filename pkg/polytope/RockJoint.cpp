@@ -58,12 +58,12 @@ void RockJointMat::postLoad(RockJointMat&)
 
 // ---------------------------------------------------------------------------------------------------- physics
 
-void RockJointPhys::setStiffnesses()
+void RockJointPhys::setStiffnesses(Real share)
 {
 	if (normalStiffness > 0) kn = normalStiffness * contactArea;
-	else if (normalStiffnessPerContact != 0) kn = normalStiffnessPerContact;
+	else if (normalStiffnessPerContact != 0) kn = normalStiffnessPerContact * share;
 	if (shearStiffness > 0) ks = shearStiffness * contactArea;
-	else if (shearStiffnessPerContact != 0) ks = shearStiffnessPerContact;
+	else if (shearStiffnessPerContact != 0) ks = shearStiffnessPerContact * share;
 }
 
 void RockJointPhys::setKn(Real value)
@@ -152,11 +152,12 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	}
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
+		geom->needsShare  = !stiffnessPerArea;
 		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
 		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
-		phys->setStiffnesses();
+		phys->setStiffnesses(geom->share);
 	} else {
 		phys->contactArea = nominalArea(contact->geom.get());
 		phys->kn          = stiffnessPerArea ? normal * phys->contactArea : normal;

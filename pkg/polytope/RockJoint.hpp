@@ -58,8 +58,9 @@ class RockJointPhys : public FrictPhys {
 public:
 	virtual ~RockJointPhys() = default;
 
-	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact as they are.
-	void setStiffnesses();
+	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact times the share that
+	/// the contact has of it (PolytopeGeom::share).
+	void setStiffnesses(Real share);
 	/// Whether the joint has a peak strength to lose.
 	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
 	/// Whether an open joint differs from one that is made anew when it closes.

@@ -123,7 +123,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
 	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
-	phys.setStiffnesses();
+	phys.setStiffnesses(geom.share);
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
 
 	const Vector3r trial         = last.shear.forceWith(phys.ks) - phys.ks * geom.shearIncrement();
@@ -133,6 +133,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	const Real normal  = elasticNormal + viscous;
 
 	Vector3r shear = trial;
+	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements that positions cannot show
+	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
+	if (normal <= 0 && shear.squaredNorm() < shown * shown) shear = Vector3r::Zero();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
 	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
 

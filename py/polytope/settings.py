@@ -33,10 +33,12 @@ def settings(name):
 	turns on its corners, by 0.91 (default 0.16, both against forces at the centroid), and contact forces of a pair differ from the paper's
 	by 0.41. Where these matter take 'balanced'. `./run tradeoff --quick --only B C F rest pair` prints these figures.
 
-	**Time steps**: polytope.stableTimeStep(1), 1/ω, is safe for any heap, by a bound on ω. 'exact' stays within: 0.80/ω in the roof wedge
-	D, 0.70/ω in the heap A, once at rest. 'balanced' and 'fast' are not held to it. They rest on the answers measured, in scenes with damped
-	contacts, whose heap (A) is at 1.3/ω and 2.6/ω, and is blown apart by twice the step of 'fast'. polytope.requirements(O) names any step
-	above 1/ω; where nothing damps, or answers look odd, take O.dt = min(O.dt, polytope.stableTimeStep(1)).
+	All of it was measured with the paper's normal (normal='innerPotential'), before the present default.
+
+	**Time steps**: polytope.stableTimeStep(1) is safe for any heap; it is 1/ω where nothing is damped, less with dampers. 'exact' stays within
+	1/ω: 0.80/ω in the roof wedge D, 0.70/ω in the heap A, once at rest. 'balanced' and 'fast' are not held to it. They rest on the answers
+	measured, in scenes with damped contacts, whose heap (A) is at 1.3/ω and 2.6/ω, and is blown apart by twice the step of 'fast'.
+	polytope.requirements(O) names any step above stableTimeStep(1); where answers look odd, put PolytopeTimeStepper into O.engines instead.
 
 	:param str name: 'fast', 'balanced' or 'exact'
 	:returns: attributes by name; and *timeStepFactor*, over the step you would take otherwise: the scenes' own is 0.2 √(m/k) (A, C, D), and

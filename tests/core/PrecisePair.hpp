@@ -123,20 +123,25 @@ public:
 			}
 		for (int k = 0; k < 3; ++k)
 			step[k] = -g[k];
-		// Gauss without pivoting: the matrix is positive definite
+		solvePositive(h, step);
+		return sqrt(-dot(g, step));
+	}
+
+	/// h⁻¹ b by Gauss without pivoting: the matrix is positive definite.
+	void solvePositive(std::array<Vector, 3>& h, Vector& b) const
+	{
 		for (int k = 0; k < dimension; ++k)
 			for (int i = k + 1; i < dimension; ++i) {
 				const Number factor = h[i][k] / h[k][k];
 				for (int j = k; j < dimension; ++j)
 					h[i][j] -= factor * h[k][j];
-				step[i] -= factor * step[k];
+				b[i] -= factor * b[k];
 			}
 		for (int k = dimension - 1; k >= 0; --k) {
 			for (int j = k + 1; j < dimension; ++j)
-				step[k] -= h[k][j] * step[j];
-			step[k] /= h[k][k];
+				b[k] -= h[k][j] * b[j];
+			b[k] /= h[k][k];
 		}
-		return sqrt(-dot(g, step));
 	}
 
 	/// Gradient of a body's inner potential particle, Σ 2⟨a·x − d + r⟩ a.
@@ -176,6 +181,41 @@ public:
 		for (Number& component : n)
 			component /= length;
 		return true;
+	}
+
+	/// n of DualWeights.hpp at x, of unit length. Returns how many times a relative change of all slacks can turn it; −1 where n vanishes.
+	Number balancedNormal(const Vector& x, Vector& n) const
+	{
+		Number nearest = -violation(x);
+		if (!(nearest > 0)) return -1;
+		const auto weight = [&](const Plane& plane) {
+			const Number ratio = nearest / plane.slack(x);
+			return Number(ratio * ratio * ratio);
+		};
+		std::array<Vector, 3> m {};
+		Vector                c {};
+		for (const auto& body : planes)
+			for (const Plane& plane : body)
+				for (int k = 0; k < dimension; ++k) {
+					c[k] -= weight(plane) * plane.normal[k];
+					for (int j = 0; j < dimension; ++j)
+						m[k][j] += weight(plane) * plane.normal[k] * plane.normal[j];
+				}
+		solvePositive(m, c);
+		Number all = 0;
+		Vector sum[2] {};
+		for (int body = 0; body < 2; ++body)
+			for (const Plane& plane : planes[body]) {
+				const Number balanced = weight(plane) * (1 + dot(plane.normal, c));
+				sum[body]             = along(sum[body], balanced, plane.normal);
+				all += weight(plane) + abs(balanced);
+			}
+		n                   = minus(sum[0], sum[1]);
+		const Number length = norm(n);
+		if (!(length > Number(1e-12) * all)) return -1;
+		for (Number& component : n)
+			component /= length;
+		return 16 * all / length;
 	}
 
 	/// From x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.

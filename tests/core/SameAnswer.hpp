@@ -21,22 +21,32 @@ inline bool finite(const ContactResult& result)
 struct Allowance {
 	Real roundings, local, normal, depth;
 
-	Allowance(const Pair& pair, const PrecisePair& exact, const ContactResult& result)
+	Allowance(const Pair& pair, const PrecisePair& exact, const ContactResult& result, NormalSource source = NormalSource::DualWeights)
 	{
 		roundings          = 32 * tolerance::rounding * pair.reach();
 		local              = 2e-9 + roundings / -result.infeasibility;
 		const QuadVector x = precise(result.point), n = precise(result.normal);
-		normal      = 1e-14;
-		Vector3 sum = Vector3::Zero();
+		if (source == NormalSource::DualWeights) {
+			QuadVector balanced;
+			const Quad slip = exact.balancedNormal(x, balanced);
+			normal          = 1e-14 + (slip > 0 ? Real(slip) * local : Real(2));
+		} else normal = averaged(exact, x);
+		const Real glance = Real(1 / exact.exit(0, x, n, 1).rate + 1 / exact.exit(1, x, n, -1).rate);
+		depth             = (roundings + (local + normal * glance) * result.depth) * glance;
+	}
+
+private:
+	Real averaged(const PrecisePair& exact, const QuadVector& x) const
+	{
+		Real    slip = 1e-14;
+		Vector3 sum  = Vector3::Zero();
 		for (int body = 0; body < 2; ++body) {
 			const Vector3 gradient = rounded(exact.innerGradient(body, x));
 			if (!(gradient.norm() > 0)) continue;
-			normal += Real(exact.normalSlip(body, x, local));
+			slip += Real(exact.normalSlip(body, x, local));
 			sum += (body == 0 ? 1 : -1) * gradient.normalized();
 		}
-		if (sum.norm() > 0) normal /= std::min(Real(1), sum.norm()); // nearly opposite gradients cancel
-		const Real glance = Real(1 / exact.exit(0, x, n, 1).rate + 1 / exact.exit(1, x, n, -1).rate);
-		depth             = (roundings + (local + normal * glance) * result.depth) * glance;
+		return sum.norm() > 0 ? slip / std::min(Real(1), sum.norm()) : slip; // nearly opposite gradients cancel
 	}
 };
 

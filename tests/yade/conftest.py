@@ -2,6 +2,7 @@
 """Every test starts from an empty scene; scenes.py, the package boon2012 and the studies of accuracy are importable from all of them."""
 import numbers
 import os
+import pathlib
 import sys
 
 os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # threads that wait do not take the core from those that work
@@ -10,12 +11,21 @@ import pytest
 import yade
 from yade import polytope
 
-# In wider precisions than double, the tests of what depends on the numbers' kind: construction, contacts, laws, files,
-# drawing. The others (the paper's simulations, studies, theory) repeat double's and take hours.
-widePrecision = (
-        'test_precision test_plugin test_bodies test_bounds test_conservative test_contact_physics test_contact_types test_energy test_mixed_pairs '
-        'test_rock_joint test_save_load test_threads test_vtk test_ipopt'
-).split()
+# Repeated in wider precisions than double, each file for what it alone compiles or computes differently there. What is left out repeats
+# double's code with other scenes (the paper's simulations, studies, theory), or counts and compares runs with each other (bounds, threads,
+# energies of the laws: test_precision has their scenes against 150 digits).
+widePrecision = {
+        'test_precision': "all quantities of a contact against references of more digits than double's",
+        'test_plugin': 'loading, and the check of the layout of classes',
+        'test_bodies': 'construction: conversions between Python, CGAL and Real',
+        'test_conservative': "the barrier's iterations end by Real's rounding",
+        'test_contact_physics': "forces of every law in Real, and the paper's contact by them",
+        'test_mixed_pairs': "YADE's spheres, walls, boxes and facets in Real",
+        'test_rock_joint': 'the law, its state in Real',
+        'test_save_load': 'archives of Real',
+        'test_vtk': 'numbers written as double',
+        'test_ipopt': 'Ipopt computes in double whatever Real is',
+}
 if polytope.buildInfo()['precision'] != 'double':
 	# what pytest.approx asks of a number, and the messages of failures
 	numbers.Real.register(yade.minieigenHP.Real)
@@ -23,10 +33,21 @@ if polytope.buildInfo()['precision'] != 'double':
 	here = os.path.dirname(os.path.abspath(__file__))
 	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
 
+slowTests = {line.strip() for line in (pathlib.Path(__file__).parent / 'slow.txt').read_text().splitlines() if not line.startswith('#')}
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 # last: both have a report.py, which no test takes by its name
 for folder in ('examples/paper', 'tools/measure/accuracy'):
 	sys.path.append(os.path.abspath(os.path.join(__file__, '../../..', folder)))
+
+
+def pytest_configure(config):
+	config.addinivalue_line('markers', 'slow: left out by ./run test --fast; tests/yade/slow.txt lists them')
+
+
+def pytest_collection_modifyitems(items):
+	for item in items:
+		if f'{item.path.name}::{getattr(item, "originalname", item.name)}' in slowTests:
+			item.add_marker(pytest.mark.slow)
 
 
 @pytest.fixture(autouse=True)

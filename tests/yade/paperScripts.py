@@ -21,7 +21,7 @@ def run(name, where, *options):
 		env={**os.environ, 'OMP_NUM_THREADS': '1'},
 		capture_output=True,
 		text=True,
-		timeout=300,
+		timeout=1800,
 	)
 
 

@@ -4,8 +4,8 @@ from math import sqrt
 
 from yade import (
         Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, Quaternion,
-        RockJointMat, Vector3
+        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, PolytopeTimeStepper,
+        Quaternion, RockJointMat, Vector3
 )
 from yade import polytope
 
@@ -37,6 +37,22 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gr
 	        newton,
 	]
 	return newton
+
+
+def stepper(**attributes):
+	"""Puts a PolytopeTimeStepper at the end of the engines there are; returns it."""
+	engine = PolytopeTimeStepper(**attributes)
+	O.engines = O.engines + [engine]
+	return engine
+
+
+def stepUntil(seconds, watch=None, every=20):
+	"""Steps to this time; *watch* is called every so many. (O.run(…, wait=True) sleeps some hundredths of a second each time.)"""
+	while O.time < seconds:
+		for _ in range(every):
+			O.step()
+		if watch:
+			watch()
 
 
 def law():

@@ -13,9 +13,9 @@ from yade import Quaternion, Vector3
 from yade import polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
-program = folder.parents[2] / 'build/tools/measure/accuracy/polytope_extremes'
 
 import pairTables
+from pairExtremes import program
 
 # by its path: `./run paper` has a report.py, too
 specification = importlib.util.spec_from_file_location('accuracyReport', folder / 'report.py')
@@ -26,7 +26,7 @@ specification.loader.exec_module(report)
 def run(script, where, *options):
 	done = subprocess.run(
 		[sys.executable, folder / f'{script}.py', '--output', where, *options],
-		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=900
+		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=3600
 	)
 	assert (where / 'findings.json').is_file(), done.stderr
 	return done.returncode, json.loads((where / 'findings.json').read_text())

@@ -224,8 +224,11 @@ def testContactOfTwoCubes():
 	assert c.inContact and c.status == 'contact'
 	assert c.infeasibility == pytest.approx(-0.005, rel=1e-12)
 	assert (c.point - Vector3(.125, .0625, .495)).norm() < 1e-12
-	assert (c.normal - Vector3(0, 0, 1)).norm() < 1e-15
-	assert c.depth == pytest.approx(0.01, rel=1e-12) and c.area == pytest.approx(.75 * .875, rel=1e-12)
+	assert (c.normal - Vector3(0, 0, 1)).norm() < (0.005 / 0.25)**3  # (half the depth over the way to a side)³
+	assert c.depth == pytest.approx(0.01, rel=1e-9) and c.area == pytest.approx(.75 * .875, rel=1e-9)
+	paper = polytope.contact(a, b, normal='innerPotential')
+	assert (paper.normal - Vector3(0, 0, 1)).norm() < 1e-15 and (paper.point - c.point).norm() == 0
+	assert paper.depth == pytest.approx(0.01, rel=1e-12) and paper.area == pytest.approx(.75 * .875, rel=1e-12)
 	apart = polytope.contact(a, polytope.cuboid((0, 0, 1.5), (.5, .5, .5)))
 	assert not apart.inContact and apart.status == 'separated' and apart.depth == pytest.approx(-.5) and apart.infeasibility == pytest.approx(.25)
 

@@ -214,16 +214,23 @@ def testStableTimeStepKnowsRocking():
 	joint(normalStiffness=1e7, shearStiffness=1e7)
 	loop(gravity=(0, 0, -gravity), ig2=conservative)
 	floor, block = blockOnFloor(1e-3)
-	with pytest.raises(ValueError, match='default'):
-		polytope.stableTimeStep()
+	# no contact yet: that of one at a vertex, κ = k (1/m + (3/4 L²)/(m L²/6))
+	assert polytope.stableTimeStep(1) == pytest.approx(1 / sqrt(5.5 * 1e7 / block.state.mass), rel=1e-9)
 	with pytest.raises(ValueError, match='fraction'):
 		polytope.stableTimeStep(3)
 	O.dt = 1e-6
 	O.step()
 	found = contact(floor, block)
 	rocking = found.phys.normalForce.norm() * found.geom.rockingArm
-	expected = 1 / sqrt((rocking + 2e7 * found.geom.refR2**2) / min(block.state.inertia))
+	# sliding, and turning about the contact by shear and rocking
+	m, inertia, arm = block.state.mass, min(block.state.inertia), found.geom.refR2
+	slide, turn, both = 1e7 / m, (rocking + 1e7 * arm**2) / inertia, 1e7 * arm / sqrt(m * inertia)
+	expected = 1 / sqrt((slide + turn) / 2 + sqrt(((slide - turn) / 2) ** 2 + both**2))
 	assert polytope.stableTimeStep(1) == pytest.approx(expected, rel=1e-9)
+	block.state.blockedDOFs = 'xyzXYZ'
+	with pytest.raises(ValueError, match='default'):
+		polytope.stableTimeStep()
+	assert polytope.stableTimeStep(default=0.1) == 0.1
 
 
 @pytest.mark.parametrize('part', [1, 4])

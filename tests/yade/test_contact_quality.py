@@ -30,6 +30,7 @@ def testPathStudyHolds(tmp_path):
 	code, rows = study('contactPath', tmp_path, '--steps', '200')
 	assert code == 0, [row for row in rows.values() if row['good'] is False]
 	for quantity in ('point', 'normal', 'force'):
+		assert rows[f'default: largest jump of the {quantity}']['ours'] == 0
 		assert rows[f'conservative: largest jump of the {quantity}']['ours'] == 0
 		assert rows[f'analytic centre: largest jump of the {quantity} (overlap below the corner radius)']['ours'] == 0
 	assert {path.name for path in tmp_path.iterdir()} >= {

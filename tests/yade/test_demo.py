@@ -14,7 +14,7 @@ examples = pathlib.Path(__file__).resolve().parents[2] / 'examples'
 def run(folder, script, *options):
 	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
 	return subprocess.run(
-	        [sys.executable, examples / script, *options], cwd=folder, env=environment, capture_output=True, text=True, timeout=300
+	        [sys.executable, examples / script, *options], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800
 	)
 
 

@@ -84,7 +84,7 @@ print(O.numThreads, *(repr(x) for b in O.bodies for x in tuple(b.state.pos) + tu
 def run(threads):
 	environment = dict(os.environ, OMP_NUM_THREADS=str(threads))
 	command = [sys.executable, '-c', program, os.path.dirname(os.path.abspath(__file__))]
-	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=300)
+	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
 	assert output.returncode == 0, output.stderr
 	return output.stdout, output.stderr
 

@@ -191,7 +191,7 @@ def testDilationIsRememberedWhileTheJointIsOpen():
 		assert i.phys.slip[0] == pytest.approx(.03, rel=1e-9) and abs(i.phys.slip[1]) < 1e-12
 		assert i.phys.dilation == pytest.approx(.03 * tan(psi), rel=1e-9)
 		assert i.phys.normalForce[2] == pytest.approx(stiffness * (overlap + .03 * tan(psi)), rel=1e-9)
-		assert i.phys.shearForce.norm() == 0
+		assert i.phys.shearForce.norm() < 1e-14 * i.phys.normalForce.norm()  # rounding of the normal while it is pressed together
 
 
 def testJointThatHasNotSlippedHasNothingToRemember():

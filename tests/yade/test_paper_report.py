@@ -200,5 +200,5 @@ def testScriptRunsWithinYadeToo(letter):
 	"""YADE executes it in its own namespace: `__file__` is YADE's there. The arguments behind its name and its exit code are its own."""
 	name = path.parent / f'{report.simulations[letter][0]}.py'
 	assert not [line for line in name.read_text().splitlines() if '__file__' in line.partition('#')[0]]
-	done = subprocess.run(['yade', '-n', '-x', name, '--nonsense'], capture_output=True, text=True, timeout=120)
+	done = subprocess.run(['yade', '-n', '-x', name, '--nonsense'], capture_output=True, text=True, timeout=1800)
 	assert done.returncode == 2 and 'unrecognized arguments: --nonsense' in done.stderr, done.stderr

@@ -24,7 +24,7 @@ def yadeWithout(missing, folder, script):
 			if name not in (missing, 'polytope-py'):
 				(library / place / name).symlink_to(os.path.join(yade.config.libDir, place, name))
 	environment = dict(os.environ, YADE_PREFIX=str(folder))
-	return subprocess.run([sys.executable, '-c', script], env=environment, capture_output=True, text=True, timeout=100)
+	return subprocess.run([sys.executable, '-c', script], env=environment, capture_output=True, text=True, timeout=1800)
 
 
 def testYadeRunsOnWithoutClassesThatCannotBeLoaded(tmp_path):

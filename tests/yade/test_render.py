@@ -149,7 +149,7 @@ def testYadesOwnViewDrawsPolytopes(tmp_path):
 	(tmp_path / 'view.py').write_text(viewScript)
 	environment = {**os.environ, 'LIBGL_ALWAYS_SOFTWARE': '1', 'XDG_RUNTIME_DIR': str(tmp_path)}
 	command = ['xvfb-run', '-a', '-s', '-screen 0 1024x768x24', 'yade', 'view.py']
-	done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
+	done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=1800)
 	assert done.returncode == 0, done.stdout + done.stderr
 	# in JPEG whatever the name says
 	solid, wire = (shareLike(matplotlib.image.imread(tmp_path / name) / 255, 0) for name in ('solid.jpg', 'wire.jpg'))

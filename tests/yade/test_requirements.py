@@ -41,11 +41,11 @@ def testTimeStep():
 
 def testCornerRadiusStaysBelowTheInscribedRadius():
 	"""Contacts so soft that no radius is large enough, and so hard that any is."""
-	row(material={'normalStiffness': 3e4, 'shearStiffness': 3e4}, cornerRadius=0.1, steps=400)
+	row(material={'normalStiffness': 3e4, 'shearStiffness': 3e4}, cornerRadius=0.1, steps=400, normal='innerPotential')
 	found = polytope.requirements(O, measure=False)['corner radius']
 	assert found.advice.startswith('stiffer contacts, and cornerRadius up to 0.36 m')
 	assert ('gets no gradient' in found.advice) == (' 0 contact points' not in found.seen)
-	row(material={'normalStiffness': 1e13, 'shearStiffness': 1e13}, cornerRadius=0.1, steps=0)
+	row(material={'normalStiffness': 1e13, 'shearStiffness': 1e13}, cornerRadius=0.1, steps=0, normal='innerPotential')
 	O.bodies[1].state.pos -= (0, 0, 0.5 - 1e-6 - 0.4995)
 	O.dt = 1e-7
 	for body in O.bodies:
@@ -56,12 +56,12 @@ def testCornerRadiusStaysBelowTheInscribedRadius():
 
 
 def testOrdinaryBlocksAtRestKeepTheirDefaultCorner():
-	row(cornerRadius=None, material={'normalStiffness': 1e8, 'shearStiffness': 1e8}, steps=2000)
+	row(cornerRadius=None, material={'normalStiffness': 1e8, 'shearStiffness': 1e8}, steps=2000, normal='innerPotential')
 	assert 'corner radius' not in advised()
 
 
 def testCornersThatWereLostAreReported():
-	row(number=1, cornerRadius=1e-4, steps=0, spin=0.5)
+	row(number=1, cornerRadius=1e-4, steps=0, spin=0.5, normal='innerPotential')
 	O.bodies[1].state.pos += (0, 0, 0.2)
 	O.bodies[1].state.vel = (0, 0, -5)
 	for _ in range(4000):
@@ -83,7 +83,7 @@ def testCornersThatWereLostAreReported():
 
 
 def testCornerRadiusAgainstOverlaps():
-	row(cornerRadius=0.015)
+	row(cornerRadius=0.015, normal='innerPotential')
 	depth = max(float(contact.geom.penetrationDepth) for contact in O.interactions if contact.isReal)
 	for radius, word in ((1.1 * depth, 'at least'), (300 * depth, ''), (10 * depth, '')):
 		for body in O.bodies:

@@ -75,7 +75,7 @@ def runs(scene, before, after, archive, energy=False):
 	here = os.path.dirname(os.path.abspath(__file__))
 	environment = dict(os.environ, OMP_NUM_THREADS='1')
 	command = [sys.executable, '-c', program, here, scene, str(before), str(after), str(archive), 'energy' if energy else 'none']
-	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=200)
+	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
 	assert output.returncode == 0, output.stderr
 	return [[float.fromhex(x) for x in line.split()[1:]] for line in output.stdout.splitlines() if line.startswith('RESULT')]
 

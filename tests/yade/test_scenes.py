@@ -86,7 +86,7 @@ def testWatchCountsWhatTheFunctorCounts():
 	assert summary['steps'] == O.iter == 730
 	assert summary['pairs'] == plain['pairs'] and summary['contactQueries'] == plain['contacts'] > 0
 	assert sum(summary['statuses'].values()) == summary['pairs']
-	assert 0 < summary['lpMicroseconds'] < 1000 and 0 < summary['centreMicroseconds'] < 1000
+	assert summary['lpMicroseconds'] > 0 and summary['centreMicroseconds'] > 0
 	assert 0 < summary['loopMicrosecondsPerPair'] <= summary['loopMicrosecondsPerContact']
 	assert not O.timingEnabled and not scene.geometryFunctor.timing
 	assert summary['deepestOverlap'] >= summary['overlap'] > 0

@@ -31,7 +31,7 @@ def run(scene, threads, steps, energy=False):
 	here = os.path.dirname(os.path.abspath(__file__))
 	environment = dict(os.environ, OMP_NUM_THREADS=str(threads))
 	command = [sys.executable, '-c', runner, here, scene, '0', str(steps), 'none', 'energy' if energy else 'none', str(threads)]
-	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=200)
+	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
 	assert output.returncode == 0, output.stderr
 	line, = [line for line in output.stdout.splitlines() if line.startswith('RESULT')]
 	return [float.fromhex(x) for x in line.split()[1:]]

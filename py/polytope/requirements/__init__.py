@@ -81,13 +81,13 @@ class Requirements:
 def requirements(O, measure=True):
 	"""Looks at the present scene and says what it needs, and what it pays for without using it.
 
-	Looked at: contact area, third dimension, damping and energy (and whether stiffnesses let the conservative contact be that), cohesion,
-	corner radius against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
+	Looked at: contact area, several pieces under one face with a stiffness per contact, third dimension, damping and energy (and whether
+	stiffnesses let the conservative contact be that), cohesion, corner radius (of the normal 'innerPotential') against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
 	positions, time step against stiffness and mass, the collider's verletDist and boxes, warm start, solver, contact point, clocks and energy
 	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen, no cost of contacts is measured, and
 	the first line says so. What could not be looked at is named at the end. Overlaps are those of the present state (what was before is
 	known only where a counter of the functor tells: contact points deeper than the corner radius): look at the moment of the hardest blow,
-	too. A time step is near the limit above 1/ω of the fastest body, up to which stableTimeStep calls any heap stable.
+	too. A time step is near the limit above stableTimeStep(1), up to which any heap is stable.
 
 	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, and steps as it is and changed
 	(engines that run periodically, as recorders and PyRunner, are left out there). Changes may hang on one another, as the solver's cost on

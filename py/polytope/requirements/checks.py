@@ -4,14 +4,14 @@
 They read and change nothing.
 """
 
+import itertools
 import math
 
 import numpy as np
 import yade
-from yade import Body, GlobalStiffnessTimeStepper, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, _polytope
+from yade import Body, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._scene import geometryFunctors, interactionLoops, laws
-from ..timeStep import stableTimeStep
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
 from .overlaps import cornerRadius, newtonTolerance
@@ -20,7 +20,7 @@ from .plane import dimension
 __all__ = ['checks']
 
 usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
-"""Time step over 1/ω of the fastest body: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
+"""Time step over τ, docs/time-step.md: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
 below which steps are many."""
 mostTwins = 50
 """Contacts that are looked at once more without the planes that own no face."""
@@ -29,6 +29,9 @@ timedWithoutContacts = ('verletDist',)
 noContacts = 'no contacts now'
 turned, changed = 1.0, 0.05
 """Angle of a normal [°] and part of a force that such planes may make without a word."""
+
+sameFace = 1 - 1e-6
+"""Cosine between normals of two contacts of one face."""
 
 
 class Scene:
@@ -77,7 +80,7 @@ def checks(O):
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would bring the solver into play,
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
-	each = (numbersOfBodies, timeStep, solver, contactPoint, area, dimension, cornerRadius, planes, newtonTolerance)
+	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
 	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion)
 	found, missing = [], []
 	for one in each:
@@ -108,6 +111,35 @@ def area(scene):
 	return f'{users} of {len(scene.contacts)} contacts need their area, and have it', ''
 
 
+def support(scene):
+	"""several pieces under one face"""
+	if not scene.contacts:
+		return noContacts
+	if _stiffnessPerArea(scene):
+		return 'stiffnesses are per area: pieces that lie flush are as stiff as one', ''
+	faces, shared = {}, 0
+	for contact in scene.contacts:
+		shared += contact.geom.share < 1
+		for body in (contact.id1, contact.id2):
+			if contact.geom.share == 1 and scene.O.bodies[body].dynamic:
+				faces.setdefault(body, []).append(contact.geom)
+	several = sum(any(_oneFace(a, b, depth) for a, b in itertools.combinations(found, 2)) for found in faces.values() if (depth := _depth(found)) > 0)
+	seen = f'{shared} contacts with a fixed or clumped piece have their part of the stiffness; {several} bodies have a face on several free bodies'
+	if several:
+		return seen, 'stiffnessPerArea = True: per contact such a face is as stiff as it has pieces, and a piece takes its full part at once'
+	return seen, ''
+
+
+def _depth(found):
+	return min(float(geom.penetrationDepth) for geom in found)
+
+
+def _oneFace(one, other, depth):
+	"""Whether both contacts lie in one plane, to within an overlap."""
+	along = one.normal.dot(other.normal)
+	return abs(along) > sameFace and abs(one.normal.dot(other.contactPoint - one.contactPoint)) < depth
+
+
 def energy(scene):
 	"""damping and energy"""
 	models = scene.values('contactModel')
@@ -122,9 +154,9 @@ def energy(scene):
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
 	if local == 0 and viscous == 0:
 		return (
-			"nothing damps the normal direction, and the paper's contact creates and destroys energy",
+			"nothing damps the normal direction, and contactModel 'paper' creates and destroys energy",
 			"contactModel = 'conservative' (which uses neither contactPoint nor solver), or damping: "
-			"with the paper's contact energy is not conserved at any time step",
+			"with contactModel 'paper' energy is not conserved at any time step",
 			None,
 			('contactModel', 'conservative'),
 		)
@@ -163,7 +195,7 @@ def planes(scene):
 	if not scene.pairs():
 		return f'{seen}, but no two polytopes are in contact now to see what that does'
 	functor = scene.functors[0]
-	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
+	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
 	for pair in [pair for pair in scene.pairs() if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]
@@ -210,19 +242,20 @@ def numbersOfBodies(scene):
 
 def timeStep(scene):
 	"""time step"""
-	if any(isinstance(engine, GlobalStiffnessTimeStepper) and engine.active for engine in scene.O.engines):
-		return 'set by GlobalStiffnessTimeStepper', ''
+	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
+	if steppers:
+		return f'set by {" and ".join(steppers)}', 'keep one of them: each takes the step from the other' if steppers[1:] else ''
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
-	try:
-		limit = float(stableTimeStep(1))
-	except ValueError:
+	limit = _polytope.timeStepLimits()['contacts']
+	if limit is None:
 		return 'no contact limits it now'
+	limit = float(limit)
 	fraction = float(scene.O.dt) / limit
-	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of 1/ω of the fastest body (any heap is stable up to 1, one body up to 2)'
+	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of τ (1/ω of the fastest body, less with dampers; any heap is stable up to 1, one body up to 2)'
 	smaller = f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual}))'
 	if fraction > stable:
-		return seen, f'{smaller}: beyond the limit of stability of one body, 2/ω, unless damping and luck hold a heap together'
+		return seen, f'{smaller}: beyond the limit of stability of one body, 2 τ, unless damping and luck hold a heap together'
 	if fraction > safe:
 		return seen, f'{smaller}: near the limit of stability, beyond what is safe for any heap, stableTimeStep(1)'
 	if fraction < least:

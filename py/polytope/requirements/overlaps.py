@@ -29,6 +29,8 @@ def cornerRadius(scene):
 	"""corner radius"""
 	if 'paper' not in scene.values('contactModel'):
 		return 'the conservative contact has none'
+	if 'innerPotential' not in scene.values('normal'):
+		return "the normal 'innerPotential' alone reads it"
 	since, pairs = scene.count(*deeper), scene.pairs()
 	if not (scene.depths and pairs):
 		before = f'; {since} contact points were deeper than it since the start (or resetStats), nobody knows how deep' if since else ''

@@ -16,11 +16,10 @@ import time
 import mpmath
 import numpy as np
 import yade
-from yade import O
+from yade import O, _polytope
 
 from .._scene import geometryFunctors
 from .._timing import meansSoFar, resetTimes, timed
-from ..timeStep import stableTimeStep
 from .effect import Effect
 from .energy import Energy
 from .inside import CalledAgain
@@ -98,10 +97,8 @@ def answer(task):
 	if lost:
 		return {'error': f'not in effect: after measure() {lost}; {whatLosesIt}'}
 	counts = [functor.stats() for functor in geometryFunctors()]
-	try:
-		ofLimit = float(O.dt) / float(stableTimeStep(1))
-	except ValueError:  # no contact that limits it
-		ofLimit = None
+	limit = _polytope.timeStepLimits()['contacts']
+	ofLimit = None if limit is None else float(O.dt) / float(limit)
 	result = {
 		'timeStepOfLimit': ofLimit,
 		'energy': energy.created(),

@@ -91,14 +91,16 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 		}
 }
 
-/// Body 2 pressed into body 1 along the contact's first normal, from 0.3 to 4 corner radii: what changes where the status does.
+/// Body 2 pressed into body 1 along the contact's first normal, the paper's, from 0.3 to 4 corner radii: what changes where the status does.
 void pressIn(const PairAxis& deep, const std::string& kind, int number)
 {
 	std::mt19937_64 random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
 	const Pair      pair   = deep.make(Real(0.3), kind, ContactModel::Paper, random);
 	const Real      radius = pair.shape[0]->cornerRadius(), size = pair.size();
-	const Vector3   direction = query(pair).normal;
-	const auto      at        = [&](Real way) { return query(movedApart(pair, -way * direction)); };
+	ContactSettings settings;
+	settings.normal           = NormalSource::InnerPotential;
+	const Vector3   direction = query(pair, settings).normal;
+	const auto      at        = [&](Real way) { return query(movedApart(pair, -way * direction), settings); };
 	const int       steps     = 400;
 	Real            before    = 0;
 	ContactResult   last      = at(0);

@@ -56,7 +56,7 @@ namespace {
 
 	Real relative(const Digits150& difference, const Digits150& size) { return Real(abs(difference) / size); }
 
-	/// The normal of Eq. 17 at the reference's centre, from the bodies ours took it from. False where there is none.
+	/// The normal at the reference's centre. False where there is none.
 	bool referenceNormal(
 	        const PrecisePairOf<Digits150>& exact, const Vector& x, ContactStatus status, const Vector3& dual, Vector& normal)
 	{
@@ -65,13 +65,7 @@ namespace {
 			        dual.normalized()); // not unique where the programme's basis is not: checked by its property instead
 			return true;
 		}
-		if (status != ContactStatus::NormalFromOneBody) return exact.normal(x, normal);
-		const Vector    g[2]   = { exact.innerGradient(0, x), exact.innerGradient(1, x) };
-		const int       body   = norm(g[0]) > norm(g[1]) ? 0 : 1;
-		const Digits150 length = norm(g[body]);
-		if (length == 0) return false;
-		normal = along(Vector {}, (body == 0 ? 1 : -1) / length, g[body]);
-		return true;
+		return exact.balancedNormal(x, normal) > 0;
 	}
 
 	void comparePaper(const Pair& pair, const ExactOptimum& optimum, Comparison& c)
@@ -93,7 +87,8 @@ namespace {
 		c.depthError         = relative(Digits150(r.depth) - depth, size);
 		const Real roundings = c.infeasibilityRounding * c.size;
 		c.centreRounding     = 2e-9 + 2 * roundings / Real(-optimum.infeasibility);
-		const Digits150 slip = exact.normalSlip(0, centre, c.centreRounding) + exact.normalSlip(1, centre, c.centreRounding);
+		Vector          balanced;
+		const Digits150 slip = exact.balancedNormal(centre, balanced) * c.centreRounding;
 		c.normalRounding     = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip));
 		const auto exit1 = exact.exit(0, centre, normal, 1), exit2 = exact.exit(1, centre, normal, -1);
 		const Real glance = Real(1 / exit1.rate + 1 / exit2.rate);

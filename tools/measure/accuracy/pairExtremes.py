@@ -31,7 +31,8 @@ from pairAxes import axes
 from pairTables import faults, readSamples, summary, summaryColumns, worst
 
 here = pathlib.Path(__file__).resolve().parent
-program = here.parents[2] / 'build/tools/measure/accuracy/polytope_extremes'
+# of the build whose plug-in is in use; `./run` removes it where the sources have changed since
+program = pathlib.Path(os.environ.get('YADE_PREFIX', here.parents[2] / 'build/overlay')).parent / 'tools/measure/accuracy/polytope_extremes'
 
 
 def options(arguments=None):
@@ -40,7 +41,7 @@ def options(arguments=None):
 	parser.add_argument('--samples', type=count, help='pairs of each kind at each value (default: 10, with --quick 2)')
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
 	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='axes at a time')
-	parser.add_argument('--program', type=existingFile, default=program, help='polytope_extremes, as built by ./run build')
+	parser.add_argument('--program', type=existingFile, default=program, help='polytope_extremes, as built by ./run build polytope_extremes')
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/pairExtremes'), help='folder for all files')
 	given = parser.parse_args(arguments)
 	given.samples = given.samples or (2 if given.quick else 10)

@@ -30,7 +30,9 @@ studies = {
 	'pairs': ('pairExtremes', 'Pairs at the extremes', ('--jobs', '1')),
 	'scenes': ('sceneExtremes', 'Scenes at the extremes', ()),
 	'path': ('contactPath', 'Path of the contact', ()),
+	'surfaces': ('surfaces', 'Floors made of flush pieces', ()),
 	'collisions': ('collisionEnergy', 'Energy of collisions', ()),
+	'joints': ('joints', 'Blocks and grains with a closed form', ()),
 }
 """Name: script, title, options besides --quick and --output."""
 

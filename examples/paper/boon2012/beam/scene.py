@@ -82,6 +82,8 @@ class ThreeHingedBeam:
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
 	contactModel: str = 'paper'
 	"""Or 'conservative', which reads neither contactPoint nor solver nor corner radius nor normal weight."""
+	normal: str = 'innerPotential'
+	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 	solver: str = 'newton'
 	density: float = 2600
@@ -150,7 +152,9 @@ class ThreeHingedBeam:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, solver=self.solver)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(
+						contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal, solver=self.solver
+					)],
 				[
 					Ip2_RockJointMat_RockJointMat_RockJointPhys(
 						stiffnessPerArea=False,

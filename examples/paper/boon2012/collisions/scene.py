@@ -74,6 +74,8 @@ class Collision:
 	cornerRadius: float = 0.05
 	timeStep: float = 8.944e-5
 	"""0.02 sqrt(mass / normalStiffness) for the unit cube. [s]"""
+	normal: str = 'innerPotential'
+	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 
 	# what build() made
@@ -92,7 +94,7 @@ class Collision:
 		)
 		self.fixedId = O.bodies.append(self._body(self.fixed, color=(0.86, 0.86, 0.84), fixed=True))
 		self.freeId = O.bodies.append(self._body(self.free, color=(0.35, 0.60, 0.72)))
-		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint)
+		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, normal=self.normal)
 		self.integrator = NewtonIntegrator(damping=self.damping, dampGravity=self.dampGravity, gravity=(0, 0, -self.gravity))
 		O.engines = [
 			ForceResetter(),

@@ -51,6 +51,7 @@ class FallingRun:
 		self.faces = tuple(solids.values()) if name == 'mixed' else (solids[name],)
 		self.scene = FallingPolyhedra(faces=self.faces, number=given.number, seed=seed, **given.parameters).build()
 		self.scene.geometryFunctor.contactModel = given.contact_model
+		self.scene.geometryFunctor.normal = given.normal
 		self.scene.geometryFunctor.contactPoint = given.contact_point
 		self.watch = RunWatch(self.scene.geometryFunctor, self.scene.interactionLoop)
 		self.energyUnit = given.number * self.scene.mass * self.scene.gravity * self.scene.size or 1

@@ -113,6 +113,8 @@ class SlumpingSlope:
 	gravity: float = 10
 	cornerRadius: float = 0.05
 	timeStep: float = 1e-4
+	normal: str = 'innerPotential'
+	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 
 	# what build() made
@@ -141,7 +143,7 @@ class SlumpingSlope:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.05),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, normal=self.normal)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessPerArea)],
 				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 			),

@@ -71,6 +71,8 @@ class WedgeScene:
 	"""Of each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
 	contactModel: str = 'paper'
 	"""Or 'conservative', which does not read contactPoint, and needs a shorter time step: it is stiff in rocking."""
+	normal: str = 'innerPotential'
+	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(wedge's mass / sum of its faces' normal stiffnesses)."""
@@ -108,7 +110,7 @@ class WedgeScene:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02 * wedge.shape.volume ** (1 / 3), avoidSelfInteractionMask=avoided),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessTimes != 'contact')],
 				[self._law()],
 			),

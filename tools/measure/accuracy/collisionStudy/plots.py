@@ -8,6 +8,7 @@ __all__ = ['plotBounces', 'plotCorners', 'plotDamping', 'plotSteps']
 
 styles = {
 	"paper's model": ('#c8451b', '-'),
+	'default contact': ('#2a9d8f', '-'),
 	"paper's model, corner radius 0": ('#f2a541', '-'),
 	"paper's model, stiffness per area": ('#8d6bb0', '-'),
 	'conservative': ('#1d4e79', '-'),

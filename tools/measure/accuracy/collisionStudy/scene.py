@@ -34,14 +34,22 @@ __all__ = ['Contact', 'EnergyScene', 'freeFlight']
 class Contact:
 	"""How bodies touch."""
 
-	model: str = 'paper'
-	"""'paper', 'conservative', 'perArea' (the paper's, with a stiffness per contact area) or 'spheres' (YADE's own)."""
+	model: str = 'default'
+	"""'default', 'paper' (with the paper's averaged normal), 'perArea' (the paper's, with a stiffness per contact area), 'conservative' or
+	'spheres' (YADE's own)."""
 	corner: float = 0.1
-	"""Corner radius over the inscribed radius, of the paper's model."""
+	"""Corner radius over the inscribed radius, of the paper's normal."""
 	contactDamping: float = 0
 	"""Of the contact's normal, fraction of critical."""
 	damping: float = 0
 	"""YADE's own: NewtonIntegrator.damping."""
+
+
+def contactOf(model):
+	"""Attributes of the functor."""
+	if model == 'conservative':
+		return {'contactModel': 'conservative'}
+	return {'normal': 'innerPotential' if model in ('paper', 'perArea') else 'dualWeights'}
 
 
 class EnergyScene:
@@ -76,7 +84,7 @@ class EnergyScene:
 		else:
 			bounds = [Bo1_Polytope_Aabb()]
 			self.interactionLoop = InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative' if self.how.model == 'conservative' else 'paper')],
+				[Ig2_Polytope_Polytope_PolytopeGeom(**contactOf(self.how.model))],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.how.model == 'perArea')],
 				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping)],
 			)

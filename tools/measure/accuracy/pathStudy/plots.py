@@ -14,6 +14,7 @@ from .scenes import fixedHalf, movingHalf
 __all__ = ['drawPaths', 'plotHalving', 'plotPaths']
 
 colors = {
+	'default': '#2a9d8f',
 	'analytic centre': '#c8451b',
 	'Chebyshev centre': '#8d6bb0',
 	'centroid': '#4c8c4a',

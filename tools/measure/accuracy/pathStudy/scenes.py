@@ -20,13 +20,15 @@ fixedHalf, movingHalf = 0.8, 0.5
 deep = 0.005
 """Radius of the largest ball in the overlap: half the overlap of faces."""
 variants = {
-	'analytic centre': {},
-	'Chebyshev centre': {'contactPoint': 'chebyshevCentre'},
-	'centroid': {'contactPoint': 'centroid'},
-	'analytic centre, corner radius 0': {'cornerRadius': 0.0},
+	'default': {},
+	'analytic centre': {'normal': 'innerPotential'},
+	'Chebyshev centre': {'contactPoint': 'chebyshevCentre', 'normal': 'innerPotential'},
+	'centroid': {'contactPoint': 'centroid', 'normal': 'innerPotential'},
+	'analytic centre, corner radius 0': {'cornerRadius': 0.0, 'normal': 'innerPotential'},
 	'conservative': {'contactModel': 'conservative'},
 }
-"""Arguments of polytope.contact, and the corner radius where it is not the default."""
+"""Arguments of polytope.contact, and the corner radius where it is not the default: our default contact, the paper's averaged normal at each
+contact point, and the conservative contact."""
 
 planeSets = ('plain', 'touching', 'repeated')
 """Six planes a cube; with planes through all edges and vertices that cut nothing; with the planes that face each other four times."""

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "PolytopeTimeStepper.hpp"
+
+#include <src/TimeStepTolerances.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PolytopeTimeStepper));
+
+bool PolytopeTimeStepper::isActivated()
+{
+	if (!active) return false;
+	return !hasRun_ || bodies_ != scene->bodies->size() || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
+}
+
+void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
+{
+	if (!hasRun_ || bodies_ != ofScene->bodies->size() || ++updates_ >= polytope::tolerance::potentialUpdates) {
+		material_ = potential_.limit(*ofScene);
+		updates_  = 0;
+	}
+	hasRun_ = true;
+	bodies_ = ofScene->bodies->size();
+
+	TimeStepLimit chosen;
+	limitedBy.clear();
+	const auto consider = [&](const TimeStepLimit& limit, Real fraction, const char* name) {
+		const Real step = fraction * limit.step;
+		if (!(step < chosen.step)) return;
+		chosen.step = step;
+		chosen.body = limit.body;
+		limitedBy   = name;
+	};
+	const ContactLimit  contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
+	consider(material_, timestepSafetyCoefficient, "material");
+	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
+	consider(yade::motionLimit(*ofScene, motionLimit), 1, "motion");
+	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {
+		TimeStepLimit most;
+		most.step = maxDt;
+		consider(most, 1, "maxDt");
+	}
+	limitingBody = chosen.body;
+	if (!limitedBy.empty()) ofScene->dt = chosen.step;
+}
+
+void PolytopeTimeStepper::setTimeStepUpdateInterval(long interval)
+{
+	if (interval < 1 || interval > std::numeric_limits<int>::max())
+		throw std::invalid_argument("timeStepUpdateInterval: must be a number of steps, at least 1, got " + std::to_string(interval));
+	timeStepUpdateInterval = (unsigned int)interval;
+}
+
+void PolytopeTimeStepper::postLoad(PolytopeTimeStepper&)
+{
+	const auto require = [&](bool good, const char* name, Real value, const char* rule) {
+		if (good) return;
+		timestepSafetyCoefficient = good_[0];
+		motionLimit               = good_[1];
+		maxDt                     = good_[2];
+		std::ostringstream message;
+		message << name << ": must be " << rule << ", got " << value;
+		throw std::invalid_argument(message.str());
+	};
+	require(timestepSafetyCoefficient > 0 && timestepSafetyCoefficient <= 2, "timestepSafetyCoefficient", timestepSafetyCoefficient,
+	        "above 0 and at most 2, the limit of one body between fixed ones");
+	require(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit, "above 0 and finite (a fraction of a body's inscribed radius)");
+	require(maxDt > 0, "maxDt", maxDt, "above 0 [s] (infinity: no limit)");
+	if (timeStepUpdateInterval < 1) {
+		timeStepUpdateInterval = 1;
+		setTimeStepUpdateInterval(0);
+	}
+	good_ = { { timestepSafetyCoefficient, motionLimit, maxDt } };
+}
+
+} // namespace yade

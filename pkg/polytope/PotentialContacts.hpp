@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "TimeStepLimits.hpp"
+
+#include <core/Material.hpp>
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+/// Time step before a contact is there: each body is given the one contact that would make it vibrate fastest.
+///
+/// Its stiffnesses are what the scene's own Ip2 functor makes of the body's material and that of any other body, asked with a
+/// contact that is not in the scene. Tried are a contact at the farthest vertex (a stiffness per contact, or by the distance from
+/// the centre) and one on a whole face (a stiffness per area), each with the arm, and the latter with the rocking, that belongs
+/// to it. A body that meets several others at once is stiffer than that: contactLimit() sees them when they are there.
+namespace yade {
+
+class PotentialContacts {
+public:
+	TimeStepLimit limit(Scene& scene);
+
+private:
+	/// What a contact at a place of a body would be.
+	struct Place {
+		Real unit = 0; ///< κ of a contact of stiffness 1 [1/kg]
+		Real arm  = 0; ///< from the part's centre [m]
+		Real area = 0; ///< of the contact [m²]
+	};
+	/// The worst places of a body or a clump's member, and what they were found for.
+	struct Part {
+		const void*  shape    = nullptr;
+		Real         mass     = 0;
+		Vector3r     inertia  = Vector3r::Zero();
+		unsigned int blocked  = 0;
+		Real         distance = 0; ///< from the clump's centre
+		Place        vertex, face;
+
+		bool isOf(const Part& other) const
+		{
+			return shape == other.shape && mass == other.mass && inertia == other.inertia && blocked == other.blocked
+			        && distance == other.distance;
+		}
+	};
+	/// All bodies of one material.
+	struct Partners {
+		shared_ptr<Material> material;
+		Body::id_t           one = Body::ID_NONE, other = Body::ID_NONE;
+		Real                 radius = 0, area = 0; ///< the largest
+		bool                 polytopes = false;
+	};
+	struct Stiffness {
+		Real normal = 0, shear = 0;
+	};
+	using Key = std::tuple<const Material*, const Material*, bool, Real, Real>;
+
+	void             collect(const Scene& scene);
+	const Part&      partOf(const Body& part, const Body& mover);
+	const Stiffness& stiffness(const Body& part, Partners& partners, const Place& place, Scene& scene);
+
+	std::vector<Part>         parts_; ///< by body id
+	std::vector<Partners>     partners_;
+	std::map<Key, Stiffness>  asked_; ///< of this call
+};
+
+} // namespace yade

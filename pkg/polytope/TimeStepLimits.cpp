@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "TimeStepLimits.hpp"
+
+#include <core/InteractionLoop.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
+
+#include <src/RockingStiffness.hpp>
+#include <src/TimeStepTolerances.hpp>
+
+#include "PolytopeGeom.hpp"
+#include "RockJoint.hpp"
+#include "RockJointLaw.hpp"
+
+namespace yade {
+
+polytope::Mobility mobilityOf(const Body& body)
+{
+	const State&       state = *body.state;
+	polytope::Mobility mobility;
+	if (!isMovedByForces(body)) return mobility;
+	const auto root = [](Real inertia) { return inertia > 0 ? 1 / math::sqrt(inertia) : Real(0); };
+	const bool free = (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
+	for (int k = 0; k < 3; ++k) {
+		if (!(state.blockedDOFs & State::axisDOF(k, false))) mobility.translation[k] = root(state.mass);
+		// as NewtonIntegrator: with a rotation blocked, moments of inertia are those about the world's axes
+		if (!(state.blockedDOFs & State::axisDOF(k, true))) mobility.rotation(k, k) = root(state.inertia[k]);
+	}
+	if (free && body.isAspherical()) mobility.rotation = Matrix3r(state.ori.toRotationMatrix() * mobility.rotation);
+	return mobility;
+}
+
+const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+			for (const auto& functor : loop->lawDispatcher->functors)
+				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get())) return law;
+	return nullptr;
+}
+
+Real boundingRadius(const Shape& shape)
+{
+	if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
+		if (polytope->convex()) return polytope->convex()->boundingRadius();
+	if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
+	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
+	Real farthest = 0;
+	if (const auto* facet = dynamic_cast<const Facet*>(&shape))
+		for (const Vector3r& vertex : facet->vertices)
+			farthest = math::max(farthest, vertex.norm());
+	return farthest;
+}
+
+namespace {
+
+	/// One contact as the scene has it.
+	struct Pair {
+		const Scene&                 scene;
+		const Body &                 body1, &body2;
+		const GenericSpheresContact& geom;
+		const NormShearPhys&         phys;
+		Vector3r                     shift2, shiftVelocity; ///< of body 2's period
+
+		const Body& mover(const Body& body) const
+		{
+			return body.isClumpMember() && scene.bodies->exists(body.clumpId) ? *(*scene.bodies)[body.clumpId] : body;
+		}
+		/// From the centre of what moves to the contact point.
+		Vector3r arm(const Body& body) const
+		{
+			return geom.contactPoint - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
+		}
+		/// How fast the bodies approach at the contact point.
+		Real approach() const
+		{
+			const State &state1 = *mover(body1).state, &state2 = *mover(body2).state;
+			return -geom.normal.dot(state2.vel + shiftVelocity + state2.angVel.cross(arm(body2)) - state1.vel
+			        - state1.angVel.cross(arm(body1)));
+		}
+		Real criticalDamping(Real stiffness) const
+		{
+			Real inverse = 0;
+			for (const Body* body : { &mover(body1), &mover(body2) })
+				if (isMovedByForces(*body) && body->state->mass > 0) inverse += 1 / body->state->mass;
+			return inverse > 0 ? 2 * math::sqrt(stiffness / inverse) : Real(0);
+		}
+	};
+
+	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
+
+	const polytope::ConvexShape* shapeOf(const Body& body)
+	{
+		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
+		return shape ? shape->convex().get() : nullptr;
+	}
+
+	/// Moment per tilt by the motion of the contact point.
+	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom, Real steps)
+	{
+		const Real elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
+		const Real force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
+		if (geom.energyPerStiffness >= 0) {
+			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
+			const Real growth = math::max(pair.approach(), Real(0))
+			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.criticalDamping(pair.phys.kn) / 2);
+			return (force + growth) * geom.rockingArm * across(geom.normal);
+		}
+		const polytope::ConvexShape* shape1 = geom.partner ? geom.partner.get() : shapeOf(pair.body1);
+		const polytope::ConvexShape* shape2 = shapeOf(pair.body2);
+		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
+		const State &state1 = *pair.body1.state, &state2 = *pair.body2.state;
+		const bool   wall = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
+		return force
+		        * polytope::rockingArms({ *shape1, state1.pos - geom.contactPoint,
+		                                        wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()) },
+		                { *shape2, state2.pos + pair.shift2 - geom.contactPoint, state2.ori.toRotationMatrix() }, geom.normal,
+		                geom.penetrationDepth);
+	}
+
+	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
+	Real gyrationSquared(const Pair& pair, const RockJointPhys& phys)
+	{
+		const auto *polygon = dynamic_cast<const Polytope*>(pair.body1.shape.get()), *other = dynamic_cast<const Polytope*>(pair.body2.shape.get());
+		if (!polygon || !other || polygon->dimension != 2) return phys.contactArea / 12;
+		return math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
+	}
+
+	void addDampers(const Pair& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
+	        polytope::ContactSprings& springs)
+	{
+		const Real normal    = pair.criticalDamping(phys.kn);
+		springs.normalDamper = law.normalDamping * normal;
+		springs.shearDamper  = law.shearDamping * pair.criticalDamping(phys.ks);
+		if (law.rockingDamping > 0)
+			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
+	}
+
+	bool hasContacts(const Body& body, const Scene& scene)
+	{
+		bool has = false;
+		forParts(body, scene, [&](const Body& part) {
+			for (const auto& known : part.intrs)
+				has = has || known.second->isReal();
+		});
+		return has;
+	}
+
+	/// All contacts of a body (or of a clump's members).
+	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene, Real steps,
+	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law)
+	{
+		polytope::BodyStiffness sum(mobility);
+		forParts(body, scene, [&](const Body& part) {
+			for (const auto& known : part.intrs) {
+				const Interaction& contact = *known.second;
+				if (!contact.isReal() || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2()))
+					continue;
+				const auto* geom = dynamic_cast<const GenericSpheresContact*>(contact.geom.get());
+				const auto* phys = dynamic_cast<const NormShearPhys*>(contact.phys.get());
+				if (!geom || !phys) continue;
+				Pair pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom, *phys,
+					    Vector3r::Zero(), Vector3r::Zero() };
+				if (scene.isPeriodic) {
+					pair.shift2        = scene.cell->intrShiftPos(contact.cellDist);
+					pair.shiftVelocity = scene.cell->intrShiftVel(contact.cellDist);
+				}
+				polytope::ContactSprings springs;
+				springs.normal          = geom->normal;
+				springs.normalStiffness = phys->kn;
+				springs.shearStiffness  = phys->ks;
+				if (const auto* ours = dynamic_cast<const PolytopeGeom*>(geom)) {
+					springs.rockingStiffness = rockingStiffness(pair, *ours, steps);
+					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
+					if (joint && law) addDampers(pair, *joint, *law, springs);
+				}
+				sum.add(springs, pair.arm(part));
+			}
+		});
+		return sum;
+	}
+
+	/// Radius of the largest ball in a shape; infinite for one that has none.
+	Real inscribedRadius(const Shape& shape)
+	{
+		if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
+			if (polytope->convex()) return polytope->convex()->inscribedRadius();
+		if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
+		if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.minCoeff();
+		return std::numeric_limits<Real>::infinity();
+	}
+
+} // namespace
+
+ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
+{
+	const auto*  law = dampingLaw(scene);
+	ContactLimit limit;
+	const long   count = long(scene.bodies->size());
+#pragma omp parallel
+	{
+		ContactLimit own;
+#pragma omp for schedule(static) nowait
+		for (long id = 0; id < count; ++id) {
+			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene)) continue;
+			const auto mobility = mobilityOf(*body);
+			if (!mobility.moves()) continue;
+			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);
+			// most bodies are not the one: bounds of the eigenvalues are cheap, and say so
+			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step)) continue;
+			const Real all  = stiffness.stiffness();
+			const Real step = polytope::safeTimeStep(all, stiffness.damping());
+			if (step > below) continue;
+			own.take(step, body->id);
+			if (own.body == body->id) own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
+		}
+#pragma omp critical(polytopeContactLimit)
+		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;
+	}
+	return limit;
+}
+
+TimeStepLimit motionLimit(const Scene& scene, Real fraction)
+{
+	Vector3r gravity = Vector3r::Zero();
+	for (const auto& engine : scene.engines)
+		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity;
+
+	TimeStepLimit limit;
+	Real          smallest = std::numeric_limits<Real>::infinity(), told = 0;
+	Body::id_t    smallestBody = Body::ID_NONE;
+	for (const auto& body : *scene.bodies) {
+		if (!body || !body->state || body->isClumpMember()) continue;
+		const State& state    = *body->state;
+		Vector3r     velocity = state.vel;
+		if (scene.isPeriodic) velocity = scene.cell->bodyFluctuationVel(state.pos, state.vel, scene.cell->prevVelGrad);
+		Real radius = std::numeric_limits<Real>::infinity(), farthest = 0;
+		forParts(*body, scene, [&](const Body& part) {
+			if (!part.shape || !part.state) return;
+			radius   = math::min(radius, inscribedRadius(*part.shape));
+			farthest = math::max(farthest, Real((part.state->pos - state.pos).norm() + boundingRadius(*part.shape)));
+		});
+		const Real speed = velocity.norm() + state.angVel.norm() * farthest;
+		if (!math::isfinite(speed)) continue;
+		if (!isMovedByForces(*body) || state.blockedDOFs == State::DOF_ALL) {
+			told = math::max(told, speed);
+			continue;
+		}
+		limit.take(fraction * radius / speed, body->id);
+		if (radius < smallest) {
+			smallest     = radius;
+			smallestBody = body->id;
+		}
+	}
+	limit.take(fraction * smallest / told, smallestBody);
+	limit.take(math::sqrt(fraction * smallest / gravity.norm()), smallestBody);
+	return limit;
+}
+
+} // namespace yade

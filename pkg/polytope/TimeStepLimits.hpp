@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Body.hpp>
+#include <core/Clump.hpp>
+#include <core/Scene.hpp>
+
+#include <src/StableTimeStep.hpp>
+
+#include <limits>
+
+/// What limits the time step of a scene as it is: its contacts (here), the contacts there may be (PotentialContacts.hpp), motion.
+/// Nothing of the scene is changed.
+namespace yade {
+
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb;
+
+/// Shortest time step of all bodies for one reason [s], and the body; infinite and none where nothing limits.
+struct TimeStepLimit {
+	Real       step = std::numeric_limits<Real>::infinity();
+	Body::id_t body = Body::ID_NONE;
+
+	/// Of equal steps that of the lower id, whatever the order. Not taken: what is not a number, or not above 0.
+	void take(Real other, Body::id_t id)
+	{
+		if (!(other > 0 && other < std::numeric_limits<Real>::infinity())) return;
+		if (other < step || (other == step && id < body)) {
+			step = other;
+			body = id;
+		}
+	}
+};
+
+/// Whether forces move the body; members of clumps are moved by their clump.
+inline bool isMovedByForces(const Body& body) { return body.state && body.isDynamic() && !body.isClumpMember(); }
+
+/// How easily YADE's integrator lets the body move.
+polytope::Mobility mobilityOf(const Body& body);
+
+/// Distance of a shape's farthest point from its centre [m]; 0 where it is not known.
+Real boundingRadius(const Shape& shape);
+
+/// The law whose dampers act on rock joints; null if the scene has none.
+const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene);
+
+/// The body itself, or the members of a clump.
+template <class Visit> void forParts(const Body& body, const Scene& scene, const Visit& visit)
+{
+	if (!body.isClump()) return visit(body);
+	for (const auto& member : static_cast<const Clump&>(*body.shape).members)
+		if (scene.bodies->exists(member.first)) visit(*(*scene.bodies)[member.first]);
+}
+
+/// τ of src/StableTimeStep.hpp from the springs and dampers of all present contacts.
+struct ContactLimit : TimeStepLimit {
+	bool rocking = false; ///< rocking of contacts makes up more than half of the limiting body's ω²
+};
+
+/// \param steps conservative contacts, whose rocking stiffness grows with their force, are counted as they will be after so many
+/// \param below nothing that allows a longer step than this is looked for
+ContactLimit contactLimit(const Scene& scene, Real steps, Real below = std::numeric_limits<Real>::infinity());
+
+/// Time in which a body moves by `fraction` of its inscribed radius: by its own velocity, by gravity, or by the velocity of
+/// bodies that move as told.
+TimeStepLimit motionLimit(const Scene& scene, Real fraction);
+
+} // namespace yade

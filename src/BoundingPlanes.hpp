@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "AnalyticCentre.hpp"
+#include "ContactQuery.hpp"
+
+/// Planes that bound the overlap of a touching pair, as against those far from it: what internal faces are looked for among
+/// (ContactSettings::internal).
+namespace polytope {
+
+/// At x, inside the overlap: with the Hessian H = Σ a_i a_iᵀ/σ_i² of the analytic centre, plane i has the leverage
+/// a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has next to none, and one
+/// that cuts off a part of it has at least about 1/(number of planes there).
+template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairPlanes<R, D>& planes, const R* x, BoundingPlanes& out)
+{
+	R g[D], h[D][D], lower[D][D], pivot[D];
+	out.count[0] = out.count[1] = 0;
+	if (!barrierDerivatives<R, D, W>(planes, x, g, h)) return;
+	for (int k = D - 1; k >= 0; --k) {
+		pivot[k] = h[k][k];
+		for (int j = D - 1; j > k; --j) {
+			R sum = h[j][k];
+			for (int i = D - 1; i > j; --i)
+				sum -= lower[k][i] * lower[j][i] * pivot[i];
+			lower[k][j] = sum / pivot[j];
+			pivot[k] -= lower[k][j] * sum;
+		}
+		pivot[k] = maxOf<R>(pivot[k], R(tolerance::noise * tolerance::rounding) * h[k][k]);
+	}
+	for (int body = 0; body < 2; ++body)
+		for (int i = planes.begin(body); i < planes.end(body) && out.count[body] < BoundingPlanes::most; ++i) {
+			R reach = 0, v[D]; // aᵀ H⁻¹ a
+			for (int k = D - 1; k >= 0; --k) {
+				v[k] = planes.normal[k][i];
+				for (int j = D - 1; j > k; --j)
+					v[k] -= lower[k][j] * v[j];
+				reach += v[k] * v[k] / pivot[k];
+			}
+			const R slack = planes.slack[i];
+			if (!(reach > R(tolerance::nearLeverage) * slack * slack)) continue;
+			const int next         = out.count[body]++;
+			out.plane[body][next]  = i - planes.begin(body);
+			out.slack[body][next]  = slack;
+			out.bounds[body][next] = reach > R(tolerance::leverage) * slack * slack;
+		}
+}
+
+} // namespace polytope

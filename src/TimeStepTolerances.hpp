@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Real.hpp"
+
+/// Thresholds of the time step, as Tolerances.hpp has those of the contact path: meaning, scale, reason.
+namespace polytope::tolerance {
+
+/// × inscribed radius: depth at which a contact that a body may have with a whole face is looked at. Its rocking stiffness over
+/// its normal one is the same at any depth that is small against the body.
+constexpr double potentialDepth = 1e-3;
+
+/// × a body's own radius: as large as its partner in a potential contact is taken to be at most (walls have no size). Where
+/// stiffness goes by the radii (2 E₁R₁ E₂R₂/(E₁R₁ + E₂R₂)), it is within a thousandth of that with an infinite one.
+constexpr double potentialPartner = 1e3;
+
+/// Sizes for which a potential contact's stiffness is asked are rounded up to powers of this, so that thousands of bodies of a kind, or of
+/// a range of sizes, take a few hundred questions. The step is shorter by half of it at most (stiffness per area or by radii), 1 %.
+constexpr double potentialSizes = 1.02;
+
+/// Updates of the time step between two looks at the contacts that bodies may have: these change with bodies, at whose number each update
+/// looks, and where a script changes stiffnesses or masses.
+constexpr unsigned potentialUpdates = 10;
+
+/// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
+constexpr double rockingShare = 0.5;
+
+} // namespace polytope::tolerance

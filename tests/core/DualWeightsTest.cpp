@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "DualWeights.hpp"
+#include "PlaneRows.hpp"
+#include "PrecisePair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+Pair boxes(const Vector3& half1, const Vector3& half2, const Vector3& centre2, const Matrix3& rotation2 = Matrix3::Identity())
+{
+	Pair pair;
+	pair.shape[0]    = ConvexShape::shared(cuboid(half1[0], half1[1], half1[2]), 0);
+	pair.shape[1]    = ConvexShape::shared(cuboid(half2[0], half2[1], half2[2]), 0);
+	pair.rotation[1] = rotation2;
+	pair.centre2     = centre2;
+	return pair;
+}
+
+Matrix3 turnedAbout(const Vector3& axis, Real angle) { return Eigen::AngleAxis<Real>(angle, axis.normalized()).toRotationMatrix(); }
+
+/// Sine of the angle between them.
+Real lean(const Vector3& normal, const Vector3& expected) { return normal.cross(expected).norm(); }
+
+TEST(DualWeights, AsInWiderArithmetic)
+{
+	std::mt19937_64 random(7001);
+	Real            worst    = 0;
+	int             compared = 0;
+	for (int dimension = 2; dimension <= 3; ++dimension) {
+		const Shapes shapes = randomShapes(60, random, dimension);
+		for (int trial = 0; trial < 2000; ++trial) {
+			const Pair          pair   = randomPair(shapes, random);
+			const ContactResult result = query(pair);
+			if (result.status != ContactStatus::Contact) continue;
+			const PrecisePair exact(pair);
+			QuadVector        normal;
+			// at our own point: what is left is the rounding of planes over the overlap
+			const Real slip = Real(exact.balancedNormal(precise(result.point), normal));
+			if (!(slip > 0) || slip > 1e4) continue;
+			++compared;
+			const Real local = 32 * tolerance::rounding * pair.reach() / -result.infeasibility;
+			const Real error = Real(norm(minus(precise(result.normal), normal)));
+			EXPECT_LE(error, 1e-13 + slip * local);
+			if (local < 1e-13) worst = std::max(worst, error);
+		}
+	}
+	EXPECT_GT(compared, 2000);
+	std::printf("%d pairs; overlaps thicker than a thousandth: largest error %.1e\n", compared, double(worst));
+}
+
+TEST(DualWeights, AnEdgeOnAFaceHasTheFacesNormal)
+{
+	for (Real degrees : { 1., 5., 15., 30., 45. })
+		for (Real overlap : { 1e-8, 1e-6, 1e-4, 1e-3 }) {
+			const Real angle = degrees * Real(M_PI) / 180, half = 0.05;
+			const Pair pair = boxes({ 1, 1, 0.1 }, { half, half, half },
+			        { 0.2, 0.1, 0.1 + half * (std::sin(angle) + std::cos(angle)) - overlap * half }, turnedAbout({ 0, 1, 0 }, angle));
+			// the way from the contact to the next plane is half a side's
+			EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-14 + std::pow(overlap * half, 2)) << degrees << "°, " << overlap;
+		}
+}
+
+TEST(DualWeights, AVertexOnAFaceHasTheFacesNormalAndCrossedEdgesTheirCrossProduct)
+{
+	std::mt19937_64 random(7002);
+	for (int trial = 0; trial < 200; ++trial) {
+		Pair pair        = boxes({ 1, 1, 0.5 }, { 0.1, 0.1, 0.1 }, { 0.3, 0.2, 0 }, randomRotation(random));
+		Real lowest      = 0;
+		for (int k = 0; k < 3; ++k)
+			lowest -= Real(0.1) * std::abs(pair.rotation[1](2, k));
+		pair.centre2[2] = Real(0.5) - lowest - Real(1e-6);
+		EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-9);
+	}
+	// the upper edges along x and along y, each turned by 45° about itself
+	const Matrix3 standing = turnedAbout({ 1, 0, 0 }, Real(M_PI) / 4);
+	for (Real angle : { 30., 60., 90. }) {
+		Pair pair        = boxes({ 1, 0.1, 0.1 }, { 1, 0.1, 0.1 }, { 0, 0, 2 * Real(0.1) * std::sqrt(Real(2)) - Real(1e-6) },
+		        turnedAbout({ 0, 0, 1 }, angle * Real(M_PI) / 180) * standing);
+		pair.rotation[0] = standing;
+		EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-12);
+	}
+}
+
+/// A block on a plate that ends `beside` the contact's near side: the plate's side turns the normal by about (δ/2ℓ)³.
+TEST(DualWeights, APlaneBesideTheContactTurnsTheNormalByTheThirdPower)
+{
+	const Real depth = 1e-3;
+	for (Real width : { 3e-3, 1e-2, 3e-2, 0.1, 0.3 }) {
+		const Pair pair = boxes({ 1, 1, 0.25 }, { 0.25, 0.25, 0.25 }, { 1.25 - width, 0, 0.5 - depth });
+		const Real turn = lean(query(pair).normal, Vector3::UnitZ());
+		EXPECT_LE(turn, 1e-15 + 1.5 * std::pow(depth / width, 3));
+	}
+	// as deep as it is wide: half-way between both faces
+	const Vector3 corner = query(boxes({ 1, 1, 0.25 }, { 0.25, 0.25, 0.25 }, { 1.25 - depth, 0, 0.5 - depth })).normal;
+	EXPECT_LE(lean(corner, Vector3(1, 0, 1).normalized()), 1e-6); // other planes are half a metre away
+}
+
+TEST(DualWeights, NoJumpAlongAPathOverFacesEdgesAndVertices)
+{
+	for (Real overlap : { 2e-3, 1e-2, 0.1 }) {
+		Real largest[2] = { 0, 0 };
+		for (int finer = 0; finer < 2; ++finer) {
+			const int steps = int(40 / overlap) << finer; // the way over an edge is about the overlap's width
+			Vector3   last  = Vector3::Zero();
+			for (int k = 0; k <= steps; ++k) {
+				const Real angle = Real(M_PI) * k / steps;
+				Pair       pair  = boxes({ 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, {}, turnedAbout({ 1, 2, 3 }, Real(0.7) * angle));
+				moveTo(pair, Vector3(std::cos(angle), std::sin(angle), Real(0.3) * std::sin(3 * angle)), -overlap / 2);
+				const ContactResult result = query(pair);
+				ASSERT_EQ(result.status, ContactStatus::Contact);
+				if (k > 0) largest[finer] = std::max(largest[finer], (result.normal - last).norm());
+				last = result.normal;
+			}
+		}
+		// a smooth path: half the step, half the change
+		EXPECT_LT(largest[1], Real(0.6) * largest[0]) << overlap;
+		std::printf("overlap %.0e: largest change of the normal in a step %.2e, %.2e\n", double(overlap), double(largest[0]), double(largest[1]));
+	}
+}
+
+TEST(DualWeights, LaneWidthsAgree)
+{
+	std::mt19937_64 random(7003);
+	for (int trial = 0; trial < 100; ++trial) {
+		PlaneRows<Real, 3> rows(randomPlanes(4 + trial % 50, random), randomPlanes(9, random));
+		const Vector3      x = Real(0.1) * randomDirection(random);
+		Real               n[2][3];
+		dualWeightsNormal<Real, 3, 1>(rows.planes, x.data(), 1, n[0]);
+		const Real weight = dualWeightsNormal<Real, 3, 2>(rows.planes, x.data(), 1, n[1]);
+		EXPECT_LE((vectorOf(n[1], 3) - vectorOf(n[0], 3)).norm(), 1e-12 * weight);
+	}
+}
+
+/// What Ig2 does for a plate beside another one: the side face that the neighbour covers is left out.
+TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
+{
+	const Real depth = 1e-4;
+	for (Real width : { 1e-7, 1e-5, 1e-4, 1e-3 }) {
+		const Pair      pair = boxes({ 1, 1, 0.25 }, { 0.25, 0.25, 0.25 }, { 1.25 - width, 0, 0.5 - depth });
+		ContactSettings settings;
+		BoundingPlanes  bounding;
+		settings.bounding = &bounding;
+		settings.section  = true;
+		query(pair, settings);
+		InternalPlanes internal;
+		for (int k = 0; k < bounding.count[0]; ++k) {
+			const int plane = bounding.plane[0][k];
+			if (pair.shape[0]->normalArray(0)[plane] < 0.5) continue;
+			internal.plane[0][internal.count[0]++] = plane;
+			EXPECT_TRUE(bounding.bounds[0][k]);
+		}
+		ASSERT_EQ(internal.count[0], 1);
+		settings.bounding         = nullptr;
+		settings.internal         = &internal;
+		const ContactResult found = query(pair, settings);
+		EXPECT_LE(lean(found.normal, Vector3::UnitZ()), 1e-9) << width;
+		EXPECT_NEAR(found.depth, depth, 1e-12);
+		EXPECT_NEAR(found.area, width * Real(0.5), 1e-9);
+	}
+}
+
+} // namespace

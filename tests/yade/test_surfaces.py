@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies on floors made of flush pieces behave as on one smooth floor; real steps, gaps and ends stay what they are.
+
+Quick form of `./run accuracy --only surfaces`, with its limits, for the default contact.
+"""
+import math
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from yade import O, Quaternion
+from surfaceStudy.flatBodies import bodyKinds, lyingBody
+from surfaceStudy.floors import Floor, floorKinds
+from surfaceStudy.surface import SurfaceScene
+from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, roll
+from surfaceStudy.measures import cross, rest, slideDown, stop
+
+folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
+sys.path.append(str(folder))
+
+import surfaceTables
+from surfaceTables import braking, rolling, sliding
+from boon2012.reporting.findings import Findings
+
+rules = pytest.mark.parametrize('perArea', [False, True], ids=['perContact', 'perArea'])
+conservative = {'contactModel': 'conservative'}
+
+
+missed = {
+	'testSlidesOverFlushPieces[bricks': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.012 for 0.002',
+	'testBodiesSlideOverPlates[dodecahedron-perContact': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.0023 for 0.002',
+	'testBodiesSlideOverPlates[hull': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.06 for 0.002',
+	'testSlidesSlowly[0.001': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed); speed to 0.3 % for 0.2',
+	'testSlidesSlowly[0.01': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed)',
+	'testSlidesSlowly[0.1-0.08-back': 'speed to 0.5 % for 0.2: rocking grows where a plate ends close behind the body',
+	'testSlidesSlowlyOnOnePiece[slab': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.017 for 0.002',
+	'testAcceleratesOnAnIncline[slab-dodecahedron': '1 % for 0.5: rocking undamped',
+	'testAcceleratesOnAnIncline[plates-cube': '0.8 % for 0.5: rocking undamped',
+	'testAcceleratesOnAnIncline[facets-cube-False': '0.6 % for 0.5: rocking undamped',
+	'testAGapIsAGapAndAnEndCarries[default-perArea': '1.3 mm for 1 mm: over an end the section is smaller',
+}
+"""What the default contact does not meet yet, and by how much."""
+
+
+@pytest.fixture(autouse=True)
+def markMissed(request):
+	for name, why in missed.items():
+		if request.node.name.startswith(name):
+			request.node.add_marker(pytest.mark.xfail(reason=why))
+
+
+def keeps(crossing):
+	print(crossing)
+	assert crossing.failures == 0
+	assert crossing.kept == pytest.approx(1, abs=sliding)
+	assert abs(crossing.direction) < sliding
+	assert crossing.spin < sliding
+
+
+# without friction
+
+
+@rules
+@pytest.mark.parametrize('floor, body', [('slab', 'cube'), ('wall', 'box'), ('slab', 'icosahedron'), ('slab', 'square')])
+def testSlidesOnOnePiece(floor, body, perArea):
+	keeps(cross(floor, body, perArea=perArea))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['plates', 'oblique', 'boxes', 'facets', 'mesh', 'bricks', 'rock'])
+def testSlidesOverFlushPieces(floor, perArea):
+	keeps(cross(floor, 'cube', perArea=perArea))
+
+
+@rules
+@pytest.mark.parametrize('body', ['box', 'tetrahedron', 'dodecahedron', 'icosahedron', 'hull'])
+def testBodiesSlideOverPlates(body, perArea):
+	keeps(cross('plates', body, perArea=perArea))
+
+
+@rules
+@pytest.mark.parametrize('floor, body', [('plates', 'square'), ('oblique', 'polygon')])
+def testPolygonsSlideOverPolygons(floor, body, perArea):
+	keeps(cross(floor, body, perArea=perArea))
+
+
+@rules
+@pytest.mark.parametrize('edge', ['front', 'back'])
+@pytest.mark.parametrize('speed, behind', [(1e-3, 0.005), (1e-2, 0.02), (0.1, 0.08)])
+def testSlidesSlowly(speed, behind, edge, perArea):
+	keeps(cross('plates', 'cube', perArea=perArea, speed=speed, seams=1, edge=edge, behind=behind))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['wall', pytest.param('slab')])
+def testSlidesSlowlyOnOnePiece(floor, perArea):
+	keeps(cross(floor, 'cube', perArea=perArea, speed=1e-3, seams=1, edge='front', behind=0.005))
+
+
+@rules
+def testSlidesFast(perArea):
+	keeps(cross('plates', 'cube', perArea=perArea, speed=10))
+
+
+@rules
+@pytest.mark.parametrize('angle', [20, 45, 80])
+def testSlidesOverJointsAtAnAngle(angle, perArea):
+	keeps(cross('plates', 'cube', perArea=perArea, spacing=0.5, angle=angle))
+
+
+@rules
+@pytest.mark.parametrize('seams, spacing', [(1, 1.0), (10, 0.2), (100, 0.1)])
+def testSlidesOverManyJoints(seams, spacing, perArea):
+	keeps(cross('plates', 'cube', perArea=perArea, seams=seams, spacing=spacing))
+
+
+@rules
+def testSlidesWithEverythingTurned(perArea):
+	keeps(cross('plates', 'cube', perArea=perArea, turn=Quaternion((1, 2, 3), 0.8)))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['plates', 'facets', 'rock'])
+def testConservativeContactSlides(floor, perArea):
+	keeps(cross(floor, 'cube', conservative, perArea))
+
+
+def testSphereForComparison():
+	"""It has one point of contact, and knows of a joint only what lies under that point: it is lifted where it touches two pieces."""
+	assert cross('slab', 'sphere').kept == pytest.approx(1, abs=1e-9)
+	assert 0.98 < cross('plates', 'sphere').kept < 1
+
+
+# with friction
+
+
+@pytest.mark.parametrize(
+	'floor, body, perArea',
+	[
+		('slab', 'cube', False),
+		('slab', 'cube', True),
+		('slab', 'square', True),
+		*(pytest.param(f, b, r) for f, b in (('plates', 'cube'), ('facets', 'cube'), ('plates', 'square')) for r in (False, True)),
+	],
+)
+def testStopsWhereFrictionSays(floor, body, perArea):
+	way = stop(floor, body, perArea=perArea)
+	print(way)
+	assert way.distance == pytest.approx(1, abs=braking) and abs(way.direction) < braking
+
+
+@pytest.mark.parametrize(
+	'floor, body, perArea',
+	[
+		('slab', 'cube', True),
+		pytest.param('slab', 'cube', False),
+		*(pytest.param('slab', 'dodecahedron', r) for r in (False, True)),
+		*(pytest.param(f, 'cube', r) for f in ('plates', 'facets') for r in (False, True)),
+	],
+)
+def testAcceleratesOnAnIncline(floor, body, perArea):
+	way = slideDown(floor, body, perArea=perArea)
+	print(way)
+	assert way.distance == pytest.approx(1, abs=braking) and abs(way.direction) < braking
+
+
+@pytest.mark.parametrize('floor', ['slab', 'plates'])
+def testConservativeContactWithFriction(floor):
+	assert stop(floor, contact=conservative).distance == pytest.approx(1, abs=braking)
+	assert slideDown(floor, contact=conservative).distance == pytest.approx(1, abs=braking)
+
+
+# at rest, and what must stay
+
+
+@pytest.mark.parametrize('perArea', [pytest.param(False, id='perContact'), pytest.param(True, id='perArea')])
+@pytest.mark.parametrize('floor, body', [('plates', 'cube'), ('facets', 'cube'), ('plates', 'icosahedron'), ('plates', 'square')])
+def testSinksAcrossAJointAsOnOnePiece(floor, body, perArea):
+	found = rest(floor, body, perArea=perArea)
+	print(found)
+	assert found.contacts >= 2 and found.creep < 1e-6
+	assert found.depth == pytest.approx(1, abs=0.01) and found.tilt < 1e-3
+
+
+@rules
+@pytest.mark.parametrize('contact', [{}, conservative], ids=['default', 'conservative'])
+def testAStepStopsOrLifts(contact, perArea):
+	for speed in (0.1, 1.0):
+		past, lowest, _ = onStep(contact, perArea, speed=speed)
+		assert past < 1e-3 or lowest > 1e-3  # of 2 mm
+
+
+def testAStepIsSeenAtAll():
+	"""The same without a step: nothing stops the body, nothing lifts it."""
+	past, lowest, _ = onStep(conservative, height=0.0)
+	assert past > 0.05 and abs(lowest) < 3e-4
+
+
+@rules
+@pytest.mark.parametrize('contact', [{}, conservative], ids=['default', 'conservative'])
+def testAGapIsAGapAndAnEndCarries(contact, perArea):
+	wide, narrow = gapHolds(contact, perArea)
+	assert abs(wide) < 1e-3 and narrow == pytest.approx(0.046, abs=1e-3)  # ½ g t² less a little damping
+	assert edgeCarries(contact, perArea, over=0.2) < 1e-3
+	assert edgeCarries(contact, perArea, over=-0.2) > 1e-2
+
+
+@pytest.mark.parametrize('tilt', [0, pytest.param(5), pytest.param(20), 45])
+@rules
+def testAFrictionlessFloorPushesUpAlone(tilt, perArea):
+	for floor in ('slab', 'plates'):
+		assert drop(floor, perArea=perArea, tilt=tilt).sideways < sliding
+
+
+@rules
+@pytest.mark.parametrize('tilt', [0, 45])
+def testReboundsFromAJointAsFromOnePiece(tilt, perArea):
+	slab, plates = (drop(floor, perArea=perArea, tilt=tilt) for floor in ('slab', 'plates'))
+	assert plates.rebound == pytest.approx(slab.rebound, abs=0.02)
+
+
+@rules
+def testADodecahedronRollsAsOnOnePiece(perArea):
+	slab, plates = (roll(floor, perArea=perArea) for floor in ('slab', 'plates'))
+	assert slab[-1] > 1
+	assert plates == pytest.approx(slab, abs=rolling * slab[-1])
+
+
+# what the scenes are made of
+
+
+@pytest.mark.parametrize('kind', [kind for kind in floorKinds if kind != 'wall'])
+def testPiecesAreFlushAndFillTheFloor(kind):
+	floor = Floor(3, 0.7, before=1.4, after=1.2, side=(-1.0, 1.3))
+	pieces = floor.pieces(kind)
+	O.bodies.append(pieces)
+	low, high = floor.ends
+	assert len(pieces) > 1 or kind in ('slab', 'polygon')
+	planar = pieces[0].state.pos[1] < 0 and kind.lower().endswith(('polygon', 'polygons'))
+	volume = area = 0
+	for piece in pieces:
+		if kind == 'boxes':
+			assert piece.state.pos[2] + piece.shape.extents[2] == pytest.approx(0, abs=1e-12)
+			volume += 8 * math.prod(piece.shape.extents)
+			continue
+		corners = np.array([piece.state.pos + piece.state.ori * v for v in piece.shape.vertices], float)
+		top = corners[:, 1 if planar else 2].max()
+		assert top == pytest.approx(0, abs=1e-9) or kind == 'rock' and top < 0  # some blocks do not reach the surface
+		if kind in ('facets', 'mesh'):
+			area += np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2
+		else:
+			volume += piece.shape.volume
+	whole = (high - low) * (1 if planar else 2.3)
+	assert area + volume / floor.thickness == pytest.approx(whole, rel=1e-9)
+	assert not any(piece.dynamic for piece in pieces)
+
+
+def testFloorsSayWhatTheyCannot():
+	with pytest.raises(ValueError, match='kind'):
+		Floor().pieces('carpet')
+	with pytest.raises(ValueError, match='gaps'):
+		Floor(gap=0.1).pieces('facets')
+	with pytest.raises(ValueError, match='kind'):
+		lyingBody('horse')
+
+
+@pytest.mark.parametrize('kind', [kind for kind in bodyKinds if kind != 'sphere'])
+def testBodiesLieOnAFace(kind):
+	scene = SurfaceScene('polygon' if kind in ('square', 'polygon') else 'slab', kind).build()
+	corners = scene.corners()
+	assert corners[:, 2].min() == pytest.approx(-scene.depth, abs=1e-12)
+	assert (corners[:, 2] < -scene.depth + 1e-9).sum() >= (2 if scene.planar else 3)
+	assert scene.lying.area > 0
+	scene.settle()
+	# the hull's centroid is off the middle of its face: it leans until the pressure's centre is under it
+	assert scene.leaning < (5e-3 if kind == 'hull' else 1e-3) and scene.failures == 0
+	assert scene.lying.height - scene.position[2] == pytest.approx(scene.depth, rel=0.2 if kind == 'hull' else 0.01)
+
+
+def testMissedLimitsAreReported(tmp_path):
+	findings = Findings('', 'limits', tmp_path)
+	study = surfaceTables.SurfaceStudy(findings, True)
+	for error, good in ((1e-3, True), (-1e-3, True), (-3e-3, False), (math.nan, False)):
+		study.worst('error', [('default', 'per area', 0.0), ('default', 'per area', error), ('conservative', 'per area', 1.0)], sliding)
+		default, other = findings.content['rows'][-2:]
+		assert default['good'] is good and other['good'] is None
+
+
+def testOneCrossingInOneLine():
+	done = subprocess.run(
+		[sys.executable, folder / 'surfaces.py', '--floor', 'plates', '--per-area', '--contact', 'contactModel=conservative'],
+		capture_output=True, text=True, timeout=300
+	)
+	assert done.returncode == 0 and 'per area: kept 0.999' in done.stdout, done.stderr
