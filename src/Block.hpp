@@ -9,12 +9,6 @@
 /// A convex block with the planes of its faces, and cutting it in two by a plane: only what the plane passes through changes.
 namespace polytope {
 
-/// {x : normal·x ≤ offset}, unit outward normal.
-struct Plane {
-	Vector3 normal;
-	Real    offset;
-};
-
 /// Corners and faces; faces name their planes by index in a list that all blocks share.
 struct Block {
 	std::vector<Vector3> corners;

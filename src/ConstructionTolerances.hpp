@@ -20,6 +20,10 @@ inline const Real rounding = std::numeric_limits<Real>::epsilon();
 /// `rounding` (Shewchuk 1997, Fig. 21). Beyond, the sign is exact.
 inline const Real volumeRounding = Real(3.5) * rounding * (1 + 64 * rounding);
 
+/// What underflow takes from that determinant at most, for differences below a third of 1 / `rounding`: six products, each off by half of
+/// the smallest number there is, which is `rounding` × this, times a difference.
+inline const Real volumeUnderflow = std::numeric_limits<Real>::min();
+
 /// Bound of the rounding in a triple product of unit vectors: three terms of a product and a difference of products each.
 inline const Real minorRounding = 16 * rounding;
 

@@ -11,8 +11,6 @@
 namespace polytope {
 namespace {
 
-	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
-
 	/// Six times the volume of the tetrahedron (a, b, c, p), positive where p lies on the side from which a, b, c run
 	/// counter-clockwise; `certain`: its sign is that of the exact value. (Shewchuk 1997, "Adaptive precision floating-point
 	/// arithmetic and fast robust geometric predicates", Discrete Comput. Geom. 18:305-363.)
@@ -23,9 +21,9 @@ namespace {
 		const Real cx = c.x() - p.x(), cy = c.y() - p.y(), cz = c.z() - p.z();
 		const Real bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
 		const Real value  = az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay);
-		const Real spread = magnitude(az) * (magnitude(bxcy) + magnitude(cxby))
-		        + magnitude(bz) * (magnitude(cxay) + magnitude(axcy)) + magnitude(cz) * (magnitude(axby) + magnitude(bxay));
-		certain = magnitude(value) > construction::volumeRounding * spread;
+		const Real spread = abs(az) * (abs(bxcy) + abs(cxby))
+		        + abs(bz) * (abs(cxay) + abs(axcy)) + abs(cz) * (abs(axby) + abs(bxay));
+		certain = abs(value) > construction::volumeRounding * spread + construction::volumeUnderflow;
 		return -value;
 	}
 
@@ -112,7 +110,7 @@ namespace {
 			const Vector3 b = at(corner[1]) - a;
 			corner[2]       = farthest([&](int i) { return b.cross(at(i) - a).squaredNorm(); });
 			const Vector3 n = b.cross(at(corner[2]) - a);
-			corner[3]       = farthest([&](int i) { return magnitude(n.dot(at(i) - a)); });
+			corner[3]       = farthest([&](int i) { return abs(n.dot(at(i) - a)); });
 			if (exact::orientation(a, at(corner[1]), at(corner[2]), at(corner[3])) != 0) return corner;
 			for (int i = 0; i < count; ++i) // rounding has hidden what spans space
 				for (int j = 0; j < i; ++j)

@@ -5,7 +5,6 @@
 #include "KnownShapes.hpp"
 #include "NumberText.hpp"
 
-
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -9,7 +9,8 @@
 #include <string>
 
 // The way from half-spaces to vertices:
-//  1. an exact linear programme finds the largest inscribed ball, hence an inner point c, or that there is none;
+//  1. a linear program finds the largest inscribed ball, hence an inner point c, or that there is none: in exact arithmetic where the
+//     digits of Real do not tell;
 //  2. the planes' polar duals n/(d − n·c) have a convex hull, whose triangles are the vertices of the set, three planes
 //     each. Rounding a dual point is the same as rounding its plane's normal and offset, whatever the set's aspect ratio;
 //  3. triangles whose planes all meet in one point to rounding are joined into one vertex (TriangleClusters.hpp), and

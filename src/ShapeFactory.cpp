@@ -10,13 +10,13 @@
 namespace polytope {
 namespace {
 
-	struct KnownPlaced {
+	struct KnownCentral {
 		std::weak_ptr<const ConvexShape> shape;
 		Vector3                          position;
 		Matrix3                          rotation;
 	};
 
-	using Known = KnownShapes<KnownPlaced>;
+	using Known = KnownShapes<KnownCentral>;
 
 	/// Numbers of an input that is remembered. A mesh of more than a thousand points is read in longer than its hull is made, and a key
 	/// of its size would stay as long as the body does.
@@ -36,12 +36,12 @@ namespace {
 	}
 
 	/// What is known by this key, or what `make` makes.
-	template <class Make> PlacedShape knownOr(Known::Key key, const Make& make)
+	template <class Make> CentralShape knownOr(Known::Key key, const Make& make)
 	{
 		if (key.size() > longestKey) return make();
 		static Known known;
-		PlacedShape  result;
-		KnownPlaced  found;
+		CentralShape  result;
+		KnownCentral  found;
 		if (known.find(key, found, result.shape)) {
 			result.position = found.position;
 			result.rotation = found.rotation;
@@ -76,14 +76,14 @@ namespace {
 
 	/// Planes, vertices and faces go to the frame of centroid and principal axes. All of it is told from the numbers about the inner
 	/// point: a small body far out has no others.
-	PlacedShape made(const HalfSpaces& given, const ShapeOptions& options)
+	CentralShape made(const HalfSpaces& given, const ShapeOptions& options)
 	{
 		HalfSpaces      set   = withoutDuplicates(normalised(given));
 		LocalPolyhedron local = localPolyhedron(set, options.thickness);
 		if (!options.keepRedundant) set = facesOnly(set, local.shape);
 		const MassProperties mass   = massProperties(local.shape);
 		const Real           extent = extentOf(local.shape);
-		PlacedShape          result;
+		CentralShape          result;
 
 		result.position = local.centre + local.unit * mass.centroid;
 		if (set.dimension == 2) result.position.z() = 0;
@@ -111,12 +111,12 @@ namespace {
 
 } // namespace
 
-PlacedShape placedShape(const HalfSpaces& planes, const ShapeOptions& options)
+CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options)
 {
 	return knownOr(keyOf(0, planes.normals, planes.offsets, planes.dimension, options), [&] { return made(planes, options); });
 }
 
-PlacedShape placedHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options)
+CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options)
 {
 	return knownOr(
 	        keyOf(1, points, { coplanar }, dimension, options), [&] { return made(hullOf(points, dimension, coplanar), options); });

@@ -20,7 +20,7 @@ struct ShapeOptions {
 };
 
 /// x = position + rotation·(x of the body's frame): the centroid and, as columns, the principal axes (MassProperties.hpp).
-struct PlacedShape {
+struct CentralShape {
 	std::shared_ptr<const ConvexShape> shape;
 	Vector3                            position = Vector3::Zero();
 	Matrix3                            rotation = Matrix3::Identity();
@@ -28,9 +28,9 @@ struct PlacedShape {
 
 /// Refuses what normalised(), polyhedron() and ConvexShape refuse. A centroid that differs from the origin by rounding is the
 /// origin, and axes that are principal to rounding stay: such planes are taken over unchanged. Thread-safe.
-PlacedShape placedShape(const HalfSpaces& planes, const ShapeOptions& options);
+CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options);
 
 /// Of the convex hull of points, as hullOf(). Refuses what that refuses, besides.
-PlacedShape placedHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
+CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
 
 } // namespace polytope

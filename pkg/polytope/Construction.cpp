@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What py/bodies.py and py/jointedRock.py call: a shape made by ShapeFactory, a body made of it, a rock mass cut into blocks.
+// What bodies.py and jointedRock.py of py/polytope call: a shape made by ShapeFactory, a body made of it, a rock mass cut into blocks.
 #include "Construction.hpp"
 
 #include "Polytope.hpp"
@@ -21,7 +21,7 @@ namespace yade {
 namespace {
 
 	using polytope::HalfSpaces;
-	using polytope::PlacedShape;
+	using polytope::CentralShape;
 
 	/// cornerRadius None: cornerFraction of the inscribed radius.
 	polytope::ShapeOptions options(Real thickness, bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
@@ -34,24 +34,24 @@ namespace {
 		return result;
 	}
 
-	PlacedShape ofHalfSpaces(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, bool keepRedundant,
+	CentralShape ofHalfSpaces(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
+	        bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
+	{
+		return polytope::centralShape({ normals, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
+	}
+
+	CentralShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
 	        const py::object& cornerRadius, Real cornerFraction)
 	{
-		return polytope::placedShape({ normals, offsets, 3 }, options(1, keepRedundant, cornerRadius, cornerFraction));
+		return polytope::centralHull(points, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
 	}
 
-	PlacedShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
-	        const py::object& cornerRadius, Real cornerFraction)
+	CentralShape ofRegular(int faces, Real circumradius, const py::object& cornerRadius, Real cornerFraction)
 	{
-		return polytope::placedHull(points, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
+		return polytope::centralShape(polytope::regularSolid(faces, circumradius), options(1, true, cornerRadius, cornerFraction));
 	}
 
-	PlacedShape ofRegular(int faces, Real circumradius, const py::object& cornerRadius, Real cornerFraction)
-	{
-		return polytope::placedShape(polytope::regularSolid(faces, circumradius), options(1, true, cornerRadius, cornerFraction));
-	}
-
-	PlacedShape ofCuboid(const Vector3r& half, const py::object& cornerRadius, Real cornerFraction)
+	CentralShape ofCuboid(const Vector3r& half, const py::object& cornerRadius, Real cornerFraction)
 	{
 		HalfSpaces planes;
 		for (int k = 0; k < 3; ++k)
@@ -59,14 +59,14 @@ namespace {
 				planes.normals.push_back(sign * Vector3r::Unit(k));
 				planes.offsets.push_back(half[k]);
 			}
-		return polytope::placedShape(planes, options(1, true, cornerRadius, cornerFraction));
+		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
 	}
 
 	/// A body where its shape was found, or there moved to `centre` and turned.
-	shared_ptr<Body> body(const PlacedShape& placed, const shared_ptr<Material>& material, const py::object& centre,
+	shared_ptr<Body> body(const CentralShape& central, const shared_ptr<Material>& material, const py::object& centre,
 	        const Quaternionr& orientation, bool fixed, Real isotropyTolerance)
 	{
-		const auto shape = Polytope::of(placed.shape);
+		const auto shape = Polytope::of(central.shape);
 		auto       body  = shared_ptr<Body>(new Body);
 		body->shape      = shape;
 		body->material   = material;
@@ -76,8 +76,8 @@ namespace {
 		const Vector3r inertia = shape->inertia();
 		state.mass             = shape->volume() * material->density;
 		state.inertia          = inertia * material->density;
-		state.pos              = placed.position;
-		state.ori              = Quaternionr(Matrix3r(placed.rotation));
+		state.pos              = central.position;
+		state.ori              = Quaternionr(Matrix3r(central.rotation));
 		if (!centre.is_none()) {
 			state.pos = Vector3r(py::extract<Vector3r>(centre)) + orientation * state.pos;
 			state.ori = orientation * state.ori;
@@ -135,15 +135,15 @@ namespace {
 
 void defineConstruction()
 {
-	py::class_<PlacedShape>("PlacedShape", "A shape of ShapeFactory, and where it is.", py::no_init)
+	py::class_<CentralShape>("CentralShape", "A shape of ShapeFactory, and where it is.", py::no_init)
 	        .add_property(
-	                "position", +[](const PlacedShape& p) { return p.position; }, "Centroid [m].")
-	        .add_property("orientation", +[](const PlacedShape& p) { return Quaternionr(Matrix3r(p.rotation)); }, "Principal axes.");
-	py::def("ofHalfSpaces", &ofHalfSpaces, "Shape of planes: normals, offsets, keepRedundant, cornerRadius or None, cornerFraction.");
+	                "position", +[](const CentralShape& p) { return p.position; }, "Centroid [m].")
+	        .add_property("orientation", +[](const CentralShape& p) { return Quaternionr(Matrix3r(p.rotation)); }, "Principal axes.");
+	py::def("ofHalfSpaces", &ofHalfSpaces, "Shape of planes: normals, offsets, dimension, thickness, keepRedundant, cornerRadius or None, cornerFraction.");
 	py::def("ofPoints", &ofPoints, "Shape of a hull: points, dimension, coplanar, thickness, cornerRadius or None, cornerFraction.");
 	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
-	py::def("body", &body, "Body of a PlacedShape: shape, material, centre or None, orientation, fixed, isotropyTolerance.");
+	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, orientation, fixed, isotropyTolerance.");
 	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
 }
 

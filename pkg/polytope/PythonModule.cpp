@@ -15,8 +15,6 @@
 #include <core/Body.hpp>
 
 #include <src/IpoptCentre.hpp>
-#include <src/RegularSolids.hpp>
-#include <src/ShapeFactory.hpp>
 
 #include <boost/python.hpp>
 
@@ -49,10 +47,6 @@ py::dict tolerances()
 	return result;
 }
 
-py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.normals, set.offsets); }
-
-py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
-
 /// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
 py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
 {
@@ -68,23 +62,6 @@ py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vecto
 	result["volume"]          = mass.volume;
 	result["centroid"]        = mass.centroid;
 	result["inscribedRadius"] = polytope::ConvexShape(central, 0).inscribedRadius();
-	return result;
-}
-
-/// Half-spaces in the frame of centroid and principal axes, and where that frame is.
-py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness,
-        bool keepRedundant)
-{
-	polytope::ShapeOptions options;
-	options.thickness     = thickness;
-	options.keepRedundant = keepRedundant;
-	const auto placed     = polytope::placedShape({ normals, offsets, dimension }, options);
-	py::dict   result;
-	result["normals"]         = placed.shape->planes().normals;
-	result["offsets"]         = placed.shape->planes().offsets;
-	result["position"]        = placed.position;
-	result["orientation"]     = yade::Quaternionr(placed.rotation);
-	result["inscribedRadius"] = placed.shape->inscribedRadius();
 	return result;
 }
 
@@ -178,13 +155,11 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Tolerances of the numerical core that the module's advice is about, see src/Tolerances.hpp: *rounding* of this "
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
-	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
 	        "a dictionary; None where nothing limits.");
-	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
 	yade::defineConstruction();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

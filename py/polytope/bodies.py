@@ -56,7 +56,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
 	normals, offsets, keepRedundant = vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), flag(keepRedundant, 'keepRedundant')
-	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, keepRedundant, *corner), **body)
+	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
 
 
 def fromVertices(points, **body):
@@ -196,8 +196,7 @@ def _material(material):
 		O.materials.append(utils.defaultMaterial())
 	if isinstance(material, (int, str)):
 		return O.materials[material]
-	if isinstance(material, Material):
-		return material
-	if callable(material):
-		return material()
-	raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
+	made = material() if callable(material) else material
+	if not isinstance(made, Material):
+		raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
+	return made

@@ -28,15 +28,15 @@ TEST(ShapeFactory, aKnownShapeIsSharedWithItsPlace)
 {
 	std::mt19937_64  random(61);
 	const auto       points = pointsOnSphere(20, random);
-	const auto       first = placedHull(points, 3, 0, withCorner()), again = placedHull(points, 3, 0, withCorner());
+	const auto       first = centralHull(points, 3, 0, withCorner()), again = centralHull(points, 3, 0, withCorner());
 	const HalfSpaces set = moved(box(1, 2, 3), someRotation(random), Vector3(4, 5, 6));
 	EXPECT_EQ(first.shape, again.shape);
 	EXPECT_EQ(first.position, again.position);
 	EXPECT_EQ(first.rotation, again.rotation);
-	EXPECT_NE(first.shape, placedHull(points, 3, 0, withCorner(Real(0.2))).shape);
-	EXPECT_EQ(placedShape(set, withCorner()).shape, placedShape(set, withCorner()).shape);
+	EXPECT_NE(first.shape, centralHull(points, 3, 0, withCorner(Real(0.2))).shape);
+	EXPECT_EQ(centralShape(set, withCorner()).shape, centralShape(set, withCorner()).shape);
 	// each is kept by its users alone
-	std::weak_ptr<const ConvexShape> watched = placedShape(set, withCorner()).shape;
+	std::weak_ptr<const ConvexShape> watched = centralShape(set, withCorner()).shape;
 	EXPECT_TRUE(watched.expired());
 }
 
@@ -45,12 +45,12 @@ TEST(ShapeFactory, planesAboutTheirCentroidAndAxesStayAsTheyAre)
 	for (int faces : { 4, 6, 8, 12, 20 })
 		for (Real length : lengths) {
 			const HalfSpaces set    = regularSolid(faces, length);
-			const auto       placed = placedShape(set, withCorner());
-			EXPECT_EQ(placed.position, Vector3(Vector3::Zero()));
-			EXPECT_EQ(placed.rotation, Matrix3(Matrix3::Identity()));
-			EXPECT_EQ(placed.shape->planes().offsets, set.offsets) << faces << " faces, " << length;
-			EXPECT_EQ(placed.shape->planes().normals, set.normals);
-			EXPECT_EQ(placed.shape, ConvexShape::shared(set, placed.shape->cornerRadius())) << "a load finds the same one";
+			const auto       central = centralShape(set, withCorner());
+			EXPECT_EQ(central.position, Vector3(Vector3::Zero()));
+			EXPECT_EQ(central.rotation, Matrix3(Matrix3::Identity()));
+			EXPECT_EQ(central.shape->planes().offsets, set.offsets) << faces << " faces, " << length;
+			EXPECT_EQ(central.shape->planes().normals, set.normals);
+			EXPECT_EQ(central.shape, ConvexShape::shared(set, central.shape->cornerRadius())) << "a load finds the same one";
 		}
 }
 
@@ -63,19 +63,19 @@ TEST(ShapeFactory, putsTheBodyBackWhereItWas)
 				const Vector3    centre = away * length * someDirection(random);
 				const HalfSpaces set
 				        = moved(tangentPlanes(30, length * Vector3(1, 2, 3), random), someRotation(random), centre);
-				const auto       placed = placedShape(set, withCorner());
-				const HalfSpaces back   = moved(placed.shape->planes(), placed.rotation, placed.position);
+				const auto       central = centralShape(set, withCorner());
+				const HalfSpaces back   = moved(central.shape->planes(), central.rotation, central.position);
 				ASSERT_EQ(back.size(), set.size());
 				for (std::size_t k = 0; k < set.size(); ++k) {
 					// the axes are orthonormal to a few roundings, and turn it there and back
 					EXPECT_LE((back.normals[k] - set.normals[k]).norm(), 16 * construction::rounding);
 					EXPECT_NEAR(back.offsets[k], set.offsets[k], 1e-15 * (4 + away) * 3 * length);
 				}
-				const MassProperties& mass = placed.shape->mass();
+				const MassProperties& mass = central.shape->mass();
 				EXPECT_LE(mass.centroid.norm(), 1e-13 * (1 + away) * length);
 				EXPECT_LE(std::abs(mass.inertia(0, 1)) + std::abs(mass.inertia(0, 2)) + std::abs(mass.inertia(1, 2)),
 				        1e-12 * (1 + away) * mass.inertia.trace());
-				EXPECT_NEAR(placed.shape->cornerRadius(), placed.shape->inscribedRadius() / 10, 1e-16 * length);
+				EXPECT_NEAR(central.shape->cornerRadius(), central.shape->inscribedRadius() / 10, 1e-16 * length);
 			}
 }
 
@@ -84,8 +84,8 @@ TEST(ShapeFactory, theSamePlanesBuiltAnewAreTheSameToTheLastBit)
 {
 	std::mt19937_64 random(63);
 	int             same = 0, all = 0;
-	const auto      expectSame = [&](const PlacedShape& placed) {
-                const ConvexShape& made = *placed.shape;
+	const auto      expectSame = [&](const CentralShape& central) {
+                const ConvexShape& made = *central.shape;
                 const ConvexShape  anew(made.planes(), made.cornerRadius(), made.thickness());
                 EXPECT_EQ(anew.polyhedron().faces, made.polyhedron().faces);
                 EXPECT_EQ(anew.inscribedRadius(), made.inscribedRadius());
@@ -94,12 +94,12 @@ TEST(ShapeFactory, theSamePlanesBuiltAnewAreTheSameToTheLastBit)
                 ++all;
 	};
 	for (int i = 0; i < 50; ++i) {
-		expectSame(placedHull(pointsOnSphere(6 + i, random), 3, 0, withCorner()));
-		expectSame(placedShape(moved(regularSolid(std::vector<int> { 4, 6, 8, 12, 20 }[std::size_t(i % 5)], 1),
+		expectSame(centralHull(pointsOnSphere(6 + i, random), 3, 0, withCorner()));
+		expectSame(centralShape(moved(regularSolid(std::vector<int> { 4, 6, 8, 12, 20 }[std::size_t(i % 5)], 1),
 		                               someRotation(random), 3 * someDirection(random)),
 		        withCorner()));
 		HalfSpaces polygon = moved(regularPolygon(3 + i % 9, 2), Matrix3::Identity(), Vector3(1, 2, 0));
-		expectSame(placedShape(polygon, withCorner()));
+		expectSame(centralShape(polygon, withCorner()));
 	}
 	EXPECT_EQ(same, all);
 }
@@ -112,21 +112,21 @@ TEST(ShapeFactory, redundantPlanesStayOrGo)
 	add(set, Vector3(1, 0, 0), 1); // repeated
 	set                  = moved(set, someRotation(random), Vector3(1, 2, 3));
 	ShapeOptions options = withCorner();
-	EXPECT_EQ(placedShape(set, options).shape->planeCount(), 7);
+	EXPECT_EQ(centralShape(set, options).shape->planeCount(), 7);
 	options.keepRedundant = false;
-	EXPECT_EQ(placedShape(set, options).shape->planeCount(), 6);
+	EXPECT_EQ(centralShape(set, options).shape->planeCount(), 6);
 }
 
 TEST(ShapeFactory, anotherCornerRadiusChangesNothingElse)
 {
-	const auto placed = placedShape(box(1, 2, 3), withCorner());
-	const auto other  = placed.shape->withCornerRadius(Real(0.5));
+	const auto central = centralShape(box(1, 2, 3), withCorner());
+	const auto other  = central.shape->withCornerRadius(Real(0.5));
 	EXPECT_EQ(other->cornerRadius(), Real(0.5));
 	EXPECT_EQ(other, ConvexShape::shared(box(1, 2, 3), Real(0.5)));
-	EXPECT_EQ(other->polyhedron().vertices, placed.shape->polyhedron().vertices);
-	EXPECT_THROW(placed.shape->withCornerRadius(100), std::invalid_argument);
-	EXPECT_THROW(placed.shape->withCornerRadius(std::nan("")), std::invalid_argument);
-	EXPECT_EQ(placed.shape->cornerRadius(), placed.shape->inscribedRadius() / 10);
+	EXPECT_EQ(other->polyhedron().vertices, central.shape->polyhedron().vertices);
+	EXPECT_THROW(central.shape->withCornerRadius(100), std::invalid_argument);
+	EXPECT_THROW(central.shape->withCornerRadius(std::nan("")), std::invalid_argument);
+	EXPECT_EQ(central.shape->cornerRadius(), central.shape->inscribedRadius() / 10);
 }
 
 TEST(ShapeFactory, refusesWithTheWordsOfConstruction)
@@ -135,14 +135,14 @@ TEST(ShapeFactory, refusesWithTheWordsOfConstruction)
 	open.normals.pop_back();
 	open.offsets.pop_back();
 	EXPECT_TRUE(
-	        says(refusal([&] { placedShape(open, {}); }), "normals: the set is unbounded (it extends without end along (0, 0, 1))"));
-	EXPECT_TRUE(says(refusal([&] { placedShape(box(1, 0, 1), {}); }), "offsets: the set is flat"));
-	EXPECT_TRUE(says(refusal([&] { placedHull({ Vector3(0, 0, 0) }, 3, 0, {}); }), "points: 1 cannot span a body"));
+	        says(refusal([&] { centralShape(open, {}); }), "normals: the set is unbounded (it extends without end along (0, 0, 1))"));
+	EXPECT_TRUE(says(refusal([&] { centralShape(box(1, 0, 1), {}); }), "offsets: the set is flat"));
+	EXPECT_TRUE(says(refusal([&] { centralHull({ Vector3(0, 0, 0) }, 3, 0, {}); }), "points: 1 cannot span a body"));
 	ShapeOptions options;
 	options.cornerRadius = 3;
-	EXPECT_TRUE(says(refusal([&] { placedShape(box(1, 1, 1), options); }), "cornerRadius: must be at least 0 and fit inside the body"));
+	EXPECT_TRUE(says(refusal([&] { centralShape(box(1, 1, 1), options); }), "cornerRadius: must be at least 0 and fit inside the body"));
 	options.thickness = -1;
-	EXPECT_TRUE(says(refusal([&] { placedShape(regularPolygon(4, 1), options); }), "thickness: it must be positive"));
+	EXPECT_TRUE(says(refusal([&] { centralShape(regularPolygon(4, 1), options); }), "thickness: it must be positive"));
 }
 
 } // namespace

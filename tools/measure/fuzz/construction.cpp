@@ -123,7 +123,7 @@ void construct(Bytes& bytes)
 	options.thickness     = thickness;
 	options.keepRedundant = redundant;
 	options.cornerRadius  = cornerRadius;
-	checkShape(*placedShape(set, options).shape);
+	checkShape(*centralShape(set, options).shape);
 }
 
 /// "name: what is wrong": names an argument.
