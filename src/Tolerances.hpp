@@ -196,10 +196,10 @@ constexpr Real thinContact = 0.1;
 /// on each other: ½).
 constexpr Real carriedBall = 0.25;
 
-/// Projections onto one plane after the other that look for that ball, each this much longer than need be; from beside a seam one or two
-/// lead there.
-constexpr int  mostProjections = 8;
-constexpr Real overProjection  = 1.2;
+/// Projections onto one plane after the other that look for that ball, each this much longer than need be: from beside a seam some two to six
+/// lead there; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
+constexpr int  mostProjections = 32;
+constexpr Real overProjection  = 1.5;
 
 /// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
 constexpr Real leastShareOfSupport = 1e-9;

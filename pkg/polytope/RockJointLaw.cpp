@@ -80,11 +80,12 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	/// The same at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
-	/// Critical damping of a spring between the bodies; 0 if neither can move.
+	/// Critical damping of a spring between the bodies; 0 if neither can move. Of a spring that is a share of one, the same share of its
+	/// damper: so several pieces damp as one.
 	Real criticalDamping(Real stiffness) const
 	{
 		const Real inverse = inverseMass(body1, scene) + inverseMass(body2, scene);
-		return inverse > 0 ? 2 * math::sqrt(stiffness / inverse) : Real(0);
+		return inverse > 0 ? 2 * math::sqrt(stiffness * geom.share / inverse) : Real(0);
 	}
 };
 

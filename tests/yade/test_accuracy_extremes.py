@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`./run accuracy`: its quick variants hold the limits that the README states, and a fault would be seen."""
+"""`./run accuracy`: its quick variants hold the limits that docs/accuracy.md states, and a fault would be seen."""
 import csv
 import importlib.util
 import json

@@ -7,6 +7,7 @@ energy leave unexplained, so that it is small is the test.
 """
 from math import radians, sin, tan
 
+import numpy as np
 import pytest
 from yade import O, Quaternion, Vector3
 from yade import polytope
@@ -90,28 +91,34 @@ def testSlidingDissipatesFrictionTimesWay():
 	assert abs(terms['nonconservative']) < 1e-6 * friction
 
 
-@pytest.mark.parametrize('perArea', [False, True])
-def testTumblingBlocksBalance(perArea):
-	"""Edges, vertices, faces; friction and all dampers. The sum is constant but for the rotation's integration; what the paper's normal
-	and the area create or destroy is in *nonconservative*."""
+def tumble(perArea, turn):
+	"""(nonconservative over what dampers and friction have taken) after four blocks have fallen onto each other."""
+	O.reset()
 	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.4)
 	loop(perArea, normalDamping=0.2, shearDamping=0.2, rockingDamping=0.2, gravity=(0, 0, -gravity))
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	O.bodies.append([polytope.cuboid((0.4 * (k % 2), 0, 1 + 1.6 * k), (.5, .5, .5), Quaternion((1, 2, k), 0.4 * k)) for k in range(4)])
+	turns = [Quaternion((1, 2, k), 0.4 * k + turn) for k in range(4)]
+	O.bodies.append([polytope.cuboid((0.4 * (k % 2) + turn, 0, 1 + 1.6 * k), (.5, .5, .5), turns[k]) for k in range(4)])
 	O.trackEnergy = True
 	O.dt = 0.01 * period(density, 1e7)
 	ledger = Ledger()
 	start = sum(ledger.step().values())
-	largest, smallest = 0, 0
 	for _ in range(6000):
 		terms = ledger.step()
-		largest, smallest = max(largest, terms['nonconservative']), min(smallest, terms['nonconservative'])
 	lost = sum(terms[k] for k in ('plastDissip', 'normDampDissip', 'shearDampDissip'))
-	print('per area' if perArea else 'per contact', {k: round(v) for k, v in terms.items()}, 'nonconservative between', round(smallest), round(largest))
+	print('per area' if perArea else 'per contact', turn, {k: round(v) for k, v in terms.items()})
 	assert lost > 1e4
 	assert all(terms[k] >= 0 for k in ('plastDissip', 'normDampDissip', 'shearDampDissip', 'elastPotential'))
 	assert sum(terms.values()) == pytest.approx(start, abs=1e-3 * lost)
-	assert abs(terms['nonconservative']) < 0.2 * lost
+	return terms['nonconservative'] / lost
+
+
+@pytest.mark.parametrize('perArea', [False, True])
+def testTumblingBlocksBalance(perArea):
+	"""Edges, vertices, faces, a tenth of a block deep; friction and all dampers. The sum is constant but for the rotation's integration;
+	what normal and area create or destroy is in *nonconservative*: from one start to the next it is 0 to 0.2 of the loss, either way."""
+	shares = [tumble(perArea, turn) for turn in (0, 0.01, 0.02, 0.03, 0.05, 0.08)]
+	assert np.mean(np.abs(shares)) < 0.15
 
 
 def testFractureReleasesWhatWasStored():

@@ -227,7 +227,7 @@ def numbersOfBodies(scene):
 	seen = f'{len(lost)} of {len(states)} bodies have places or velocities that are no numbers' + (f', {failed} queries have failed' if failed else '')
 	if lost:
 		return f'{seen} (body {lost[0]})', 'a run that went wrong before: such a body has no contacts; go back, and take a smaller O.dt'
-	return seen, 'look where: see failures in README' if failed else ''
+	return seen, 'look where: docs/statuses.md says what makes a query fail' if failed else ''
 
 
 def timeStep(scene):

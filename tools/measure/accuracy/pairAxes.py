@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in the README."""
+"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in docs/accuracy.md."""
 
 import dataclasses
 import math
@@ -129,8 +129,13 @@ axes = {
 	'coincident': Axis(
 		'Identical bodies in one place',
 		'distance of their centres over the size',
-		[*depths[:2], Limit('depth × normal over the size', 'forceError', 1e-10, 'conservative')],
-		'No direction leads out of coincident bodies: noDirection, the normal along the line of centres (paper), no force (conservative).',
+		[
+			depths[0],
+			Limit('depth over the size × distance of the centres over the size', 'depthTimesDistance', 1e-15, 'paper'),
+			Limit('depth × normal over the size', 'forceError', 1e-10, 'conservative'),
+		],
+		'The direction between two bodies that nearly coincide is as uncertain as rounding over their distance, and so is the depth along it. Where no '
+		'direction leads out: normalFromDual or noDirection (paper: the normal along the line of centres), no force (conservative).',
 	),
 	'inside': Axis(
 		'One body inside the other',

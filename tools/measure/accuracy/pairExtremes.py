@@ -4,7 +4,7 @@
 The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), asks the contact kernel for both contact models, and
 holds its answers against the linear programme in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
 become one table and one plot per axis. Ends with 1 if an answer is not a number, unbounded, a missed or false contact, or in error beyond
-rounding without a status that says so; or if an error is above the limit that the README states.
+rounding without a status that says so; or if an error is above the limit that docs/accuracy.md states.
 
 	./run python tools/measure/accuracy/pairExtremes.py --quick
 	./run python tools/measure/accuracy/pairExtremes.py --axes depth aspect --samples 50

@@ -74,6 +74,7 @@ derived = {
 	'depthOfLarger': lambda s: _compared(s, s.depthError / s.value),
 	'forceOfLarger': lambda s: _compared(s, s.forceError / s.value),
 	'centreTimesOverlap': lambda s: _compared(s, max(s.centreError - 3e-9, 0) * -s.infeasibility),
+	'depthTimesDistance': lambda s: _compared(s, s.depthError * s.value),
 	'movedOverDistance': lambda s: abs(s.moved) / s.value,
 	'overlapCalledContact': lambda s: -s.infeasibility / rounding if s.inContact and s.value > -150 else math.nan,
 	'overlapCalledSeparated': lambda s: -s.infeasibility / rounding if not s.inContact else math.nan,

@@ -189,11 +189,14 @@ def vibrate(model, fraction, steps=2000):
 	amplitude = 0.1 * overlap
 	O.bodies.append([floor(), polytope.cuboid((0.1, 0.2, 0.5 - overlap), (0.5, 0.5, 0.5))])
 	block = O.bodies[1].state
+	low = 0.5 - overlapAt(overlap, model, (5, 5, 1), (0.1, 0.2))
+	# where the overlap is deepest: the conservative contact's rocking stiffness grows with its force
+	block.pos = Vector3(0.1, 0.2, low - amplitude)
 	O.dt = 1e-9
 	O.step()  # makes the contact
 	O.dt = polytope.stableTimeStep(2) * fraction
-	low = 0.5 - overlapAt(overlap, model, (5, 5, 1), (0.1, 0.2))
-	block.pos, block.vel = Vector3(0.1, 0.2, low + amplitude), Vector3(0, 0, 0)
+	block.pos, block.ori = Vector3(0.1, 0.2, low + amplitude), Quaternion.Identity
+	block.vel = block.angVel = Vector3(0, 0, 0)
 	farthest = energy = 0.0
 	scene.geometry.resetStats()
 	for _ in range(steps):

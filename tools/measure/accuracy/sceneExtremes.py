@@ -2,8 +2,8 @@
 """Scenes in YADE taken along six axes from easy to the point of breaking, each beside its closed form, with both contact models.
 
 Stiffness ratio to 1e6, mass ratio to 1e9, time step to past the critical one, a tower of 50 blocks, 1e6 steps at rest and a slide of 1e6
-steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that the
-README states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
+steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that
+docs/accuracy.md states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
 
 	./run python tools/measure/accuracy/sceneExtremes.py --quick
 	./run python tools/measure/accuracy/sceneExtremes.py --axes tower rest
@@ -123,7 +123,7 @@ def timeStep(findings, quick):
 	findings.row(f'{title}: from 1.1 of it on, least growth of the swing: it shows', above, accept=(10, math.inf))
 	findings.text(
 		f'{title}. A block swings on a floor about its rest for 2000 steps, undamped. polytope.stableTimeStep(2) is the limit of one body from all '
-		'stiffnesses, rocking of both contact models included (docs/time-step.md). Below it the swing is the scheme’s own; past it the block turns, is thrown off, and gains energy each time it '
+		'stiffnesses, rocking of both contact models included (docs/time-step.md), here where the overlap of the swing is deepest. Below it the swing is the scheme’s own; past it the block turns, is thrown off, and gains energy each time it '
 		'comes back: kinetic energy tells at once, and every number stays finite.'
 	)
 	findings.table('timeStep', f'{title}; value: over polytope.stableTimeStep(2)', *cells(results))

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""README.md and docs/*.md: links, anchors, names of files and commands hold, every page is in the index, and the Python snippets run."""
+
+import math
+import os
+import pathlib
+import re
+import runpy
+import sys
+
+import pytest
+import yade
+import yade.utils
+
+project = pathlib.Path(__file__).resolve().parents[2]
+readme = project / 'README.md'
+pages = sorted((project / 'docs').glob('*.md'))
+names = [page.relative_to(project).as_posix() for page in (readme, *pages)]
+longestReadme = 120
+"""Lines: what one reads before trying."""
+fence = re.compile(r'^( *)```(.*?)\n(.*?)^\1```$', re.MULTILINE | re.DOTALL)
+
+
+def prose(text):
+	"""Without blocks of code."""
+	return fence.sub('', text)
+
+
+def anchors(path):
+	"""Of all headings, as GitHub and MyST make them."""
+	found = re.findall(r'^#+ +(.+?) *$', prose(path.read_text()), re.MULTILINE)
+	return [re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in found]
+
+
+def links(text):
+	"""Targets of links and pictures, but those to other sites."""
+	found = re.findall(r'\]\(([^()\s]+)\)', re.sub(r'`[^`]*`', '`', prose(text)))
+	return [target for target in found if not re.match(r'https?://', target)]
+
+
+@pytest.mark.parametrize('name', names)
+def testLinksResolve(name):
+	page = project / name
+	for target in links(page.read_text()):
+		path, _, anchor = target.partition('#')
+		aim = (page.parent / path).resolve() if path else page
+		assert aim.is_file(), f'{name}: there is no {path}'
+		assert not anchor or anchor in anchors(aim), f'{name}: {aim.name} has no heading #{anchor}, but {anchors(aim)}'
+
+
+def testLinksAreFound():
+	"""The readers above find what they look for."""
+	assert links('[a](b.md#c-d) `[x](y)` ![p](q.png) [w](https://example.org)\n```\n[code](no.md)\n```\n') == ['b.md#c-d', 'q.png']
+	assert anchors(project / 'docs/index.md')[0] == 'yade-polytope-documentation'
+
+
+@pytest.mark.parametrize('name', names)
+def testHeadingsAreNotRepeated(name):
+	found = anchors(project / name)
+	assert len(set(found)) == len(found), found
+
+
+@pytest.mark.parametrize('name', names)
+def testFilesThatAreNamedExist(name):
+	for path in re.findall(r'(?<![\w/])(?:src|pkg|py|docs|examples|tests|tools|cmake)/[\w./-]*\w', (project / name).read_text()):
+		assert (project / path).exists() or path == 'examples/NAME.py', f'{name}: there is no {path}'
+
+
+def testPagesThatAreNamedElsewhereExist():
+	"""In help texts, doc strings and messages."""
+	for folder in ('src', 'pkg', 'py', 'examples', 'tests', 'tools'):
+		for path in (project / folder).rglob('*'):
+			if path.suffix in ('.py', '.hpp', '.cpp', '.sh', '.md') and path != pathlib.Path(__file__).resolve():
+				for page in re.findall(r'\bdocs/[\w-]+\.md\b', path.read_text()):
+					assert (project / page).is_file(), f'{path.relative_to(project)}: there is no {page}'
+
+
+@pytest.mark.parametrize('name', names)
+def testCommandsThatAreNamedExist(name):
+	helped = (project / 'run').read_text().split("<<'END'")[1].split('\nEND\n')[0]
+	known = set(re.findall(r'^  (\w+)', helped.split('Environment:')[0], re.MULTILINE))
+	assert {'demo', 'test', 'yade', 'python', 'help'} <= known
+	for command in re.findall(r'(?<!\w)\./run +([a-z]+)', (project / name).read_text()):
+		assert command in known, f'{name}: ./run {command}'
+
+
+def testReadmeIsShortAndHasTheCommandsOfContinuousIntegration():
+	lines = readme.read_text().splitlines()
+	assert len(lines) <= longestReadme, f'{len(lines)} lines; what is more belongs into docs/'
+	shell = [body for _, kind, body in fence.findall(readme.read_text()) if kind == 'sh']
+	commands = [line.split('#')[0].strip() for body in shell for line in body.splitlines()]
+	assert commands == ['./run demo', './run test']
+	assert '/../run" test' in (project / '.ci/run').read_text()
+
+
+def testIndexHasEveryPage():
+	text = (project / 'docs/index.md').read_text()
+	others = {page.stem for page in pages} - {'index'}
+	tree = next(body for _, kind, body in fence.findall(text) if kind == '{toctree}')
+	assert sorted(line for line in tree.splitlines() if line and not line.startswith(':')) == sorted(others)
+	assert {target.removesuffix('.md') for target in links(text)} == others
+	assert {target for target in links(readme.read_text()) if target.endswith('.md')} >= {f'docs/{name}.md' for name in others}
+
+
+@pytest.mark.parametrize('page', pages, ids=lambda page: page.name)
+def testPageSaysWhichQuestionItAnswers(page):
+	title, blank, first = page.read_text().split('\n')[:3]
+	assert re.match(r'# \w', title) and not blank and first.startswith('This page answers: ')
+
+
+def snippets(page):
+	"""Python of a page, as one program, with the page's own line numbers."""
+	text, lines = page.read_text(), []
+	for block in fence.finditer(text):
+		if block[2] == 'python':
+			start = text.count('\n', 0, block.start(3))
+			lines += [''] * (start - len(lines)) + block[3].splitlines()
+	return '\n'.join(lines)
+
+
+def runs(page):
+	"""Names after a page's snippets have run as in a script of `yade`, which has these names from the start."""
+	given = {**vars(yade.utils), **vars(yade), **vars(math), '__name__': 'script'}
+	given['__file__'] = str(project / 'tools/measure/benchmark/bench.py')  # docs/measuring.md is about programs there
+	exec(compile(snippets(page), str(page), 'exec'), given)
+	return given
+
+
+@pytest.mark.parametrize('name', [name for name in names if '```python' in (project / name).read_text()])
+def testSnippetsRun(name, tmp_path, monkeypatch):
+	os.makedirs(tmp_path / 'output')
+	monkeypatch.chdir(tmp_path)
+	monkeypatch.setattr(sys, 'path', list(sys.path))
+	runs(project / name)
+
+
+@pytest.mark.parametrize('name', ['README.md', 'docs/first-scene.md'])
+def testBlockOfTheFirstSceneRestsOnItsFace(name, tmp_path, monkeypatch):
+	os.makedirs(tmp_path / 'output')
+	monkeypatch.chdir(tmp_path)
+	scene = runs(project / name)
+	contact, weight = scene['contact'], 9.81 * yade.O.bodies[scene['block']].state.mass
+	assert contact.geom.status == 'contact'
+	assert contact.geom.normal.dot(yade.Vector3(0, 0, 1)) == pytest.approx(1, abs=1e-9)
+	assert contact.phys.normalForce.norm() == pytest.approx(weight, rel=1e-6)
+	assert yade.O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
+
+
+def testExamplesThatTheFirstPagesNameRun(tmp_path, monkeypatch, capsys):
+	"""examples/hello.py, and examples/oneContact.py, which draws docs/one-contact.png."""
+	monkeypatch.setattr(sys, 'argv', ['hello.py'])
+	scene = runpy.run_path(str(project / 'examples/hello.py'))
+	assert scene['contact'].phys.normalForce.norm() == pytest.approx(scene['weight'], rel=1e-6)
+	yade.O.reset()
+	picture = tmp_path / 'one-contact.png'
+	monkeypatch.setattr(sys, 'argv', ['oneContact.py', str(picture)])
+	names = runpy.run_path(str(project / 'examples/oneContact.py'))
+	found, ahead, behind = names['found'], *names['ends']
+	assert found.status == 'contact' and found.infeasibility < 0
+	assert (ahead - behind).dot(found.normal) == pytest.approx(found.depth, rel=1e-12)
+	assert picture.read_bytes().startswith(b'\x89PNG') and f'drawn as {picture}' in capsys.readouterr().out
