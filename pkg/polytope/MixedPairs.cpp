@@ -4,7 +4,10 @@
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
+#include <src/shape/Block.hpp>
 #include <src/shape/ClosestPoint.hpp>
+
+#include <array>
 
 namespace yade {
 
@@ -15,14 +18,21 @@ namespace {
 
 	using Convex = std::shared_ptr<const polytope::ConvexShape>;
 
-	/// A stand-in for YADE's shape, or null where it is no solid (construction refuses it).
-	Convex solidOf(const polytope::HalfSpaces& planes, Real cornerRadius)
+	/// What `make` makes, or null where that is no solid (construction refuses it) or fails for whatever reason, memory included: this
+	/// runs in YADE's parallel loop, where an exception would end the process.
+	template <class Make> Convex solidOr(const Make& make) noexcept
 	{
 		try {
-			return polytope::ConvexShape::shared(planes, cornerRadius);
-		} catch (const std::invalid_argument&) {
+			return make();
+		} catch (...) {
 			return nullptr;
 		}
+	}
+
+	bool isBox(const polytope::ConvexShape& solid, const Box& box)
+	{
+		const auto& offsets = solid.planes().offsets; // as boxOf() has written them
+		return offsets[0] == box.extents[0] && offsets[2] == box.extents[1] && offsets[4] == box.extents[2];
 	}
 
 	Convex boxOf(const Box& box, const polytope::ConvexShape& other)
@@ -33,25 +43,39 @@ namespace {
 				planes.normals.push_back(sign * Vector3r::Unit(k));
 				planes.offsets.push_back(box.extents[k]);
 			}
-		return solidOf(planes, math::min(other.cornerRadius(), box.extents.minCoeff() / 2));
+		return polytope::ConvexShape::shared(planes, math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
 	}
 
-	/// side: +1 if the polytope's centre is on the facet's normal's side.
-	Convex facetOf(const Facet& facet, const polytope::ConvexShape& other, int side)
+	/// Front, back and the three sides of a facet's prism. side: +1 if the polytope's centre is on the facet's normal's side.
+	std::array<polytope::Plane, 5> facetPlanes(const Facet& facet, const polytope::ConvexShape& other, int side)
 	{
-		const auto&          v = facet.vertices;
-		const Vector3r       n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
-		polytope::HalfSpaces planes;
-		planes.normals = { n, -n };
-		planes.offsets = { n.dot(v[0]), 2 * other.boundingRadius() - n.dot(v[0]) };
+		const auto&                    v = facet.vertices;
+		const Vector3r                 n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+		std::array<polytope::Plane, 5> planes { { { n, n.dot(v[0]) }, { -n, 2 * other.boundingRadius() - n.dot(v[0]) } } };
 		for (int k = 0; k < 3; ++k) {
 			Vector3r out = (v[(k + 1) % 3] - v[k]).cross(n).normalized();
 			if (out.dot(v[(k + 2) % 3] - v[k]) > 0) out = -out;
-			planes.normals.push_back(out);
-			planes.offsets.push_back(out.dot(v[k]));
+			planes[2 + k] = { out, out.dot(v[k]) };
 		}
-		const Convex prism = solidOf(planes, 0);
-		return prism ? solidOf(planes, math::min(other.cornerRadius(), prism->inscribedRadius() / 2)) : prism;
+		return planes;
+	}
+
+	bool isFacet(const polytope::ConvexShape& solid, const std::array<polytope::Plane, 5>& planes)
+	{
+		for (size_t i = 0; i < planes.size(); ++i)
+			if (solid.planes().normals[i] != planes[i].normal || solid.planes().offsets[i] != planes[i].offset) return false;
+		return true;
+	}
+
+	Convex facetOf(const std::array<polytope::Plane, 5>& planes, const polytope::ConvexShape& other)
+	{
+		polytope::HalfSpaces set;
+		for (const polytope::Plane& plane : planes) {
+			set.normals.push_back(plane.normal);
+			set.offsets.push_back(plane.offset);
+		}
+		const Convex prism = polytope::ConvexShape::shared(set, 0);
+		return prism->withCornerRadius(math::min(other.cornerRadius(), Real(prism->inscribedRadius() / 2)));
 	}
 
 } // namespace
@@ -78,8 +102,10 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	auto& geom = geometry(c);
-	if (!geom.partner) geom.partner = boxOf(static_cast<const Box&>(*shape1), *convex);
+	auto&       geom = geometry(c);
+	const auto& box  = static_cast<const Box&>(*shape1);
+	// scripts may change the extents of a box in a run
+	if (!geom.partner || !isBox(*geom.partner, box)) geom.partner = solidOr([&] { return boxOf(box, *convex); });
 	if (!geom.partner) return failed(c);
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
@@ -94,10 +120,11 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const 
 	if (!geom.partner || !c->isReal()) {
 		// the side is settled when the contact begins, and kept while it lasts
 		const Vector3r centre = state1.ori.conjugate() * (state2.pos + shift2 - state1.pos);
-		const int      side   = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
-		if (!geom.partner || side != geom.side) geom.partner = facetOf(facet, *convex, side);
-		geom.side = side;
+		geom.side             = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
 	}
+	// nor need its corners be the same as in the step before
+	const auto planes = facetPlanes(facet, *convex, geom.side);
+	if (!geom.partner || !isFacet(*geom.partner, planes)) geom.partner = solidOr([&] { return facetOf(planes, *convex); });
 	if (!geom.partner) return failed(c);
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }

@@ -64,23 +64,42 @@ void Polytope::postLoad(Polytope&)
 		}
 	}
 	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): planes are still to come from an archive
+	if (convex_) {                                              // the corner radius is the only attribute that can have changed
+		try {
+			adopt(convex_->withCornerRadius(cornerRadius));
+		} catch (const std::invalid_argument&) {
+			cornerRadius = convex_->cornerRadius();
+			throw;
+		}
+		return;
+	}
 	polytope::HalfSpaces planes;
 	planes.normals   = normals;
 	planes.offsets   = offsets;
 	planes.dimension = dimension;
-	try {
-		// a plane written twice would pull the contact point as two; once built there are none
-		if (!convex_) planes = polytope::withoutDuplicates(polytope::normalised(planes));
-		auto built = polytope::ConvexShape::shared(planes, cornerRadius, thickness);
-		requireCentralFrame(*built);
-		requireInnerParticle(*built);
-		convex_ = built;
-	} catch (const std::invalid_argument&) {
-		if (convex_) cornerRadius = convex_->cornerRadius(); // the only attribute that can have changed
-		throw;
-	}
+	// a plane written twice would pull the contact point as two; once built there are none
+	adopt(polytope::ConvexShape::shared(polytope::withoutDuplicates(polytope::normalised(planes)), cornerRadius, thickness));
 	normals = convex_->planes().normals;
 	offsets = convex_->planes().offsets;
+}
+
+void Polytope::adopt(const std::shared_ptr<const polytope::ConvexShape>& convex)
+{
+	requireCentralFrame(*convex);
+	requireInnerParticle(*convex);
+	convex_ = convex;
+}
+
+shared_ptr<Polytope> Polytope::of(const std::shared_ptr<const polytope::ConvexShape>& convex)
+{
+	auto shape = shared_ptr<Polytope>(new Polytope);
+	shape->adopt(convex);
+	shape->normals      = convex->planes().normals;
+	shape->offsets      = convex->planes().offsets;
+	shape->cornerRadius = convex->cornerRadius();
+	shape->dimension    = convex->dimension();
+	shape->thickness    = convex->thickness();
+	return shape;
 }
 
 Real Polytope::volume() const { return convex_ ? convex_->mass().volume : Real(0); }

@@ -25,6 +25,9 @@ public:
 	static constexpr bool planesAsText = std::numeric_limits<Real>::digits > 113;
 	void                  preSave(Polytope&);
 
+	/// Of a shape that is built already: nothing is constructed. Refuses as postLoad().
+	static shared_ptr<Polytope> of(const std::shared_ptr<const polytope::ConvexShape>& convex);
+
 	/// Null until planes are given.
 	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
 
@@ -58,6 +61,8 @@ A plane that repeats another one to rounding is dropped. Planes that own no face
 
 private:
 	std::shared_ptr<const polytope::ConvexShape> convex_;
+
+	void adopt(const std::shared_ptr<const polytope::ConvexShape>& convex);
 };
 REGISTER_SERIALIZABLE(Polytope);
 

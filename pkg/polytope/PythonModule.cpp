@@ -5,6 +5,7 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
+#include "Construction.hpp"
 #include "PolytopeGeom.hpp"
 
 #include "PotentialContacts.hpp"
@@ -14,7 +15,6 @@
 #include <core/Body.hpp>
 
 #include <src/centre/IpoptCentre.hpp>
-#include <src/shape/RegularSolids.hpp>
 
 #include <boost/python.hpp>
 
@@ -47,16 +47,7 @@ py::dict tolerances()
 	return result;
 }
 
-py::tuple asTuple(const polytope::HalfSpaces& set) { return py::make_tuple(set.normals, set.offsets); }
-
-py::tuple regularSolid(int faces, yade::Real circumradius) { return asTuple(polytope::regularSolid(faces, circumradius)); }
-
-py::tuple hull(const std::vector<yade::Vector3r>& points, int dimension, yade::Real coplanar)
-{
-	return asTuple(polytope::hullOf(points, dimension, coplanar));
-}
-
-/// Corners, planes with a face, volume, centroid and inscribed ball of a set of half-spaces where it is.
+/// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
 py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
 {
 	const polytope::HalfSpaces set
@@ -71,40 +62,6 @@ py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vecto
 	result["volume"]          = mass.volume;
 	result["centroid"]        = mass.centroid;
 	result["inscribedRadius"] = polytope::ConvexShape(central, 0).inscribedRadius();
-	return result;
-}
-
-/// Half-spaces in the frame of centroid and principal axes, and where that frame is.
-py::dict centred(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets, int dimension, yade::Real thickness,
-        bool keepRedundant)
-{
-	polytope::HalfSpaces given;
-	given.normals            = normals;
-	given.offsets            = offsets;
-	given.dimension          = dimension;
-	polytope::HalfSpaces set = polytope::withoutDuplicates(polytope::normalised(given));
-	if (!keepRedundant) set = polytope::withoutRedundant(set);
-	// first to the centroid, then to the axes: a small body far out has no digits to spare for its inertia
-	yade::Vector3r position = polytope::massProperties(polytope::polyhedron(set, thickness)).centroid;
-	if (dimension == 2) position[2] = 0;
-	set       = polytope::moved(set, yade::Matrix3r::Identity(), -position);
-	auto mass = polytope::massProperties(polytope::polyhedron(set, thickness));
-	// far out the centroid itself was rounded, perhaps by more than the frame may be
-	yade::Vector3r rest = mass.centroid;
-	if (dimension == 2) rest[2] = 0;
-	if (rest.norm() > yade::Polytope::frameTolerance / 100 * cbrt(mass.volume)) {
-		position += rest;
-		set  = polytope::moved(set, yade::Matrix3r::Identity(), -rest);
-		mass = polytope::massProperties(polytope::polyhedron(set, thickness));
-	}
-	const auto axes    = polytope::principalAxes(mass.inertia, dimension);
-	const auto central = polytope::moved(set, axes.rotation.transpose(), yade::Vector3r::Zero());
-	py::dict   result;
-	result["normals"]         = central.normals;
-	result["offsets"]         = central.offsets;
-	result["position"]        = position;
-	result["orientation"]     = yade::Quaternionr(axes.rotation);
-	result["inscribedRadius"] = polytope::ConvexShape(central, 0, thickness).inscribedRadius();
 	return result;
 }
 
@@ -199,15 +156,12 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Tolerances of the numerical core that the module's advice is about, see src/numbers/Tolerances.hpp: *rounding* of this "
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
-	py::def("regularSolid", &regularSolid, (py::arg("faces"), py::arg("circumradius")), "Normals and offsets of a regular polyhedron.");
-	py::def("hull", &hull, (py::arg("points"), py::arg("dimension"), py::arg("coplanar")),
-	        "Normals and offsets of the convex hull of points.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
 	        "a dictionary; None where nothing limits.");
-	py::def("centred", &centred, "Half-spaces moved to centroid and principal axes, as a dictionary.");
+	yade::defineConstruction();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>,

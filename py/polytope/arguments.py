@@ -41,10 +41,11 @@ def vectors(rows, name, length):
 def vector(value, name):
 	try:
 		x, y, z = value
-		vector = Vector3(real(x), real(y), real(z))
+		numbers = real(x), real(y), real(z)
+		vector = Vector3(*numbers)
 	except Exception:  # whatever is no sequence of three numbers
 		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
-	if not all(abs(x) < float('inf') for x in vector):
+	if not all(abs(x) < float('inf') for x in numbers):  # a Vector3 tells by an exception where it ends
 		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
 	return vector
 

@@ -17,8 +17,9 @@ share these keyword arguments (*body* below), with the meaning they have in :yre
 """
 import numbers
 import os
+import random
 
-from yade import Body, Polytope, Quaternion, Vector3
+from yade import Material, O, Quaternion, Vector3
 from yade import utils
 
 from yade import _polytope
@@ -34,6 +35,11 @@ defaultCornerFraction = 0.1
 isotropyTolerance = 1e-9
 """Relative difference of principal moments up to which a body is integrated as isotropic (exact for equal moments)."""
 
+still = (0, 0, 0)
+"""Default velocities."""
+
+colours = random.Random()
+"""Of bodies without a given one: a generator of their own, so that a script's seed stays the script's."""
 
 singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
@@ -49,7 +55,8 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
-	return _body(vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), keepRedundant=keepRedundant, **body)
+	normals, offsets, keepRedundant = vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), flag(keepRedundant, 'keepRedundant')
+	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
 
 
 def fromVertices(points, **body):
@@ -58,7 +65,8 @@ def fromVertices(points, **body):
 	:param points: (n, 3) points [m]; points inside the hull are allowed
 	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
 	"""
-	return _body(*_polytope.hull(vectors(points, 'points', 3), 3, 0), **body)
+	points = vectors(points, 'points', 3)
+	return _body(lambda *corner: _polytope.ofPoints(points, 3, 0, 1, *corner), **body)
 
 
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
@@ -72,8 +80,8 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 	"""
 	if not isinstance(faces, numbers.Integral):
 		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
-	normals, offsets = _polytope.regularSolid(int(faces), number(circumradius, 'circumradius'))
-	return _body(normals, offsets, place=(vector(center, 'center'), rotation(orientation)), **body)
+	faces, circumradius = int(faces), number(circumradius, 'circumradius')
+	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), vector(center, 'center'), rotation(orientation), **body)
 
 
 def cuboid(center, extents, orientation=Quaternion.Identity, **body):
@@ -85,12 +93,9 @@ def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
-	if not all(0 < h < float('inf') for h in half):
+	if not all(0 < half[k] < float('inf') for k in range(3)):
 		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
-	axes = [Vector3.Unit(k) for k in range(3)]
-	normals = [a for axis in axes for a in (axis, -axis)]
-	offsets = [half[k // 2] for k in range(6)]
-	return _body(normals, offsets, place=(vector(center, 'center'), rotation(orientation)), **body)
+	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), vector(center, 'center'), rotation(orientation), **body)
 
 
 def polygon(points2d, thickness=1.0, **body):
@@ -100,12 +105,15 @@ def polygon(points2d, thickness=1.0, **body):
 	:param float thickness: extent along z for mass and contact areas [m]
 	:raises ValueError: naming *points2d*, *thickness*, or a *velocity* or *angularVelocity* out of the plane
 	"""
-	points = [Vector3(p[0], p[1], 0) for p in vectors(points2d, 'points2d', 2)]
-	try:
-		normals, offsets = _polytope.hull(points, 2, 0)
-	except ValueError as error:
-		raise ValueError(str(error).replace('points', 'points2d', 1)) from None
-	return _body(normals, offsets, dimension=2, thickness=thickness, **body)
+	points, thickness = [Vector3(p[0], p[1], 0) for p in vectors(points2d, 'points2d', 2)], number(thickness, 'thickness')
+
+	def shape(*corner):
+		try:
+			return _polytope.ofPoints(points, 2, 0, thickness, *corner)
+		except ValueError as error:
+			raise ValueError(str(error).replace('points', 'points2d', 1) if str(error).startswith('points') else str(error)) from None
+
+	return _body(shape, flat=True, **body)
 
 
 def fromMesh(path, scale=1.0, **body):
@@ -130,20 +138,24 @@ def fromMesh(path, scale=1.0, **body):
 		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
 	if len(points) == 0:
 		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
-	try:
-		hull = _polytope.hull(vectors(points, 'points', 3), 3, singlePrecision)
-	except ValueError as error:
-		raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
-	return _body(*hull, **body)
+	points = vectors(points, 'points', 3)
+
+	def shape(*corner):
+		try:
+			return _polytope.ofPoints(points, 3, singlePrecision, 1, *corner)
+		except ValueError as error:
+			if not str(error).startswith('points'):
+				raise
+			raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
+
+	return _body(shape, **body)
 
 
 def _body(
-        normals,
-        offsets,
-        place=None,
-        dimension=3,
-        thickness=1.0,
-        keepRedundant=True,
+        shape,
+        centre=None,
+        orientation=Quaternion.Identity,
+        flat=False,
         material=-1,
         fixed=False,
         cornerRadius=None,
@@ -151,44 +163,40 @@ def _body(
         wire=False,
         highlight=False,
         mask=1,
-        velocity=(0, 0, 0),
-        angularVelocity=(0, 0, 0)
+        velocity=still,
+        angularVelocity=still
 ):
-	"""The body of a set of half-spaces; *place* moves it there instead of leaving it at its own centroid."""
-	central = _polytope.centred(normals, offsets, dimension, number(thickness, 'thickness'), flag(keepRedundant, 'keepRedundant'))
-	if cornerRadius is None:
-		cornerRadius = defaultCornerFraction * central['inscribedRadius']
-	cornerRadius = number(cornerRadius, 'cornerRadius')
-	body = Body()
-	body.shape = Polytope(
-	        normals=central['normals'],
-	        offsets=central['offsets'],
-	        cornerRadius=cornerRadius,
-	        dimension=dimension,
-	        thickness=thickness,
-	        color=utils.randomColor() if color is None else vector(color, 'color'),
-	        wire=flag(wire, 'wire'),
-	        highlight=flag(highlight, 'highlight')
-	)
-	position, orientation = central['position'], central['orientation']
-	if place:
-		position, orientation = place[0] + place[1] * position, place[1] * orientation
-	inertia = body.shape.inertia
-	fixed = flag(fixed, 'fixed')
-	utils._commonBodySetup(body, body.shape.volume, inertia, material, pos=position, fixed=fixed)
-	body.state.ori = body.state.refOri = orientation
-	body.state.vel = vector(velocity, 'velocity')
-	body.state.angVel = vector(angularVelocity, 'angularVelocity')
-	if dimension == 2:
-		if body.state.vel[2] != 0:
-			raise ValueError(f'velocity: a polygon stays in its plane; the third component must be 0, got {velocity!r}')
-		if body.state.angVel[0] != 0 or body.state.angVel[1] != 0:
-			raise ValueError(f'angularVelocity: a polygon turns about z alone; the first two components must be 0, got {angularVelocity!r}')
-		if not fixed:
-			body.state.blockedDOFs = 'zXY'
-	# a polygon turns about z only, so its other moments never enter
-	body.aspherical = dimension == 3 and max(inertia) - min(inertia) > isotropyTolerance * max(inertia)
+	"""The body of the shape that shape(cornerRadius, default's fraction) makes; *centre* and *orientation* move it there from its own frame."""
+	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
 	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
-	body.mask = int(mask)
+	body = _polytope.body(placed, _material(material), centre, orientation, flag(fixed, 'fixed'), isotropyTolerance)
+	look, state = body.shape, body.state
+	look.color = Vector3(colours.random(), colours.random(), colours.random()) if color is None else vector(color, 'color')
+	if flag(wire, 'wire'):
+		look.wire = True
+	if flag(highlight, 'highlight'):
+		look.highlight = True
+	if mask != 1:
+		body.mask = int(mask)
+	if velocity is not still:
+		state.vel = vector(velocity, 'velocity')
+		if flat and state.vel[2] != 0:
+			raise ValueError(f'velocity: a polygon stays in its plane; the third component must be 0, got {velocity!r}')
+	if angularVelocity is not still:
+		state.angVel = vector(angularVelocity, 'angularVelocity')
+		if flat and (state.angVel[0] != 0 or state.angVel[1] != 0):
+			raise ValueError(f'angularVelocity: a polygon turns about z alone; the first two components must be 0, got {angularVelocity!r}')
 	return body
+
+
+def _material(material):
+	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
+	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
+		O.materials.append(utils.defaultMaterial())
+	if isinstance(material, (int, str)):
+		return O.materials[material]
+	made = material() if callable(material) else material
+	if not isinstance(made, Material):
+		raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
+	return made

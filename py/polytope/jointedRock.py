@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A rock mass cut into blocks by sets of joints.
 
-Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (Boon, Houlsby & Utili
-2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
+Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/shape/JointedBlocks.hpp; Boon,
+Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
 """
 
 import dataclasses
@@ -29,9 +29,6 @@ pieces cost time step and carry nothing."""
 
 oneRounding = 1e-12
 """[rad]: a dip this much above π/2 is vertical."""
-
-touching = 1e-9
-"""Of the block's size: a joint that passes no farther inside a block than this follows a face or corner, and does not cut."""
 
 scatterReach = 3
 """Over the region's radius: how far from its centre, along the mean normal, scattered joints still start that may cross it."""
@@ -141,69 +138,33 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
 	given = _polytope.polyhedron(vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'))
 	# about the region's centroid, where numbers are small
-	centre = np.array(given['centroid'], float)
-	region = _Block(np.array(given['normals'], float), np.array(given['offsets'], float) - np.array(given['normals'], float) @ centre)
-	blocks, radius = [region], region.radius
+	centre, normals = (np.array(given[name], float) for name in ('centroid', 'normals'))
+	offsets = np.array(given['offsets'], float) - normals @ centre
+	radius = float(np.linalg.norm(np.array(given['vertices'], float) - centre, axis=1).max())
+	inscribedRadius = float(given['inscribedRadius'])
 	if smallest is None:
-		smallest = smallestFraction * min(region.inscribedRadius, *(joints.spacing for joints in jointSets))
-	if not _finite(smallest) or not 0 <= smallest <= region.inscribedRadius:
+		smallest = smallestFraction * min(inscribedRadius, *(joints.spacing for joints in jointSets))
+	if not _finite(smallest) or not 0 <= smallest <= inscribedRadius:
 		raise ValueError(
-			f"smallest: must be from zero to the region's own inscribed radius, {region.inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
+			f"smallest: must be from zero to the region's own inscribed radius, {inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
 		)
-	expected = _expectedBlocks(region.volume, jointSets)
+	expected = _expectedBlocks(float(given['volume']), jointSets)
 	if expected > mostBlocks:
 		raise ValueError(f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?')
 	random = np.random.default_rng(seed)
 	planes = np.concatenate([joints.planes(centre, radius, random) for joints in jointSets])
-	uncut, cutting = 0, []
-	for plane in planes:
-		pieces = []
-		for block in blocks:
-			parts = block.cut(plane, smallest) if block.crossedBy(plane) else [block]
-			uncut += parts is None
-			pieces += parts or [block]
-		if len(pieces) > len(blocks):
-			cutting.append(plane)
-		blocks = pieces
-	joints = np.array(cutting).reshape(-1, 4)
+	cut = _polytope.jointedBlocks(*_exactly(normals, offsets), *_exactly(planes[:, :3], planes[:, 3]), real(smallest))
+	faces = np.frombuffer(cut['planes']).reshape(-1, 4).copy()
+	normals, offsets = faces[:, :3], faces[:, 3] + faces[:, :3] @ centre
+	joints = planes[np.frombuffer(cut['cutting'], np.int32)]
 	joints[:, 3] += joints[:, :3] @ centre
+	ends = np.cumsum(np.frombuffer(cut['counts'], np.int32))
 	return JointedRock(
-		[(block.normals, block.offsets + block.normals @ centre) for block in blocks],
-		np.array([block.volume for block in blocks]),
+		[(normals[begin:end], offsets[begin:end]) for begin, end in zip([0, *ends[:-1]], ends, strict=True)],
+		np.frombuffer(cut['volumes']).copy(),
 		joints,
-		uncut,
+		cut['uncut'],
 	)
-
-
-class _Block:
-	"""Half-spaces and corners of a block."""
-
-	def __init__(self, normals, offsets):
-		"""
-		:raises ValueError: if there is nothing inside
-		"""
-		found = _polytope.polyhedron(*_exactly(normals, offsets))
-		self.normals, self.offsets = np.array(found['normals'], float), np.array(found['offsets'], float)
-		self.corners = np.array(found['vertices'], float)
-		self.volume, self.inscribedRadius = float(found['volume']), float(found['inscribedRadius'])
-
-	@property
-	def radius(self):
-		"""Of a ball about the origin that holds it."""
-		return float(np.linalg.norm(self.corners, axis=1).max())
-
-	def crossedBy(self, plane):
-		beyond = self.corners @ plane[:3] - plane[3]
-		least = touching * float(np.ptp(self.corners, axis=0).max())
-		return beyond.min() < -least and beyond.max() > least
-
-	def cut(self, plane, smallest):
-		"""Both parts, or None if one were below *smallest*."""
-		try:
-			parts = [_Block(np.vstack([self.normals, side * plane[:3]]), np.append(self.offsets, side * plane[3])) for side in (1, -1)]
-		except ValueError:  # too flat to have an inside
-			return None
-		return parts if min(part.inscribedRadius for part in parts) >= smallest else None
 
 
 def _expectedBlocks(volume, jointSets):

@@ -7,11 +7,7 @@
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
 
-#include <algorithm>
-#include <map>
 #include <type_traits>
 
 namespace polytope::exact {
@@ -92,30 +88,11 @@ DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& 
 	return result;
 }
 
-Triangles hullTriangles(const std::vector<Vector3>& points)
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
 {
-	using Point = Kernel::Point_3;
-	std::vector<Point>   corners;
-	std::map<Point, int> indexOf;
-	for (const Vector3& p : points) {
-		corners.emplace_back(toNumber(p.x()), toNumber(p.y()), toNumber(p.z()));
-		indexOf.emplace(corners.back(), int(corners.size()) - 1);
-	}
-	// a mesh, not CGAL's plain triangle list: with the traits that one chooses, planes are constructed inexactly
-	CGAL::Surface_mesh<Point> mesh;
-	CGAL::convex_hull_3(corners.begin(), corners.end(), mesh);
-	Triangles triangles;
-	for (const auto face : mesh.faces()) {
-		Triangle    triangle;
-		std::size_t k = 0;
-		for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
-			triangle[k++] = indexOf.at(mesh.point(vertex));
-		std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-		triangles.push_back(triangle);
-	}
-	// CGAL's order follows addresses in memory, which differ from run to run
-	std::sort(triangles.begin(), triangles.end());
-	return triangles;
+	using Point      = Kernel::Point_3;
+	const auto point = [](const Vector3& p) { return Point(toNumber(p.x()), toNumber(p.y()), toNumber(p.z())); };
+	return int(CGAL::orientation(point(a), point(b), point(c), point(d)));
 }
 
 } // namespace polytope::exact

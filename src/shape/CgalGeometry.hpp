@@ -3,12 +3,11 @@
 
 #include "numbers/Real.hpp"
 
-#include <array>
 #include <limits>
 #include <vector>
 
-/// The two questions of shape construction that must not be decided by rounding, asked of CGAL: a linear program in
-/// exact arithmetic and a convex hull with exact predicates. No other file includes CGAL.
+/// The two questions of shape construction that must not be decided by rounding, asked of CGAL where the digits of Real do not
+/// answer them: a linear program, and on which side of a plane a point lies. No other file includes CGAL.
 namespace polytope::exact {
 
 /// lower ≤ x ≤ upper; infinite: free.
@@ -25,11 +24,7 @@ struct DeepPoint {
 /// max t: normals[i]·x + t ≤ offsets[i], t ≤ cap, x within bounds. Exact for the numbers given, the answer rounded.
 DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const Real& cap, const Bounds& bounds);
 
-using Triangle  = std::array<int, 3>;
-using Triangles = std::vector<Triangle>;
-
-/// Convex hull of points that span space: triangles of indices, counter-clockwise seen from outside. Repeated points
-/// appear under the first one's index, points inside not at all; coplanar facets come as several triangles.
-Triangles hullTriangles(const std::vector<Vector3>& points);
+/// Sign of (b − a)·((c − a) × (d − a)): exact for the numbers given.
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
 } // namespace polytope::exact

@@ -16,6 +16,32 @@ namespace polytope::construction {
 
 inline const Real rounding = std::numeric_limits<Real>::epsilon();
 
+/// × sum of the products' sizes in a determinant of three differences: bound of its rounding, (7 + 56 ε) ε with ε half of
+/// `rounding` (Shewchuk 1997, Fig. 21). Beyond, the sign is exact.
+inline const Real volumeRounding = Real(3.5) * rounding * (1 + 64 * rounding);
+
+/// What underflow takes from that determinant at most, for differences below a third of 1 / `rounding`: six products, each off by half of
+/// the smallest number there is, which is `rounding` × this, times a difference.
+inline const Real volumeUnderflow = std::numeric_limits<Real>::min();
+
+/// Bound of the rounding in a triple product of unit vectors: three terms of a product and a difference of products each.
+inline const Real minorRounding = 16 * rounding;
+
+/// Triple product of three planes' normals from which on Cramer's rule finds where they meet; sharper corners are found by
+/// orthogonal elimination. One correction then has all digits: the rule itself loses no more than three.
+inline const Real sharpCorner = 1e-3;
+
+/// Twice a triangle's area over its longest edge's square from which on a cross product of edges gives its normal: it loses no more
+/// than three digits. Below, the normal comes from a singular value decomposition.
+inline const Real sliver = 1e-3;
+
+/// × largest offset: an inscribed ball of at least this radius is found in Real: the linear program's violations are eight
+/// roundings of its artificial planes' distance, a thousandth of this. Whether there is a smaller one, exact arithmetic says.
+inline const Real sureInradius = 1048576 * rounding;
+
+/// × largest offset: where that program's artificial planes stand. A ball farther out is left to exact arithmetic.
+inline const Real ballReach = 64;
+
 /// × size: planes that all pass within this distance of one point make one vertex; points within this distance of one
 /// plane make one facet. 6e-14 in double. A script's plane carries some ten roundings (normalise, rotate, n·p); twenty
 /// times that is still far below the shortest edge promised, 1e-9 of the extent, unless the planes at its two ends turn
@@ -60,6 +86,18 @@ inline const Real unitLength = 4 * rounding;
 
 /// 2-D: a normal's z, or (× extent) a point's z, up to this is rounding (of a rotation, of a computed point) and is set to zero.
 inline const Real outOfPlane = 64 * rounding;
+
+/// × a block's size: a joint that passes no farther inside a block than this follows a face or a corner and does not cut. Joints that
+/// were meant to meet there are apart by rounding of the whole rock, which may be a million blocks wide.
+inline const Real touching = 1e-9;
+
+/// × extent: a centroid this near to the origin is the origin; it was computed with some ten roundings of the extent, and planes that
+/// were given about it stay as they are.
+inline const Real centred = 64 * rounding;
+
+/// × extent: how far a body's position, rounded, may be from its centroid before the planes are taken about the centroid itself and
+/// the body shifted by the difference: a hundredth of what a body's frame may be off (Polytope::frameTolerance).
+inline const Real wellCentred = 1e-8;
 
 /// × volume of the axis-parallel box: a shape with less volume than this is turned before its moments are summed. The sum's
 /// rounding is that of the box, so three digits are lost at most; a plate that lies along the axes is never turned.

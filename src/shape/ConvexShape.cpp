@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ConvexShape.hpp"
 
+#include "shape/InscribedBall.hpp"
+#include "shape/KnownShapes.hpp"
 #include "numbers/NumberText.hpp"
-#include "program/SimplexLp.hpp"
 
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -14,66 +13,33 @@ namespace polytope {
 
 namespace {
 
-	/// Largest inscribed ball by the same simplex, started from a simplex of artificial planes far outside.
 	template <int D>
-	Real findInscribedBall(const HalfSpaces& set, const Real* arrays, int padded, Real reach, std::array<int, 4>& planesOfBall,
+	Real findInscribedBall(const HalfSpaces& set, const Real* arrays, int padded, const Real& reach, std::array<int, 4>& planesOfBall,
 	        std::optional<LpBasis<Real, D>>& ball)
 	{
-		const int           total = padded + padWidth;
-		std::vector<Real>   rows(std::size_t(D + 3) * total, Real(0));
-		PairPlanes<Real, D> planes;
-		for (int k = 0; k < D; ++k)
-			planes.normal[k] = rows.data() + k * total;
-		planes.offset = rows.data() + D * total;
-		planes.slack  = rows.data() + (D + 1) * total;
-		planes.rate   = rows.data() + (D + 2) * total;
-		planes.first  = padded;
-		planes.total  = total;
-		for (int i = 0; i < total; ++i) {
-			for (int k = 0; k < D; ++k)
-				planes.normal[k][i] = i < padded ? arrays[k * padded + i] : Real(0);
-			planes.offset[i] = i < padded ? arrays[D * padded + i] : Real(padOffset);
-		}
-		// a regular simplex (tetrahedron, triangle): Σ a = 0, so λ = 1/(D+1) is feasible
-		LpBasis<Real, D> basis;
-		const Real       corner[4][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
-		const Real       half = Real(1) / 2, root3 = sqrt(Real(3)) / 2;
-		const Real       fan[3][2] = { { 0, 1 }, { -root3, -half }, { root3, -half } };
-		for (int c = 0; c <= D; ++c) {
-			for (int k = 0; k < D; ++k)
-				planes.normal[k][padded + c] = D == 3 ? corner[c][k] / sqrt(Real(3)) : fan[c][k];
-			planes.offset[padded + c] = reach;
-			basis.plane[c]            = padded + c;
-		}
-		const auto inside = [&] {
-			bool all = true;
-			for (int k = 0; k <= D; ++k)
-				all = all && basis.plane[k] < padded;
-			return all;
-		};
-		int       pivots = 0;
-		const int limit  = 1000 + 100 * int(set.size());
-		solveBasis<Real, D>(planes, basis);
-		const LpStatus status = solveLp<Real, D, 1>(planes, basis, reach, Real(padOffset), reach, limit, pivots);
-		if (status != LpStatus::Optimal || !inside()) {
-			planes.total = padded; // solveWide() has artificial planes of its own
-			if (!solveWide<Real, D>(planes, basis, reach, limit, pivots))
-				throw std::runtime_error("ConvexShape: the inscribed ball of a bounded set was not found");
-		}
+		InscribedBall<D> inscribed(arrays, padded, int(set.size()), reach);
+		if (!inscribed.solve() && !inscribed.solveWithMoreDigits())
+			throw std::runtime_error("ConvexShape: the inscribed ball of a bounded set was not found");
 		for (int k = 0; k <= D; ++k)
-			planesOfBall[k] = basis.plane[k];
-		const Real radius = -basis.infeasibility;
-		// once more, for what refinement has left of the inverse
-		if (solveBasis<Real, D>(planes, basis) && dualFeasible<Real, D>(basis)) ball = basis;
+			planesOfBall[std::size_t(k)] = inscribed.basis().plane[k];
+		const Real radius = -inscribed.basis().infeasibility;
+		if (inscribed.solveAgain()) ball = inscribed.basis();
 		return radius;
 	}
 
 } // namespace
 
 ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness)
-        : planes_(normalised(planes)), cornerRadius_(cornerRadius), thickness_(thickness),
-          polyhedron_(polytope::polyhedron(planes_, thickness)), mass_(massProperties(polyhedron_))
+        : ConvexShape(normalised(planes), polytope::polyhedron(planes, thickness), thickness)
 {
+	roundCorners(cornerRadius);
+}
+
+ConvexShape::ConvexShape(const HalfSpaces& unit, Polyhedron faces, const Real& thickness)
+        : planes_(unit), thickness_(thickness), polyhedron_(std::move(faces))
+{
+	placeVertices(planes_, thickness_, polyhedron_);
+	mass_ = massProperties(polyhedron_);
 	fillArrays();
 	const int D = dimension();
 	for (const Vector3& v : polyhedron_.vertices)
@@ -83,24 +49,18 @@ ConvexShape::ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thick
 	const Real reach = 16 * boundingRadius_;
 	inscribedRadius_ = D == 3 ? findInscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.second)
 	                          : findInscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.first);
-	if (!isfinite(cornerRadius) || cornerRadius < 0 || cornerRadius >= boundingRadius_)
-		throw std::invalid_argument(
-		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius "
-		        + numberText(inscribedRadius_) + " m; got " + numberText(cornerRadius));
 }
 
-void ConvexShape::fillArrays()
+void ConvexShape::roundCorners(const Real& radius)
 {
-	const int D = dimension();
-	padded_     = (planeCount() + padWidth - 1) / padWidth * padWidth;
-	arrays_.assign(std::size_t(D + 1) * padded_, Real(0));
-	for (int i = 0; i < padded_; ++i) {
-		const bool real = i < planeCount();
-		for (int k = 0; k < D; ++k)
-			arrays_[k * padded_ + i] = real ? planes_.normals[i][k] : Real(0);
-		arrays_[D * padded_ + i] = real ? planes_.offsets[i] : Real(padOffset);
-	}
+	if (!isfinite(radius) || radius < 0 || radius >= boundingRadius_)
+		throw std::invalid_argument(
+		        "cornerRadius: must be at least 0 and fit inside the body, that is, be smaller than the inscribed ball's radius "
+		        + numberText(inscribedRadius_) + " m; got " + numberText(radius));
+	cornerRadius_ = radius;
 }
+
+void ConvexShape::fillArrays() { padded_ = fillPlaneArrays(planes_.normals, planes_.offsets, dimension(), arrays_); }
 
 std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNormal, int dimension)
 {
@@ -113,31 +73,59 @@ std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNor
 	return wall;
 }
 
+namespace {
+
+	struct KnownConvex {
+		std::weak_ptr<const ConvexShape> shape;
+	};
+
+	KnownShapes<KnownConvex>& knownConvex()
+	{
+		static KnownShapes<KnownConvex> known;
+		return known;
+	}
+
+	KnownShapes<KnownConvex>::Key keyOf(const HalfSpaces& planes, const Real& cornerRadius, const Real& thickness)
+	{
+		KnownShapes<KnownConvex>::Key key { Real(planes.dimension), cornerRadius, thickness };
+		key.reserve(3 + 4 * planes.size());
+		for (const Vector3& n : planes.normals)
+			key.insert(key.end(), { n[0], n[1], n[2] });
+		key.insert(key.end(), planes.offsets.begin(), planes.offsets.end());
+		return key;
+	}
+
+} // namespace
+
 std::shared_ptr<const ConvexShape> ConvexShape::shared(const HalfSpaces& planes, Real cornerRadius, Real thickness)
 {
-	// keyed by the exact numbers; entries whose last body is gone are swept when the map has doubled
-	using Key = std::vector<Real>;
-	static std::mutex                                      mutex;
-	static std::map<Key, std::weak_ptr<const ConvexShape>> known;
-	static std::size_t                                     sweepAt = 64;
+	auto                               key = keyOf(planes, cornerRadius, thickness);
+	KnownConvex                        found;
+	std::shared_ptr<const ConvexShape> shape;
+	if (knownConvex().find(key, found, shape)) return shape;
+	shape = std::make_shared<const ConvexShape>(planes, cornerRadius, thickness);
+	return knownConvex().keep(std::move(key), { shape }, shape);
+}
 
-	Key key { Real(planes.dimension), cornerRadius, thickness };
-	for (const Vector3& n : planes.normals)
-		key.insert(key.end(), { n[0], n[1], n[2] });
-	key.insert(key.end(), planes.offsets.begin(), planes.offsets.end());
-	for (const Real& number : key)
-		if (!(number == number)) return std::make_shared<const ConvexShape>(planes, cornerRadius, thickness); // NaN: refused there
+std::shared_ptr<const ConvexShape> ConvexShape::known(std::shared_ptr<const ConvexShape> shape)
+{
+	return knownConvex().keep(keyOf(shape->planes_, shape->cornerRadius_, shape->thickness_), { shape }, shape);
+}
 
-	const std::lock_guard<std::mutex> lock(mutex);
-	if (auto shape = known[key].lock()) return shape;
-	auto shape = std::make_shared<const ConvexShape>(planes, cornerRadius, thickness);
-	known[key] = shape;
-	if (known.size() > sweepAt) {
-		for (auto it = known.begin(); it != known.end();)
-			it = it->second.expired() ? known.erase(it) : std::next(it);
-		sweepAt = std::max<std::size_t>(64, 2 * known.size());
-	}
-	return shape;
+std::shared_ptr<const ConvexShape> ConvexShape::ofFaces(const HalfSpaces& planes, Polyhedron faces, const std::optional<Real>& cornerRadius,
+        const Real& cornerFraction, const Real& thickness)
+{
+	std::shared_ptr<ConvexShape> shape(new ConvexShape(normalised(planes), std::move(faces), thickness));
+	shape->roundCorners(cornerRadius ? *cornerRadius : cornerFraction * shape->inscribedRadius_);
+	return known(shape);
+}
+
+std::shared_ptr<const ConvexShape> ConvexShape::withCornerRadius(const Real& radius) const
+{
+	if (radius == cornerRadius_) return shared(planes_, radius, thickness_);
+	const auto shape = std::make_shared<ConvexShape>(*this);
+	shape->roundCorners(radius);
+	return known(shape);
 }
 
 } // namespace polytope

@@ -19,11 +19,19 @@ public:
 	/// normalised() and polyhedron() refuse, and a cornerRadius that is negative, not finite, or not smaller than
 	/// boundingRadius(). From inscribedRadius() on the inner particle is empty, but its gradient, all that a contact uses,
 	/// has a direction at every depth. Planes are kept as given, redundant ones and repeated ones too, since each one
-	/// weighs in the analytic centre; withoutDuplicates() and withoutRedundant() are the caller's.
+	/// weighs in the analytic centre; withoutDuplicates() and withoutRedundant() are the caller's (ShapeFactory.hpp).
 	ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
 
 	/// The shared instance for these arguments; builds it only if no body holds one. Thread-safe.
 	static std::shared_ptr<const ConvexShape> shared(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
+
+	/// The shared instance of planes whose faces and approximate vertices are known: nothing is looked for anew. Without a corner
+	/// radius, `cornerFraction` of the inscribed ball's. For ShapeFactory.
+	static std::shared_ptr<const ConvexShape> ofFaces(const HalfSpaces& planes, Polyhedron faces,
+	        const std::optional<Real>& cornerRadius, const Real& cornerFraction, const Real& thickness);
+
+	/// The shared instance of this shape with another corner radius, of which nothing else depends.
+	std::shared_ptr<const ConvexShape> withCornerRadius(const Real& radius) const;
 
 	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded
 	/// shape, not another half-space. Its gradient is its own normal at any depth.
@@ -59,7 +67,10 @@ public:
 
 private:
 	ConvexShape() = default; // for halfSpace
-	void fillArrays();
+	ConvexShape(const HalfSpaces& unit, Polyhedron faces, const Real& thickness);
+	void                                      fillArrays();
+	void                                      roundCorners(const Real& radius);
+	static std::shared_ptr<const ConvexShape> known(std::shared_ptr<const ConvexShape> shape);
 
 	HalfSpaces         planes_;
 	Real               cornerRadius_ = 0;

@@ -7,6 +7,12 @@
 
 namespace polytope {
 
+/// {x : normal·x ≤ offset}, unit outward normal.
+struct Plane {
+	Vector3 normal;
+	Real    offset;
+};
+
 /// A set {x : normals[i]·x ≤ offsets[i]}. Unit outward normals once it has passed normalised().
 /// For dimension 2 the set lies in the xy plane: every normal has z = 0.
 struct HalfSpaces {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ConstructionTolerances.hpp"
 #include "numbers/NumberText.hpp"
+#include "shape/PlaneMeeting.hpp"
 #include "shape/ShapeConstruction.hpp"
-#include "shape/TriangleClusters.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -102,19 +102,56 @@ namespace {
 		Real    width;  ///< root of the second largest moment of the points: near zero for points on a line
 	};
 
+	/// Of a triangle that is no sliver: its plane by a cross product.
+	bool fitOfTriangle(const std::vector<Vector3>& points, const Indices& members, Fit& fit)
+	{
+		const Vector3 &a = points[std::size_t(members[0])], &b = points[std::size_t(members[1])],
+		              &c = points[std::size_t(members[2])];
+		const Vector3 ab = b - a, ac = c - a;
+		const Real    longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), Real((c - b).squaredNorm()) });
+		fit.normal            = ab.cross(ac);
+		const Real area2      = fit.normal.norm(); // twice the area
+		if (!(area2 >= construction::sliver * longest)) return false;
+		fit.normal /= area2;
+		fit.middle = (a + b + c) / 3;
+		fit.misfit = 0;
+		// moments m1 ≥ m2 about the middle: m1 m2 = area2² / 3, m1 + m2 = a third of the squared edges
+		const Real sum     = (ab.squaredNorm() + ac.squaredNorm() + (c - b).squaredNorm()) / 3;
+		const Real product = area2 * area2 / 3;
+		const Real rest    = sum * sum / 4 - product;
+		fit.width          = sqrt(product / (sum / 2 + sqrt(rest > 0 ? rest : Real(0))));
+		return true;
+	}
+
+	/// Whether four points certainly miss every plane by more than the tolerance: a tetrahedron's width is its volume over the
+	/// largest of its triangles' and its two opposite edges' areas, and at best half of it is missed.
+	bool missEachOther(const std::vector<Vector3>& points, const std::array<int, 4>& corners, const Real& tolerance)
+	{
+		const Vector3& o = points[std::size_t(corners[3])];
+		const Vector3  a = points[std::size_t(corners[0])] - o, b = points[std::size_t(corners[1])] - o,
+		              c  = points[std::size_t(corners[2])] - o;
+		const Vector3 ab = a.cross(b), bc = b.cross(c), ca = c.cross(a);
+		const Real largest = std::max({ ab.norm(), bc.norm(), ca.norm(), Real((ab + bc + ca).norm()), Real(a.cross(c - b).norm()),
+		        Real(b.cross(c - a).norm()), Real(c.cross(b - a).norm()) });
+		const Real rounded = construction::minorRounding * a.norm() * b.norm() * c.norm();
+		return abs(c.dot(ab)) - rounded > 2 * tolerance * largest * (1 + construction::minorRounding);
+	}
+
 	/// By QR and the singular values of its 3 × 3 factor: the scatter matrix would square the condition and lose thin facets.
 	Fit planeFit(const std::vector<Vector3>& points, const Indices& members)
 	{
 		Fit fit;
+		if (members.size() == 3 && fitOfTriangle(points, members, fit)) return fit;
 		fit.middle = Vector3::Zero();
 		for (int i : members)
 			fit.middle += points[std::size_t(i)] / Real(members.size());
-		Eigen::Matrix<Real, Eigen::Dynamic, 3> rows(Eigen::Index(members.size()), 3);
+		using Rows = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
+		Rows rows(Eigen::Index(members.size()), 3);
 		for (std::size_t k = 0; k < members.size(); ++k)
 			rows.row(Eigen::Index(k)) = (points[std::size_t(members[k])] - fit.middle).transpose();
-		const Eigen::HouseholderQR<Eigen::Matrix<Real, Eigen::Dynamic, 3>> qr(rows);
-		const Matrix3                   factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
-		const Eigen::JacobiSVD<Matrix3> svd(factor, Eigen::ComputeFullV);
+		const Eigen::HouseholderQR<Rows> qr(rows);
+		const Matrix3                    factor = qr.matrixQR().template topRows<3>().template triangularView<Eigen::Upper>();
+		const Eigen::JacobiSVD<Matrix3>  svd(factor, Eigen::ComputeFullV);
 		fit.normal = svd.matrixV().col(2);
 		fit.width  = svd.singularValues()[1];
 		fit.misfit = (rows * fit.normal).cwiseAbs().maxCoeff();
@@ -156,7 +193,7 @@ namespace {
 	Vector3 innerPoint(const std::vector<Vector3>& points, const Triangles& triangles)
 	{
 		Vector3 inner = Vector3::Zero();
-		for (const exact::Triangle& t : triangles)
+		for (const Triangle& t : triangles)
 			for (int corner : t)
 				inner += points[std::size_t(corner)] / Real(3 * triangles.size());
 		return inner;
@@ -166,7 +203,7 @@ namespace {
 	Indices cornersOf(const Triangles& triangles)
 	{
 		Indices corners;
-		for (const exact::Triangle& t : triangles)
+		for (const Triangle& t : triangles)
 			corners.insert(corners.end(), t.begin(), t.end());
 		std::sort(corners.begin(), corners.end());
 		corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -182,8 +219,8 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
 	// the fitted plane's misfit is at least half the set's width, and at most a few times that
 	if (planeFit(set.points, everyIndex(set.points.size())).misfit <= construction::flatness * set.size) refuseFlat(dimension);
 
-	const Triangles triangles = exact::hullTriangles(set.points);
-	const Edges     edges     = edgesOf(triangles);
+	const Triangles triangles = hullTriangles(set.points);
+	const Edges     edges(triangles);
 	const Vector3   inner     = innerPoint(set.points, triangles);
 	const Indices   corners   = cornersOf(triangles);
 	const Real      tolerance = std::max(construction::coincidence, coplanar) * set.size;
@@ -195,7 +232,10 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
                         reach = std::max(reach, Real(fit.normal.dot(set.points[std::size_t(i)] - fit.middle)));
                 return reach;
 	};
-	const Clusters facets = cluster(triangles, edges, misfit, outside, tolerance);
+	const auto apart = [&](int left, int right) {
+		return missEachOther(set.points, cornersOfTwo(triangles[std::size_t(left)], triangles[std::size_t(right)]), tolerance);
+	};
+	const Clusters facets = cluster(triangles, edges, apart, misfit, outside, tolerance);
 
 	// in the order of their points: that of the triangles depends on how the hull cut the facets
 	std::vector<Indices> ordered;

@@ -3,6 +3,7 @@
 
 #include "shape/CgalGeometry.hpp"
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/InscribedBall.hpp"
 #include "numbers/NumberText.hpp"
 
 #include <cmath>
@@ -66,6 +67,33 @@ namespace {
 			       "check the signs of normals and offsets");
 	}
 
+	/// The largest ball in the arithmetic of Real. False where it does not tell for sure that there is one.
+	template <int D> bool surelyDeepest(const HalfSpaces& set, const std::vector<Real>& offsets, exact::DeepPoint& ball)
+	{
+		std::vector<Real> arrays;
+		const int         padded = fillPlaneArrays(set.normals, offsets, D, arrays);
+		InscribedBall<D>  inscribed(arrays.data(), padded, int(set.size()), construction::ballReach);
+		if (!inscribed.solve()) return false;
+		const Real radius = -inscribed.basis().infeasibility;
+		if (!(radius >= construction::sureInradius)) return false;
+		for (int k = 0; k < D; ++k)
+			ball.point[k] = inscribed.basis().point[k];
+		ball.depth = radius;
+		for (std::size_t i = 0; i < set.size(); ++i)
+			ball.depth = std::min(ball.depth, Real(offsets[i] - set.normals[i].dot(ball.point)));
+		return ball.depth >= radius / 2;
+	}
+
+	exact::DeepPoint deepest(const HalfSpaces& set, const std::vector<Real>& offsets)
+	{
+		exact::DeepPoint ball;
+		if (set.dimension == 3 ? surelyDeepest<3>(set, offsets, ball) : surelyDeepest<2>(set, offsets, ball)) return ball;
+		exact::Bounds bounds;
+		if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
+		// a bounded set's inradius is a weighted mean of its offsets, below 2 in this unit: the cap never cuts it
+		return exact::deepest(set.normals, offsets, 2, bounds);
+	}
+
 } // namespace
 
 void refuseIfOpen(const HalfSpaces& set)
@@ -90,10 +118,7 @@ LocalPlanes aboutInnerPoint(const HalfSpaces& set)
 	std::vector<Real> scaled = set.offsets;
 	for (Real& offset : scaled)
 		offset /= scale;
-	exact::Bounds bounds;
-	if (set.dimension == 2) bounds.lower.z() = bounds.upper.z() = 0;
-	// a bounded set's inradius is a weighted mean of its offsets, below 2 in this unit: the cap never cuts it
-	const exact::DeepPoint ball = exact::deepest(set.normals, scaled, 2, bounds);
+	const exact::DeepPoint ball = deepest(set, scaled);
 	if (ball.depth < 0) refuseIfEmpty(set.normals, scaled, ball);
 	if (ball.depth <= construction::coincidence * (ball.point.norm() + ball.depth)) refuseFlat(set);
 	if (ball.depth * scale < construction::smallestLength)

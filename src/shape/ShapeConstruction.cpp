@@ -2,17 +2,15 @@
 #include "shape/ShapeConstruction.hpp"
 
 #include "shape/ConstructionTolerances.hpp"
-#include "shape/LocalPlanes.hpp"
 #include "numbers/NumberText.hpp"
-#include "shape/TriangleClusters.hpp"
-
-#include <Eigen/QR>
+#include "shape/PlaneMeeting.hpp"
 
 #include <stdexcept>
 #include <string>
 
 // The way from half-spaces to vertices:
-//  1. an exact linear program finds the largest inscribed ball, hence an inner point c, or that there is none;
+//  1. a linear program finds the largest inscribed ball, hence an inner point c, or that there is none: in exact arithmetic where the
+//     digits of Real do not tell;
 //  2. the planes' polar duals n/(d − n·c) have a convex hull, whose triangles are the vertices of the set, three planes
 //     each. Rounding a dual point is the same as rounding its plane's normal and offset, whatever the set's aspect ratio;
 //  3. triangles whose planes all meet in one point to rounding are joined into one vertex (TriangleClusters.hpp), and
@@ -25,30 +23,13 @@ namespace {
 	Triangles dualHull(const LocalPlanes& local)
 	{
 		std::vector<Vector3> duals;
+		duals.reserve(local.normals.size());
 		for (std::size_t i = 0; i < local.normals.size(); ++i)
 			duals.push_back(local.normals[i] / local.slacks[i]);
-		return exact::hullTriangles(duals);
+		return hullTriangles(duals);
 	}
 
-	/// The point nearest to all of the planes (least squares), and the largest distance left.
-	struct Meeting {
-		Vector3 point;
-		Real    misfit;
-	};
-
-	Meeting meeting(const LocalPlanes& local, const Indices& planes)
-	{
-		Eigen::Matrix<Real, Eigen::Dynamic, 3> normals(Eigen::Index(planes.size()), 3);
-		Eigen::Matrix<Real, Eigen::Dynamic, 1> slacks(Eigen::Index(planes.size()));
-		for (std::size_t k = 0; k < planes.size(); ++k) {
-			normals.row(Eigen::Index(k)) = local.normals[std::size_t(planes[k])].transpose();
-			slacks[Eigen::Index(k)]      = local.slacks[std::size_t(planes[k])];
-		}
-		Meeting result;
-		result.point  = normals.colPivHouseholderQr().solve(slacks);
-		result.misfit = (normals * result.point - slacks).cwiseAbs().maxCoeff();
-		return result;
-	}
+	Meeting meeting(const LocalPlanes& local, const Indices& planes) { return polytope::meeting(local.normals, local.slacks, planes); }
 
 	/// How far a point lies outside the set: negative inside.
 	Real reachBeyond(const LocalPlanes& local, const Vector3& point)
@@ -62,7 +43,7 @@ namespace {
 	/// Whether a vertex lies suspiciously far out. By Cramer's rule, which does not hide a vertex that rounding put at infinity.
 	bool mayBeOpen(const LocalPlanes& local, const Triangles& triangles)
 	{
-		for (const exact::Triangle& t : triangles) {
+		for (const Triangle& t : triangles) {
 			if (local.isClosing(t[0]) || local.isClosing(t[1]) || local.isClosing(t[2])) return true;
 			const Vector3 &a = local.normals[std::size_t(t[0])], &b = local.normals[std::size_t(t[1])],
 			              &c          = local.normals[std::size_t(t[2])];
@@ -77,9 +58,11 @@ namespace {
 	Real checkedExtent(const HalfSpaces& set, const LocalPlanes& local, const Triangles& triangles)
 	{
 		if (mayBeOpen(local, triangles)) refuseIfOpen(set);
-		Real extent = 0, misfit = 0;
-		for (const exact::Triangle& t : triangles) {
-			const Meeting vertex = meeting(local, Indices(t.begin(), t.end()));
+		Real    extent = 0, misfit = 0;
+		Indices planes(3);
+		for (const Triangle& t : triangles) {
+			std::copy(t.begin(), t.end(), planes.begin());
+			const Meeting vertex = meeting(local, planes);
 			extent               = std::max(extent, vertex.point.norm());
 			misfit               = std::max(misfit, vertex.misfit);
 		}
@@ -93,8 +76,8 @@ namespace {
 	bool dropCoplanar(LocalPlanes& local, const Edges& edges, const Real& extent)
 	{
 		std::vector<bool> repeated(local.normals.size(), false);
-		for (const auto& edge : edges) {
-			const std::size_t i = std::size_t(edge.first.first), j = std::size_t(edge.first.second);
+		for (const Edges::Edge& edge : edges) {
+			const std::size_t i = std::size_t(edge.from), j = std::size_t(edge.to);
 			if (i > j || repeated[i]) continue;
 			const Real apart
 			        = (local.normals[i] - local.normals[j]).norm() * extent + magnitude(local.slacks[i] - local.slacks[j]);
@@ -120,13 +103,14 @@ namespace {
 		for (std::size_t i = 0; i < planes; ++i) {
 			if (start[i] < 0) continue;
 			Indices& ring = rings[i];
-			int      t    = start[i];
+			ring.reserve(8);
+			int t = start[i];
 			do {
 				const int vertex = clusters.of[std::size_t(t)];
 				if (ring.empty() || ring.back() != vertex) ring.push_back(vertex);
-				const exact::Triangle& corners = triangles[std::size_t(t)];
-				const std::size_t      here    = corners[0] == int(i) ? 0 : corners[1] == int(i) ? 1 : 2;
-				t                              = edges.at({ int(i), corners[(here + 2) % 3] });
+				const Triangle&   corners = triangles[std::size_t(t)];
+				const std::size_t here    = corners[0] == int(i) ? 0 : corners[1] == int(i) ? 1 : 2;
+				t                         = edges.left(int(i), corners[(here + 2) % 3]);
 			} while (t != start[i]);
 			while (ring.size() > 1 && ring.front() == ring.back())
 				ring.pop_back();
@@ -173,7 +157,7 @@ namespace {
 				}
 				vertex = final;
 			}
-			shape.faces.push_back(rings[i]);
+			shape.faces.push_back(std::move(rings[i]));
 			shape.planeOfFace.push_back(local.plane[i]);
 		};
 		for (std::size_t i = 0; i < rings.size(); ++i) // caps stand behind all others
@@ -184,47 +168,102 @@ namespace {
 	/// Each edge shared by two faces that run through it in opposite directions, and Euler's V − E + F = 2.
 	bool isClosed(const Polyhedron& shape)
 	{
-		std::map<std::pair<int, int>, int> uses;
+		std::vector<std::pair<int, int>> edges;
+		edges.reserve(4 * shape.faces.size());
 		for (const Indices& face : shape.faces)
 			for (std::size_t k = 0; k < face.size(); ++k)
-				++uses[{ face[k], face[(k + 1) % face.size()] }];
-		for (const auto& use : uses)
-			if (use.second != 1 || uses.count({ use.first.second, use.first.first }) == 0) return false;
-		return shape.vertices.size() + shape.faces.size() == uses.size() / 2 + 2;
+				edges.push_back({ face[k], face[(k + 1) % face.size()] });
+		std::sort(edges.begin(), edges.end());
+		if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+		for (const auto& edge : edges)
+			if (!std::binary_search(edges.begin(), edges.end(), std::make_pair(edge.second, edge.first))) return false;
+		return shape.vertices.size() + shape.faces.size() == edges.size() / 2 + 2;
+	}
+
+	void checkThickness(const HalfSpaces& set, const Real& thickness)
+	{
+		if (set.dimension != 2) return;
+		if (!(thickness > 0 && (Eigen::numext::isfinite)(thickness)))
+			throw std::invalid_argument("thickness: it must be positive and finite; give the body's length along z");
+		if (!(thickness >= construction::smallestLength && thickness <= construction::largestLength))
+			throw std::invalid_argument("thickness: it must lie between " + numberText(construction::smallestLength) + " and "
+			        + numberText(construction::largestLength) + "; choose another unit of length");
+	}
+
+	/// Vertices and faces in the local frame.
+	Polyhedron localShape(LocalPlanes& local, const HalfSpaces& set)
+	{
+		Triangles triangles = dualHull(local);
+		Real      extent    = checkedExtent(set, local, triangles);
+		Edges     edges(triangles);
+		while (dropCoplanar(local, edges, extent)) {
+			triangles = dualHull(local);
+			extent    = checkedExtent(set, local, triangles);
+			edges     = Edges(triangles);
+		}
+		const Real tolerance = construction::coincidence * local.size(extent);
+		const auto apart     = [&](int left, int right) {
+                        return missEachOther(local, cornersOfTwo(triangles[std::size_t(left)], triangles[std::size_t(right)]), tolerance);
+		};
+		const auto misfit  = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
+		const auto outside = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
+		Polyhedron shape   = assembled(local, triangles, edges, cluster(triangles, edges, apart, misfit, outside, tolerance));
+		// joining can only fail where the set is as thin as rounding somewhere; slivers are the lesser evil then
+		if (!isClosed(shape)) shape = assembled(local, triangles, edges, Clusters(triangles));
+		return shape;
 	}
 
 } // namespace
 
+LocalPolyhedron localPolyhedron(const HalfSpaces& unit, const Real& thickness)
+{
+	checkThickness(unit, thickness);
+	LocalPlanes     local = aboutInnerPoint(unit);
+	LocalPolyhedron result { localShape(local, unit), local.centre, local.unit };
+	if (unit.dimension == 2) {
+		const Real half = thickness / 2 / local.unit;
+		for (Vector3& vertex : result.shape.vertices)
+			vertex.z() = vertex.z() > 0 ? half : Real(-half);
+	}
+	return result;
+}
+
 Polyhedron polyhedron(const HalfSpaces& unit, Real thickness)
 {
-	const HalfSpaces set = normalised(unit);
-	if (set.dimension == 2 && !(thickness > 0 && (Eigen::numext::isfinite)(thickness)))
-		throw std::invalid_argument("thickness: it must be positive and finite; give the body's length along z");
-	if (set.dimension == 2 && !(thickness >= construction::smallestLength && thickness <= construction::largestLength))
-		throw std::invalid_argument("thickness: it must lie between " + numberText(construction::smallestLength) + " and "
-		        + numberText(construction::largestLength) + "; choose another unit of length");
-
-	LocalPlanes local     = aboutInnerPoint(set);
-	Triangles   triangles = dualHull(local);
-	Real        extent    = checkedExtent(set, local, triangles);
-	while (dropCoplanar(local, edgesOf(triangles), extent)) {
-		triangles = dualHull(local);
-		extent    = checkedExtent(set, local, triangles);
-	}
-	const Edges edges     = edgesOf(triangles);
-	const Real  tolerance = construction::coincidence * local.size(extent);
-	const auto  misfit    = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
-	const auto  outside   = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
-	Polyhedron  shape     = assembled(local, triangles, edges, cluster(triangles, edges, misfit, outside, tolerance));
-	// joining can only fail where the set is as thin as rounding somewhere; slivers are the lesser evil then
-	if (!isClosed(shape)) shape = assembled(local, triangles, edges, Clusters(triangles));
-
-	for (Vector3& vertex : shape.vertices) {
+	const HalfSpaces set   = normalised(unit);
+	LocalPolyhedron  local = localPolyhedron(set, thickness);
+	for (Vector3& vertex : local.shape.vertices) {
 		const bool top = vertex.z() > 0;
 		vertex         = local.centre + local.unit * vertex;
 		if (set.dimension == 2) vertex.z() = top ? Real(thickness / 2) : Real(-thickness / 2);
 	}
-	return shape;
+	return std::move(local.shape);
+}
+
+void placeVertices(const HalfSpaces& unit, const Real& thickness, Polyhedron& shape)
+{
+	for (int plane : shape.planeOfFace)
+		if (plane >= 0 && !(unit.offsets[std::size_t(plane)] > 0)) return; // the origin is not inside
+	std::vector<Indices> planes(shape.vertices.size());
+	for (Indices& at : planes)
+		at.reserve(8);
+	for (std::size_t f = 0; f < shape.faces.size(); ++f)
+		for (int vertex : shape.faces[f])
+			if (shape.planeOfFace[f] >= 0) planes[std::size_t(vertex)].push_back(shape.planeOfFace[f]);
+	HalfSpaces all = unit;
+	if (unit.dimension == 2) { // for the cap
+		all.normals.push_back(Vector3::UnitZ());
+		all.offsets.push_back(0);
+	}
+	for (std::size_t v = 0; v < planes.size(); ++v) {
+		if (unit.dimension == 2) planes[v].push_back(int(unit.size()));
+		std::sort(planes[v].begin(), planes[v].end());
+		Vector3& vertex = shape.vertices[v];
+		Vector3  placed = meeting(all.normals, all.offsets, planes[v]).point;
+		if (unit.dimension == 2) placed.z() = vertex.z() > 0 ? Real(thickness / 2) : Real(-thickness / 2);
+		// where blunt corners leave a vertex free to slide, it stays where its construction has put it
+		if ((placed - vertex).norm() <= construction::coincidence * vertex.norm()) vertex = placed;
+	}
 }
 
 HalfSpaces withoutRedundant(const HalfSpaces& unit)

@@ -23,6 +23,20 @@ struct Polyhedron {
 /// argument): empty set, flat set (no interior), unbounded set, non-positive or non-finite thickness.
 Polyhedron polyhedron(const HalfSpaces& unit, Real thickness = 1);
 
+/// A polyhedron about an inner point, where its numbers are small wherever it is: vertices · unit + centre are the caller's.
+struct LocalPolyhedron {
+	Polyhedron shape;
+	Vector3    centre;
+	Real       unit; ///< a power of two that brings the inradius to between 1 and 2
+};
+
+/// As polyhedron(), of planes that have passed normalised().
+LocalPolyhedron localPolyhedron(const HalfSpaces& unit, const Real& thickness);
+
+/// Puts the vertices of a shape where these planes meet: of a shape whose faces are known, so that equal planes have equal vertices
+/// to the last bit however the faces were found. Where the origin is not inside, they stay.
+void placeVertices(const HalfSpaces& unit, const Real& thickness, Polyhedron& shape);
+
 /// The planes that own a face in `polyhedron(unit)`: the set without redundant planes.
 HalfSpaces withoutRedundant(const HalfSpaces& unit);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/CgalGeometry.hpp"
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/ConvexHull.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -23,18 +22,52 @@
 /// the body. So what was fitted must also leave the whole body on one side.
 namespace polytope {
 
-using Indices   = std::vector<int>;
-using Triangles = exact::Triangles;
-using Edges     = std::map<std::pair<int, int>, int>; ///< directed edge → the triangle on its left
+using Indices = std::vector<int>;
 
-inline Edges edgesOf(const Triangles& triangles)
-{
-	Edges edges;
-	for (std::size_t t = 0; t < triangles.size(); ++t)
-		for (std::size_t k = 0; k < 3; ++k)
-			edges[{ triangles[t][k], triangles[t][(k + 1) % 3] }] = int(t);
-	return edges;
-}
+/// The directed edges of a closed surface of triangles, and the triangle on the left of each.
+class Edges {
+public:
+	struct Edge {
+		int from, to, left;
+	};
+
+	explicit Edges(const Triangles& triangles)
+	{
+		int corners = 0;
+		for (const Triangle& t : triangles)
+			corners = std::max({ corners, t[0] + 1, t[1] + 1, t[2] + 1 });
+		begin_.assign(std::size_t(corners) + 1, 0);
+		for (const Triangle& t : triangles)
+			for (int corner : t)
+				++begin_[std::size_t(corner) + 1];
+		std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+		edges_.resize(3 * triangles.size());
+		Indices place = begin_;
+		for (std::size_t t = 0; t < triangles.size(); ++t)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const int from                                  = triangles[t][k];
+				edges_[std::size_t(place[std::size_t(from)]++)] = { from, triangles[t][(k + 1) % 3], int(t) };
+			}
+		for (std::size_t corner = 0; corner + 1 < begin_.size(); ++corner)
+			std::sort(edges_.begin() + begin_[corner], edges_.begin() + begin_[corner + 1],
+			        [](const Edge& a, const Edge& b) { return a.to < b.to; });
+	}
+
+	/// In ascending order of (from, to).
+	std::vector<Edge>::const_iterator begin() const { return edges_.begin(); }
+	std::vector<Edge>::const_iterator end() const { return edges_.end(); }
+
+	/// The triangle on the left of an edge that is there.
+	int left(int from, int to) const
+	{
+		const auto first = edges_.begin() + begin_[std::size_t(from)], last = edges_.begin() + begin_[std::size_t(from) + 1];
+		return std::lower_bound(first, last, to, [](const Edge& edge, int corner) { return edge.to < corner; })->left;
+	}
+
+private:
+	Indices           begin_; ///< corner → its first edge
+	std::vector<Edge> edges_;
+};
 
 struct Clusters {
 	Indices              of;      ///< triangle → the number of its cluster
@@ -44,7 +77,8 @@ struct Clusters {
 	explicit Clusters(const Triangles& triangles) : of(triangles.size())
 	{
 		std::iota(of.begin(), of.end(), 0);
-		for (exact::Triangle triangle : triangles) {
+		members.reserve(triangles.size());
+		for (Triangle triangle : triangles) {
 			std::sort(triangle.begin(), triangle.end());
 			members.emplace_back(triangle.begin(), triangle.end());
 		}
@@ -61,21 +95,25 @@ struct Clusters {
 	{
 		const Indices &first = members[std::size_t(a)], &second = members[std::size_t(b)];
 		Indices        both;
+		both.reserve(first.size() + second.size());
 		std::set_union(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(both));
 		return both;
 	}
 };
 
-/// Neighbours that fit together, the best first.
-template <class Misfit>
-std::vector<std::pair<int, int>> fittingPairs(const Clusters& single, const Edges& edges, const Misfit& misfit, const Real& tolerance)
+/// Neighbours that fit together, the best first. apart(left triangle, right triangle): whether their corners certainly miss
+/// the tolerance, told at less cost than the misfit.
+template <class Apart, class Misfit>
+std::vector<std::pair<int, int>> fittingPairs(
+        const Clusters& single, const Edges& edges, const Apart& apart, const Misfit& misfit, const Real& tolerance)
 {
 	std::vector<std::pair<Real, std::pair<int, int>>> pairs;
-	for (const auto& [edge, left] : edges) {
-		if (edge.first > edge.second) continue;
-		const int  right = edges.at({ edge.second, edge.first });
-		const Real error = misfit(single.together(left, right));
-		if (error <= tolerance) pairs.push_back({ error, { left, right } });
+	for (const Edges::Edge& edge : edges) {
+		if (edge.from > edge.to) continue;
+		const int right = edges.left(edge.to, edge.from);
+		if (apart(edge.left, right)) continue;
+		const Real error = misfit(single.together(edge.left, right));
+		if (error <= tolerance) pairs.push_back({ error, { edge.left, right } });
 	}
 	std::sort(pairs.begin(), pairs.end());
 	std::vector<std::pair<int, int>> result;
@@ -86,11 +124,12 @@ std::vector<std::pair<int, int>> fittingPairs(const Clusters& single, const Edge
 
 /// Joins neighbours where misfit(corners) ≤ tolerance and outside(corners) ≤ construction::support × tolerance: how far
 /// the body reaches beyond what fits these corners best.
-template <class Misfit, class Outside>
-Clusters cluster(const Triangles& triangles, const Edges& edges, const Misfit& misfit, const Outside& outside, const Real& tolerance)
+template <class Apart, class Misfit, class Outside>
+Clusters cluster(const Triangles& triangles, const Edges& edges, const Apart& apart, const Misfit& misfit, const Outside& outside,
+        const Real& tolerance)
 {
 	Clusters   result(triangles);
-	const auto pairs = fittingPairs(result, edges, misfit, tolerance);
+	const auto pairs = fittingPairs(result, edges, apart, misfit, tolerance);
 	// again while anything changes: a sliver that pointed anywhere by itself fits in once its neighbour has grown
 	for (bool changed = true; changed;) {
 		changed = false;

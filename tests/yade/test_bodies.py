@@ -268,3 +268,9 @@ def testContactRefusesWhatIsNoPolytope():
 			polytope.contact(cube, astray)
 	with pytest.raises(ValueError, match='contactPoint'):
 		polytope.contact(cube, cube, contactPoint='middle')
+
+
+@pytest.mark.parametrize('material', [None, 1.5, lambda: None], ids=['none', 'number', 'function'])
+def testWhatMakesNoMaterialIsRefused(material):
+	with pytest.raises(TypeError, match='material: must be a Material'):
+		polytope.cuboid((0, 0, 0), (1, 1, 1), material=material)

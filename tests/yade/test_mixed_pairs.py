@@ -120,3 +120,61 @@ def testBoxWithoutVolumeIsCountedNotFatal():
 	]
 	O.step()
 	assert functor.stats()['failures'] == 1 and not [i for i in O.interactions if i.isReal]
+
+
+def held(support, functor, bound):
+	"""A cube fixed 1e-4 deep in what is under it, and the engines of one such pair."""
+	O.reset()
+	O.materials.append(FrictMat())
+	O.bodies.append(support)
+	O.bodies.append(polytope.cuboid((0, 0, .0999), (.1, .1, .1), fixed=True))
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Polytope_Aabb(), bound], verletDist=.01),
+	        InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+	        NewtonIntegrator()
+	]
+	O.dt = 1e-6
+	O.step()
+	(contact,) = O.interactions
+	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	return contact
+
+
+def testBoxThatGrowsInARun():
+	functor = Ig2_Box_Polytope_PolytopeGeom()
+	contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), functor, Bo1_Box_Aabb())
+	O.bodies[0].shape.extents = (1, 1, .1005)
+	O.step()
+	assert contact.geom.penetrationDepth == pytest.approx(6e-4, rel=1e-9)
+	O.bodies[0].shape.extents = (1, 1, .1)
+	O.step()
+	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	assert functor.stats()['failures'] == 0
+
+
+def testBoxThatLosesItsVolumeInARun():
+	functor = Ig2_Box_Polytope_PolytopeGeom()
+	contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), functor, Bo1_Box_Aabb())
+	O.bodies[0].shape.extents = (1, 1, 0)
+	O.step()
+	assert functor.stats()['failures'] == 1 and contact.geom.status == 'failed'
+	O.bodies[0].shape.extents = (1, 1, .1)
+	O.step()
+	assert functor.stats()['failures'] == 1 and contact.geom.status == 'contact'
+
+
+@pytest.mark.parametrize('flip', [1, -1])
+def testFacetWhoseCornersMoveInARun(flip):
+	corners = [Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0)][::flip]
+	functor = Ig2_Facet_Polytope_PolytopeGeom()
+	contact = held(utils.facet(corners, fixed=True), functor, Bo1_Facet_Aabb())
+	shape = O.bodies[0].shape
+	before = list(shape.vertices)
+	shape.vertices = [v + Vector3(0, 0, 5e-4) for v in before]
+	O.step()
+	assert contact.geom.penetrationDepth == pytest.approx(6e-4, rel=1e-9)
+	shape.vertices = before
+	O.step()
+	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	assert functor.stats()['failures'] == 0

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import yade
-from yade import Body, NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
+from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._scene import geometryFunctors, interactionLoops, laws
 from .boxes import boxes, verletDist
@@ -215,18 +215,8 @@ def planes(scene):
 def _twin(body):
 	"""The body without planes that own no face, where it is."""
 	shape = body.shape
-	central = _polytope.centred(shape.normals, shape.offsets, shape.dimension, shape.thickness, False)
-	twin = Body()
-	twin.shape = Polytope(
-		normals=central['normals'],
-		offsets=central['offsets'],
-		cornerRadius=shape.cornerRadius,
-		dimension=shape.dimension,
-		thickness=shape.thickness,
-	)
-	twin.state.pos = body.state.pos + body.state.ori * central['position']
-	twin.state.ori = body.state.ori * central['orientation']
-	return twin
+	placed = _polytope.ofHalfSpaces(shape.normals, shape.offsets, shape.dimension, shape.thickness, False, shape.cornerRadius, 0)
+	return _polytope.body(placed, body.material, body.state.pos, body.state.ori, True, 0)
 
 
 def numbersOfBodies(scene):

@@ -21,11 +21,12 @@ import sys
 import kernels
 import plots
 import scenes
+import shapes
 import targets
 from tabulate import tabulate
 
 here = pathlib.Path(__file__).resolve().parent
-groups = ('kernels', 'scenes', 'growth', 'threads')
+groups = ('kernels', 'shapes', 'scenes', 'growth', 'threads')
 outputs = (
         'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
         'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
@@ -135,6 +136,13 @@ def kernelGroup(run):
 	return targets.kernelRows(found)
 
 
+def shapeGroup(run):
+	found = shapes.run(run.core, run.quick)
+	run.results['shapes'] = found
+	run.say(tabulate([[name, cost] for name, cost in found['microseconds'].items()], ['bodies made, blocks cut', 'µs each'], floatfmt='.1f') + '\n')
+	return targets.shapeRows(found)
+
+
 def describe(run, results):
 	"""Table of heaps: pairs, contacts, µs."""
 
@@ -222,7 +230,7 @@ def main():
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times say little, ratios are noisy.')
 	rows, interrupted = [], False
-	for name, group in zip(groups, (kernelGroup, sceneGroup, growthGroup, threadGroup), strict=True):
+	for name, group in zip(groups, (kernelGroup, shapeGroup, sceneGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:

@@ -90,6 +90,18 @@ def kernelRows(kernels):
 	return rows
 
 
+def shapeRows(found):
+	cost = found['microseconds']
+	(few, fewer), (many, more) = ((name, blocks) for name, blocks in zip([name for name in cost if name.endswith(' blocks')], found['blocks'], strict=True))
+	return [
+		below('body of a known shape, cube', 15, cost['equal cubes']),
+		below('body of a known shape, icosahedron', 15, cost['equal icosahedra']),
+		below('body of a new hull of 20 points', 200, cost['new hulls of 20 points']),
+		below(f'jointedRock, {more} blocks, per block', 200, cost[many]),
+		atMost(f'jointedRock, per block, {more} blocks', 1.2, f'that of {fewer}', cost[many], cost[few], '{:.1f} µs'),
+	]
+
+
 def sceneRows(found):
 	rows = []
 	for name, methods in found.items():

@@ -6,6 +6,7 @@
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/ConvexShape.hpp"
 #include "shape/ShapeConstruction.hpp"
+#include "shape/ShapeFactory.hpp"
 
 #include <map>
 #include <set>
@@ -90,16 +91,6 @@ void checkShape(const ConvexShape& shape)
 	}
 }
 
-/// Planes to the centroid and the principal axes, as bodies are made.
-HalfSpaces central(const HalfSpaces& unit, Real thickness)
-{
-	Vector3 position = massProperties(polyhedron(unit, thickness)).centroid;
-	if (unit.dimension == 2) position[2] = 0;
-	const HalfSpaces about = moved(unit, Matrix3::Identity(), -position);
-	const auto       axes  = principalAxes(massProperties(polyhedron(about, thickness)).inertia, about.dimension);
-	return moved(about, axes.rotation.transpose(), Vector3::Zero());
-}
-
 void construct(Bytes& bytes)
 {
 	const int  choice    = bytes.byte();
@@ -127,9 +118,12 @@ void construct(Bytes& bytes)
 				        "a point is cut off");
 	} else set = planes(bytes, dimension);
 	checkShape(ConvexShape(set, cornerRadius, thickness));
-	HalfSpaces unit = withoutDuplicates(normalised(set));
-	if (!redundant) unit = withoutRedundant(unit);
-	checkShape(ConvexShape(central(unit, thickness), cornerRadius, thickness));
+	// as bodies are made
+	ShapeOptions options;
+	options.thickness     = thickness;
+	options.keepRedundant = redundant;
+	options.cornerRadius  = cornerRadius;
+	checkShape(*centralShape(set, options).shape);
 }
 
 /// "name: what is wrong": names an argument.

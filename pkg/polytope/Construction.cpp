@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// What bodies.py and jointedRock.py of py/polytope call: a shape made by ShapeFactory, a body made of it, a rock mass cut into blocks.
+#include "Construction.hpp"
+
+#include "Polytope.hpp"
+
+#include <core/Body.hpp>
+#include <core/Material.hpp>
+#include <core/State.hpp>
+
+#include <src/shape/JointedBlocks.hpp>
+#include <src/shape/RegularSolids.hpp>
+#include <src/shape/ShapeFactory.hpp>
+
+#include <boost/python.hpp>
+
+namespace py = boost::python;
+
+namespace yade {
+namespace {
+
+	using polytope::HalfSpaces;
+	using polytope::CentralShape;
+
+	/// cornerRadius None: cornerFraction of the inscribed radius.
+	polytope::ShapeOptions options(Real thickness, bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
+	{
+		polytope::ShapeOptions result;
+		result.thickness      = thickness;
+		result.keepRedundant  = keepRedundant;
+		result.cornerFraction = cornerFraction;
+		if (!cornerRadius.is_none()) result.cornerRadius = Real(py::extract<Real>(cornerRadius));
+		return result;
+	}
+
+	CentralShape ofHalfSpaces(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
+	        bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
+	{
+		return polytope::centralShape({ normals, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
+	}
+
+	CentralShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
+	        const py::object& cornerRadius, Real cornerFraction)
+	{
+		return polytope::centralHull(points, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
+	}
+
+	CentralShape ofRegular(int faces, Real circumradius, const py::object& cornerRadius, Real cornerFraction)
+	{
+		return polytope::centralShape(polytope::regularSolid(faces, circumradius), options(1, true, cornerRadius, cornerFraction));
+	}
+
+	CentralShape ofCuboid(const Vector3r& half, const py::object& cornerRadius, Real cornerFraction)
+	{
+		HalfSpaces planes;
+		for (int k = 0; k < 3; ++k)
+			for (int sign = 1; sign >= -1; sign -= 2) {
+				planes.normals.push_back(sign * Vector3r::Unit(k));
+				planes.offsets.push_back(half[k]);
+			}
+		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
+	}
+
+	/// A body where its shape was found, or there moved to `centre` and turned.
+	shared_ptr<Body> body(const CentralShape& central, const shared_ptr<Material>& material, const py::object& centre,
+	        const Quaternionr& orientation, bool fixed, Real isotropyTolerance)
+	{
+		const auto shape = Polytope::of(central.shape);
+		auto       body  = shared_ptr<Body>(new Body);
+		body->shape      = shape;
+		body->material   = material;
+		body->state      = material->newAssocState();
+		State& state     = *body->state;
+
+		const Vector3r inertia = shape->inertia();
+		state.mass             = shape->volume() * material->density;
+		state.inertia          = inertia * material->density;
+		state.pos              = central.position;
+		state.ori              = Quaternionr(Matrix3r(central.rotation));
+		if (!centre.is_none()) {
+			state.pos = Vector3r(py::extract<Vector3r>(centre)) + orientation * state.pos;
+			state.ori = orientation * state.ori;
+		}
+		state.refPos = state.pos;
+		state.refOri = state.ori;
+		body->setBounded(true);
+		const bool flat   = shape->dimension == 2;
+		state.blockedDOFs = fixed ? State::DOF_ALL : flat ? State::DOF_Z | State::DOF_RX | State::DOF_RY : State::DOF_NONE;
+		// a polygon turns about z only, so its other moments never enter
+		body->setAspherical(!flat && inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
+		return body;
+	}
+
+	py::object bytesOf(const void* data, std::size_t size)
+	{
+		return py::object(py::handle<>(PyBytes_FromStringAndSize(static_cast<const char*>(data), Py_ssize_t(size))));
+	}
+
+	template <class Number> py::object bytesOf(const std::vector<Number>& numbers)
+	{
+		return bytesOf(numbers.data(), numbers.size() * sizeof(Number));
+	}
+
+	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
+	py::dict jointedBlocks(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets,
+	        const std::vector<Vector3r>& jointNormals, const std::vector<Real>& jointOffsets, Real smallest)
+	{
+		std::vector<polytope::Plane> joints;
+		for (std::size_t j = 0; j < jointNormals.size(); ++j)
+			joints.push_back({ jointNormals[j], jointOffsets[j] });
+		const auto          rock = polytope::cutByJoints({ normals, offsets, 3 }, joints, smallest);
+		std::vector<double> planes, volumes;
+		std::vector<int>    counts, cutting;
+		for (const polytope::Block& block : rock.blocks) {
+			for (int plane : block.planes) {
+				const auto& [normal, offset] = rock.planes[std::size_t(plane)];
+				planes.insert(planes.end(), { double(normal[0]), double(normal[1]), double(normal[2]), double(offset) });
+			}
+			counts.push_back(int(block.planes.size()));
+			volumes.push_back(double(block.volume()));
+		}
+		for (std::size_t j = 0; j < joints.size(); ++j)
+			if (rock.cutting[j]) cutting.push_back(int(j));
+		py::dict result;
+		result["planes"]  = bytesOf(planes);
+		result["counts"]  = bytesOf(counts);
+		result["volumes"] = bytesOf(volumes);
+		result["cutting"] = bytesOf(cutting);
+		result["uncut"]   = rock.uncut;
+		return result;
+	}
+
+} // namespace
+
+void defineConstruction()
+{
+	py::class_<CentralShape>("CentralShape", "A shape of ShapeFactory, and where it is.", py::no_init)
+	        .add_property(
+	                "position", +[](const CentralShape& p) { return p.position; }, "Centroid [m].")
+	        .add_property("orientation", +[](const CentralShape& p) { return Quaternionr(Matrix3r(p.rotation)); }, "Principal axes.");
+	py::def("ofHalfSpaces", &ofHalfSpaces, "Shape of planes: normals, offsets, dimension, thickness, keepRedundant, cornerRadius or None, cornerFraction.");
+	py::def("ofPoints", &ofPoints, "Shape of a hull: points, dimension, coplanar, thickness, cornerRadius or None, cornerFraction.");
+	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
+	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
+	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, orientation, fixed, isotropyTolerance.");
+	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
+}
+
+} // namespace yade

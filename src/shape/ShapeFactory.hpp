@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "shape/ConvexShape.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+/// The one way to a body's shape: planes or points in any frame and options in, the shape that bodies share and where it is out. One
+/// construction for a new shape, none for one whose numbers are known from a body that still exists. (What has planes in
+/// the body's frame already, as an archive has, goes to ConvexShape::shared().)
+namespace polytope {
+
+struct ShapeOptions {
+	Real                thickness     = 1;    ///< of a polygon [m]
+	bool                keepRedundant = true; ///< planes that own no face, too; repeated ones go in any case
+	std::optional<Real> cornerRadius;         ///< [m]; none: `cornerFraction` of the inscribed ball's radius
+	Real                cornerFraction = 0;
+};
+
+/// x = position + rotation·(x of the body's frame): the centroid and, as columns, the principal axes (MassProperties.hpp).
+struct CentralShape {
+	std::shared_ptr<const ConvexShape> shape;
+	Vector3                            position = Vector3::Zero();
+	Matrix3                            rotation = Matrix3::Identity();
+};
+
+/// Refuses what normalised(), polyhedron() and ConvexShape refuse. A centroid that differs from the origin by rounding is the
+/// origin, and axes that are principal to rounding stay: such planes are taken over unchanged. Thread-safe.
+CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options);
+
+/// Of the convex hull of points, as hullOf(). Refuses what that refuses, besides.
+CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
+
+} // namespace polytope
