@@ -153,6 +153,18 @@ def testStiffnessPerContactHasNoArea():
 	assert i.phys.kn == stiffness
 
 
+def testRockingDampingHasAnAreaFromTheNextStepOn():
+	floor, block, i = pressed()
+	O.step()
+	assert i.geom.contactArea == 0
+	law().rockingDamping = 0.5
+	O.step()
+	assert i.geom.contactArea > 0 and not i.geom.needsArea  # the law writes nothing into the geometry
+	law().rockingDamping = 0
+	O.step()
+	assert i.geom.contactArea == 0
+
+
 def testSpheresInTheSameScene():
 	"""Contacts without a section get π min(R)², and YADE's own law."""
 	joint(normalStiffness=stiffness, shearStiffness=stiffness / 2)
