@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The default contact, the paper's and the conservative one on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
-the sliding and the roof wedge (C, D), and settled heaps of polyhedra (A), beside closed forms.
+the sliding and the roof wedge and of the slumping slope (C, D, E), energy that the two collisions gain (F), and settled heaps of polyhedra (A), beside
+closed forms.
 
 	./run python examples/paper/contactModels.py            # some minutes; table as output/contactModels/models.csv, too
 	./run python examples/paper/contactModels.py --quick    # coarser friction steps, one small heap: two minutes
@@ -12,14 +13,19 @@ import csv
 import math
 import os
 import pathlib
+import types
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')
 
 from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.beam.theory import BeamBetweenWalls, BeamOfTwoBlocks
+from boon2012.collisions.scene import Collision
+from boon2012.collisions.study import CollisionRun
 from boon2012.reporting.options import writableFolder
 from boon2012.roofWedge.scene import RoofWedge
 from boon2012.slidingWedge.study import limitEquilibrium
+from boon2012.slope.scene import SlumpingSlope, readSlope
+from boon2012.slope.theory import criticalFrictionAngle
 from boon2012.wedges.blockGeometry import BlockGeometry
 from boon2012.wedges.scene import WedgeScene
 from boon2012.wedges.theory import roofWedgeFrictionAngle
@@ -132,6 +138,42 @@ def roofWedge(given):
 		yield f'D: critical angle [°], {way}', closed, *found
 
 
+def slumpingSlope(given):
+	"""Without the conservative contact: rocking on long joints would need time steps a tenth as long, and hours."""
+	blocks = readSlope(geometry / 'e_slope.json')
+	steps = (5, 1, 0.25) if given.quick else (5, 1, 0.25, 0.05)
+
+	def angle(model):
+		scene = SlumpingSlope(**blocks, **contacts[model]).build()
+		reduction = FrictionReduction(scene.freeIds, start=scene.frictionAngle, steps=[math.radians(step) for step in steps],
+			checkEvery=100, stableSpeed=1e-6, failedDistance=0.1, mostSteps=100000)
+		return math.degrees(reduction.run().critical)
+
+	limit = math.degrees(criticalFrictionAngle(blocks['free'], blocks['fixed']).angle)
+	yield 'E: critical angle [°]', limit, *[angle(model) for model in tqdm(('default', 'paper'), 'E', leave=False, disable=None)], None
+
+
+def collisions(given):
+	"""What the contact gives to the motion: no closed form but zero."""
+	blocks = {
+		'geometry': geometry / 'f_collisions.json',
+		'density': Collision.density,
+		'normal_stiffness': Collision.normalStiffness,
+		'shear_stiffness': Collision.shearStiffness,
+		'friction': Collision.frictionCoefficient,
+		'contact_damping': Collision.contactDamping,
+		'damping': Collision.damping,
+		'damp_gravity': Collision.dampGravity,
+		'gravity': Collision.gravity,
+		'corner_radius': Collision.cornerRadius,
+		'time_step': Collision.timeStep,
+		'contact_point': Collision.contactPoint,
+	}
+	for name, label in (('vertexFace', 'F1'), ('edgeEdge', 'F2')):
+		found = each(lambda model, name=name: CollisionRun(types.SimpleNamespace(**blocks), name, **contacts[model]).largestRise()[0], label)
+		yield f'F: largest rise of energy in 200 steps [J], {label}', 0, *found
+
+
 def heap(faces, model, given):
 	"""A settled heap: (porosity, Coordination, time [s], kinetic energy over N m g L)."""
 	number = 100 if given.quick else 200
@@ -165,7 +207,7 @@ def each(measure, label):
 	return [measure(model) for model in tqdm(contacts, label, leave=False, disable=None)]
 
 
-parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'A': heaps}
+parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'E': slumpingSlope, 'F': collisions, 'A': heaps}
 
 
 def main():

@@ -13,16 +13,21 @@ import pytest
 example = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/contactModels.py'
 
 
-def testBothModelsAgreeWithClosedForms(tmp_path):
+def table(folder, *parts):
+	"""{quantity: (closed form, default, paper's normal, conservative)}"""
 	subprocess.run(
-		[sys.executable, example, '--quick', '--only', 'B', 'C', 'D', '--output', 'out'],
-		cwd=tmp_path,
+		[sys.executable, example, '--quick', '--only', *parts, '--output', 'out'],
+		cwd=folder,
 		env={**os.environ, 'OMP_NUM_THREADS': '1'},
 		check=True,
 		timeout=1800,
 	)
-	with open(tmp_path / 'out/models.csv') as file:
-		rows = {row[0]: [float(value) if value else None for value in row[1:]] for row in list(csv.reader(file))[1:]}
+	with open(folder / 'out/models.csv') as file:
+		return {row[0]: [float(value) if value else None for value in row[1:]] for row in list(csv.reader(file))[1:]}
+
+
+def testBothModelsAgreeWithClosedForms(tmp_path):
+	rows = table(tmp_path, 'B', 'C', 'D')
 	assert len(rows) == 6
 	for name, (closed, default, paper, conservative) in rows.items():
 		relative = {'B': 1e-3, 'C': 6e-3, 'D': 1e-3}[name[0]]
@@ -30,6 +35,16 @@ def testBothModelsAgreeWithClosedForms(tmp_path):
 			assert value is None or value == pytest.approx(closed, rel=relative), name
 	_, default, paper, conservative = rows['C: critical angle [°]']
 	assert 33.0 < default < 33.4 and 33.0 < paper < 33.4 and 33.3 < conservative < 33.36
+
+
+def testSlopeAndCollisionsWithTheDefault(tmp_path):
+	"""No corner radius leans the normal: the slope's angle is nearer to limit analysis, and collisions gain next to no energy."""
+	rows = table(tmp_path, 'E', 'F')
+	limit, default, paper, _ = rows['E: critical angle [°]']
+	assert default == pytest.approx(limit, rel=0.01) and abs(default - limit) < abs(paper - limit)
+	for label in ('F1', 'F2'):
+		_, default, paper, conservative = rows[f'F: largest rise of energy in 200 steps [J], {label}']
+		assert default < 1e-2 and default < paper and conservative < 1e-6
 
 
 def testRoofWedgeWithTheConservativeModel(tmp_path, monkeypatch):

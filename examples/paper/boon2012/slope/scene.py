@@ -116,6 +116,8 @@ class SlumpingSlope:
 	normal: str = 'innerPotential'
 	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
+	contactModel: str = 'paper'
+	"""Or 'conservative'; then *normal* and *contactPoint* are not read."""
 
 	# what build() made
 	freeIds: list = dataclasses.field(default_factory=list, init=False)
@@ -143,7 +145,7 @@ class SlumpingSlope:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.05),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactPoint=self.contactPoint, normal=self.normal)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessPerArea)],
 				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 			),
