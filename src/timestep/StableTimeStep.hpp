@@ -36,7 +36,7 @@ inline Matrix3 crossMatrix(const Vector3& a)
 	return m;
 }
 
-/// How easily a body moves: both zero for one that cannot.
+/// Mobility (inverse mass and inertia) of a body: both zero for one that cannot move.
 struct Mobility {
 	Vector3 translation = Vector3::Zero(); ///< 1/√m along each world axis, 0 where blocked
 	Matrix3 rotation    = Matrix3::Zero(); ///< S with S Sᵀ the inverse of the inertia tensor, 0 where blocked
