@@ -8,7 +8,7 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
-// YADE's own shapes against a Polytope. Walls, boxes and facets become half-spaces and take the road of two polytopes;
+// YADE's own shapes against a Polytope. Walls, boxes and facets become half-spaces and are treated as two polytopes;
 // a sphere has a closed form.
 namespace yade {
 

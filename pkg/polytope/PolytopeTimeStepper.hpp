@@ -9,7 +9,7 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper {
 public:
-	/// In steps that are multiples of the interval, at its first, and when bodies were added.
+	/// Active in steps that are multiples of the interval, in its first step, and when bodies were added.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
 
@@ -34,7 +34,7 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 		((Real, motionLimit, 0.1, Attr::triggerPostLoad, "Largest way of a body in a step over its inscribed radius [-], above 0."))
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
-		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it makes up more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing does, O.dt stays as it is."))
+		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it contributes more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing limits it, O.dt is not changed."))
 		, /*ctor*/ timeStepUpdateInterval = 50;
 		, /*py*/
 		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval, "Steps from one update of O.dt to the next, at least 1.")
@@ -43,7 +43,7 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 
 private:
 	PotentialContacts   potential_;
-	TimeStepLimit       material_; ///< of the last look at potential_
+	TimeStepLimit       material_; ///< of the last evaluation of potential_
 	unsigned            updates_ = 0; ///< since then
 	bool                hasRun_ = false;
 	std::size_t         bodies_ = 0;

@@ -8,7 +8,7 @@
 #include <array>
 #include <atomic>
 
-/// The law of rock joints: springs, Mohr–Coulomb strength, dilation, dampers, and the book of their energy.
+/// The law of rock joints: springs, Mohr–Coulomb strength, dilation, dampers, and the accounting of their energy.
 ///
 /// Signs as in RockJoint.hpp; relative velocities are body 2's relative to body 1.
 namespace yade {

@@ -54,8 +54,8 @@ namespace {
 		return ldexp(Real(1), exponent - 1);
 	}
 
-	/// Which of the two a negative depth means: an empty set, or a flat one with rounding. Measured relative to the farthest plane, since
-	/// there is no extent; a needlessly far plane can only make a small gap be reported as "flat".
+	/// Which of the two a negative depth means: an empty set, or a flat one with rounding. Measured relative to the farthest plane,
+	/// since there is no extent; a needlessly far plane can only make a small gap be reported as "flat".
 	void refuseIfEmpty(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const exact::DeepPoint& ball)
 	{
 		Real size = ball.point.norm();
