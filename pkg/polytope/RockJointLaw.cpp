@@ -80,8 +80,8 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	/// The same at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
-	/// Critical damping of a spring between the bodies; 0 if neither can move. Of a spring that is a share of one, the same share of its
-	/// damper: so several pieces damp as one.
+	/// Critical damping of a spring between the bodies; 0 if neither can move. For a share of the full stiffness, the same
+	/// share of its damper: so several pieces damp as one does.
 	Real criticalDamping(Real stiffness) const
 	{
 		const Real inverse = inverseMass(body1, scene) + inverseMass(body2, scene);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Arguments that scripts give, as YADE's numbers and vectors. What is none is a ValueError that names the argument."""
+"""Arguments that scripts give, as YADE's numbers and vectors. What cannot be converted is a ValueError that names the argument."""
 
 import numpy as np
 from yade import Quaternion, Vector3

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What touches what: names the type of a contact of two polytopes, vertex-face, edge-edge, face-face and so on.
+"""Names the type of a contact of two polytopes by the features that touch: vertex-face, edge-edge, face-face and so on.
 
-Contact detection with half-spaces does not know, which is its point; this is for those who look at a run.
+Contact detection with half-spaces does not need it; this is for evaluating runs.
 """
 
 import collections
@@ -60,7 +60,7 @@ class ContactTypes:
 		return typeOf(*features)
 
 	def feature(self, body, point):
-		"""What *body* shows at *point* (world coordinates): 'face', 'edge' or 'vertex'."""
+		"""The feature of *body* at *point* (world coordinates): 'face', 'edge' or 'vertex'."""
 		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(1, 3, 3)
 		return self.features(body, [point], [body.state.pos], turn)[0]
 

@@ -21,17 +21,17 @@ from yade import Box, Facet, O, Polytope, Sphere
 __all__ = ['picture', 'collect']
 
 colorMap = ['#1d4e79', '#3380a8', '#86bcbb', '#f0e4ba', '#f2a541', '#c8451b']
-"""Low to high; dark to light to warm, so that it reads in grey and for colour-blind eyes as well."""
+"""Low to high; dark to light to warm, so that it is readable in grey and for colour-blind readers as well."""
 
 fixedColor = (0.86, 0.86, 0.84)
 viewAngle = 24
-"""Vertical opening of the camera [degrees]; small, so that bodies of equal size look so."""
+"""Vertical opening of the camera [degrees]; small, so that bodies of equal size appear equal."""
 
 legendShare = 0.12
 """Share of the picture's height kept free for the legend, above the scene."""
 
 timeLimit = 300
-"""Seconds after which a picture is given up."""
+"""Seconds after which drawing a picture is aborted."""
 
 
 def picture(
@@ -68,7 +68,7 @@ def picture(
 	:param size: (width, height) in pixels
 	:param background: RGB
 	:param bool edges: draw the edges of the faces
-	:raises RuntimeError: with the drawing program's words, if there is no picture
+	:raises RuntimeError: with the drawing program's message, if there is no picture
 	"""
 	drawn = [b for b in (O.bodies if bodies is None else bodies) if b and b.shape]
 	flat = all(b.shape.dimension == 2 for b in drawn if isinstance(b.shape, Polytope)) and any(isinstance(b.shape, Polytope) for b in drawn)
