@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash
 #
-# What this machine's package system knows. Needs `project` and `cache`.
+# Queries of this machine's package system. Needs `project` and `cache`.
 # shellcheck disable=SC2154
 
 # The packages of these purposes, each once.
@@ -107,5 +107,5 @@ securityMirror() {
 	rm -f "$file"
 }
 
-# The machine's own way to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.
+# The machine's own access to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.
 aptWay() { apt-config dump | grep -E '^Acquire::(Retries|https?)(::|[[:space:]])' || true; }

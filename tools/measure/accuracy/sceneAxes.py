@@ -154,7 +154,7 @@ def collide(model, massRatio, lightMoves=True, turn=(0.3, -0.5, 0.8)):
 	velocities = [body.state.vel.dot(axis) for body in O.bodies]
 	momentum = masses[0] * velocities[0] + masses[1] * velocities[1]
 	given = masses[moving] * (-speed if lightMoves else speed)
-	# elastic: the light body leaves with
+	# elastic: the light body's speed afterwards
 	light = speed * (massRatio - 1) / (massRatio + 1) if lightMoves else speed * 2 * massRatio / (massRatio + 1)
 	return Collision(
 		momentum / given - 1,
