@@ -13,7 +13,7 @@ export LSAN_OPTIONS=print_suppressions=0:suppressions=$project/tools/measure/fuz
 
 fuzzUsage() {
 	cat <<'END'
-./run fuzz [OPTIONS]: feeds construction and contact with whatever libFuzzer thinks of, under AddressSanitizer and UBSan
+./run fuzz [OPTIONS]: runs construction and contact on inputs that libFuzzer generates, under AddressSanitizer and UBSan
 
   --seconds N      for each target (default: 60)
   --target NAME    construction or contact; may be repeated (default: both)

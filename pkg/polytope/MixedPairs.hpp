@@ -12,7 +12,7 @@
 // a sphere has a closed form.
 namespace yade {
 
-// The dispatcher asks for pairs in either order; body 1 is always YADE's shape, body 2 the polytope.
+// The dispatcher calls with pairs in either order; body 1 is always YADE's shape, body 2 the polytope.
 #define POLYTOPE_MIXED_FUNCTOR(KLASS, SHAPE, DOC)                                                                                          \
 	class KLASS : public Ig2_Polytope_Polytope_PolytopeGeom {                                                                          \
 	public:                                                                                                                            \

@@ -8,7 +8,7 @@
 
 /// Prefetches into the cache the data of the InteractionLoop's next pairs, while the present pair is computed.
 ///
-/// A settled heap's pairs stand in the loop in the order in which they came and went, so each brings a kilobyte and a half from
+/// A settled heap's pairs are in the loop in the order in which they were created and deleted, so each brings a kilobyte and a half from
 /// random places in memory; with more than a few thousand bodies this latency costs more than the contact itself. What a pair refers to is
 /// known a few pairs before its turn: first the pair itself, then what it points to, then what its bodies point to.
 namespace yade {

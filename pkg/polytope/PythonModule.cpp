@@ -95,7 +95,7 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	const auto& convex2 = convexOf(body2, "b2");
 	if (convex1.dimension() != convex2.dimension())
 		throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
-	// the functor validates the settings and knows the weights of the normals
+	// the functor validates the settings and gives the weights of the normals
 	yade::Ig2_Polytope_Polytope_PolytopeGeom functor;
 	functor.contactPoint    = contactPoint;
 	functor.tolerance       = tolerance;

@@ -40,7 +40,7 @@ namespace {
 		return b > 0 ? c / (b + root) : (root - b) / a;
 	}
 
-	/// Energy of the normal spring; a conservative contact's geometry knows the energy its force is the gradient of.
+	/// Energy of the normal spring; a conservative contact's geometry has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
 		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0)

@@ -137,7 +137,7 @@ def fromMesh(path, scale=1.0, **body):
 	except Exception as error:  # trimesh passes on the exceptions of its readers
 		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
 	if len(points) == 0:
-		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
+		raise ValueError(f"path: '{path}' has no vertices; its content may not be of the format that its name indicates")
 	points = vectors(points, 'points', 3)
 
 	def shape(*corner):

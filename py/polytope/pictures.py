@@ -64,7 +64,7 @@ def picture(
 	    of polygons along z
 	:param up: direction that is up in the picture; default z, for polygons y
 	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn. Give the same for a series.
-	:param float zoom: above 1 to come nearer than the frame asks for
+	:param float zoom: above 1 to come nearer than the frame requires
 	:param size: (width, height) in pixels
 	:param background: RGB
 	:param bool edges: draw the edges of the faces
@@ -155,7 +155,7 @@ def _localFaces(shape):
 
 
 def _sphereFaces(radius, rings=24):
-	"""Quadrilaterals between circles of latitude; triangles at the poles would not look better."""
+	"""Quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
 	around = 2 * rings
 	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, around, endpoint=False), indexing='ij')
 	points = radius * np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
@@ -229,7 +229,7 @@ def _typicalRadius(bodies):
 
 
 def _camera(points, view, up, aspect, zoom, flat, free):
-	"""The camera that looks against *view* and holds all points, with a share of the height left *free* above them."""
+	"""The camera in the direction *view* from the scene that shows all points, with a share of the height left *free* above them."""
 	right = _unit(np.cross(up, view))
 	axes = np.array([right, np.cross(view, right), view])  # right, up, towards the camera
 	local = points @ axes.T

@@ -128,7 +128,7 @@ constexpr Real nearPole = 0.5;
 constexpr Real lineSearchSlope = 0.1;
 constexpr int  lineSearchSteps = 30;
 
-/// Ipopt's `tol` (it knows doubles only), on numbers that are about one (see IpoptCentre.cpp).
+/// Ipopt's `tol` (it computes in double only), on numbers that are about one (see IpoptCentre.cpp).
 constexpr double ipopt           = 1e-12;
 constexpr int    ipoptIterations = 15;
 
@@ -185,7 +185,7 @@ constexpr Real nearLeverage = 1e-6;
 /// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
 constexpr Real flush = 1e-9;
 
-/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
+/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is searched for.
 constexpr Real parallel = 1e-4;
 
 /// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
@@ -196,8 +196,8 @@ constexpr Real thinContact = 0.1;
 /// on each other: ½).
 constexpr Real carriedBall = 0.25;
 
-/// Projections onto one plane after the other that look for that ball, each this much longer than need be: from beside a seam some two to six
-/// lead there; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
+/// Projections onto one plane after the other that search for that ball, each longer by this factor than necessary: from beside a seam two to
+/// six are enough; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
 constexpr int  mostProjections = 32;
 constexpr Real overProjection  = 1.5;
 

@@ -105,7 +105,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 		if (below > dismissAbove) return end(LpStatus::Separated);
 		R   smallest;
 		int q = mostViolated<R, D, W>(planes, now->point, smallest);
-		// by how much the basis' own planes miss s is what rounding makes of the others
+		// the deviation of the basis' own planes from s is taken as the rounding of the others
 		R rounding = R(tolerance::violation) * size;
 		for (int k = 0; k <= D; ++k)
 			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));

@@ -81,7 +81,7 @@ inline const Real duplicate = 16 * rounding;
 inline const Real smallestLength = 1e-50;
 inline const Real largestLength  = 1e50;
 
-/// A normal this near unit length is left untouched, so that normalising twice changes no bit.
+/// A normal this near unit length is not changed, so that normalising twice changes no bit.
 inline const Real unitLength = 4 * rounding;
 
 /// 2-D: a normal's z, or (× extent) a point's z, up to this is rounding (of a rotation, of a computed point) and is set to zero.

@@ -254,7 +254,7 @@ def testBlockThatSlidesAndDilatesDownASlope(perArea):
 
 
 def testStiffnessSetByTheScript():
-	"""Per contact it stays; per area the joint's own values say what it is."""
+	"""Per contact it stays as it is; per area it follows from the joint's own values."""
 	for perArea in (False, True):
 		O.reset()
 		joint(normalStiffness=stiffness, shearStiffness=stiffness)

@@ -219,7 +219,7 @@ def testShearForceTurnsWithTheBodies(axis):
 		O.run(10, True)
 		block.state.vel = (0, 0, 0)
 		O.step()
-		before, arm = Vector3(i.phys.shearForce), Vector3(block.state.pos)  # copies: YADE hands out references
+		before, arm = Vector3(i.phys.shearForce), Vector3(block.state.pos)  # copies: YADE returns references
 		angle = pi / 2 / steps
 		spin = Vector3(*axis).normalized() * angle / dt
 		for step in range(1, steps + 1):

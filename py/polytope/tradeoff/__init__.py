@@ -49,7 +49,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors
 	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …;
-	    a *newtonTolerance* coarser than the default changes next to nothing, for the depth is kept to 2e-14 of the size anyway),
+	    a *newtonTolerance* coarser than the default changes almost nothing, since the depth is kept to 2e-14 of the size anyway),
 	    *timeStep* [s], *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds;
 	    a row says so where the plug-in was not built for it), or any argument of *build*
 	:param measure: function that runs the scene and returns the number that matters, or several as a list (their error is that of the

@@ -53,7 +53,7 @@ def load(where):
 
 
 def takesTheScene(measure):
-	"""Whether *measure* wants what *build* returned."""
+	"""Whether *measure* takes the value that *build* returned."""
 	return bool(inspect.signature(measure).parameters)
 
 

@@ -29,7 +29,7 @@ density = 2600.0
 
 
 class Scene:
-	"""An empty scene with the plug-in's engines; `failures` and `finite` say how it went."""
+	"""An empty scene with the plug-in's engines; `failures` and `finite` check the result."""
 
 	def __init__(self, model, pull=(0, 0, -gravity), damping=0.0, **law):
 		O.reset()

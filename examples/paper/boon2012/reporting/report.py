@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Common to `./run paper` and `./run accuracy`: run the scripts, write one report, say how it ended."""
+"""Common to `./run paper` and `./run accuracy`: run the scripts, write one report, print the outcome."""
 
 import argparse
 import signal

@@ -90,7 +90,7 @@ class EnergyScene:
 			)
 		O.engines = [
 			ForceResetter(),
-			InsertionSortCollider(bounds, verletDist=0),  # pairs are looked for in each step
+			InsertionSortCollider(bounds, verletDist=0),  # pairs are searched for in each step
 			self.interactionLoop,
 			NewtonIntegrator(damping=self.damping, gravity=(0, 0, -self.gravity)),
 		]

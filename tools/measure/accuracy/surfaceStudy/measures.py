@@ -157,7 +157,7 @@ def rest(floor='plates', body='cube', contact=None, perArea=False, off=0.0, spac
 
 @dataclasses.dataclass
 class Way:
-	"""A way that a closed form knows."""
+	"""A distance for which there is a closed form."""
 
 	distance: float
 	"""Over the closed form's; 1 in theory."""
