@@ -63,7 +63,7 @@ class Run:
 		(self.folder / 'run.json').unlink(missing_ok=True)
 
 	def ended(self):
-		"""True once the script has ended; source and options are written to run.json."""
+		"""True once the script has ended; its key (source, options), exit code and time are written to run.json."""
 		code = self.process.poll()
 		if code is None:
 			return False
