@@ -24,7 +24,7 @@ add_library(polytope_options INTERFACE)
 target_compile_options(polytope_options INTERFACE -Wall -Wextra)
 # Warnings are errors with the compiler we develop with; what another one finds must not stop a user's build.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\.")
-	# seen wrongly by g++ 14 where it inlines Eigen's expressions
+	# false warnings of g++ 14 where it inlines Eigen's expressions
 	target_compile_options(polytope_options INTERFACE -Werror -Wno-error=maybe-uninitialized)
 endif()
 
@@ -44,14 +44,14 @@ if(POLYTOPE_SANITIZE)
 	endif()
 endif()
 
-# YADE is compiled with these. Types of Eigen cross the border between core and YADE, so all our files need the same, or
+# YADE is compiled with these. Types of Eigen are used in the interface between core and YADE, so all our files need the same, or
 # the one-definition rule is broken. Loops that want SIMD work on plain arrays.
 target_compile_definitions(polytope_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_ALIGN EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
 
 # polytope_optimise(<target> <flags for a release build>…)
 function(polytope_optimise target)
 	if(POLYTOPE_SANITIZE)
-		return() # checks make the optimiser's work long and in vain
+		return() # with checks, optimisation takes long and gains nothing
 	endif()
 	foreach(flag IN LISTS ARGN)
 		target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${flag}>)

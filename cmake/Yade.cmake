@@ -4,7 +4,7 @@
 #
 # YADE ships no headers and no CMake package. Its source tree of exactly the installed version serves instead, compiled
 # with exactly the macros of the binary: a macro missing or too many changes the layout of classes, and the first contact
-# crashes without a word from compiler or linker. So the macros are derived from the features the binary reports, by the
+# crashes without a message of compiler or linker. So the macros are derived from the features the binary reports, by the
 # rules of YADE's own CMakeLists.txt, and what is not understood is refused.
 #
 # Sets YADE_FOUND, YADE_VERSION, YADE_FEATURES, YADE_LIBRARY_DIR (…/yade-double), YADE_REAL_BIT, YADE_DEFINITIONS; the function

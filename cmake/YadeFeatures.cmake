@@ -34,7 +34,7 @@ set(YADE_KNOWN_FEATURES
 	LOGGER USEFUL_ERRORS COMPLEX_MP MPFR MPC VTK OPENMP GTS QT5 CGAL PFVFLOW LINSOLV MPI TWOPHASEFLOW SPH LS_DEM DEFORM FEMLIKE
 	LIQMIGRATION GL2PS LBMFLOW THERMAL PARTIALSAT PROFILING POTENTIAL_PARTICLES POTENTIAL_BLOCKS)
 
-# Known to us, and not to be guessed from the outside.
+# Known features whose macros cannot be determined from the binary.
 set(YADE_REFUSED_ASAN "the plug-in would need the same sanitizer")
 set(YADE_REFUSED_FAST_NATIVE "its -march=native cannot be known from the binary")
 set(YADE_REFUSED_VECTORIZE "it changes the alignment of all Eigen types")
@@ -58,7 +58,7 @@ function(yade_definitions features definitions_variable options_variable)
 		list(APPEND definitions ${YADE_MACROS_${feature}})
 	endforeach()
 
-	# combinations that YADE's CMakeLists.txt cannot produce: then this is not the list of features we think it is
+	# combinations that YADE's CMakeLists.txt cannot produce: then the list of features is not what we take it for
 	foreach(pair "MPFR MPC" "MPC MPFR" "TWOPHASEFLOW PFVFLOW" "THERMAL PFVFLOW" "THERMAL OPENMP" "PARTIALSAT PFVFLOW" "PFVFLOW CGAL")
 		separate_arguments(pair)
 		list(GET pair 0 one)

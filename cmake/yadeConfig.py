@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Print what an installed YADE says of itself, one `NAME=value` a line, for cmake/Yade.cmake.
+"""Print version, features and precision of an installed YADE, one `NAME=value` a line, for cmake/Yade.cmake.
 
 Usage: yadeConfig.py <YADE library folder>/py/yade/config.py
 
-The file is executed alone: YADE's libraries are not loaded. It looks at HOME and YADE_PREFIX (and may move an old
+The file is executed alone: YADE's libraries are not loaded. It reads HOME and YADE_PREFIX (and may move an old
 settings folder), so it gets an empty home and no prefix.
 """
 import os

@@ -4,8 +4,9 @@
 	./run python examples/energy.py                 # one to three minutes; writes output/energy.png and prints the errors
 	./run python examples/energy.py --seconds 0.5   # shorter; --output FILE, --help
 
-Stiffness times chord is no gradient of an energy: with the paper's averaged normal (normal='innerPotential') such a gas heats itself up, at any
-time step; with the default's, on which both bodies agree, by less. With contactModel='conservative' the energy stays; what is left falls with the time step, so it is the integrator's.
+Stiffness times chord is no gradient of an energy: with the paper's averaged normal (normal='innerPotential') the energy of such a gas grows, at any
+time step; with the default's, on which both bodies agree, by less. With contactModel='conservative' energy is conserved; the remaining
+error falls with the time step, so it is the integrator's.
 """
 
 import argparse

@@ -2,8 +2,8 @@
 """A rock slope cut into blocks by three sets of joints; slides along its bedding once friction is below the bedding's dip.
 
 Bedding dips 35° out of the face; the other two sets are steep, with random distances and orientations. The slope settles at 45° of
-friction, then friction is set to 37°, where it finds its new balance in two seconds and stands, and to 33°, where it slides (blocks stand
-up to 35°): prints how far blocks have moved meanwhile and draws the slide. Ends with 1 if it is not so.
+friction, then friction is set to 37°, where it comes to a new equilibrium in two seconds and stands, and to 33°, where it slides (blocks
+stand up to 35°): prints how far blocks have moved meanwhile and draws the slide. Ends with 1 if it is not so.
 
 	./run python examples/jointedSlope.py          writes jointedSlope.png
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a fraction of the safe time step does: scenes that come to rest under gravity with PolytopeTimeStepper; see docs/time-step.md.
+"""Effect of the fraction of the safe time step: scenes that come to rest under gravity with PolytopeTimeStepper; see docs/time-step.md.
 
 	./run python examples/timeStep.py [SCENE …] [paper|conservative] [perContact|perArea] [FRACTION …]
 

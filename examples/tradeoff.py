@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What accuracy costs in a scene of your own: three blocks dropped on each other, four settings, one table.
+"""Cost and accuracy of settings in a scene of your own: three blocks dropped on each other, four settings, one table.
 
 	./run python examples/tradeoff.py          prints the table, writes tradeoff.png and tradeoff.csv
 """
@@ -55,9 +55,9 @@ settings = {
 
 if __name__ == '__main__':  # true no more after `from yade import *`, which brings a __name__ of its own: see polytope.tradeoff
 	weight = 9.81 * 2600 * 0.2**3
-	atRest = 0.5 - (3 + 2 + 1) * weight / 1e7  # each contact yields by what it bears
+	atRest = 0.5 - (3 + 2 + 1) * weight / 1e7  # each contact is compressed by the weight it carries
 	table = polytope.tradeoff(build, settings, measure, reference=atRest)
 	table.show()
 	table.csv('tradeoff.csv')
 	table.plot('tradeoff.png', title='height of the third block')
-	print('Best for its price:', ', '.join(row.name for row in table.front()))
+	print('On the Pareto front:', ', '.join(row.name for row in table.front()))

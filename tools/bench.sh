@@ -32,7 +32,7 @@ benchmark() {
 			cmake -S "$project" -B "$programs" -G Ninja -DPOLYTOPE_BENCHMARK=ON -DPOLYTOPE_TESTS=OFF -DPOLYTOPE_YADE=ON \
 			-DYADE_SOURCE_DIR="$yadeSource" -DPOLYTOPE_COAL_PREFIX="$coal"
 		step "building the benchmark" "All messages of the compiler are in the log." ninja -C "$programs" polytope_benchmark
-		# one that cannot be built is named in the results; each compiler takes up to 3 GB
+		# one that cannot be built is named in the results; each compiler process takes up to 3 GB
 		case " $* " in
 			*" --only kernels "* | *" --only=kernels "* | *" --only threads "* | *" --only=threads "* | *" --only shapes "* | *" --only=shapes "*) ;;
 			*) (step "building YADE's PotentialBlock and Polyhedra" "The benchmark goes on without." ninja -j 2 -k 0 -C "$programs" yadePeers) || true ;;

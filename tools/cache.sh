@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash disable=SC2154
 #
-# The cache folder: whose it is, and what of it may be removed. Needs `project`, `cache` and debianRoot.sh.
+# The cache folder: whether it is ours, and what in it may be removed. Needs `project`, `cache` and debianRoot.sh.
 
 # The file says that all else in the folder was made by us (and, by the convention of bford.info/cachedir, that backups may
 # leave it out).
@@ -22,7 +22,7 @@ foreignEntries() {
 	done
 }
 
-# A source tree that we fetched: YADE's, and nobody's clone.
+# A source tree that we fetched: YADE's, and not a user's clone.
 isYadeSource() {
 	case $1 in *.partial) return 0 ;; esac
 	[ "$1" != "$project" ] && [ -e "$1/core/Scene.hpp" ] && [ -e "$1/RELEASE" ] && [ ! -e "$1/.git" ]

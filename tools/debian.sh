@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash
 #
-# What this machine's package system knows. Needs `project` and `cache`.
+# Queries of this machine's package system. Needs `project` and `cache`.
 # shellcheck disable=SC2154
 
 # The packages of these purposes, each once.
@@ -28,7 +28,7 @@ installedVersion() {
 	[[ $status == installed\ * ]] && echo "${status#installed }"
 }
 
-recentYade() { [ -n "${1:-}" ] && dpkg --compare-versions "$1" ge 2025; } # the first one we know the features of
+recentYade() { [ -n "${1:-}" ] && dpkg --compare-versions "$1" ge 2025; } # the oldest version whose features are supported
 
 # Debian's testing and unstable have no VERSION_ID
 osRelease() { sed -n "s/^$1=//p" /etc/os-release | tr -d '"' | grep . || { [ "$1" = VERSION_ID ] && echo 99; }; }
@@ -68,7 +68,7 @@ installMissingPackages() { # PURPOSE…
 	DEBIAN_FRONTEND=noninteractive step "installing ${#missing[@]} packages on this machine" "Try by hand: $line" ${line/install/install -y}
 }
 
-# The archives of the distribution $1 with the label $2 that apt knows here: a line "URI SUITE COMPONENT" each. apt itself reads its source
+# The archives of the distribution $1 with the label $2 that apt has here: a line "URI SUITE COMPONENT" each. apt itself reads its source
 # files, in whatever format. Without package lists it cannot tell whose an archive is: then they are read into a folder of
 # our own.
 archivesOf() {
@@ -107,5 +107,5 @@ securityMirror() {
 	rm -f "$file"
 }
 
-# The machine's own way to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.
+# The machine's own access to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.
 aptWay() { apt-config dump | grep -E '^Acquire::(Retries|https?)(::|[[:space:]])' || true; }

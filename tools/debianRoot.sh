@@ -75,7 +75,7 @@ makeDebianRoot() {
 	fi
 }
 
-# Instead of the settings that mmdebstrap leaves in the root: nothing of the way to the mirror, and files are written safely again.
+# Replaces the settings that mmdebstrap leaves in the root: no access data of the mirror, and files are written safely again.
 withoutSettings() { # ROOT
 	# shellcheck disable=SC2016
 	inNamespace bash -c '
@@ -95,7 +95,7 @@ holdDebianRoot() {
 	flock -s 7
 }
 
-# Is anybody in the root $1? By the lock, and by the processes whose root it is (older versions took no lock).
+# Whether a process runs in the root $1: by the lock, and by the processes whose root it is (older versions took no lock).
 debianRootInUse() {
 	local process
 	for process in /proc/[0-9]*/root; do [ "$(readlink "$process" 2>/dev/null)" != "$1" ] || return 0; done
@@ -103,7 +103,7 @@ debianRootInUse() {
 	! flock -n -x "$1.lock" true
 }
 
-# dropDebianRoot FOLDER: removed, unless somebody is in it
+# dropDebianRoot FOLDER: removed, unless a process runs in it
 dropDebianRoot() {
 	if debianRootInUse "$1"; then
 		echo "  $1 is in use, and stays."
@@ -113,7 +113,7 @@ dropDebianRoot() {
 	removeDebianRoot "$1" && rm -f "$1.made" "$1.lock"
 }
 
-# installInDebianRoot FOLDER PACKAGE…: into the root as it is; those who are in it go on
+# installInDebianRoot FOLDER PACKAGE…: into the existing root; processes that run in it are not affected
 installInDebianRoot() {
 	local folder=$1 way
 	shift

@@ -23,10 +23,10 @@ for folder in /* /var/tmp /run/user; do
 done
 for folder in /proc /sys /dev; do place "$folder"; done
 place /etc/hosts
-# the machine's way out: names and certificates
+# for network access: host names and certificates
 for file in /etc/resolv.conf /etc/ssl/certs/ca-certificates.crt; do [ ! -e "$file" ] || place "$(readlink -f "$file")" "$file"; done
 
-# what belongs to the machine's own programs would mislead those in here
+# settings for the machine's own programs would break those in the root
 unset LD_LIBRARY_PATH LD_PRELOAD PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export LC_ALL=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 here=$PWD

@@ -4,7 +4,7 @@
 # `./run fuzz` and `./run sanitize`: builds of the core and its tests under clang's sanitizers, in folders of their own.
 # Part of inside.sh.
 
-# Ipopt's libraries (MPI) bring handlers of crashes along that would take them from the sanitizers.
+# Ipopt's libraries (MPI) install crash handlers that would replace those of the sanitizers.
 export UCX_ERROR_SIGNALS='' OMPI_MCA_opal_signal=''
 # stacks with names; clang's own tool for it is another package
 symbols=external_symbolizer_path=$(command -v addr2line)
@@ -13,7 +13,7 @@ export LSAN_OPTIONS=print_suppressions=0:suppressions=$project/tools/measure/fuz
 
 fuzzUsage() {
 	cat <<'END'
-./run fuzz [OPTIONS]: feeds construction and contact with whatever libFuzzer thinks of, under AddressSanitizer and UBSan
+./run fuzz [OPTIONS]: runs construction and contact on inputs that libFuzzer generates, under AddressSanitizer and UBSan
 
   --seconds N      for each target (default: 60)
   --target NAME    construction or contact; may be repeated (default: both)

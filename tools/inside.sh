@@ -14,7 +14,7 @@ if [ "${YADE_POLYTOPE_IPOPT:-}" = OFF ]; then build=$project/build-without-ipopt
 widePrecisions="longdouble float128 mpfr150"
 measuringPrograms="accuracy/polytope_extremes search/polytope_search" # that tests and reports run
 export CCACHE_DIR=${CCACHE_DIR:-$cache/ccache}
-# a second clone of the project finds what the first one compiled
+# a second clone of the project reuses what the first one compiled
 export CCACHE_BASEDIR=$project CCACHE_NOHASHDIR=1
 export YADE_PREFIX=$build/overlay # of all precisions
 cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) # nproc takes OMP_NUM_THREADS for the number of cores
@@ -36,7 +36,7 @@ usePrecision() { # PRECISION
 	[ "$precision" = double ] || yadeProgram=yade-$precision
 }
 
-# The build folder belongs to one YADE and one place: with another one it is made anew.
+# The build folder belongs to one YADE and one path: for another one it is made again.
 configure() { # FOLDER PRECISION
 	local entry options=()
 	[ -e "$1/build.ninja" ] && [ "$(cat "$1/key" 2>/dev/null)" = "$buildKey" ] && return
@@ -64,7 +64,7 @@ sourcesKey() { # [tests]
 	} | sha256sum
 }
 
-# What was built from other sources than the present ones is taken out of the way: no test or report is to judge it in their place.
+# Removes what was built from other sources than the present ones: no test or report may use it in their place.
 dropStale() {
 	local name folder key
 	[ -d "$build" ] || return 0 # nothing was built
@@ -121,10 +121,10 @@ search() {
 		"$build/tools/measure/search/polytope_search" --log "$logFile" "$@"
 }
 
-# The full run looks at every precision that its scenes name and that is installed; the quick one at those that happen to be built.
+# The full run uses every precision that its scenes name and that is installed; the quick one those that are already built.
 tradeoff() {
 	local script=$project/tools/measure/tradeoff/tradeoffPaper.py said other needed
-	# options first: a mistake, or --help, has its answer before anything is built
+	# options first: a mistake, or --help, is answered before anything is built
 	said=$(python3 "$script" --check "$@") || exit
 	[ -z "$said" ] || { echo "$said" && exit; }
 	build

@@ -4,7 +4,7 @@
 # installInRoot.sh ROOT PACKAGE…: installs packages in the Debian root. Called in a mount namespace of its own, with APT_WAY: lines
 # of an apt.conf for the way to the mirror.
 #
-# What the machine lends (names, proxies, certificates) lies in a file system in memory that only this process sees.
+# Files copied from the machine (host names, proxies, certificates) are in a file system in memory that only this process sees.
 set -euo pipefail
 root=$1
 shift

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash
 #
-# What the user sees: long steps with their time, failures with reason and remedy. Needs `logs`, a folder.
+# Output for the user: long steps with their time, failures with reason and remedy. Needs `logs`, a folder.
 
 fail() { # TEXT…: ends the run
 	printf '\n%s\n' "yade-polytope: $1" >&2

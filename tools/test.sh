@@ -6,7 +6,7 @@
 results=$build/test-results # a JUnit file for each part; tools/skipped.py reads what was skipped from them
 fast=
 
-# Tests of the core (in double alone), then of the plug-in; both run whatever the first says.
+# Tests of the core (in double alone), then of the plug-in; both run whatever the result of the first.
 runTests() {
 	local result=0
 	if [ "$precision" = double ]; then
@@ -38,7 +38,7 @@ runPytest() {
 testAll() {
 	local result=0 status
 	buildTests
-	if [ -z "$fast" ] && hasPrecision longdouble; then buildPrecision longdouble overlay; fi # now: tests in double look at it, too
+	if [ -z "$fast" ] && hasPrecision longdouble; then buildPrecision longdouble overlay; fi # now, since tests in double use it, too
 	runTests "$@" || result=1
 	if [ -z "$fast" ] && hasPrecision longdouble; then
 		echo

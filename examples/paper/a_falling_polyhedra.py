@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulation A of Boon, Houlsby & Utili (2012): 200 regular polyhedra fall onto a floor between four walls.
 
-Runs one solid or all five and shows that they come to rest (the paper's Fig. 5) and what the contact detection costs: µs
+Runs one solid or all five and shows that they come to rest (the paper's Fig. 5) and the cost of the contact detection: µs
 per contact problem against the number of planes of both bodies, for the linear program, the centre by Newton's method
 and by Ipopt, warm-started from the last step's answer and cold (Fig. 6). Writes results, pictures, ParaView files and
 findings.json. Expected: all particles inside, no query without an answer, kinetic energy below 5e-4 N m g L at the end.
@@ -25,7 +25,7 @@ if __name__ == '__main__':  # --threads counts when YADE is loaded; within `yade
 	early = argparse.ArgumentParser(add_help=False)
 	early.add_argument('--threads', default=os.environ['OMP_NUM_THREADS'])
 	os.environ['OMP_NUM_THREADS'] = early.parse_known_args()[0].threads
-	# `yade`, unlike `python`, does not look beside a script for what it imports
+	# `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from yade import O

@@ -4,8 +4,8 @@
 Two half-beams, 138 mm × 46 mm, between fixed abutments; contacts of 100 MN/m at the abutments and 50 MN/m at midspan. The rotation
 is imposed, so that the curve goes on beyond its peak; the load is the moment of the contact forces over L₁/2. Shown beside Appendix A
 of the paper (closed form) and Goodman's criterion, for the contact point at the centroid of the overlap and at the analytic centre
-(by Newton's method, and by Ipopt where the build has it); then what the abutments' size, contact normals, time step, stiffness and
-load control do to it.
+(by Newton's method, and by Ipopt where the build has it); then the effect of the abutments' size, contact normals, time step, stiffness and
+load control.
 
 Expected: with the centroid, the closed form itself, to rounding: peak 37 027.3 N at 6.7469°. With the analytic centre and abutments
 of three block heights 31 278 N at 6.37°. The load imposed instead reaches the peak and snaps through. Ends with 1 if not.
@@ -21,7 +21,7 @@ import sys
 from itertools import product
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
-if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np

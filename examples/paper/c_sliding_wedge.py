@@ -4,7 +4,7 @@
 The wedge settles at a friction angle of 70°; from there the angle goes down by 1° until the wedge fails (moves by more than 20 mm), and,
 from the last stable state, by finer steps. Stable is what becomes slower than 2e-7 m/s. What is shown: the critical angle beside limit
 equilibrium (33.357°), the paper (33.23°) and 3DEC (33.19°); the transverse shear locked into the joints, which explains the difference;
-and how far the answer hangs on friction steps, time step, damping, stiffness and contact point. Expected: 33.23° ± 0.05°, asserted for
+and how far the answer depends on friction steps, time step, damping, stiffness and contact point. Expected: 33.23° ± 0.05°, asserted for
 the settings below; another shape of wedge, or another path to failure, gives 33.0° to 33.4°. Ends with 1 if what must hold does not.
 
 	./run python examples/paper/c_sliding_wedge.py                  # half a minute
@@ -18,7 +18,7 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
-if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from boon2012.reporting.findings import Findings

@@ -42,7 +42,7 @@ contacts = {
 	'paper': {'normal': 'innerPotential'},
 	'conservative': {'contactModel': 'conservative'},
 }
-"""What the scenes are asked for: the linear program's own normal, the paper's averaged one, the contact that keeps energy."""
+"""Contacts that are compared: the linear program's own normal, the paper's averaged one, the contact that conserves energy."""
 geometry = pathlib.Path(__file__).parent / 'geometry'
 barrier = 3e-3
 """Default of Ig2_Polytope_Polytope_PolytopeGeom."""

@@ -4,7 +4,7 @@
 The joints dip 60° at 30°, 150° and 270°; the wedge is 1 m high; σ_h = 0.05 MPa both ways. Way 1: the stress field's normal and shear
 forces are set on the joints, the blocks around are fixed. Way 2: stress on the boundary closes the joints, then the blocks are fixed.
 Then the friction angle goes down from 70° until the wedge falls. Expected: φ = α + atan(W/ΣH) with α = 30° and the horizontal forces ΣH
-on the wedge, which gives 34.402° (34.319° with g = 9.81 m/s²), within 0.02° both ways. Last, what made the paper's 34.81° with
+on the wedge, which gives 34.402° (34.319° with g = 9.81 m/s²), within 0.02° both ways. Last, the cause of the paper's 34.81° with
 boundary stress: blocks that touch each other around the wedge and take a part of the stress. Ends with 1 if what must hold does not.
 
 	./run python examples/paper/d_roof_wedge.py                  # half a minute
@@ -17,7 +17,7 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
-if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from boon2012.reporting.findings import Findings

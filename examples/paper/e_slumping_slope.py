@@ -13,7 +13,7 @@ Ends with 1 if the angle, the mode or the analysis is not as expected, or a cont
 	./run python examples/paper/e_slumping_slope.py --geometry other.json --corner-radius 0.01 --steps 1 0.2 --output other
 
 A geometry file has corners of polygons: {"free": [[[x, y], …], …], "fixed": […], "params": {"delta": dip [°], "s": bedding spacing [m]}}.
-The toe must be on the left, and the face look to the left.
+The toe must be on the left, and the face must point to the left.
 """
 
 import math
@@ -21,7 +21,7 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; thirty bodies are too few for more
-if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from boon2012.reporting.findings import Findings
@@ -78,7 +78,7 @@ def options():
 	parser.add_argument('--start', type=angle, default=start, help='friction angle to settle at [°]')
 	parser.add_argument('--steps', type=positive, nargs='+', action=Decreasing, default=steps, help='reductions of the friction angle [°]')
 	parser.add_argument('--failed-distance', type=positive, default=0.1, help='motion of a block that counts as failure [m]')
-	parser.add_argument('--stable-speed', type=positive, default=1e-6, help='below it at three looks in turn a state is stable [m/s]')
+	parser.add_argument('--stable-speed', type=positive, default=1e-6, help='below it at three consecutive checks a state is stable [m/s]')
 	parser.add_argument('--most-steps', type=count, default=100000, help='of one friction angle; not at rest by then counts as failure')
 	given = parser.parse_args()
 	given.reference = isReference(parser, given, besides=(*physical, *numerical))

@@ -20,7 +20,7 @@ import os
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; two bodies are too few for more
-if __name__ == '__main__':  # `yade`, unlike `python`, does not look beside a script for what it imports
+if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from boon2012.collisions.plots import drawSequence, plotJumps, plotOverview, plotTransitions
@@ -90,13 +90,13 @@ def figures(findings, given, run):
 	plotOverview(folder / f'{label}_overview.png', run)
 	findings.figure(
 		f'{label}_overview.png',
-		f'{label} over time; the background is the contact type. The last panel shows where energy went since the start.',
+		f'{label} over time; the background is the contact type. The last panel shows the energy balance since the start.',
 	)
 	plotJumps(folder / f'{label}_jumps.png', run)
 	findings.figure(f'{label}_jumps.png', f'{label}: change of contact point, normal and contact force from one step to the next.')
 	if plotTransitions(folder / f'{label}_transitions.png', run):
 		caption = (
-			f'{label}: the first change of each kind between contact types, step by step. Where the shear force goes to and fro from step '
+			f'{label}: the first change of each kind between contact types, step by step. Where the shear force alternates from step '
 			'to step, the contact alternates between sticking, where the shear damper acts, and sliding, where it does not.'
 		)
 		findings.figure(f'{label}_transitions.png', caption)

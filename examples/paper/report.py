@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The six simulations of Boon, Houlsby & Utili (2012), and one report of what came out: the program behind `./run paper`.
+"""The six simulations of Boon, Houlsby & Utili (2012), and one report of the results: the program behind `./run paper`.
 
 Each script of this folder runs as a program of its own and leaves its findings (boon2012.reporting.findings) in a folder of its
 own. Out of these come report.html, with all figures and tables, and results.csv, with all rows paper / closed form / ours.
 A simulation that is complete, of the same source and with the same options, is not run again: an interrupted call goes on
-where it stood. Ends with 1, and says why, if a row that must hold was missed or a script failed.
+where it stopped. Ends with 1, and says why, if a row that must hold was missed or a script failed.
 
 	./run paper                      # all six
 	./run paper --quick              # short variants with the same tolerances

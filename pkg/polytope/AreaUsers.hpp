@@ -6,13 +6,13 @@
 
 #include <atomic>
 
-/// Laws that read the area of every contact, whatever its physics. The geometry functor looks for them; a law writes nothing into a geometry.
+/// Laws that read the area of every contact, whatever its physics. The geometry functor finds them; a law writes nothing into a geometry.
 namespace yade {
 
 class UsesContactArea {
 public:
 	virtual ~UsesContactArea() = default;
-	/// Now: an attribute of the law may decide it.
+	/// At present: an attribute of the law may decide it.
 	virtual bool usesContactArea() const = 0;
 };
 

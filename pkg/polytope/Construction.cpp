@@ -62,7 +62,7 @@ namespace {
 		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
 	}
 
-	/// A body where its shape was found, or there moved to `centre` and turned.
+	/// A body at the pose that the construction of its shape gave, or moved to `centre` and turned.
 	shared_ptr<Body> body(const CentralShape& central, const shared_ptr<Material>& material, const py::object& centre,
 	        const Quaternionr& orientation, bool fixed, Real isotropyTolerance)
 	{

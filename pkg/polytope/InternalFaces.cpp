@@ -52,7 +52,7 @@ namespace {
 					addPlane(planes, normal, box->extents[k] + normal.dot(centre));
 				}
 		} else if (const auto* facet = dynamic_cast<const Facet*>(shape)) {
-			// as deep as need be, on the side the other body is not on
+			// as deep as necessary, on the side away from the other body
 			Vector3r corner[3];
 			for (int k = 0; k < 3; ++k)
 				corner[k] = centre + rotation * facet->vertices[k];
@@ -131,7 +131,7 @@ namespace {
 	};
 
 	/// Whether a ball of this radius was found inside all planes: from `start` to the nearest place inside the plane that is violated most,
-	/// and a little further, some times over. Where the answer is no there may be room all the same, but little.
+	/// and a little further, some times over. Where the result is false there may still be such a ball in a narrow space.
 	bool hasRoom(const Planes& one, const Planes& other, Vector3r start, Real radius)
 	{
 		for (int step = 0; step < polytope::tolerance::mostProjections; ++step) {

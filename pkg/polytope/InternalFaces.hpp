@@ -8,10 +8,10 @@
 
 /// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
 ///
-/// A contact sees two bodies. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a sliver, and X's side
-/// face, which B covers, seems to stand in the way. Such a face is *internal*: nothing can press on it there. A plane of X that
-/// bounds the overlap is internal if another piece B fills the place just outside of it, at the height of the contact point; so a
-/// step higher than the overlap is deep, an edge that is free, and a gap wider than the largest ball in the overlap are what they are.
+/// A contact is computed from two bodies alone. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a
+/// sliver, and X's side face, which B covers, would act as an obstacle. Such a face is *internal*: nothing can touch it there. A plane of X
+/// that bounds the overlap is internal if another piece B fills the place just outside of it, at the height of the contact point; so a
+/// step higher than the overlap is deep, an edge that is free, and a gap wider than the largest ball in the overlap are not affected.
 ///
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
 namespace yade {
@@ -36,7 +36,7 @@ struct TouchingPair {
 };
 
 /// Whether one of two bodies is a piece of a rigid support, fixed or a member of a clump, that the other one moves on. Free pieces are bodies of
-/// their own: they may part, and their joints carry what the contacts say.
+/// their own: they may separate, and their joints carry the contact forces.
 bool mayHaveInternalFaces(const Body& body1, const Body& body2);
 
 /// Of the planes that bound the overlap those that are internal faces.

@@ -25,7 +25,7 @@ namespace {
 	{
 		const shared_ptr<Factorable> object = ClassFactory::instance().createShared(name);
 		const std::size_t            block  = malloc_usable_size(dynamic_cast<void*>(object.get()));
-		// malloc rounds a block up to a multiple of 16 bytes, less the 8 of its own head
+		// malloc rounds a block up to a multiple of 16 bytes, less the 8 of its own header
 		if (block < sizeof(Class) || block > sizeof(Class) + 24) {
 			faults += std::string("\t") + name + " takes " + std::to_string(sizeof(Class)) + " bytes in the plug-in, about "
 			        + std::to_string(block) + " in YADE\n";
@@ -58,7 +58,7 @@ namespace {
 	void compareAll()
 	{
 #if YADE_REAL_BIT > 64
-		boost::python::import("yade._minieigenHP"); // Real's converters; for double Python has its own
+		boost::python::import("yade._minieigenHP"); // Real's converters to Python; for double Boost.Python has them
 #endif
 		check<Scene>("Scene", member("dt", &Scene::dt), member("iter", &Scene::iter), member("subStep", &Scene::subStep),
 		        member("time", &Scene::time), member("stopAtTime", &Scene::stopAtTime), member("isPeriodic", &Scene::isPeriodic),

@@ -146,8 +146,8 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const
 	result.hasGeometry   = true;
 	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
 	result.depth         = depth;
-	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a distance's gradient is a conservative force as it is
-	result.infeasibility = -depth / 2; // the largest ball between a sphere and a plane has the depth for its diameter
+	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a force along the gradient of a distance is conservative
+	result.infeasibility = -depth / 2; // the diameter of the largest ball between a sphere and a plane is the depth
 	result.normal        = -(state2.ori * nearest.outward);
 	result.point         = (radius - depth / 2) * result.normal;
 	const Real cap       = math::max(Real(0), math::min(depth / 2, radius));

@@ -8,11 +8,11 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
-// YADE's own shapes against a Polytope. Walls, boxes and facets become half-spaces and take the road of two polytopes;
+// YADE's own shapes against a Polytope. Walls, boxes and facets become half-spaces and are treated as two polytopes;
 // a sphere has a closed form.
 namespace yade {
 
-// The dispatcher asks for pairs in either order; body 1 is always YADE's shape, body 2 the polytope.
+// The dispatcher calls with pairs in either order; body 1 is always YADE's shape, body 2 the polytope.
 #define POLYTOPE_MIXED_FUNCTOR(KLASS, SHAPE, DOC)                                                                                          \
 	class KLASS : public Ig2_Polytope_Polytope_PolytopeGeom {                                                                          \
 	public:                                                                                                                            \

@@ -41,7 +41,7 @@ private:
 	PyObject* object;
 };
 
-/// Folder of this library: as YADE opened it, so a symbolic link counts where it lies.
+/// Folder of this library: as YADE opened it, so for a symbolic link the folder of the link.
 std::string ownFolder()
 {
 	Dl_info info;
@@ -64,7 +64,7 @@ std::string yadeConfig(const char* name)
 	return text ? text : "";
 }
 
-/// What of the running YADE is not as it was when the plug-in was compiled; empty if all is.
+/// In what the running YADE differs from the one the plug-in was compiled for; empty if in nothing.
 std::string differenceFromBuild()
 {
 	using namespace polytope::buildInfo;
@@ -82,7 +82,7 @@ std::string differenceFromBuild()
 	return "";
 }
 
-/// Loads the classes; what went wrong, or empty.
+/// Loads the classes; returns the error, or an empty text.
 std::string loadClasses(const std::string& folder)
 {
 	for (const char* library : polytope::buildInfo::yadeLibraries)
@@ -105,7 +105,7 @@ void extendYadePath(const std::string& folder)
 	PyErr_Clear();
 }
 
-/// Lets `from yade import polytope` tell why there is none.
+/// Makes `from yade import polytope` raise an ImportError with the reason.
 void refuse(const std::string& reason)
 {
 	const char* const finder = R"(

@@ -63,7 +63,7 @@ void Polytope::postLoad(Polytope&)
 			offsets.push_back(math::fromStringReal(number[3]));
 		}
 	}
-	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): planes are still to come from an archive
+	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): the planes are loaded from an archive afterwards
 	if (convex_) {                                              // the corner radius is the only attribute that can have changed
 		try {
 			adopt(convex_->withCornerRadius(cornerRadius));
@@ -77,7 +77,7 @@ void Polytope::postLoad(Polytope&)
 	planes.normals   = normals;
 	planes.offsets   = offsets;
 	planes.dimension = dimension;
-	// a plane written twice would pull the contact point as two; once built there are none
+	// a repeated plane would count twice in the analytic centre; once built there are none
 	adopt(polytope::ConvexShape::shared(polytope::withoutDuplicates(polytope::normalised(planes)), cornerRadius, thickness));
 	normals = convex_->planes().normals;
 	offsets = convex_->planes().offsets;
@@ -142,7 +142,7 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 	const Real     any  = std::numeric_limits<Real>::infinity();
 	const bool     told = rooms && body && body->id < Body::id_t(rooms->size());
 	const Real     room = told ? (*rooms)[body->id] : mayTurn(body) ? any : Real(0);
-	// along these axes a turn is felt (a polygon turns about z alone)
+	// axes along which a rotation moves vertices (a polygon turns about z alone)
 	const int turning = convex && room > 0 ? convex->dimension() : 0;
 	if (convex && (room < any || turning < 3)) {
 		low = high = turn * convex->polyhedron().vertices.front();
@@ -153,7 +153,7 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 		}
 	}
 	for (int k = 0; k < turning; ++k) {
-		// the tight box with that room, and never more than the ball's (the disc's)
+		// the tight box enlarged by that distance, and never larger than the ball's (the disc's)
 		const Real stretch = unshear.row(k).head(turning).norm(), ball = convex->boundingRadius() * stretch;
 		high[k] = room < any ? math::min(ball, Real(high[k] + room * stretch)) : ball;
 		low[k]  = room < any ? math::max(-ball, Real(low[k] - room * stretch)) : -ball;

@@ -17,10 +17,10 @@ public:
 	void postLoad(Polytope&);
 
 	/// Relative to the size (centroid) and to the trace (products of inertia): how far the body frame may be off before
-	/// the shape is refused. Loose enough for planes typed with six digits, far below what shows in a simulation.
+	/// the shape is refused. Loose enough for planes typed with six digits, far below what affects a simulation.
 	static constexpr double frameTolerance = 1e-6;
 
-	/// In YADE's 150-digit build the numbers of a list are written to binary archives as they stand in memory, which is an address:
+	/// In YADE's 150-digit build the numbers of a list are written to binary archives as their memory image, which is an address:
 	/// there the planes go into archives as text.
 	static constexpr bool planesAsText = std::numeric_limits<Real>::digits > 113;
 	void                  preSave(Polytope&);
@@ -41,7 +41,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Polytope, Shape,
 	R"""(Convex polyhedron (or, with :yref:`dimension<Polytope.dimension>` 2, convex polygon) given by half-spaces $\vec a_i\cdot\vec x\le d_i$ in the body's frame, whose origin is the centroid and whose axes are the principal axes of inertia [Boon2012]_. Usually made by the functions of the module ``yade.polytope`` (*regular*, *cuboid*, *fromHalfSpaces*, *fromVertices*, *fromMesh*, *polygon*), which also set mass, inertia, position and orientation of the body. Planes cannot be changed after construction (mass and inertia would no longer fit): make a new shape.
 
-A plane that repeats another one to rounding is dropped. Planes that own no face are kept, since each one weighs in the analytic centre [Boon2012]_ (section 2.2), and in the other contact points' normals too: planes through all edges and vertices of two cubes turn the contact normal by up to 10° and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with *keepRedundant=False* does, *fromVertices* and *fromMesh* make no such planes, and *polytope.requirements(O)* tells what they do in a scene.)""",
+A plane that repeats another one to rounding is dropped. Planes that own no face are kept, since each one weighs in the analytic centre [Boon2012]_ (section 2.2), and in the other contact points' normals too: planes through all edges and vertices of two cubes turn the contact normal by up to 10° and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with *keepRedundant=False* does, *fromVertices* and *fromMesh* make no such planes, and *polytope.requirements(O)* reports their effect in a scene.)""",
 		((vector<Vector3r>, normals, , (Attr::readonly | planesAsText * Attr::noSave), "Unit outward normals $\\vec a_i$ in the body's frame [-]. Given with any length, they are normalised together with :yref:`offsets<Polytope.offsets>`, and repeated ones dropped."))
 		((vector<Real>, offsets, , (Attr::readonly | planesAsText * Attr::noSave), "Offsets $d_i$ of the half-spaces $\\vec a_i\\cdot\\vec x\\le d_i$ [m]."))
 		((string, planesText, , (Attr::readonly | Attr::hidden), "Normals and offsets in an archive, where they are no lists there"))
@@ -66,20 +66,20 @@ private:
 };
 REGISTER_SERIALIZABLE(Polytope);
 
-/// Whether the body may turn before its box is made anew.
+/// Whether the body may rotate before its box is computed again.
 bool mayTurn(const Body* body);
 
 class Bo1_Polytope_Aabb : public BoundFunctor {
 public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
 
-	/// By body id, the way of the farthest vertex in a turn that the box needs room for: from a collider that sees bodies turn
+	/// By body id, the displacement of the farthest vertex by rotation that the box allows for: from a collider that follows rotation
 	/// (PolytopeCollider), while it runs.
 	const std::vector<Real>* rooms = nullptr;
 
 	FUNCTOR1D(Polytope);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the :yref:`Aabb` of a :yref:`Polytope`, exact in sheared periodic cells too. For a :yref:`PolytopeCollider` it is the tight box of the vertices and room for turning. :yref:`InsertionSortCollider` with :yref:`verletDist<InsertionSortCollider.verletDist>` above 0 makes boxes anew only after a translation, and a body that turns in place would leave a tight one unseen: for it a body that can turn gets the box of its circumscribed ball (disc), one that cannot (rotations blocked and *angVel* zero) the tight one. Set the *angVel* of a body turned by the script before the run then.");
+	YADE_CLASS_BASE_DOC(Bo1_Polytope_Aabb, BoundFunctor, "Creates or updates the :yref:`Aabb` of a :yref:`Polytope`, exact in sheared periodic cells too. For a :yref:`PolytopeCollider` it is the tight box of the vertices, enlarged for rotation. :yref:`InsertionSortCollider` with :yref:`verletDist<InsertionSortCollider.verletDist>` above 0 computes boxes again only after a translation, and a body that rotates in place would leave a tight one unnoticed: with this collider a body that can turn gets the box of its circumscribed ball (disc), one that cannot (rotations blocked and *angVel* zero) the tight one. Set the *angVel* of a body turned by the script before the run then.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Bo1_Polytope_Aabb);

@@ -50,7 +50,7 @@ void PolytopeCollider::makeRoom()
 		}
 		const bool known = turn.radius > 0;
 		turn.radius      = polytope->convex()->boundingRadius();
-		// twice the last interval's: neither run at each step nor keep the room of a rotation that has ended
+		// twice the last interval's: so it does not run at each step, nor keep boxes enlarged for a rotation that has ended
 		const Real wanted = known ? 2 * way(turn, *body) : most;
 		turn.from         = body->state->ori;
 		if (mayTurn(body)) rooms_[id] = wanted <= most ? math::max(least, wanted) : std::numeric_limits<Real>::infinity();

@@ -14,17 +14,17 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(PolytopeCollider, InsertionSortCollider,
-	R"""(:yref:`InsertionSortCollider` that also sees bodies turn, so that :yref:`Polytopes<Polytope>` get tight boxes: fewer pairs whose boxes overlap though they are apart (two of five fewer in a settled heap of cubes). Used in place of the other, with the same attributes. A box has room for turning by as much as the body turned between the collider's last runs, twice over, up to :yref:`verletDist<InsertionSortCollider.verletDist>` at its farthest vertex; before it has turned farther than that the collider runs again. A body that turns faster than that gets the box of its circumscribed ball, which holds it whatever it does. Bodies of other shapes are treated as by the other collider, which sees them translate only.)""");
+	R"""(:yref:`InsertionSortCollider` that also takes account of rotations, so that :yref:`Polytopes<Polytope>` get tight boxes: fewer pairs whose boxes overlap though they are apart (two of five fewer in a settled heap of cubes). Used in place of the other, with the same attributes. A box is enlarged for twice the rotation between the collider's last two runs, up to a displacement of :yref:`verletDist<InsertionSortCollider.verletDist>` at its farthest vertex; the collider runs again before the body has turned farther than that. A body that turns faster than that gets the box of its circumscribed ball, which contains it in every orientation. Bodies of other shapes are treated as by InsertionSortCollider, which takes account of translation only.)""");
 	// clang-format on
 
 private:
-	/// Where a polytope's turn began.
+	/// Orientation from which a polytope's rotation is measured.
 	struct Turn {
 		Quaternionr from   = Quaternionr::Identity(); ///< orientation when the box was made
 		Real        radius = 0;                       ///< of the circumscribed ball; 0: no polytope
 	};
 
-	/// How far a turn has moved the farthest vertex (the chord).
+	/// Displacement of the farthest vertex by the rotation (the chord).
 	static Real way(const Turn& turn, const Body& body);
 
 	const Body* bodyOf(std::size_t id) const;
@@ -34,7 +34,7 @@ private:
 
 	// by body id; not saved: after loading the first step makes all boxes anew
 	std::vector<Turn> turns_;
-	std::vector<Real> rooms_; ///< way of the farthest vertex that the box has room for
+	std::vector<Real> rooms_; ///< displacement of the farthest vertex that the box allows for
 };
 REGISTER_SERIALIZABLE(PolytopeCollider);
 

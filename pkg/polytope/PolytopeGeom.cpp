@@ -41,7 +41,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 
 namespace {
 
-	/// What a body's stiffness is worth in the weights of the normals.
+	/// A body's stiffness as it enters the weights of the normals.
 	Real stiffnessOf(const Body* body)
 	{
 		if (!body || !body->material) return 1;
@@ -97,7 +97,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
         const shared_ptr<Interaction>& c)
 {
 	prefetchAfter(*c, *scene);
-	// a thread's own buffers; they grow to the largest pair it has met
+	// a thread's own buffers; they grow to the largest pair it has computed
 	static thread_local polytope::ContactWorkspace workspace;
 	auto&                                          geom    = geometry(c);
 	const bool                                     wasReal = c->isReal();
@@ -106,14 +106,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.section                   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it at once
+	settings.section                   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
 	settings.normalWeight[0]           = geom.normalWeight;
 	settings.normalWeight[1]           = 1 - geom.normalWeight;
 	settings.geometryAcrossGap         = wasReal || force;
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
-	// a new contact, and the others every few steps, each in its turn
+	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
 	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {

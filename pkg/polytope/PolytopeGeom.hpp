@@ -19,11 +19,11 @@ class PolytopeGeom : public ScGeom {
 public:
 	virtual ~PolytopeGeom() = default;
 
-	/// Half-spaces that stand for YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side; made when first needed.
+	/// Half-spaces that represent YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side; made when first needed.
 	std::shared_ptr<const polytope::ConvexShape> partner;
 	int                                          side = 0;
 
-	/// Planes that neighbours cover (InternalFaces.hpp), if there are any, and whether they were looked for since the pair was made or loaded.
+	/// Planes that neighbours cover (InternalFaces.hpp), if any, and whether they were searched for since the pair was made or loaded.
 	std::unique_ptr<polytope::InternalPlanes> internal;
 	bool                                      internalKnown = false;
 
@@ -41,20 +41,20 @@ public:
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`; set when they are made. A law that uses it for all contacts is found by the geometry functor."))
-		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the softer body yields to the stiffer one's face."))
+		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
 		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
-		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, for the next step's start"))
+		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, the next step's warm-start value"))
 		((Vector3r, dual, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program, if the points are known"))
 		((Vector3r, weights, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Weights of the basis' first planes, if the points are not known"))
 		((int, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
-		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear program's last basis (2 × plane + body), whether it is known, and whether the points are"))
-		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, for the next step's start"))
+		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear program's last basis (2 × plane + body), whether it is stored, and whether the points are"))
+		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
-		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton gave up on the point, Ipopt found it); *centreNotConverged* (Ipopt did not either), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);
@@ -96,17 +96,17 @@ public:
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
 		((string, contactModel, "paper", Attr::triggerPostLoad, "*paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear program with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *normal*, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
 		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Pressed straight, edges and corners act as if blunted by 1.5 to 5 times this length; a face tilted by $\\theta$ carries $\\mu\\sqrt{2/\\theta}$ inside its edge (23 times where a block topples); face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
-		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, cheapest; jumps where it is not unique) or *centroid* (of the overlap, dearest)."))
-		((string, normal, "dualWeights", Attr::triggerPostLoad, "Contact normal of the model *paper*: *dualWeights* (from weights of the linear program on which both bodies agree: the normal of a face where an edge or vertex lies on it; faces that neighbours cover, as between flush plates, have no part in it) or *innerPotential* (average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>`, Eqs 13-17 of [Boon2012]_: leans by up to 45° where an edge lies on a face, and on every seam of a floor; to reproduce the paper)."))
-		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it gives up on a contact, Ipopt takes over if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
+		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it is not unique) or *centroid* (of the overlap, of highest cost)."))
+		((string, normal, "dualWeights", Attr::triggerPostLoad, "Contact normal of the model *paper*: *dualWeights* (from weights of the linear program on which both bodies agree: the normal of a face where an edge or vertex lies on it; faces that neighbours cover, as between flush plates, are left out) or *innerPotential* (average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>`, Eqs 13-17 of [Boon2012]_: inclined by up to 45° where an edge lies on a face, and at every seam of a floor; to reproduce the paper)."))
+		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it does not converge, Ipopt is used if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
 		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in double) to 0.1."))
-		((bool, computeArea, false, , "Compute :yref:`PolytopeGeom.contactArea` for every contact (laws that need it ask by themselves)."))
+		((bool, computeArea, false, , "Compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this is done automatically)."))
 		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts on which Newton gave up and whose point Ipopt found), *fallbacks* (contacts that use the linear program's point, and coincident bodies without a direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *fallbacks* (contacts that use the linear program's point, and coincident bodies without a direction), *failures* (queries without an answer), *statuses* (count by name of :yref:`PolytopeGeom.status`), and with :yref:`timing<Ig2_Polytope_Polytope_PolytopeGeom.timing>` *timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on
@@ -120,17 +120,17 @@ protected:
 
 	// Steps of go(), shared with the mixed pairs (MixedPairs.hpp).
 
-	/// The pair's geometry, made with the pair, not with the contact: a separated pair is dismissed by what it remembers.
+	/// The pair's geometry, made with the pair, not with the contact: a separated pair is dismissed by the weights stored in it.
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
 
 	/// Two sets of half-spaces: core query, then apply().
 	bool query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
 	        const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
-	/// Looks for internal faces; true if they are others than the geometry has, which then has these.
+	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
-	/// Counts the result and, for a contact, hands it to ScGeom. `origin1`: what result.point is relative to.
+	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to.
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 

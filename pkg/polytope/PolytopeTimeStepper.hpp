@@ -9,7 +9,7 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper {
 public:
-	/// In steps that are multiples of the interval, at its first, and when bodies were added.
+	/// Active in steps that are multiples of the interval, in its first step, and when bodies were added.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
 
@@ -22,19 +22,19 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeTimeStepper, TimeStepper,
-	R"""(Keeps *O.dt* right for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes :yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
+	R"""(Sets and updates *O.dt* for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes :yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
 
-* *contacts*, *rocking*: $\tau$ of all present contacts, normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and what :yref:`GlobalStiffnessTimeStepper` does not know, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
-* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`). Looked at when bodies are added and with each tenth update.
+* *contacts*, *rocking*: $\tau$ of all present contacts, normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and, which :yref:`GlobalStiffnessTimeStepper` neglects, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
+* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`). Evaluated when bodies are added and with each tenth update.
 
 and no more than what *motion* allows: no body moves by more than :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times its inscribed radius in a step.
 
-Bodies that cannot move limit nothing, blocked degrees of freedom have no part, a clump has the contacts of its members. O.dt stays as it is in a scene where nothing limits it. Not for MPI, where each process knows its own bodies only.)""",
-		((Real, timestepSafetyCoefficient, 0.4, Attr::triggerPostLoad, "Fraction of $\\tau$ that is taken [-], above 0, at most 2. Up to 1 any heap is stable as long as its contacts stay what they are; the default leaves room for those that appear until the next update, and lets slopes of jointed rock come to rest. As *fraction* of *polytope.stableTimeStep*."))
+Bodies that cannot move limit nothing, blocked degrees of freedom do not count, a clump has the contacts of its members. O.dt stays as it is in a scene where nothing limits it. Not for MPI, where each process has its own bodies only.)""",
+		((Real, timestepSafetyCoefficient, 0.4, Attr::triggerPostLoad, "Fraction of $\\tau$ that is taken [-], above 0, at most 2. Up to 1 any heap is stable as long as its contacts do not change; the default leaves a margin for those that appear until the next update, and lets slopes of jointed rock come to rest. As *fraction* of *polytope.stableTimeStep*."))
 		((Real, motionLimit, 0.1, Attr::triggerPostLoad, "Largest way of a body in a step over its inscribed radius [-], above 0."))
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
-		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it makes up more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing does, O.dt stays as it is."))
+		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it contributes more than half of that body's $\\omega^2$), *motion* or *maxDt*; empty: nothing limits it, O.dt is not changed."))
 		, /*ctor*/ timeStepUpdateInterval = 50;
 		, /*py*/
 		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval, "Steps from one update of O.dt to the next, at least 1.")
@@ -43,7 +43,7 @@ Bodies that cannot move limit nothing, blocked degrees of freedom have no part, 
 
 private:
 	PotentialContacts   potential_;
-	TimeStepLimit       material_; ///< of the last look at potential_
+	TimeStepLimit       material_; ///< of the last evaluation of potential_
 	unsigned            updates_ = 0; ///< since then
 	bool                hasRun_ = false;
 	std::size_t         bodies_ = 0;

@@ -158,7 +158,7 @@ void PolytopeVTKRecorder::writeBodies(const string& file) const
 {
 	vtkNew<vtkUnstructuredGrid> grid;
 	vtkNew<vtkPoints>           points;
-	points->SetDataTypeToDouble(); // overlaps are smaller than single precision shows
+	points->SetDataTypeToDouble(); // overlaps are smaller than single precision resolves
 	vtkCellData* const cells           = grid->GetCellData();
 	auto* const        id              = column<vtkIntArray>(cells, "id");
 	auto* const        color           = column<vtkUnsignedCharArray>(cells, "color", 3);

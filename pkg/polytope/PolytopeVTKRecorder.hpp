@@ -21,10 +21,10 @@ public:
 ``bodies``
 	``<fileName>bodies.<step>.vtu``: a polyhedral cell for each body (polygons as prisms of their :yref:`thickness<Polytope.thickness>`), with *id*, *color* (three bytes: uncheck “map scalars” to see it), *mask*, *materialId*, *dynamic*, *mass*, *velocity*, *angularVelocity* and *displacement* (from :yref:`State.refPos`).
 ``contacts``
-	``<fileName>contacts.<step>.vtp``: a point for each real interaction with a :yref:`PolytopeGeom`, with *id1*, *id2*, *normal* (from body 1 to 2), *normalForce* and *shearForce* (on body 2), *depth*, *area* (0 where it was not asked for), *infeasibility* and *status* (a number; the file's field data *statusNames* has the names in this order). Show them with a Glyph filter.
+	``<fileName>contacts.<step>.vtp``: a point for each real interaction with a :yref:`PolytopeGeom`, with *id1*, *id2*, *normal* (from body 1 to 2), *normalForce* and *shearForce* (on body 2), *depth*, *area* (0 where it was not computed), *infeasibility* and *status* (a number; the file's field data *statusNames* has the names in this order). Show them with a Glyph filter.
 
 In a periodic scene, bodies and contact points are moved into the cell. Called as a function, ``recorder()`` writes a snapshot at once. :yref:`PeriodicEngine.initRun` is ``True`` here.)""",
-		((string, fileName, "", , "Begin of all file names; may contain folders, which are made where they are missing."))
+		((string, fileName, "", , "Beginning of all file names; may contain folders, which are created where they are missing."))
 		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad, "What to record: *bodies*, *contacts*."))
 		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts that have such a body; 0: all."))
 		((bool, skipNondynamic, false, , "Leave out bodies that cannot move (floors, walls); their contacts are kept."))

@@ -58,7 +58,7 @@ namespace {
 		return sum.stiffness();
 	}
 
-	/// To the next power of tolerance::potentialSizes: a functor is then asked once for all sizes in between.
+	/// To the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.
 	Real roundedUp(Real size)
 	{
 		if (!(size > 0)) return size;
@@ -66,7 +66,7 @@ namespace {
 		return math::exp(step * math::ceil(math::log(size) / step));
 	}
 
-	/// What an Ip2 functor makes of a pair, or where it cannot be asked without a true contact, of elastic bodies.
+	/// Stiffnesses that an Ip2 functor gives a pair, or where it cannot be called without a real contact, those of elastic bodies.
 	template <class Stiffness> Stiffness answer(Scene& scene, shared_ptr<Material> material1, shared_ptr<Material> material2,
 	        const shared_ptr<Interaction>& contact)
 	{
@@ -98,7 +98,7 @@ void PotentialContacts::collect(const Scene& scene)
 	partners_.clear();
 	asked_.clear();
 	std::map<const Material*, std::size_t> known;
-	const Body* last     = nullptr; // bodies of a kind follow each other
+	const Body* last     = nullptr; // consecutive bodies are often of one kind
 	Real        lastArea = 0;
 	std::size_t index    = 0;
 	for (const auto& body : *scene.bodies) {
@@ -194,12 +194,12 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 		forParts(*body, scene, [&](const Body& part) {
 			if (!part.material || !part.shape || part.isClump()) return;
 			const Part& places = partOf(part, *body);
-			if (&part == body.get()) { // a clump's members look each another way
-				if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as the one before
+			if (&part == body.get()) { // members of a clump have different orientations
+				if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as before
 				last = &part;
 			}
 			for (Partners& partners : partners_) {
-				if (partners.one == part.id && partners.other < 0) continue; // nobody but itself
+				if (partners.one == part.id && partners.other < 0) continue; // no body but itself
 				for (const Place& place : { places.vertex, places.face }) {
 					if (!(place.unit > 0)) continue;
 					const Stiffness& stiff  = stiffness(part, partners, place, scene);

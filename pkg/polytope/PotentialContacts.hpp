@@ -9,12 +9,12 @@
 #include <tuple>
 #include <vector>
 
-/// Time step before a contact is there: each body is given the one contact that would make it vibrate fastest.
+/// Time step before a contact exists: each body is given the one contact that would give it the highest frequency.
 ///
-/// Its stiffnesses are what the scene's own Ip2 functor makes of the body's material and that of any other body, asked with a
-/// contact that is not in the scene. Tried are a contact at the farthest vertex (a stiffness per contact, or by the distance from
+/// Its stiffnesses are those that the scene's own Ip2 functor gives the body's material and that of any other body, called with a
+/// contact that is not in the scene. Considered are a contact at the farthest vertex (a stiffness per contact, or by the distance from
 /// the centre) and one on a whole face (a stiffness per area), each with the arm, and the latter with the rocking, that belongs
-/// to it. A body that meets several others at once is stiffer than that: contactLimit() sees them when they are there.
+/// to it. A body in contact with several others at once is held more stiffly: contactLimit() includes these contacts once they exist.
 namespace yade {
 
 class PotentialContacts {
@@ -28,7 +28,7 @@ private:
 		Real arm  = 0; ///< from the part's centre [m]
 		Real area = 0; ///< of the contact [m²]
 	};
-	/// The worst places of a body or a clump's member, and what they were found for.
+	/// The contact places of highest frequency of a body or a clump's member, and the properties for which they were found.
 	struct Part {
 		const void*  shape    = nullptr;
 		Real         mass     = 0;

@@ -6,10 +6,10 @@
 
 #include <core/Scene.hpp>
 
-/// Calls into the cache what the InteractionLoop's next pairs will read, while the present pair is computed.
+/// Prefetches into the cache the data of the InteractionLoop's next pairs, while the present pair is computed.
 ///
-/// A settled heap's pairs stand in the loop in the order in which they came and went, so each brings a kilobyte and a half from
-/// random places in memory; with more than a few thousand bodies waiting for it costs more than the contact. What a pair refers to is
+/// A settled heap's pairs are in the loop in the order in which they were created and deleted, so each brings a kilobyte and a half from
+/// random places in memory; with more than a few thousand bodies this latency costs more than the contact itself. What a pair refers to is
 /// known a few pairs before its turn: first the pair itself, then what it points to, then what its bodies point to.
 namespace yade {
 
@@ -19,7 +19,7 @@ namespace prefetch {
 	/// tenth in a heap of 10 000 cubes.
 	constexpr int pair = 6, parts = 4, bodyParts = 2;
 
-	/// Reads nothing at that address: another thread may just be giving up a pair's geometry.
+	/// Does not read at that address: another thread may be deleting the pair's geometry.
 	inline void fetch(const void* object, std::size_t bytes)
 	{
 		if (!object) return;

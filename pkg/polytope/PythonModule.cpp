@@ -95,7 +95,7 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	const auto& convex2 = convexOf(body2, "b2");
 	if (convex1.dimension() != convex2.dimension())
 		throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
-	// the functor validates the settings and knows the weights of the normals
+	// the functor validates the settings and gives the weights of the normals
 	yade::Ig2_Polytope_Polytope_PolytopeGeom functor;
 	functor.contactPoint    = contactPoint;
 	functor.tolerance       = tolerance;
@@ -124,7 +124,7 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 
 template <class T, T polytope::ContactResult::* Member> T field(const Contact& contact) { return contact.result.*Member; }
 
-/// What PolytopeTimeStepper goes by, of the scene as it is: times [s], or None where nothing limits.
+/// The time steps that PolytopeTimeStepper uses, for the present scene: [s], or None where nothing limits.
 py::dict timeStepLimits()
 {
 	const auto              scene  = yade::Omega::instance().getScene();
@@ -138,7 +138,7 @@ py::dict timeStepLimits()
 
 } // namespace
 
-// The list of all that the module has, a statement an entry: long, and without a branch.
+// The list of everything in the module, one statement per entry: long, but without a branch.
 BOOST_PYTHON_MODULE(_polytope)
 {
 	using polytope::ContactResult;
@@ -153,7 +153,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "and decimal "
 	        "*digits*, as a dictionary.");
 	py::def("tolerances", &tolerances,
-	        "Tolerances of the numerical core that the module's advice is about, see src/numbers/Tolerances.hpp: *rounding* of this "
+	        "Tolerances of the numerical core that the module's advice refers to, see src/numbers/Tolerances.hpp: *rounding* of this "
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
@@ -200,7 +200,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
 	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier),
 	                py::arg("normal") = "dualWeights"),
-	        "Contact of two bodies with Polytope shapes where they are, without a scene (periodic images are not looked for).\n\n"
+	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
 	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: as on "

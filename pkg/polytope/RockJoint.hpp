@@ -31,7 +31,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointMat, FrictMat,
 	R"""(Material of rock blocks, given by the joints between them [Hart1988]_: stiffnesses, Mohr-Coulomb strength and dilation of a joint whose two sides are of this material. :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` says how two different materials combine, :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb` what the values do. Values out of range are refused when set. Of the inherited attributes, :yref:`density<Material.density>` gives the bodies their mass; :yref:`young<ElastMat.young>` and :yref:`poisson<ElastMat.poisson>` are used by YADE's own functors (:yref:`Ip2_FrictMat_FrictMat_FrictPhys`) alone.)""",
-		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Normal stiffness $k_n$ of the joint, above 0: [Pa/m] (times the contact area) or [N/m] for each contact, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`. Contact normals lean to the face of the body with the larger value, see :yref:`PolytopeGeom.normalWeight`."))
+		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Normal stiffness $k_n$ of the joint, above 0: [Pa/m] (times the contact area) or [N/m] for each contact, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`. With the normal *innerPotential* contact normals are closer to that of the body with the larger value, see :yref:`PolytopeGeom.normalWeight`."))
 		((Real, shearStiffness, 1e9, Attr::triggerPostLoad, "Shear stiffness $k_s$ of the joint, above 0, in the units of :yref:`normalStiffness<RockJointMat.normalStiffness>`."))
 		((Real, cohesion, 0, Attr::triggerPostLoad, "Cohesion $c$ [Pa], at least 0: shear strength of the intact joint at zero normal force over its contact area. Lost for good when the joint fails in shear or tension."))
 		((Real, tensileStrength, 0, Attr::triggerPostLoad, "Tensile strength [Pa] of the intact joint, at least 0, times the contact area. Lost for good when the joint fails in shear or tension. A joint with cohesion but no tensile strength fails when it opens."))
@@ -60,15 +60,15 @@ public:
 	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact times the share that
 	/// the contact has of it (PolytopeGeom::share).
 	void setStiffnesses(Real share);
-	/// Whether the joint has a peak strength to lose.
+	/// Whether the joint has a peak strength above the residual one.
 	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
 	/// Whether an open joint differs from one that is made anew when it closes.
 	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()); }
 	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
 	void slide(const Vector3r& excess);
-	/// The joint fails: peak values give way to residual ones.
+	/// The joint fails: peak values are replaced by residual ones.
 	void fail();
-	/// Whether the joint holds a tensile force [N].
+	/// Whether the joint can carry a tensile force [N].
 	bool bearsTension(Real force) const;
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
@@ -91,7 +91,7 @@ public:
 		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
-		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none to lose and are never intact."))
+		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none and are never intact."))
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))

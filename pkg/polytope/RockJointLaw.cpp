@@ -40,7 +40,7 @@ namespace {
 		return b > 0 ? c / (b + root) : (root - b) / a;
 	}
 
-	/// What the normal spring holds; a conservative contact's geometry knows the energy its force is the gradient of.
+	/// Energy of the normal spring; a conservative contact's geometry has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
 		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0)
@@ -50,7 +50,7 @@ namespace {
 
 } // namespace
 
-/// Both bodies as the contact sees them in this step.
+/// Motion of both bodies at the contact in this step.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	const Interaction&  contact;
 	const PolytopeGeom& geom;
@@ -80,8 +80,8 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	/// The same at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
-	/// Critical damping of a spring between the bodies; 0 if neither can move. Of a spring that is a share of one, the same share of its
-	/// damper: so several pieces damp as one.
+	/// Critical damping of a spring between the bodies; 0 if neither can move. For a share of the full stiffness, the same
+	/// share of its damper: so several pieces damp as one does.
 	Real criticalDamping(Real stiffness) const
 	{
 		const Real inverse = inverseMass(body1, scene) + inverseMass(body2, scene);
@@ -89,7 +89,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	}
 };
 
-/// What the last step left, before this one changes it.
+/// State at the end of the last step, before this one changes it.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 	Vector3r    force, shearViscous, moment;
 	ShearSpring shear;
@@ -106,7 +106,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 /// What a step did with energy beyond storing it [J].
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::StepWork {
 	Real plastic = 0, normalDamping = 0, shearDamping = 0, rockingDamping = 0;
-	Real stored    = 0; ///< what the springs hold afterwards
+	Real stored    = 0; ///< energy of the springs afterwards
 	bool fractured = false;
 };
 
@@ -134,7 +134,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	const Real normal  = elasticNormal + viscous;
 
 	Vector3r shear = trial;
-	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements that positions cannot show
+	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
 	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
 	if (normal <= 0 && shear.squaredNorm() < shown * shown) shear = Vector3r::Zero();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
@@ -181,7 +181,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 	return true;
 }
 
-/// Viscous normal force on body 2, along the normal; does not pull a joint that takes no tension.
+/// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
 Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const
 {
 	const Real viscous      = -normalDamping * pair.criticalDamping(phys.kn) * pair.geom.normal.dot(pair.velocity());
@@ -214,7 +214,7 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& 
 	return size > limit ? Vector3r(limit / size * moment) : moment;
 }
 
-/// Hands forces and moments to the bodies; false if they are not numbers: then the contact is left out of this step.
+/// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
 	const Vector3r force = phys.normalForce + phys.shearForce;
@@ -233,7 +233,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 	return true;
 }
 
-/// The joint is open: no force, and what the bodies move along each other is slip, with what the spring held. False ends the contact.
+/// The joint is open: no force, and tangential motion counts as slip, as does the spring's elastic displacement. False ends the contact.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial)
 {
 	StepWork work;
@@ -250,7 +250,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()
 {
-	// EnergyTracker makes names without locking out its other users: all of ours at once, before any is used
+	// EnergyTracker adds names without a lock: all of ours are added at once, before any is used
 #pragma omp critical(polytopeEnergyNames)
 	if (!energiesNamed_) {
 		const char* const names[energyCount]

@@ -6,7 +6,7 @@
 #include <core/Dispatching.hpp>
 #include <pkg/common/MatchMaker.hpp>
 
-/// Which physics a contact of two materials of rock joints gets.
+/// Physics of a contact of two rock joint materials.
 namespace yade {
 
 class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor {
@@ -18,7 +18,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,
 	R"""(Creates a :yref:`RockJointPhys` from two :yref:`RockJointMats<RockJointMat>`. Stiffnesses are those of the joint, so equal materials give exactly their value; of two different ones each contributes half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of friction angles, cohesions, tensile strengths, dilation angles and limits the smaller holds (the residual angle of a material without one is its friction angle).)""",
 		((bool, stiffnessPerArea, true, , R"""(True: stiffnesses are [Pa/m], the contact's :yref:`kn<NormPhys.kn>` is $k_n A$ with its present contact area $A$ in each step (:yref:`PolytopeGeom.contactArea`, which is computed for this alone). False: [N/m] for each contact, whatever its area. Contacts whose geometry is not a :yref:`PolytopeGeom` have no contact area: a :yref:`ScGeom` (two spheres) gets $A=\pi\min(R_1,R_2)^2$ once and for all, anything else 1 m². Their law is YADE's own :yref:`Law2_ScGeom_FrictPhys_CundallStrack`, which takes a :yref:`RockJointPhys` as any :yref:`FrictPhys` and has to be in the loop besides this plug-in's.)"""))
-		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later are not glued."))
+		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later are not bonded."))
 		((shared_ptr<MatchMaker>, kn, , , ":yref:`MatchMaker` for the joint's normal stiffness instead of the rule above."))
 		((shared_ptr<MatchMaker>, ks, , , ":yref:`MatchMaker` for the joint's shear stiffness instead of the rule above."))
 		((shared_ptr<MatchMaker>, frictAngle, , , ":yref:`MatchMaker` for the friction angle [rad] instead of the smaller one."))

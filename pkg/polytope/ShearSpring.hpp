@@ -5,8 +5,8 @@
 
 /// The shear spring of a joint whose stiffness changes with the contact's area.
 ///
-/// A joint is a bed of springs, k = k' A [N/m]. Those at the rim that leave a shrinking area take their force with them: the
-/// displacement f/k of the others stays. Those that a growing area adds are not strained yet: the force stays. Either way the bed
+/// A joint is a bed of springs, k = k' A [N/m]. When the area shrinks, the force of the springs that leave it is lost: the
+/// displacement f/k of the others is unchanged. Springs that a growing area adds are unstrained: the force is unchanged. Either way the bed
 /// loses energy and never gains any (Elata & Berryman 1996, Mechanics of Materials 24:229-240, for contacts of spheres), and its
 /// displacement never grows by itself. Forces are those on body 2 [N].
 namespace yade {
@@ -18,9 +18,9 @@ struct ShearSpring {
 	/// The force before this step's motion, with the present stiffness.
 	Vector3r forceWith(Real present) const { return present < stiffness ? Vector3r(present / stiffness * force) : force; }
 
-	/// What of the spring's energy and of the work done on it is lost in a step that tries one force and ends at another [J].
+	/// Part of the spring's energy and of the work done on it that is lost in a step from a trial force to the final one [J].
 	///
-	/// With u = f/k at both ends: friction takes the mean force times the slip; what then is missing in ½ k u² is ½ (k₀ − k₁) u₀·u₁
+	/// With u = f/k at both ends: friction dissipates the mean force times the slip; the remaining loss of ½ k u² is ½ (k₀ − k₁) u₀·u₁
 	/// where the stiffness falls, ½ f₀² (1/k₀ − 1/k₁) where it rises.
 	Real loss(Real present, const Vector3r& trial, const Vector3r& now) const
 	{

@@ -209,7 +209,7 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
 			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);
-			// most bodies are not the one: bounds of the eigenvalues are cheap, and say so
+			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
 			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step)) continue;
 			const Real all  = stiffness.stiffness();
 			const Real step = polytope::safeTimeStep(all, stiffness.damping());

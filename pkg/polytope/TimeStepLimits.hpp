@@ -9,8 +9,8 @@
 
 #include <limits>
 
-/// What limits the time step of a scene as it is: its contacts (here), the contacts there may be (PotentialContacts.hpp), motion.
-/// Nothing of the scene is changed.
+/// Limits of the time step of the present scene: its contacts (here), potential contacts (PotentialContacts.hpp), motion.
+/// The scene is not changed.
 namespace yade {
 
 class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb;
@@ -34,7 +34,7 @@ struct TimeStepLimit {
 /// Whether forces move the body; members of clumps are moved by their clump.
 inline bool isMovedByForces(const Body& body) { return body.state && body.isDynamic() && !body.isClumpMember(); }
 
-/// How easily YADE's integrator lets the body move.
+/// Mobility (inverse mass and inertia) of the body, as YADE's integrator uses it.
 polytope::Mobility mobilityOf(const Body& body);
 
 /// Distance of a shape's farthest point from its centre [m]; 0 where it is not known.
@@ -57,11 +57,11 @@ struct ContactLimit : TimeStepLimit {
 };
 
 /// \param steps conservative contacts, whose rocking stiffness grows with their force, are counted as they will be after so many
-/// \param below nothing that allows a longer step than this is looked for
+/// \param below limits longer than this need not be found
 ContactLimit contactLimit(const Scene& scene, Real steps, Real below = std::numeric_limits<Real>::infinity());
 
 /// Time in which a body moves by `fraction` of its inscribed radius: by its own velocity, by gravity, or by the velocity of
-/// bodies that move as told.
+/// bodies whose motion is prescribed.
 TimeStepLimit motionLimit(const Scene& scene, Real fraction);
 
 } // namespace yade

@@ -2,8 +2,9 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: :yref:`fromHalfSpaces`, *fromVertices*, *regular*, *cuboid*,
-*polygon*, *fromMesh*; a rock mass cut by joints: *jointedRock*. One pair without a scene: *contact*. What settings cost and bring: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
-RockJointMat, …) are YADE's like any other.
+*polygon*, *fromMesh*; a rock mass cut by joints: *jointedRock*. One pair without a scene: *contact*. Cost and accuracy of settings:
+*tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
+Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The builds of YADE that stand side by side, one for each arithmetic, and how to start Python with one of them."""
+"""The installed builds of YADE, one for each precision, and how to start Python with one of them."""
 
 import os
 import pathlib

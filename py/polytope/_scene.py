@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Engines and functors of the present scene that *tradeoff*, *requirements* and *frictionReduction* look at or change."""
+"""Engines and functors of the present scene that *tradeoff*, *requirements* and *frictionReduction* read or change."""
 
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O
 

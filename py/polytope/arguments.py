@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Arguments that scripts give, as YADE's numbers and vectors. What is none is a ValueError that names the argument."""
+"""Arguments that scripts give, as YADE's numbers and vectors. What cannot be converted is a ValueError that names the argument."""
 
 import numpy as np
 from yade import Quaternion, Vector3
@@ -45,7 +45,7 @@ def vector(value, name):
 		vector = Vector3(*numbers)
 	except Exception:  # whatever is no sequence of three numbers
 		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
-	if not all(abs(x) < float('inf') for x in numbers):  # a Vector3 tells by an exception where it ends
+	if not all(abs(x) < float('inf') for x in numbers):  # iterating a Vector3 ends by an exception
 		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
 	return vector
 

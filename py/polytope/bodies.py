@@ -39,7 +39,7 @@ still = (0, 0, 0)
 """Default velocities."""
 
 colours = random.Random()
-"""Of bodies without a given one: a generator of their own, so that a script's seed stays the script's."""
+"""Of bodies without a given one: a generator of their own, so that the script's random numbers are not affected."""
 
 singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
@@ -51,7 +51,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	:param normals: (n, 3) outward normals of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]
 	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
-	    section 2.2) and pull at normals, see :yref:`Polytope`. Planes that repeat another one are dropped in any case.
+	    section 2.2) and change normals, see :yref:`Polytope`. Planes that repeat another one are dropped in any case.
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
@@ -134,10 +134,10 @@ def fromMesh(path, scale=1.0, **body):
 	try:
 		mesh = trimesh.load(path, force='mesh', process=False)
 		points = mesh.vertices * scale
-	except Exception as error:  # trimesh raises whatever its many readers raise
+	except Exception as error:  # trimesh passes on the exceptions of its readers
 		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
 	if len(points) == 0:
-		raise ValueError(f"path: '{path}' has no vertices; it may not be a mesh file of the kind its name says")
+		raise ValueError(f"path: '{path}' has no vertices; its content may not be of the format that its name indicates")
 	points = vectors(points, 'points', 3)
 
 	def shape(*corner):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What touches what: names the type of a contact of two polytopes, vertex-face, edge-edge, face-face and so on.
+"""Names the type of a contact of two polytopes by the features that touch: vertex-face, edge-edge, face-face and so on.
 
-Contact detection with half-spaces does not know, which is its point; this is for those who look at a run.
+Contact detection with half-spaces does not need it; this is for evaluating runs.
 """
 
 import collections
@@ -35,8 +35,8 @@ class ContactTypes:
 	A body takes part in a contact with the nearest of its faces to the contact point and all others within *tolerance* of it.
 	Where their normals span a line that is a face, where they span a plane an edge, and where they span space a vertex (for
 	polygons: an edge and a vertex). Planes that own no face do not count. With the tolerance at its default, the body's corner
-	radius, these are the very planes whose normals make the contact normal (Eqs 13-17 of Boon et al. 2012): the type says
-	what the algorithm sees. Faces that overlap on a strip narrower than about two tolerances count as edges or vertices.
+	radius, these are the very planes whose normals make the contact normal (Eqs 13-17 of Boon et al. 2012): the type names
+	the faces that the algorithm uses. Faces that overlap on a strip narrower than about two tolerances count as edges or vertices.
 
 	:param float tolerance: [m]; default the corner radius of each body
 	:raises ValueError: for a tolerance that is negative or not finite
@@ -60,7 +60,7 @@ class ContactTypes:
 		return typeOf(*features)
 
 	def feature(self, body, point):
-		"""What *body* shows at *point* (world coordinates): 'face', 'edge' or 'vertex'."""
+		"""The feature of *body* at *point* (world coordinates): 'face', 'edge' or 'vertex'."""
 		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(1, 3, 3)
 		return self.features(body, [point], [body.state.pos], turn)[0]
 

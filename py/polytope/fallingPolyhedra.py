@@ -42,12 +42,12 @@ class FallingPolyhedra:
 	"""
 
 	faces: tuple = (8, )
-	"""Numbers of faces (4, 6, 8, 12, 20) of the solids, which take turns; an int for one solid alone."""
+	"""Numbers of faces (4, 6, 8, 12, 20) of the solids, used in turn; an int for one solid alone."""
 	number: int = 200
 	seed: int = 1
 	"""Of the orientations: the same seed gives the same scene."""
 	columns: int = 6
-	"""Lattice points along each side of the floor; layers are as many as the number asks for."""
+	"""Lattice points along each side of the floor; the number of layers follows from the number of solids."""
 	size: float = 0.1
 	"""L, edge of the cube of each solid's volume [m]."""
 	density: float = 2600

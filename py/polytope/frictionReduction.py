@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The friction angle at which a scene of rock joints fails, found by letting it go down.
+"""The friction angle at which a scene of rock joints fails, found by reducing it step by step.
 
 	from yade.polytope.frictionReduction import FrictionReduction
 
@@ -7,9 +7,9 @@
 	found = reduction.run()
 	print(degrees(found.stable), degrees(found.failed))
 
-The scene settles at a high angle. From there the angle goes down by the first step, each time until the bodies have come to rest
-again or have failed. At a failure the last stable state comes back, and the angle goes down from it by the next, finer step.
-What is left at the end is a bracket as wide as the last step.
+The scene settles at a high angle. From there the angle is reduced by the first step, each time until the bodies have come to rest
+again or have failed. At a failure the last stable state is restored, and the angle is reduced from it by the next, finer step.
+The result is a bracket as wide as the last step.
 """
 
 import dataclasses
@@ -28,7 +28,7 @@ def setFrictionAngle(angle):
 
 	:param float angle: [rad], from 0 to below π/2
 	:raises ValueError: naming *frictionAngle* if out of range; naming *frictAngle* if a MatchMaker of the
-	    Ip2 functor says otherwise for new contacts
+	    Ip2 functor sets another angle for new contacts
 	"""
 	for loop in interactionLoops():
 		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
@@ -55,7 +55,7 @@ class Stage:
 	displacement: float
 	"""Of the body that has moved most since the scene had settled, at the end [m]."""
 	samples: list
-	"""(time since the stage began [s], speed [m/s], displacement [m]) at each look."""
+	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
 	measured: object = None
 	"""What *measure* returned at the end of the stage."""
 
@@ -80,8 +80,8 @@ class FrictionReductionResult:
 class FrictionReduction:
 	"""Finds the friction angle at which bodies fail (see the head of this file).
 
-	A stage is *stable* when all bodies are slower than *stableSpeed* at three looks in turn, *checkEvery* steps apart (a body that
-	swings is slow for a moment), and has *failed* when one of them is further than *failedDistance* from where it was when the scene
+	A stage is *stable* when all bodies are slower than *stableSpeed* at three consecutive checks, *checkEvery* steps apart (a body that
+	oscillates is slow for a moment), and has *failed* when one of them is further than *failedDistance* from where it was when the scene
 	had settled. States are kept with O.saveTmp: after run(), and after restore(), bodies, contacts and engines are new Python objects,
 	so hold ids, not bodies. Engines' own counters start anew too; failed contact queries are summed up here.
 
@@ -90,10 +90,10 @@ class FrictionReduction:
 	:param steps: reductions [rad], each smaller than the one before
 	:param float stableSpeed: [m/s]
 	:param float failedDistance: [m]
-	:param int checkEvery: steps between two looks
+	:param int checkEvery: steps between two checks
 	:param int mostSteps: of one stage; one that is neither stable nor failed by then is 'creeping' and counts as failed
 	:param measure: called without arguments at the end of each stage; what it returns is in Stage.measured
-	:param progress: called with the Stage after each look, for a progress bar
+	:param progress: called with the Stage after each check, for a progress bar
 	:raises ValueError: naming the argument that is out of range
 	"""
 
@@ -131,7 +131,7 @@ class FrictionReduction:
 				raise ValueError(f'{name}: must be positive, got {getattr(self, name)}')
 
 	def run(self):
-		"""Settles and reduces. Leaves the scene as it failed; restore() brings back the last stable state.
+		"""Settles the scene and reduces the angle. Leaves the scene in the failed state; restore() brings back the last stable state.
 
 		:returns: a FrictionReductionResult
 		:raises RuntimeError: if the scene does not come to rest at the starting angle, or stands at any angle
@@ -178,7 +178,7 @@ class FrictionReduction:
 		began, calm = O.time, 0
 		while stage.steps < self.mostSteps:
 			for _ in range(self.checkEvery):
-				O.step()  # O.run(…, wait=True) looks every 40 ms whether it is done
+				O.step()  # O.run(…, wait=True) checks only every 40 ms whether it is done
 			stage.steps += self.checkEvery
 			stage.speed = max(float(O.bodies[k].state.vel.norm()) for k in self.bodies)
 			stage.displacement = max(float((O.bodies[k].state.pos - origin).norm()) for k, origin in self.origins.items())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a settled heap of polytopes is like inside: porosity and coordination number."""
+"""Porosity and coordination number of a settled heap of polytopes."""
 
 import dataclasses
 import numbers
@@ -71,7 +71,7 @@ class Coordination:
 	"""Over bodies with two contacts or more, counting contacts on these alone: Thornton's mechanical coordination number (2000,
 	Géotechnique 50:43), (2C − N₁)/(N − N₀ − N₁). NaN if there is no such body."""
 	rattlers: int
-	"""N₀ + N₁: bodies with no or one contact. They carry nothing but, at most, themselves."""
+	"""N₀ + N₁: bodies with no or one contact. They carry at most their own weight."""
 	bodies: int
 	"""N"""
 

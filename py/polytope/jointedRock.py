@@ -21,11 +21,11 @@ from .precision import isNumber, real
 __all__ = ['JointSet', 'JointedRock', 'jointedRock']
 
 mostBlocks = 1e5
-"""Expected: more are refused, for they could not be computed with anyway; a spacing in a wrong unit is likelier."""
+"""Expected number of blocks: more are refused, since such a scene could not be run; a spacing in a wrong unit is more likely."""
 
 smallestFraction = 0.01
 """Default inscribed radius of the smallest piece over the smallest spacing, or over the region's own inscribed radius if that is less: thinner
-pieces cost time step and carry nothing."""
+pieces need a shorter time step and carry no load."""
 
 oneRounding = 1e-12
 """[rad]: a dip this much above π/2 is vertical."""

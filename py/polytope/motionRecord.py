@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Records one body's motion, the force on it and its one contact in every step, and draws up the budgets of momentum and energy."""
+"""Records one body's motion, the force on it and its one contact in every step, and computes the budgets of momentum and energy."""
 
 import numpy as np
 from yade import O
@@ -11,11 +11,11 @@ __all__ = ['MotionRecord', 'noContact']
 noContact = 'none'
 
 _booked = ('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative')
-"""Terms of O.energy that the contact law books (RockJoint law: fracture needs strength, which no body here has)."""
+"""Terms of O.energy that the contact law records (RockJoint law: fracture needs strength, which no body here has)."""
 
 
 class MotionRecord:
-	"""Steps the simulation and keeps what one free body does; after `finish()` all below are arrays with one row a step.
+	"""Steps the simulation and records the motion of one free body; after `finish()` all below are arrays with one row a step.
 
 	Time n belongs to the position the step starts from: time, position, orientation (w, x, y, z), contactForce, torque,
 	point, normal, depth (NaN without contact), type (`noContact` or as ContactTypes names it). velocityBefore and velocityAfter
@@ -45,7 +45,7 @@ class MotionRecord:
 			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth]
 		else:
 			touch = [np.nan] * 7
-		energy = dict(O.energy.items())  # the law names its terms at its first contact
+		energy = dict(O.energy.items())  # the law adds its terms at its first contact
 		self._rows.append([*here, *state.vel, *state.angVel, *force, *torque, *touch, *(energy.get(name, 0.0) for name in _booked)])
 
 	def finish(self):
@@ -88,7 +88,7 @@ class MotionRecord:
 		return names
 
 	def dampingForce(self):
-		"""What NewtonIntegrator's damping adds to the force, by its own rule: a fraction of each component, against the velocity [N]."""
+		"""Force that NewtonIntegrator's damping adds, by its own rule: a fraction of each component, against the velocity [N]."""
 		acceleration = self.contactForce / self.mass + (self.gravity if self.dampGravity else 0)
 		middle = self.velocityBefore + 0.5 * self.timeStep * acceleration
 		return -self.mass * self.damping * np.abs(acceleration) * np.sign(middle)
@@ -123,24 +123,25 @@ class MotionRecord:
 		return self.kineticEnergy() + self.potentialEnergy() + self.elastPotential
 
 	def dampingLoss(self):
-		"""What the integrator's damping has taken up to time n [J]."""
+		"""Energy dissipated by the integrator's damping up to time n [J]."""
 		force, torque = self.dampingForce(), self.dampingTorque()
 		work = np.sum((force[:-1] + force[1:]) * self.velocityAfter[:-1] + (torque[:-1] + torque[1:]) * self.spinAfter[:-1], axis=1)
 		return np.concatenate([[0], -0.5 * self.timeStep * np.cumsum(work)])
 
 	def contactLoss(self):
-		"""What the contact's friction and dampers have taken up to time n [J]."""
+		"""Energy dissipated by the contact's friction and dampers up to time n [J]."""
 		return self.plastDissip + self.normDampDissip + self.shearDampDissip
 
 	def approach(self):
-		"""Way the bodies have come towards each other along the normal, at the contact point, up to time n [m]; nothing without contact."""
+		"""Way the bodies have come towards each other along the normal, at the contact point, up to time n [m]; zero without contact."""
 		velocity, spin = (self.velocityBefore + self.velocityAfter) / 2, (self.spinBefore + self.spinAfter) / 2
-		outward = self.normal if self.partner < self.body.id else -self.normal  # from the partner to the body; YADE's body 1 is the elder
+		outward = self.normal if self.partner < self.body.id else -self.normal  # from partner to body; YADE's body 1 has the lower id
 		speed = np.sum(outward * (velocity + np.cross(spin, self.point - self.position)), axis=1)
 		return -np.cumsum(np.nan_to_num(speed)) * self.timeStep
 
 	def balance(self):
-		"""Energy, all losses, and what the contact law books as nonconservative, less their sum at the start [J]: zero if all is booked."""
+		"""Energy, all losses, and what the contact law records as nonconservative, less their sum at the start [J]: zero if it is
+		complete."""
 		total = self.energy() + self.contactLoss() + self.nonconservative + self.dampingLoss()
 		return total - total[0]
 

@@ -21,17 +21,17 @@ from yade import Box, Facet, O, Polytope, Sphere
 __all__ = ['picture', 'collect']
 
 colorMap = ['#1d4e79', '#3380a8', '#86bcbb', '#f0e4ba', '#f2a541', '#c8451b']
-"""Low to high; dark to light to warm, so that it reads in grey and for colour-blind eyes as well."""
+"""Low to high; dark to light to warm, so that it is readable in grey and for colour-blind readers as well."""
 
 fixedColor = (0.86, 0.86, 0.84)
 viewAngle = 24
-"""Vertical opening of the camera [degrees]; small, so that bodies of equal size look so."""
+"""Vertical opening of the camera [degrees]; small, so that bodies of equal size appear equal."""
 
 legendShare = 0.12
 """Share of the picture's height kept free for the legend, above the scene."""
 
 timeLimit = 300
-"""Seconds after which a picture is given up."""
+"""Seconds after which drawing a picture is aborted."""
 
 
 def picture(
@@ -64,11 +64,11 @@ def picture(
 	    of polygons along z
 	:param up: direction that is up in the picture; default z, for polygons y
 	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn. Give the same for a series.
-	:param float zoom: above 1 to come nearer than the frame asks for
+	:param float zoom: above 1 to come nearer than the frame requires
 	:param size: (width, height) in pixels
 	:param background: RGB
 	:param bool edges: draw the edges of the faces
-	:raises RuntimeError: with the drawing program's words, if there is no picture
+	:raises RuntimeError: with the drawing program's message, if there is no picture
 	"""
 	drawn = [b for b in (O.bodies if bodies is None else bodies) if b and b.shape]
 	flat = all(b.shape.dimension == 2 for b in drawn if isinstance(b.shape, Polytope)) and any(isinstance(b.shape, Polytope) for b in drawn)
@@ -155,7 +155,7 @@ def _localFaces(shape):
 
 
 def _sphereFaces(radius, rings=24):
-	"""Quadrilaterals between circles of latitude; triangles at the poles would not look better."""
+	"""Quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
 	around = 2 * rings
 	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, around, endpoint=False), indexing='ij')
 	points = radius * np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
@@ -229,7 +229,7 @@ def _typicalRadius(bodies):
 
 
 def _camera(points, view, up, aspect, zoom, flat, free):
-	"""The camera that looks against *view* and holds all points, with a share of the height left *free* above them."""
+	"""The camera in the direction *view* from the scene that shows all points, with a share of the height left *free* above them."""
 	right = _unit(np.cross(up, view))
 	axes = np.array([right, np.cross(view, right), view])  # right, up, towards the camera
 	local = points @ axes.T

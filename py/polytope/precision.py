@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The one place where a script's numbers become YADE's.
+"""The only conversions from a script's numbers to YADE's.
 
-In YADE's double these are Python's floats. Its wider precisions hand out a type of their own, yade.minieigenHP.Real, and take
+In YADE's double these are Python's floats. Its wider precisions return a type of their own, yade.minieigenHP.Real, and accept
 that, Python's and mpmath's numbers.
 """
 import numbers

@@ -168,7 +168,7 @@ def addLegend(renderer, legend, height):
 
 
 def shadingPass(radius):
-	"""Ambient occlusion: gaps and undersides come out darker, which shows what lies on what."""
+	"""Ambient occlusion: gaps and undersides are darker, which shows where bodies rest on each other."""
 	import vtk
 	occlusion = vtk.vtkSSAOPass()
 	occlusion.SetDelegatePass(vtk.vtkRenderStepsPass())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Groups of settings that the measured fronts recommend: `polytope.settings`."""
+"""Groups of settings recommended by the measured Pareto fronts: `polytope.settings`."""
 
 __all__ = ['presets', 'settings']
 
@@ -28,17 +28,18 @@ def settings(name):
 	fails in a scene (the Chebyshev centre in C), or follows another law rather than having less error (the centroid).
 
 	**What 'exact' is exact in**: energy (F: off by 1.5e-5 instead of 1.15, the default's) and slip (C: off by 7e-4 instead of 3e-3). It is
-	another contact, conservative and softer, that blunts edges and corners, and answers that hang on the shape of these or on the depth of
-	an overlap are further off than the default's: the height of a cube at rest by 1e-4 (default 1e-10), the peak load of the beam B, which
-	turns on its corners, by 0.91 (default 0.16, both against forces at the centroid), and contact forces of a pair differ from the paper's
-	by 0.41. Where these matter take 'balanced'. `./run tradeoff --quick --only B C F rest pair` prints these figures.
+	another contact, conservative and softer, that blunts edges and corners, and answers that depend on the shape of these or on the depth
+	of an overlap are further off than the default's: the height of a cube at rest by 1e-4 (default 1e-10), the peak load of the beam B,
+	which turns on its corners, by 0.91 (default 0.16, both against forces at the centroid), and contact forces of a pair differ from the
+	paper's by 0.41. Where these matter take 'balanced'. `./run tradeoff --quick --only B C F rest pair` prints these figures.
 
 	All of it was measured with the paper's normal (normal='innerPotential'), before the present default.
 
 	**Time steps**: polytope.stableTimeStep(1) is safe for any heap; it is 1/ω where nothing is damped, less with dampers. 'exact' stays within
-	1/ω: 0.80/ω in the roof wedge D, 0.70/ω in the heap A, once at rest. 'balanced' and 'fast' are not held to it. They rest on the answers
-	measured, in scenes with damped contacts, whose heap (A) is at 1.3/ω and 2.6/ω, and is blown apart by twice the step of 'fast'.
-	polytope.requirements(O) names any step above stableTimeStep(1); where answers look odd, put PolytopeTimeStepper into O.engines instead.
+	1/ω: 0.80/ω in the roof wedge D, 0.70/ω in the heap A, once at rest. 'balanced' and 'fast' are not limited to it. They rest on the
+	answers measured, in scenes with damped contacts, whose heap (A) is at 1.3/ω and 2.6/ω, and becomes unstable with twice the step of
+	'fast'. polytope.requirements(O) names any step above stableTimeStep(1); where results are doubtful, put PolytopeTimeStepper into
+	O.engines instead.
 
 	:param str name: 'fast', 'balanced' or 'exact'
 	:returns: attributes by name; and *timeStepFactor*, over the step you would take otherwise: the scenes' own is 0.2 √(m/k) (A, C, D), and
@@ -52,7 +53,7 @@ def settings(name):
 		functor = Ig2_Polytope_Polytope_PolytopeGeom(**choice)
 
 	or polytope.tradeoff(build, {name: polytope.settings(name) for name in ('fast', 'balanced', 'exact')}, …) for your own scene. Large
-	faces pressed together are stiff against rocking with the conservative contact: polytope.stableTimeStep() knows.
+	faces pressed together are stiff against rocking with the conservative contact: polytope.stableTimeStep() takes account of it.
 	"""
 	if not isinstance(name, str) or name not in presets:
 		raise ValueError(f'name: must be one of {", ".join(presets)}, got {name!r}')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A time step that the present contacts can bear, rocking included."""
+"""A time step that is stable with the present contacts, rocking included."""
 
 import math
 
@@ -15,7 +15,7 @@ def stableTimeStep(fraction=0.2, default=None):
 
 	What :yref:`PolytopeTimeStepper` computes, without its limit of motion: in most scenes put that engine into O.engines instead, which keeps
 	the step right as the run goes on (docs/time-step.md says what τ is). One body between fixed ones is stable up to 2 τ, any heap up to
-	τ. YADE's GlobalStiffnessTimeStepper knows no rocking. In a scene without contacts it is the τ of the contacts that may come,
+	τ. YADE's GlobalStiffnessTimeStepper neglects rocking. In a scene without contacts it is the τ of the contacts that may come,
 	from the materials.
 
 	:param float fraction: of τ, above 0; at most 1 is safe for any heap, at most 2 (refused above) for one body

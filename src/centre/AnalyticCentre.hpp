@@ -14,9 +14,9 @@
 /// lets a start close to a face's corner cross the whole face in one step where a damped step would double its distance.
 ///
 /// The frame must have its last axis along the contact normal and its origin near the overlap: then a thin overlap makes
-/// the Hessian graded (one axis large), which Cholesky does not mind, instead of ill-conditioned. An overlap that is thin
+/// the Hessian graded (one axis large), which Cholesky handles without loss, instead of ill-conditioned. An overlap that is thin
 /// across two axes (parallel edges that just overlap, blocks of a wall that meet at a corner) needs the other axes along
-/// its own too: where Cholesky finds digits cancelling, `Skewed` asks for stiffAxes().
+/// its own too: where digits cancel in the Cholesky factorisation, `Skewed` is returned and the caller turns to stiffAxes().
 namespace polytope {
 
 enum class CentreStatus { Converged, RoundingLimited, Skewed, NotConverged };
@@ -81,7 +81,7 @@ template <class R, int D> POLYTOPE_INLINE bool newtonStep(const R (&g)[D], const
 		const R xz_ = h[1][0] * h[2][1] - h[2][0] * h[1][1];
 		const R det = h[0][0] * xx_ + h[1][0] * xy_ + h[2][0] * xz_;
 		if (det > R(tolerance::wellScaled) * (h[0][0] * h[1][1] * zz)) {
-			// by cofactors: one division, where an elimination waits for three, one after another
+			// by cofactors: one division, where an elimination needs three in sequence
 			const R yy_       = h[0][0] * zz - h[2][0] * h[2][0];
 			const R yz_       = h[1][0] * h[2][0] - h[0][0] * h[2][1];
 			const R zz_       = h[0][0] * h[1][1] - h[1][0] * h[1][0];
@@ -180,7 +180,7 @@ template <class R, int D, int W> POLYTOPE_INLINE R stepLength(const PairPlanes<R
 	const R slope = -step.decrement * step.decrement;
 	if (!(pole > 0)) return 1;
 	// towards a plane: the minimum of a bound from above, φ(t) ≤ φ(0) + φ'(0) (t + t/p + log(1 − t p)/p²), p the pole's rate.
-	// Away from all near planes p is small, and the minimum may be many steps away: then it is looked for
+	// Away from all near planes p is small, and the minimum may be many steps away: then it is searched for
 	if (pole > R(tolerance::nearPole)) return 1 / (1 + pole);
 	const R tMax = 1 / pole;
 	R       low = 0, high = tMax;
@@ -214,7 +214,7 @@ POLYTOPE_INLINE CentreStatus analyticCentre(const PairPlanes<R, D>& planes, R* x
 		if (!barrierDerivatives<R, D, W>(planes, x, g, h)) return CentreStatus::NotConverged;
 		if (!newtonStep<R, D>(g, h, step)) return step.skewed ? CentreStatus::Skewed : CentreStatus::NotConverged;
 		decrement = step.decrement;
-		// rounding shows as a full step that did not contract: stay where we are
+		// a full step that did not reduce the decrement is due to rounding: keep the present point
 		const bool stalled = previous <= R(tolerance::fullStep) && step.decrement > previous / 2;
 		if (stalled && step.decrement <= R(tolerance::stagnation)) return CentreStatus::RoundingLimited;
 		if (iterations >= tolerance::newtonIterations) return CentreStatus::NotConverged;

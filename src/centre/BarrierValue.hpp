@@ -15,16 +15,16 @@
 /// every λ_i ≤ ½ (λ_i = |Σ over the others of λ_j a_j| ≤ 1 − λ_i), hence Φ ≥ s*: separated bodies have Φ ≥ 0.
 ///
 /// Newton on D + 1 unknowns in primal-dual form: with u_i = √λ_i, the equations σ_i u_i = μ, Σ u_i² z_i = (0; 1) with
-/// z_i = (−a_i; 1) are linearised in (x, s, u); u is eliminated plane by plane. What is linear in u_i converges from far off,
-/// where Newton on x and s alone would creep (σ ≪ μ) or overshoot (σ ≫ μ).
+/// z_i = (−a_i; 1) are linearised in (x, s, u); u is eliminated plane by plane. What is linear in u_i converges from a distant start,
+/// where Newton on x and s alone would take very short steps (σ ≪ μ) or overshoot (σ ≫ μ).
 ///
 /// The frame must be as for the analytic centre (AnalyticCentre.hpp), for the same reason: last axis along the contact
-/// normal; `Skewed` asks for stiffAxes().
+/// normal; on `Skewed` the caller turns to stiffAxes().
 namespace polytope {
 
 enum class BarrierStatus { Converged, RoundingLimited, Skewed, NotConverged };
 
-/// Minimiser and what Newton leaves behind. Unknowns in the order of elimination: s, then the axes from the last to the first.
+/// Minimiser, factors and accuracy of the last step. Unknowns in the order of elimination: s, then the axes from the last to the first.
 template <class R, int D> struct BarrierPoint {
 	R x[D];
 	R level = 0;           ///< s
@@ -46,7 +46,7 @@ template <class R, int D> POLYTOPE_INLINE void solveFactored(const BarrierPoint<
 			b[k] -= point.lower[j][k] * b[j];
 }
 
-/// Where the u_i come from: μ/σ_i, or those of the last iterate and the step barrierMove() left.
+/// How the u_i are obtained: as μ/σ_i, or from the last iterate and the step that barrierMove() computed.
 enum class BarrierWeights { FromSlacks, Stepped };
 
 /// Slacks at the point (left in planes.slack), u_i (in planes.rate), Hessian and right-hand side of the Newton step. False
@@ -108,7 +108,7 @@ POLYTOPE_INLINE bool barrierSystem(const PairPlanes<R, D>& planes, R mu, Barrier
 }
 
 /// LDLᵀ of the lower triangle h into the point. False if digits cancel in these axes and these may be turned; if they have
-/// been turned enough, a pivot that is all rounding is lifted to that: the step is shorter along an axis nothing else holds.
+/// been turned enough, a pivot below rounding is raised to that value: the step is shorter along an axis that no other plane bounds.
 template <class R, int D> POLYTOPE_INLINE bool factoriseBarrier(const R (&h)[D + 1][D + 1], bool turnable, BarrierPoint<R, D>& point)
 {
 	for (int k = 0; k <= D; ++k) {
@@ -164,7 +164,7 @@ template <class R, int D, int W> POLYTOPE_INLINE BarrierMove<R> barrierMove(cons
 }
 
 /// Newton from the point (all σ_i > 0 there), u_i from the slacks or, after the axes were turned, as they are. Converged when
-/// what remains after the last step is predicted below `accept`, relative to each slack. `turnable`: give up as Skewed where
+/// what remains after the last step is predicted below `accept`, relative to each slack. `turnable`: return Skewed where
 /// other axes would keep more digits.
 template <class R, int D, int W>
 POLYTOPE_INLINE BarrierStatus minimiseBarrier(
@@ -184,7 +184,7 @@ POLYTOPE_INLINE BarrierStatus minimiseBarrier(
 		weights         = BarrierWeights::Stepped;
 		const bool full = length == 1 && dualStep == 1;
 		const R    size = maxOf<R>(move.change, move.mismatch);
-		// rounding shows as a full step that did not contract; before the second small one convergence may not be quadratic yet
+		// a full step that gains nothing is due to rounding; before the second small one convergence may not be quadratic yet
 		const bool stalled = full && previous <= R(tolerance::stagnation) && size > previous / 2;
 		if (stalled && size <= R(tolerance::stagnation)) return BarrierStatus::RoundingLimited;
 		if (iterations >= tolerance::newtonIterations) return BarrierStatus::NotConverged;
@@ -199,7 +199,7 @@ POLYTOPE_INLINE BarrierStatus minimiseBarrier(
 }
 
 /// Φ, and n = Σ over body 1 of λ_i a_i = −Σ over body 2: at the minimiser dΦ = n·(motion of body 2's material point at x).
-/// `held` = Σ λ_i |a_i across the last axis|²: what holds the point along the contact.
+/// `held` = Σ λ_i |a_i across the last axis|²: how strongly the planes fix the point along the contact face.
 template <class R, int D, int W>
 POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const BarrierPoint<R, D>& point, R* n, R& held)
 {
@@ -241,7 +241,7 @@ POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const Barri
 	return point.level + (barrier - 2 * sqrt(R(2)) * mu);
 }
 
-/// Largest way x goes across n per angle by which the bodies are tilted against each other about an axis across n [m/rad]:
+/// Largest distance that x moves across n per angle by which the bodies are tilted against each other about an axis across n [m/rad]:
 /// a tilt moves the gradient in x by |n| across n, so it is |n| × the largest eigenvalue of the inverse Hessian across n.
 template <class R, int D> POLYTOPE_INLINE R rockingArm(const BarrierPoint<R, D>& point, const R* n)
 {

@@ -22,7 +22,7 @@ using namespace Ipopt;
 
 namespace {
 
-	/// Ipopt's objects, made once a thread and used again for every pair.
+	/// Ipopt's objects, made once per thread and reused for every pair.
 	class IpoptRunner {
 	public:
 		IpoptRunner();
@@ -35,7 +35,7 @@ namespace {
 		SmartPtr<IpoptLinearSolver> linear_    = new IpoptLinearSolver;
 		SmartPtr<IpoptApplication>  application_;
 		SmartPtr<NLP>               adapter_;
-		bool                        algorithm_ = false; ///< made, and to be used again
+		bool                        algorithm_ = false; ///< made, and reusable
 	};
 
 	IpoptRunner::IpoptRunner()
@@ -51,7 +51,7 @@ namespace {
 		options.SetNumericValue("bound_relax_factor", 0);
 		options.SetNumericValue("tol", tolerance::ipopt);
 		options.SetIntegerValue("max_iter", tolerance::ipoptIterations);
-		options.SetIntegerValue("acceptable_iter", 3); // rounding keeps a badly scaled round above `tol`: on to the next
+		options.SetIntegerValue("acceptable_iter", 3); // rounding keeps a badly scaled round above `tol`: take the next
 		// Ipopt's barrier −μ Σ log σ_i for the bounds is a multiple of the objective and does not move the solution: no need
 		// to let μ go to zero, unless a damping term were added to it
 		options.SetNumericValue("mu_init", 1);
@@ -77,7 +77,7 @@ namespace {
 		program_->start(dimension, count, normal, offset, x);
 		if (program_->inside()) program_->moveToMiddle();
 		// A round ends where Ipopt's tolerance, rounding or the limit of iterations ends it. Each starts from the last one's
-		// point with a scaling of its own, until one finds nothing to do: then its numbers were about one.
+		// point with a scaling of its own, until one needs no iteration: then its numbers were about one.
 		for (int round = 0; round < tolerance::ipoptRounds; ++round) {
 			program_->scale();
 			const ApplicationReturnStatus status = optimise();

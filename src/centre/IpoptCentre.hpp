@@ -4,10 +4,10 @@
 #include "numbers/Real.hpp"
 
 /// Analytic centre the way the paper solves it (Boon et al. 2012, section 2.6, Eqs 19-36): a nonlinear program with one
-/// slack variable a plane, scaled, handed to Ipopt (Wächter & Biegler 2006, Math. Program. 106:25-57). The way out where
-/// Newton on Eq. 10 (AnalyticCentre.hpp) gives up, and a second opinion on it.
+/// slack variable a plane, scaled, handed to Ipopt (Wächter & Biegler 2006, Math. Program. 106:25-57). Used where
+/// Newton on Eq. 10 (AnalyticCentre.hpp) does not converge, and as an independent check of it.
 ///
-/// An optional part of the build: NoIpoptCentre.cpp stands in where there is no Ipopt.
+/// An optional part of the build: NoIpoptCentre.cpp replaces it where there is no Ipopt.
 namespace polytope {
 
 enum class IpoptOutcome { Converged, Failed, NotAvailable };

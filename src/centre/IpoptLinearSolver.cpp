@@ -28,7 +28,7 @@ ESymSolverStatus IpoptLinearSolver::factorise(const Index* rows, const Index* co
 		const int row = std::max(rows[i], columns[i]) - 1, column = std::min(rows[i], columns[i]) - 1;
 		if (row == column) diagonal_[row] += values_[i];
 		else if (row >= firstMultiplier && column < dimension_) constraints_(row - firstMultiplier, column) += values_[i];
-		else if (row != column + planes_ || values_[i] != 1) return SYMSOLVER_FATAL_ERROR; // not this program
+		else if (row != column + planes_ || values_[i] != 1) return SYMSOLVER_FATAL_ERROR; // not used by this program
 	}
 	Eigen::MatrixXd stack(dimension_ + planes_, dimension_);
 	stack.setZero();

@@ -14,9 +14,9 @@
 ///     ⎢ 0   P   1  ⎥ ⎢σ⎥ = b     (E + Cᵀ w C) u = …,   w = P/(1 + P Δ),
 ///     ⎣ C   1  −Δ  ⎦ ⎣λ⎦         solved through a QR factorisation of √E over √w C (Ipopt refines the solution).
 ///
-/// Instead of MUMPS, the one solver that Debian's Ipopt brings: it is built with MPI, which Ipopt would start inside the
-/// simulation and end, for the whole process and for ever, with its last solver object, that is, with a thread. And a
-/// general solver's threads and bookkeeping cost more than this system.
+/// Replaces MUMPS, the only solver of Debian's Ipopt. That one is built with MPI: Ipopt would start MPI inside the simulation, and
+/// finalise it for the whole process when its last solver object is destroyed, that is, when a thread ends (MPI cannot be started
+/// again). Besides, a general solver's threads and data structures cost more than solving this small system.
 namespace polytope {
 
 class IpoptLinearSolver : public Ipopt::SparseSymLinearSolverInterface {

@@ -59,7 +59,7 @@ void IpoptProgram::moveToMiddle()
 void IpoptProgram::scale()
 {
 	solution_.clear();
-	// at a plane that passes through x₀: the length nearest to nothing that there is
+	// for a plane that passes through x₀: the smallest positive length
 	Real smallest = padOffset;
 	for (const Real& slack : slack_)
 		if (slack != 0) smallest = std::min<Real>(smallest, slack < 0 ? -slack : slack);
@@ -70,7 +70,7 @@ void IpoptProgram::scale()
 		const Chord c = chord(slackUnit_, k);
 		unit_[k]      = (c.ahead + c.back) / 2;
 	}
-	// from outside the way may be long against the slacks: no coefficient above one
+	// from outside the distance may be long against the slacks: no coefficient above one
 	if (!inside())
 		for (int i = 0; i < planes_; ++i)
 			for (int k = 0; k < dimension_; ++k)
@@ -90,7 +90,7 @@ Real IpoptProgram::moveToSolution()
 		step[k] = unit_[k] * solution_[k];
 		point_[k] += step[k];
 	}
-	// from u, for σ holds to Ipopt's tolerance only
+	// computed from u, since σ is accurate to Ipopt's tolerance only
 	for (int i = 0; i < planes_; ++i) {
 		Real approach = 0;
 		for (int k = 0; k < dimension_; ++k)

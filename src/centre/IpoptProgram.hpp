@@ -9,7 +9,8 @@
 
 namespace polytope {
 
-/// The centre as Ipopt is given it (Boon et al. 2012, Eqs 19-36). With x = x₀ + diag(D)·u and slacks in units of their own values at x₀, slack_i = S_i·σ_i:
+/// The problem of the centre as Ipopt solves it (Boon et al. 2012, Eqs 19-36).
+/// With x = x₀ + diag(D)·u and slacks in units of their own values at x₀, slack_i = S_i·σ_i:
 ///
 ///     minimise −Σ log σ_i   over u, σ      subject to   Σ_k (a_ik D_k/S_i) u_k + σ_i = b_i,   σ_i ≥ 0.
 ///

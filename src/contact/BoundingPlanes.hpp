@@ -4,12 +4,12 @@
 #include "centre/AnalyticCentre.hpp"
 #include "contact/ContactTypes.hpp"
 
-/// Planes that bound the overlap of a touching pair, as against those far from it: what internal faces are looked for among
+/// Planes that bound the overlap of a touching pair, as opposed to those far from it: the candidates for internal faces
 /// (ContactSettings::internal).
 namespace polytope {
 
 /// At x, inside the overlap: with the Hessian H = Σ a_i a_iᵀ/σ_i² of the analytic centre, plane i has the leverage
-/// a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has next to none, and one
+/// a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has almost zero, and one
 /// that cuts off a part of it has at least about 1/(number of planes there).
 template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairPlanes<R, D>& planes, const R* x, BoundingPlanes& out)
 {

@@ -15,14 +15,14 @@
 ///
 ///     U = 2 k Φ²,      on body 2: F = −∂U/∂(centre 2) = −4 k Φ n at the point x,      n = Σ over body 1 of λ_i a_i,
 ///
-/// and the opposite on body 1, also at x: by the envelope theorem x, s and λ may be held while the bodies move, and then
-/// translation and rotation of a body move Φ as a force n at x works. As a geometry for linear laws: contact point x,
+/// and the opposite on body 1, also at x: by the envelope theorem x, s and λ may be kept constant while the bodies move, and then
+/// translation and rotation of a body change Φ by the work of a force n at x. As a geometry for linear laws: contact point x,
 /// normal n/|n|, depth −4 Φ |n|. Face on face that depth is the overlap, so k is the stiffness; |n| ≤ ½, and a sharp corner
 /// is softer: (2|n|)² k. docs/conservative-contact.md has the derivation.
 namespace polytope {
 
 /// Start of the Newton iterations: the last minimiser, carried by both bodies, or, if that has become worse, the linear
-/// program's optimum (x, s). Lifted until every slack has room.
+/// program's optimum (x, s). s is raised until every slack is positive by a margin.
 template <class R, int D, int W>
 POLYTOPE_INLINE void startBarrier(const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, const PairMemory& memory, bool warm,
         const R* x, R s, R mu, BarrierPoint<R, D>& start)
@@ -51,7 +51,7 @@ template <class R, int D> POLYTOPE_INLINE bool apartByWeights(const LpBasis<R, D
 	return below + 2 * mu * sum >= 0;
 }
 
-/// Newton from `point`, in axes turned to the planes' own where those of the contact do not do; planes, frame and x turn with it.
+/// Newton from `point`, in axes turned to the planes' own where the contact's axes lose digits; planes, frame and x turn with it.
 template <class R, int D, int W>
 POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* x,
         BarrierPoint<R, D>& point, ContactResult& out)
@@ -70,7 +70,7 @@ POLYTOPE_INLINE BarrierStatus solveBarrier(const ContactSettings& settings, R mu
 	}
 }
 
-/// n to unit length; false for coincident bodies, or one wholly inside the other, from which no direction leads out: any will do.
+/// n to unit length; false for coincident bodies, or one wholly inside the other, where no direction separates them: any direction is used.
 template <class R, int D> POLYTOPE_INLINE bool unitDirection(R length, R* n)
 {
 	const bool some = length > R(tolerance::direction);
@@ -79,13 +79,14 @@ template <class R, int D> POLYTOPE_INLINE bool unitDirection(R length, R* n)
 	return some;
 }
 
-/// Status of a pair with Φ < 0, n its force direction of `length` before it is made a unit vector; `held`: what holds the point along a face.
+/// Status of a pair with Φ < 0, n its force direction of `length` before it is made a unit vector; `held`: how strongly
+/// the planes fix the point along the contact face (see barrierValue()).
 template <class R> POLYTOPE_INLINE ContactStatus barrierContactStatus(BarrierStatus solved, bool directed, R length, R held)
 {
 	if (!directed) return ContactStatus::NoDirection;
 	if (solved == BarrierStatus::NotConverged) return ContactStatus::CentreNotConverged;
-	// flat faces of thin bodies: far side planes' barrier is all that holds the point along the face, and planes tilted by their own
-	// rounding pull at it
+	// flat faces of thin bodies: only the barrier of the distant side planes fixes the point along the face, and rounding in the
+	// planes' normals shifts it
 	const bool drifts = R(tolerance::noise * tolerance::rounding) * length > R(tolerance::stagnation) * held;
 	return solved == BarrierStatus::RoundingLimited || drifts ? ContactStatus::RoundingLimited : ContactStatus::Contact;
 }
@@ -140,7 +141,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 
 	out.inContact       = value < 0;
 	out.hasGeometry     = true;
-	// bodies that coincide are in balance; what rounding is worth in the length of n is enough to begin to part them
+	// coincident bodies are in equilibrium; a normal with the length of rounding is enough to start separating them
 	out.depth           = -4 * value * maxOf<R>(length, R(tolerance::direction));
 	out.energy          = value < 0 ? 2 * value * value : R(0);
 	out.rockingArm      = converged ? rockingArm<R, D>(point, n) : R(0); // its Hessian is the minimiser's

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-/// The frame one query computes in, and the ways between it, the bodies' own frames and world axes.
+/// The frame in which one query computes, and transformations between it, the bodies' own frames and world axes.
 namespace polytope {
 
 struct PairInput {
@@ -16,15 +16,15 @@ struct PairInput {
 	const Vector3*     centre2;
 };
 
-/// The frame of one query, given in each body's own axes: so a plane that passes near the contact loses no digits to its
-/// body's size, nor to where its body is. It is that of the last step's contact (followContact()) or starts in the smaller
+/// The frame of one query, given in each body's own axes: so a plane that passes near the contact loses no digits through its
+/// body's size or position. It is that of the last step's contact (followContact()) or starts in the smaller
 /// body (homeFrame()) and goes on to the LP's point, last axis along the LP's dual direction (aim()).
 template <class R, int D> struct ContactFrame {
 	int            home;         ///< the smaller body
 	R              size;         ///< its circumradius
 	Rotation<R, D> world;        ///< from the frame to world axes
 	Rotation<R, D> own[2];       ///< from the frame to a body's axes
-	R              origin[2][D]; ///< way from the smaller body's centre to the frame's origin, in a body's axes
+	R              origin[2][D]; ///< vector from the smaller body's centre to the frame's origin, in a body's axes
 	R              centre[2][D]; ///< the smaller body's centre in a body's coordinates
 };
 
@@ -61,7 +61,7 @@ template <class R, int D> POLYTOPE_INLINE void setAxes(const PairInput& in, Cont
 		f.own[body] = ownAxes<R, D>(*in.rotation[body], world);
 }
 
-/// Whether all numbers of the pose are numbers.
+/// Whether all components of the pose are finite.
 template <class R, int D> POLYTOPE_INLINE bool finitePose(const PairInput& in)
 {
 	using std::isfinite;

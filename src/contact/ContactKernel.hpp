@@ -55,7 +55,7 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 	return planes;
 }
 
-/// Whether the last step's weights still hold the bodies apart, before a plane is looked at.
+/// Whether the last step's weights still separate the bodies, checked before any plane is transformed.
 template <class R, int D>
 POLYTOPE_INLINE bool dismissedByLastWeights(const PairInput& in, const ContactSettings& settings, const PairMemory& memory,
         const ContactFrame<R, D>& f, const ProgramLimits<R>& limits, ContactResult& out)

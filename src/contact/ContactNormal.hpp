@@ -7,7 +7,7 @@
 #include "contact/InnerPotential.hpp"
 
 /// Contact normal at the contact point: from balanced weights of the linear program (DualWeights.hpp), or the paper's average of
-/// two gradients (Boon et al. 2012, Eq. 17), and what stands in for it where there is none.
+/// two gradients (Boon et al. 2012, Eq. 17), and the direction that replaces it where there is none.
 namespace polytope {
 
 /// Direction (not of unit length) where the bodies have none: along the line of centres, or the smaller body's last axis.
@@ -58,8 +58,8 @@ POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactS
 	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
 }
 
-/// Unit normal of the plane with the least slack, as seen from body 1. Where balanced weights cancel that far, two faces lie between which
-/// n is by less than their own tilt.
+/// Unit normal of the plane with the least slack, pointing away from body 1. Used where the balanced weights cancel to rounding: then two
+/// nearly parallel faces touch, and n differs from the normal of either by less than the angle between them.
 template <class R, int D> POLYTOPE_INLINE void nearestNormal(const PairPlanes<R, D>& planes, R* n)
 {
 	int nearest = 0;

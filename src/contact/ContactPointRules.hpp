@@ -10,7 +10,7 @@
 /// The contact point by each of the rules of ContactPoint, from the linear program's point.
 namespace polytope {
 
-/// Newton from `start`, in axes turned to the overlap's own where those of the contact do not do; x and dual turn with them.
+/// Newton from `start`, in axes turned to the overlap's own where the contact's axes lose digits; x and dual turn with them.
 template <class R, int D, int W>
 POLYTOPE_INLINE CentreStatus newtonCentre(
         PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
@@ -57,13 +57,13 @@ POLYTOPE_INLINE void startOfCentre(const ContactSettings& settings, const PairPl
 }
 
 /// Eq. 10: x from the linear program's point, or `start`, to the analytic centre by the chosen solver; frame, planes and dual turn with it.
-/// Where Newton gives up, Ipopt, if the build has it.
+/// Where Newton does not converge, Ipopt, if the build has it.
 template <class R, int D, int W>
 POLYTOPE_INLINE ContactStatus centrePoint(const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, bool touching,
         R deep, R* start, R* x, R* dual, ContactResult& out)
 {
 	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
-	// what is left of the way to the centre moves the depth by at most that part of itself
+	// a remaining distance to the centre changes the depth by at most the same fraction
 	const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
 	const CentreStatus centre = settings.solver == CentreSolver::Newton ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)
 	                                                                    : CentreStatus::NotConverged;
@@ -94,7 +94,7 @@ POLYTOPE_INLINE ContactStatus contactPoint(const ContactSettings& settings, Pair
 	}
 	if (settings.contactPoint == ContactPoint::Centroid)
 		overlapCentroid<R, D>(planes, x, 2 * f.size, workspace.polygons(4 * (planes.total + 5)));
-	return touching ? ContactStatus::Contact : ContactStatus::Separated; // x is the Chebyshev centre as it comes
+	return touching ? ContactStatus::Contact : ContactStatus::Separated; // x, the linear program's point, is the Chebyshev centre
 }
 
 } // namespace polytope

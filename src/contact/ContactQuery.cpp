@@ -80,7 +80,7 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
         const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
 	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
-	// in place: an assigned one would be made elsewhere first, which takes as long as a dismissal
+	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;
 	if (settings.contactModel == ContactModel::Conservative && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {

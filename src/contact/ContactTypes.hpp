@@ -7,19 +7,19 @@
 #include <array>
 #include <vector>
 
-/// What a contact query is asked (ContactSettings), keeps from step to step (PairMemory), works in (ContactWorkspace) and answers
-/// (ContactResult). Lengths in metres, world axes and from body 1's centre unless said otherwise; the normal points from body 1 to body 2.
+/// Input (ContactSettings), memory from step to step (PairMemory), buffers (ContactWorkspace) and output (ContactResult) of a contact
+/// query. Lengths in metres, world axes and from body 1's centre unless said otherwise; the normal points from body 1 to body 2.
 namespace polytope {
 
 enum class ContactPoint : int {
 	AnalyticCentre = 0, ///< Eq. 10
-	ChebyshevCentre,    ///< the LP's own point: centre of a largest ball in the overlap, cheapest, jumps where it is not unique
-	Centroid,           ///< of the overlap's volume (area in 2-D), dearest
+	ChebyshevCentre,    ///< the LP's own point: centre of a largest ball in the overlap, lowest cost, jumps where it is not unique
+	Centroid,           ///< of the overlap's volume (area in 2-D), highest cost
 };
 
 /// Of the analytic centre.
 enum class CentreSolver : int {
-	Newton = 0, ///< AnalyticCentre.hpp; where it gives up, Ipopt if the build has it
+	Newton = 0, ///< AnalyticCentre.hpp; where it does not converge, Ipopt if the build has it
 	Ipopt,      ///< IpoptCentre.hpp for every contact: a hundred to a thousand times slower, independent of Newton
 };
 
@@ -45,7 +45,7 @@ struct BoundingPlanes {
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
-/// nothing can press on them. The contact normal and the depth are those without them.
+/// nothing can touch them. The contact normal and the depth are those without them.
 struct InternalPlanes {
 	int  count[2] = { 0, 0 };
 	int  plane[2][BoundingPlanes::most];
@@ -111,7 +111,7 @@ struct ContactResult {
 	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy           = 0;               ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
 	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
-	bool    dismissed        = false; ///< separated by the first basis' bound, without a look at the other planes
+	bool    dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
 	int     simplexPivots    = 0;
 	int     newtonIterations = 0;
 	bool    ipoptSolved      = false; ///< Ipopt was called, with or without success
@@ -122,7 +122,7 @@ struct ContactResult {
 	std::array<Real, 4> weights { { 0, 0, 0, 0 } };   ///< LP dual λ of the basis
 };
 
-/// Buffers of one thread; grow to the largest pair seen, then stay.
+/// Buffers of one thread; grow to the largest pair seen, and keep that size.
 class ContactWorkspace {
 public:
 	Real* rows(int rowCount, int length);

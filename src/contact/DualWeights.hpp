@@ -18,7 +18,7 @@
 ///     M c = −Σ w_i a_i,      M = Σ w_i a_i a_iᵀ:
 ///
 /// one pass over the planes and one linear system of D unknowns, positive definite since the normals span space. λ is a smooth
-/// function of x, x one of the poses; no length enters but the overlap's own, so n does not change when all is scaled.
+/// function of x, x one of the poses; the only length that enters is the overlap's own, so n does not change when everything is scaled.
 ///
 /// Why the third power. As the power grows the weights tend to those of a basis. With the first, w_i = 1/σ_i, the analytic centre's
 /// own conditions give c = 0; there a plane beside the contact, ℓ away from an overlap of thickness δ, would turn n by δ/ℓ. With
@@ -71,7 +71,7 @@ POLYTOPE_INLINE void weightSums(const PairPlanes<R, D>& planes, int body, const 
 }
 
 /// c of M c = −Σ w_i a_i. LDLᵀ from the last axis (the contact normal, where M is large) to the first; a pivot that is all
-/// rounding is lifted to that.
+/// rounding is raised to that value.
 template <class R, int D> POLYTOPE_INLINE void balance(const WeightSums<R, D> (&sums)[2], R* c)
 {
 	R lower[D][D], pivot[D];
@@ -96,8 +96,8 @@ template <class R, int D> POLYTOPE_INLINE void balance(const WeightSums<R, D> (&
 	}
 }
 
-/// n at x (not of unit length), as the sum over the body whose weights are smaller: of a thin plate inside a block the block's, where nothing
-/// cancels. Returns that body's Σ w_i, which n is to be compared with: where bodies share their centre n vanishes.
+/// n at x (not of unit length), as the sum over the body whose weights are smaller (for a thin plate inside a block: the block), where
+/// nothing cancels. Returns that body's Σ w_i, which n is to be compared with: where bodies share their centre n vanishes.
 template <class R, int D, int W> POLYTOPE_INLINE R dualWeightsNormal(const PairPlanes<R, D>& planes, const R* x, R unit, R* n)
 {
 	WeightSums<R, D> sums[2];

@@ -4,7 +4,7 @@
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
 
-/// Points of the overlap on the way to one that may be outside.
+/// Points of the overlap on the line to a point that may be outside.
 namespace polytope {
 
 /// Goes from x (inside) towards `target` as far as it stays inside.

@@ -7,7 +7,7 @@
 /// Normal and depth at the contact point, by all planes or without those of internal faces.
 namespace polytope {
 
-/// Moves internal faces out of reach, and back; `offset`: room for what they had.
+/// Replaces the offsets of internal faces by ones that no body reaches, and restores them; `offset`: buffer for the original values.
 template <class R, int D> POLYTOPE_INLINE void takeOut(PairPlanes<R, D>& planes, const InternalPlanes& internal, R* offset)
 {
 	for (int body = 0, next = 0; body < 2; ++body)
@@ -25,7 +25,7 @@ template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes,
 			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
 }
 
-/// Largest depth of a contact of two flush faces, which is what is left where internal faces are taken out.
+/// Largest depth of a contact of two flush faces, which is the contact that remains where internal faces are left out.
 template <class R> POLYTOPE_INLINE R internalDepth(const PairInput& in)
 {
 	return 2 * R(tolerance::thinContact) * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
@@ -56,13 +56,14 @@ POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const Contact
 	return status;
 }
 
-/// A pair across a gap, at x in the overlap of both bodies grown by `grown`: the depth is minus the way between the surfaces. `apart`: s*.
+/// A pair across a gap, at x in the overlap of both bodies grown by `grown`: the depth is minus the distance
+/// between the surfaces along n. `apart`: s*.
 template <class R, int D, int W>
 POLYTOPE_INLINE void normalAcrossGap(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
         const ContactFrame<R, D>& f, R grown, R apart, const R* x, const R* dual, R* n, R& depth)
 {
 	contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
-	// where the normal is no way out the chord says nothing; the bodies are s*/|n_λ| apart at the least
+	// where the normal does not separate the bodies the chord has no meaning; they are at least s*/|n_λ| apart
 	const R least = maxOf<R>(apart, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
 	depth         = minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -least);
 }

@@ -35,7 +35,7 @@ inline bool secondGoesFirst(
 	return order > 0;
 }
 
-/// The pair's memory under exchanged names.
+/// The pair's memory with the two bodies exchanged.
 inline void exchangeBodies(PairMemory& memory)
 {
 	for (int& code : memory.basis)
@@ -46,7 +46,7 @@ inline void exchangeBodies(PairMemory& memory)
 	memory.dualDirection = -memory.dualDirection;
 }
 
-/// The answer for the pair under exchanged names; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
+/// The result for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
 inline void exchangeBodies(ContactResult& result, const Vector3& centre2, int dimension)
 {
 	for (int& code : result.basis)

@@ -27,9 +27,9 @@ template <class R, int D, int W> POLYTOPE_INLINE R exitDistance(const PairPlanes
 	return horizontalMin<R, W>(nearest);
 }
 
-/// Of a body grown by `grown` (a length by which all its planes were moved out): how far the plane it is left through,
-/// where it really stands, is ahead of the point; negative if that lies behind. Across a gap the grown body says which plane
-/// counts: to be a little outside of a plane seen edge-on is to be far behind it.
+/// Of a body grown by `grown` (a length by which all its planes were moved out): distance along the direction from the point to the
+/// original position of the plane through which the direction leaves the grown body; negative if that plane lies behind the point.
+/// Across a gap the grown body decides which plane counts: a point slightly outside a plane nearly parallel to n is far from it along n.
 template <class R, int D> POLYTOPE_INLINE R exitOfGrown(const PairPlanes<R, D>& planes, int body, const R* n, R direction, R grown)
 {
 	R nearest = R(padOffset), exit = R(padOffset);

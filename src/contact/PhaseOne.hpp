@@ -4,7 +4,7 @@
 #include "contact/StartBasis.hpp"
 #include "program/SimplexLp.hpp"
 
-/// The linear program of a pair (SimplexLp.hpp) from its start basis, and what is said of its answer.
+/// The linear program of a pair (SimplexLp.hpp) from its start basis, and the result that is reported.
 namespace polytope {
 
 /// Undecided where rounding leaves no optimum certain. `pivots`: steps to other bases than the start's.
@@ -20,7 +20,7 @@ POLYTOPE_INLINE LpStatus solvePhaseOne(StartBasis start, const PairPlanes<R, D>&
 	return solveWide<R, D>(planes, basis, size, limit, pivots) ? LpStatus::Optimal : LpStatus::Undecided;
 }
 
-/// What is said of s* for a pair that a basis separates: a bound from below wherever s* is taken on, rounding of the weights
+/// The value reported for s* of a pair that a basis separates: a lower bound wherever s* is attained, rounding of the weights
 /// included, above `least`.
 template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
 {
@@ -56,7 +56,7 @@ POLYTOPE_INLINE void publishSeparation(
 	rememberWeights<D>(basis.weight, memory);
 }
 
-/// The answer as it stands before the contact point, and what the next step begins with. `dual`: n_λ in the planes' frame.
+/// The result before the contact point is computed, and the memory for the next step. `dual`: n_λ in the planes' frame.
 template <class R, int D>
 POLYTOPE_INLINE void publishProgram(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes,
         const LpBasis<R, D>& basis, LpStatus lp, const ProgramLimits<R>& limits, PairMemory& memory, R* dual, ContactResult& out)

@@ -6,7 +6,7 @@
 #include "program/BasisSolver.hpp"
 
 /// The basis that the linear program starts from, and the frame that its planes are placed in: those of the last step's contact; where
-/// these cannot be followed the last step's basis, or that of an inscribed ball, in a frame aimed by what it knows.
+/// these cannot be used the last step's basis, or that of an inscribed ball, in a frame given by that basis' dual direction and point.
 namespace polytope {
 
 enum class StartBasis {
@@ -14,16 +14,16 @@ enum class StartBasis {
 	OwnBall,     ///< of the smaller body's inscribed ball, in that body's own frame
 	Aimed,       ///< the last step's or a ball's: frame turned to its dual direction, origin at its point
 	AimedFar,    ///< the same, with the origin on the way to a point far outside the bodies, where every plane would lose digits
-	Unsolved,    ///< the same, but it has lost its digits in that frame
+	Unsolved,    ///< the same, but the basis is singular to rounding in that frame
 	None,        ///< no basis could be solved
-	Separating,  ///< its weights hold the bodies apart: no plane has been placed
-	NoPose,      ///< positions or rotations that are no numbers
+	Separating,  ///< its weights separate the bodies: no plane has been placed
+	NoPose,      ///< positions or rotations that are not finite
 };
 
 /// Lengths that the program's answers are judged by [m].
 template <class R> struct ProgramLimits {
 	R tolerance;    ///< the bodies touch where s* < −tolerance
-	R dismissAbove; ///< a bound of s* above this is answer enough
+	R dismissAbove; ///< a lower bound of s* above this ends the linear program
 	R reach;        ///< no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
 };
 
@@ -36,7 +36,7 @@ POLYTOPE_INLINE ProgramLimits<R> programLimits(const PairInput& in, const Contac
 	return { tolerance, settings.geometryAcrossGap ? R(padOffset) : -tolerance, 2 * (larger < R(padOffset) ? larger : f.size) };
 }
 
-/// Solves the basis given by codes (PairMemory::basis) in the frame; false if it cannot serve. `dual`: its dual direction.
+/// Solves the basis given by codes (PairMemory::basis) in the frame; false if it cannot be used. `dual`: its dual direction.
 template <class R, int D>
 POLYTOPE_INLINE bool startFrom(
         const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
@@ -56,8 +56,8 @@ POLYTOPE_INLINE bool startFrom(
 	return true;
 }
 
-/// The smaller body's inscribed ball, as the shape has solved it, in that body's frame. False where that is not the smaller ball, or has
-/// no digits.
+/// Basis of the smaller body's inscribed ball, as the shape has solved it, in that body's frame. False where that is not the smaller ball,
+/// or where the shape has no solved basis.
 template <class R, int D>
 POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis)
 {
@@ -99,7 +99,7 @@ POLYTOPE_INLINE StartBasis startBasis(const PairInput& in, const ContactSettings
 		recallBasis<R, D>(planes, memory, basis);
 		if (solveBasis<R, D>(planes, basis) && dualFeasible<R, D>(basis)) return StartBasis::LastContact;
 	}
-	if (!finitePose<R, D>(in)) return StartBasis::NoPose; // planes that are no numbers hold nobody off
+	if (!finitePose<R, D>(in)) return StartBasis::NoPose; // planes that are not finite separate nothing
 
 	homeFrame<R, D>(in, f);
 	R          dual[D];

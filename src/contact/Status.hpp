@@ -10,11 +10,11 @@ enum class ContactStatus : int {
 	NormalFromOneBody,  ///< innerPotential: the point lies deeper than cornerRadius in one body, the normal is the other body's gradient
 	NormalFromDual,     ///< the normal is the LP's dual direction: the balanced weights cancel to rounding (thin overlaps of nearly parallel faces);
 	                    ///< innerPotential: deeper than cornerRadius in both, or the gradients cancel
-	RoundingLimited,    ///< the overlap is so thin that Newton met rounding: the centre is as good as the planes' own digits
-	CentreByIpopt,      ///< Newton gave up on the analytic centre, Ipopt found it
+	RoundingLimited,    ///< the overlap is so thin that rounding ended Newton's iterations: the centre is as accurate as the planes
+	CentreByIpopt,      ///< Newton did not converge to the analytic centre, Ipopt found it
 	CentreNotConverged, ///< Ipopt, too, found no analytic centre: the LP's point was used instead
-	IpoptNotAvailable,  ///< Newton gave up (or Ipopt was asked for) and this build has no Ipopt: the LP's point was used instead
-	LpNotConverged,     ///< the simplex met its pivot limit: the bound reached so far was used
+	IpoptNotAvailable,  ///< Newton did not converge (or Ipopt was asked for), this build has no Ipopt: the LP's point was used instead
+	LpNotConverged,     ///< the simplex reached its pivot limit: the bound reached so far was used
 	NoDirection,        ///< coincident bodies: no separating direction exists; the line of centres or the z axis was used
 	Failed,             ///< no finite answer: treated as separated and counted
 };

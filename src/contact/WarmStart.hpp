@@ -11,7 +11,7 @@
 /// What a query takes from the pair's last one (PairMemory) and leaves to the next: it makes answers cheaper, never different.
 namespace polytope {
 
-/// Nothing of the answer, and nothing remembered, is to be used.
+/// Marks the result and the memory as unusable.
 POLYTOPE_INLINE void fail(PairMemory& memory, ContactResult& out)
 {
 	out.status      = ContactStatus::Failed;
@@ -20,7 +20,7 @@ POLYTOPE_INLINE void fail(PairMemory& memory, ContactResult& out)
 	memory.hasBasis = memory.hasPoint = false;
 }
 
-/// An answer with numbers that are none, as poses give that are no motions, is none.
+/// A result with values that are not finite, as from poses that are not rigid motions, counts as failed.
 template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, ContactResult& out)
 {
 	using std::isfinite;
@@ -57,9 +57,9 @@ POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis
 	out.basis       = memory.basis;
 }
 
-/// Whether the last step's weights alone still hold the bodies apart, without a basis: any λ ≥ 0 with Σ λ = 1 bounds s within
-/// L of the smaller body's centre from below by −Σ λ d − |Σ λ a| L. A point of both would be within the body's size. Where s* is
-/// taken on, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
+/// Whether the last step's weights alone still separate the bodies, without a basis: any λ ≥ 0 with Σ λ = 1 bounds s within
+/// L of the smaller body's centre from below by −Σ λ d − |Σ λ a| L. A common point would be within the body's size. Where s* is
+/// attained, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
 /// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
 template <class R, int D>
 POLYTOPE_INLINE bool separatedByWeights(const PairInput& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
@@ -72,7 +72,7 @@ POLYTOPE_INLINE bool separatedByWeights(const PairInput& in, const PairMemory& m
 		const bool         second = memory.basis[k] & 1;
 		const ConvexShape& shape  = *in.shape[second];
 		const R            weight = maxOf<R>(k < D ? R(memory.weights[k]) : rest, 0);
-		// both sums take it, one as zero: to choose one sends it through memory
+		// added to both sums, to one as zero: selecting the sum would go through memory
 		const R share[2] = { second ? R(0) : weight, second ? weight : R(0) };
 		rest -= weight;
 		least -= weight * shape.offsetArray()[index];
@@ -136,7 +136,7 @@ POLYTOPE_INLINE bool followContact(const PairInput& in, ContactFrame<R, D>& f, c
 	return dot<R, D>(middle, middle) < 2 * f.size * f.size;
 }
 
-/// Whether an overlap that is `thin` (over the bodies' size) stands so aslant in the frame that its Hessian is not graded there.
+/// Whether an overlap that is `thin` (over the bodies' size) is so oblique in the frame that its Hessian is not graded there.
 template <class R, int D> POLYTOPE_INLINE bool leans(const R* dual, R thin)
 {
 	const R steep  = R(tolerance::lean) * thin * dual[D - 1];

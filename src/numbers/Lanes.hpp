@@ -9,7 +9,7 @@
 #include <limits>
 #include <type_traits>
 
-/// Vectors of numbers that the compiler maps to whatever registers the instruction set offers (GCC/Clang vector
+/// Vectors of numbers that the compiler maps to the registers of the instruction set (GCC/Clang vector
 /// extensions): one source for SSE2, AVX2 and AVX-512VL, and plain scalars for arithmetics wider than double.
 namespace polytope {
 
@@ -23,7 +23,7 @@ constexpr int padWidth = 4;
 /// (Where the precision has more than 60 digits, its weight has to be smaller than those.)
 constexpr double padOffset = std::numeric_limits<Real>::digits > 150 ? 1e300 : 1e60;
 
-/// Four numbers of a type that has no vectors: what the linear program's four rows are in long double.
+/// Four numbers of a type that has no vectors: used for the linear program's four rows in long double.
 template <class R> struct Plain4 {
 	R             v[4];
 	R&            operator[](int k) { return v[k]; }
@@ -131,7 +131,7 @@ template <class R, int W, class V> POLYTOPE_INLINE R horizontalMin(const V& v)
 	}
 }
 
-/// Four numbers as lanes: put together in registers, for a vector read back from four numbers just written has to wait for them.
+/// Four numbers as lanes: put together in registers, since reading a vector back from four numbers just written stalls.
 template <class R> POLYTOPE_INLINE typename Lanes<R, 4>::Type four(R a, R b, R c, R d)
 {
 	if constexpr (isVector<R, 4>) {

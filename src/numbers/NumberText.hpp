@@ -8,7 +8,7 @@
 
 namespace polytope {
 
-/// A number in a message, as one writes it: 1e-9, not 1e-09; 1e50, not 1e+50.
+/// A number in a message, in the usual notation: 1e-9, not 1e-09; 1e50, not 1e+50.
 inline std::string numberText(const Real& value)
 {
 	std::ostringstream stream;

@@ -14,8 +14,8 @@
 /// The one place that chooses the arithmetic. The plug-in is compiled against YADE's `Real`;
 /// everything in src/ uses polytope::Real and the Eigen types below, nothing else.
 ///
-/// From double (literals, thresholds, Python's floats) to Real goes by itself and exactly. The way back is always written
-/// out, double(x): drawing, VTK files, messages and Ipopt, which know doubles only. CGAL has its own door in CgalGeometry.cpp.
+/// From double (literals, thresholds, Python's floats) to Real is implicit and exact. The conversion back is always
+/// explicit, double(x): for drawing, VTK files, messages and Ipopt, which use doubles only. Conversions for CGAL are in CgalGeometry.cpp.
 namespace polytope {
 
 #ifdef POLYTOPE_REAL

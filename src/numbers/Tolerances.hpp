@@ -9,7 +9,7 @@
 /// smaller of the two bodies' circumradii; weights and decrements are pure numbers. (Shape construction has its own in ConstructionTolerances.hpp.)
 ///
 /// In wider arithmetic than double a threshold that rounding sets is finer by as much as rounding is; one that says what is
-/// modelled (barrier, gapSkin) or which of two ways is shorter stays, so that all precisions answer the same question.
+/// modelled (barrier, gapSkin) or which of two ways is shorter stays, so that all precisions solve the same problem.
 namespace polytope::tolerance {
 
 /// Within this namespace: thresholds need no digits, only their exponent, and a double has one for every precision of YADE's.
@@ -35,7 +35,7 @@ constexpr Real finer = rounding / std::numeric_limits<double>::epsilon();
 constexpr Real contact = 45 * rounding;
 
 /// × size: a plane counts as violated by the LP's point beyond this. Evaluating a·x − d near the contact costs a few
-/// roundings of the size; a smaller value would pivot on noise.
+/// roundings of the size; a smaller value would pivot on rounding errors.
 constexpr Real violation = 8 * rounding;
 
 /// × both sizes: how far the bounds of s* from above and below may be apart at the optimum. With a few roundings of the
@@ -76,12 +76,12 @@ constexpr int  refinements  = 8 * digits / 53;
 /// Steps in a row that do not raise s after which the simplex changes to Bland's rule, which cannot cycle.
 constexpr int stalledPivots = 12;
 
-/// Pivots after which the LP gives up, per plane: 20 × the largest count seen in the fuzz set (2 per plane).
+/// Pivots after which the LP is ended without an optimum, per plane: 20 × the largest count seen in the fuzz set (2 per plane).
 constexpr int pivotsPerPlane = 40;
 constexpr int pivotsAtLeast  = 200;
 
 /// × size: an overlap whose inscribed ball is smaller is thin. In a frame not made for it the Hessian loses 1/thin² of its
-/// digits and its planes 1/thin, so it gets one of its own; a thicker one does without.
+/// digits and its planes 1/thin, so it gets a frame of its own; a thicker one does not need it.
 constexpr Real thin = 1e-3;
 
 /// Weight of a basis plane from which on it bounds the first guess of the analytic centre.
@@ -107,14 +107,14 @@ constexpr Real wellScaled = 1e-2;
 /// loses more than a relative 1e-12 of the overlap's size along that axis.
 constexpr Real cancellation = 1e-8 * powerOfTwo((53 - digits) / 2);
 
-/// Times the axes are turned to the overlap's own before the centre is given up.
+/// Number of times the axes are turned to the overlap's own before Newton counts as not converged.
 constexpr int turns = 2;
 
 /// Newton decrement below which the full step is taken and convergence is quadratic (theory: any value < 0.38 for a
 /// self-concordant barrier); above it the step length comes from a line search.
 constexpr Real fullStep = 0.25;
 
-/// A full step that does not halve the decrement has met rounding: the centre is as good as the planes. Accepted as
+/// A full step that does not halve the decrement is dominated by rounding: the centre is as accurate as the planes. Accepted as
 /// `RoundingLimited` when the decrement is below this; above it the solve has failed.
 constexpr Real stagnation = 0.1;
 
@@ -123,17 +123,17 @@ constexpr int newtonIterations = 100;
 /// A step that would use up more than this part of the nearest plane's slack needs no line search.
 constexpr Real nearPole = 0.5;
 
-/// Line search stops when the slope has fallen to this fraction of its start: a crude search suffices, the next
-/// Hessian is worth more.
+/// Line search stops when the slope has fallen to this fraction of its start: a crude search suffices, since
+/// evaluating the next Hessian gains more.
 constexpr Real lineSearchSlope = 0.1;
 constexpr int  lineSearchSteps = 30;
 
-/// Ipopt's `tol` (it knows doubles only), on numbers that are about one (see IpoptCentre.cpp).
+/// Ipopt's `tol` (it computes in double only), on numbers that are about one (see IpoptCentre.cpp).
 constexpr double ipopt           = 1e-12;
 constexpr int    ipoptIterations = 15;
 
 /// Ipopt's centre is accepted when solving once more, scaled anew, moves it by less than this in the local norm: a tenth of
-/// the 1e-8 in which it agrees with Newton's. The first round comes near, the second polishes, the third finds nothing to do.
+/// the 1e-8 in which it agrees with Newton's. The first round comes near, the second refines, the third confirms.
 constexpr Real ipoptMove   = 1e-9;
 constexpr int  ipoptRounds = 20;
 
@@ -160,7 +160,7 @@ constexpr Real barrierDetour = 20;
 /// bodies against each other by a ten-thousandth.
 constexpr Real samePoint = 0.05;
 
-/// × thickness of the overlap over the size: the tangent up to which it may stand aslant in the frame. Across it the
+/// × thickness of the overlap over the size: the tangent of the angle up to which it may be oblique in the frame. Across it the
 /// Hessian then loses no more than three digits, and its gradient none that the planes have.
 constexpr Real lean = 30;
 
@@ -185,7 +185,7 @@ constexpr Real nearLeverage = 1e-6;
 /// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
 constexpr Real flush = 1e-9;
 
-/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is looked for.
+/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is searched for.
 constexpr Real parallel = 1e-4;
 
 /// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
@@ -196,20 +196,20 @@ constexpr Real thinContact = 0.1;
 /// on each other: ½).
 constexpr Real carriedBall = 0.25;
 
-/// Projections onto one plane after the other that look for that ball, each this much longer than need be: from beside a seam some two to six
-/// lead there; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
+/// Projections onto one plane after the other that search for that ball, each longer by this factor than necessary: from beside a seam two to
+/// six are enough; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
 constexpr int  mostProjections = 32;
 constexpr Real overProjection  = 1.5;
 
-/// Least part of a stiffness per contact that one of several pieces has. Any small number: a stiffness of zero is none.
+/// Least part of a stiffness per contact that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;
 
-/// Steps between two looks for internal faces of a pair that touched before: while the faces of a seam are looked at once more, a body at
+/// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
 /// 1 m/s moves by a hundredth of its size at most.
 constexpr int internalFacesEvery = 16;
 
-/// Difference of two orientations that is no turn (length of the vector part of one quaternion times the other's conjugate).
-/// YADE normalises an orientation in each step, which changes its four numbers by a rounding each, to and fro; their product
+/// Difference of two orientations that counts as no rotation (length of the vector part of one quaternion times the other's conjugate).
+/// YADE normalises an orientation in each step, which changes its four numbers by a rounding error each, of either sign; their product
 /// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.
 constexpr Real noTurn = 8 * rounding;
 

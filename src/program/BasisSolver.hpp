@@ -9,17 +9,17 @@
 /// Solves a basis: inverse, weights, point and s from its planes.
 ///
 /// Departure from the usual revised simplex: the basis is solved afresh after each pivot. For unit normals and D = 3 that
-/// is three cross products of differences of normals, as cheap as updating an inverse, and nothing accumulates. Bodies
+/// is three cross products of differences of normals, as cheap as updating an inverse, and rounding does not accumulate. Bodies
 /// have faces that are parallel but for 1e-9, and a basis of both is as ill-conditioned: then the differences are taken
 /// between these, weights and point are corrected by their residuals, and what is left of rounding in each weight
-/// (`noise`) is not mistaken for its sign. It does little harm: where λ_k is so uncertain, the other planes bound slack_k.
+/// (`noise`) is not mistaken for its sign. An uncertain λ_k does little harm: the other planes bound slack_k there.
 namespace polytope {
 
 /// Inverse, noise, weights and point of the basis from D differences of normals: of planes order[1] … order[D] to plane
 /// order[0], or (`chained`) of the last one to the last but one. Returns the largest noise; infinite where the volume the
 /// differences span is, over their lengths, no more than `leastVolume`.
 ///
-///     (p; t) = Σ μ_k (a_k; 1)   ⇔   Σ ν_k e_k = p − t a_0,   ν_k: sum of μ over the planes that hang on edge k
+///     (p; t) = Σ μ_k (a_k; 1)   ⇔   Σ ν_k e_k = p − t a_0,   ν_k: sum of μ over the planes that are reached through edge k
 template <class R, int D>
 POLYTOPE_INLINE R solveFromDifferences(
         const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, R leastVolume, LpBasis<R, D>& basis)
@@ -268,9 +268,9 @@ template <class R, int D> POLYTOPE_INLINE void readNormals(const PairPlanes<R, D
 			basis.normal[j][k] = planes.normal[j][basis.plane[k]];
 }
 
-/// The solved basis in the planes' frame, of which it knows the frame it was solved in: `turn` and `origin` lead from there.
+/// The solved basis in the planes' frame; `turn` and `origin` transform from the frame it was solved in.
 /// Turned with it while its s is below `thin`; solved afresh where the overlap is so thin that rounding in the first frame
-/// would show.
+/// would matter.
 template <class R, int D>
 POLYTOPE_INLINE bool moveBasis(const PairPlanes<R, D>& planes, const Rotation<R, D>& turn, const R* origin, R thin, LpBasis<R, D>& basis)
 {

@@ -18,8 +18,8 @@ template <class R, int D> struct LpBasis {
 	R   infeasibility = 0; ///< s of the basis, ≤ s*
 };
 
-/// Analytic centre of the optimal basis' planes alone, a good guess of that of all: there λ_k slack_k is the same for all
-/// k, and Σ λ_k slack_k = −s at any point. Where a weight is nothing the plane does not bound the guess. `deep`: −s.
+/// Analytic centre of the optimal basis' planes alone, a good initial guess of that of all planes: there λ_k slack_k is the same for all
+/// k, and Σ λ_k slack_k = −s at any point. A plane of negligible weight does not bound the guess. `deep`: −s.
 template <class R, int D> POLYTOPE_INLINE void simplexCentre(const LpBasis<R, D>& basis, R deep, const R* x, R* centre)
 {
 	for (int j = 0; j < D; ++j)
@@ -39,7 +39,8 @@ template <class R, int D> POLYTOPE_INLINE bool dualFeasible(const LpBasis<R, D>&
 	return true;
 }
 
-/// s of the basis less what weights below zero may pretend: a lower bound of s* for overlaps within `reach` of every plane.
+/// s of the basis less the largest error that negative weights (rounding) can cause: a lower bound of s*
+/// for overlaps within `reach` of every plane.
 template <class R, int D> POLYTOPE_INLINE R lowerBound(const LpBasis<R, D>& basis, R reach)
 {
 	R negative = 0;

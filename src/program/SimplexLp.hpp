@@ -10,9 +10,9 @@
 ///     s* = min s   subject to   a_i·x − d_i ≤ s,
 ///
 /// solved on its dual, max −Σ λ_i d_i subject to Σ λ_i a_i = 0, Σ λ_i = 1, λ ≥ 0, which has D + 1 rows: one
-/// (D+1)×(D+1) basis serves however many planes there are. With unit normals −s* is the radius of the largest ball in
+/// (D+1)×(D+1) basis is enough for any number of planes. With unit normals −s* is the radius of the largest ball in
 /// the overlap, x its centre. Every dual feasible basis bounds s* from below (weak duality), so a separated pair is
-/// dismissed as soon as one basis says s > −tolerance, at best by last step's basis alone, without looking at the other
+/// dismissed as soon as one basis says s > −tolerance, at best by the last step's basis alone, without evaluating the other
 /// planes.
 namespace polytope {
 
@@ -25,7 +25,7 @@ template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlan
 	V X[D];
 	for (int k = 0; k < D; ++k)
 		X[k] = broadcast<R, W>(x[k]);
-	// the indices go along as numbers: to look for the smallest afterwards costs a branch that is always mispredicted
+	// the indices are carried along as numbers: finding the smallest afterwards costs a branch that is always mispredicted
 	V best = broadcast<R, W>(R(padOffset)), where = broadcast<R, W>(0), index = firstIndices<R, W>();
 	for (int i = 0; i < planes.total; i += W) {
 		V slack = load<R, W>(planes.offset + i);
@@ -46,7 +46,7 @@ template <class R, int D, int W> POLYTOPE_INLINE int mostViolated(const PairPlan
 /// plane index.
 template <class R, int D> POLYTOPE_INLINE int leavingRow(const LpBasis<R, D>& basis, const R (&w)[D + 1], bool bland)
 {
-	// selections, no branches: their outcome is as good as random
+	// conditional selections instead of branches, whose outcome is unpredictable
 	R limit = R(padOffset);
 	for (int k = 0; k <= D; ++k) {
 		const R allowed = bland ? R(0) : R(tolerance::noise) * basis.noise[k];
@@ -83,8 +83,8 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 }
 
 /// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove. At the optimum the
-/// basis is its own certificate: the largest violation at its point bounds s* from above, lowerBound() from below. Undecided
-/// where rounding leaves these two apart once the basis is refined, a basis has no digits or pivots run out.
+/// basis certifies itself: the largest violation at its point bounds s* from above, lowerBound() from below. Undecided
+/// where rounding leaves a gap between these two after the basis is refined, where a basis is singular to rounding, or at the pivot limit.
 /// `size`: what the tolerances of lengths are relative to. `reach`: as lowerBound().
 template <class R, int D, int W>
 POLYTOPE_INLINE LpStatus solveLp(
@@ -105,7 +105,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 		if (below > dismissAbove) return end(LpStatus::Separated);
 		R   smallest;
 		int q = mostViolated<R, D, W>(planes, now->point, smallest);
-		// by how much the basis' own planes miss s is what rounding makes of the others
+		// the deviation of the basis' own planes from s is taken as the rounding of the others
 		R rounding = R(tolerance::violation) * size;
 		for (int k = 0; k <= D; ++k)
 			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));

@@ -11,7 +11,7 @@
 /// slower, and rare.
 namespace polytope {
 
-/// A wider arithmetic, the widest at hand, and its rounding.
+/// A wider arithmetic, the widest available, and its rounding.
 template <class R> struct Wider {
 	using Type                       = R;
 	static constexpr double rounding = tolerance::rounding;
@@ -48,7 +48,7 @@ public:
 		far_ = Q(largest) * 64;
 	}
 
-	/// False if it does not get there: never seen.
+	/// False if it does not reach the optimum: never seen.
 	bool solve(int pivotLimit, int& pivots)
 	{
 		for (int k = 0; k <= D; ++k)
@@ -108,7 +108,7 @@ private:
 		for (int k = 0; k <= D; ++k)
 			plane(basis.plane[k], a[k], d[k]);
 		const DifferenceOrder<D> order = differenceOrder<Q, D>(a);
-		// the volume of differences has their own digits, and twice as many are at hand
+		// the volume of differences has their own digits, and twice as many are available
 		const Q noise = solveFromDifferences<Q, D>(a, d, order.planes, order.chained, Q(noVolume), basis);
 		if (!(noise < Q(padOffset))) return false;
 		basis.infeasibility = 0;
@@ -179,7 +179,7 @@ private:
 		return false;
 	}
 
-	/// Whether no far plane holds the optimum; one of weight zero is exchanged for any other plane that fits.
+	/// Whether the optimal basis has no far plane; one of weight zero is exchanged for any other plane that fits.
 	bool complete()
 	{
 		for (int k = 0; k <= D; ++k) {

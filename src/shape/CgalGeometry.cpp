@@ -13,7 +13,7 @@
 namespace polytope::exact {
 namespace {
 
-	// The one door to CGAL's numbers. Types wider than double go in exactly, as rationals.
+	// The only conversions to and from CGAL's numbers. Types wider than double are converted exactly, to rationals.
 	constexpr bool isDouble = std::is_same<Real, double>::value;
 	using Number            = std::conditional_t<isDouble, double, CGAL::Gmpq>;
 	using ExactNumber       = std::conditional_t<isDouble, CGAL::Gmpzf, CGAL::Gmpq>;
@@ -76,7 +76,7 @@ DeepPoint deepest(const std::vector<Vector3>& normals, const std::vector<Real>& 
 	}
 	program.set_u(3, true, toNumber(cap));
 	program.set_c(3, Number(-1));
-	// Bland's rule: with CGAL's default one degenerate programs cycle without end (found by fuzzing)
+	// Bland's rule: with CGAL's default one degenerate programs cycle for ever (found by fuzzing)
 	CGAL::Quadratic_program_options options;
 	options.set_pricing_strategy(CGAL::QP_BLAND);
 	const auto solution = CGAL::solve_linear_program(program, ExactNumber(), options);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-/// The two questions of shape construction that must not be decided by rounding, asked of CGAL where the digits of Real do not
-/// answer them: a linear program, and on which side of a plane a point lies. No other file includes CGAL.
+/// The two computations of shape construction whose outcome must not depend on rounding, done by CGAL where the digits of Real are not
+/// sufficient: a linear program, and on which side of a plane a point lies. No other file includes CGAL.
 namespace polytope::exact {
 
 /// lower ≤ x ≤ upper; infinite: free.

@@ -20,7 +20,7 @@ inline const Real rounding = std::numeric_limits<Real>::epsilon();
 /// `rounding` (Shewchuk 1997, Fig. 21). Beyond, the sign is exact.
 inline const Real volumeRounding = Real(3.5) * rounding * (1 + 64 * rounding);
 
-/// What underflow takes from that determinant at most, for differences below a third of 1 / `rounding`: six products, each off by half of
+/// Largest error of that determinant by underflow, for differences below a third of 1 / `rounding`: six products, each off by half of
 /// the smallest number there is, which is `rounding` × this, times a difference.
 inline const Real volumeUnderflow = std::numeric_limits<Real>::min();
 
@@ -36,7 +36,7 @@ inline const Real sharpCorner = 1e-3;
 inline const Real sliver = 1e-3;
 
 /// × largest offset: an inscribed ball of at least this radius is found in Real: the linear program's violations are eight
-/// roundings of its artificial planes' distance, a thousandth of this. Whether there is a smaller one, exact arithmetic says.
+/// roundings of its artificial planes' distance, a thousandth of this. Exact arithmetic decides whether there is a smaller one.
 inline const Real sureInradius = 1048576 * rounding;
 
 /// × largest offset: where that program's artificial planes stand. A ball farther out is left to exact arithmetic.
@@ -53,20 +53,20 @@ inline const Real coincidence = 256 * rounding;
 inline const Real support = 4;
 
 /// × size: two neighbouring planes this close over the whole shape are one plane (the first is kept). It has to exceed
-/// twice `coincidence`: between the two, the vertices of one face could join either of two planes and tear it in two.
+/// twice `coincidence`: between the two, the vertices of one face could join either of two planes and split it.
 inline const Real coplanarity = 4 * coincidence;
 
 /// × size: a set whose inscribed sphere is smaller has no interior. 9e-13 in double: sixteen times `coincidence`, so that
 /// merging can never close a shape that is let through. Plates and needles of aspect 1e8 pass with four digits to spare.
 inline const Real flatness = 16 * coincidence;
 
-/// A unit direction y with n·y at most this for every plane is a direction in which the set has no end. 1.4e-14 in
-/// double: the walls of a tube, rounded, close at 1e15 times its width; nobody meant them to. Kept below `flatness`, so a
+/// A unit direction y with n·y at most this for every plane is a direction in which the set is unbounded. 1.4e-14 in
+/// double: the walls of a tube, rounded, close at 1e15 times its width, which is not meant. Kept below `flatness`, so a
 /// double cone of aspect 1e-12 is refused as flat and not as open.
 inline const Real recession = 64 * rounding;
 
-/// × inradius: a vertex farther than this, or one that planes added at `horizon` cut, is reason to ask for `recession`
-/// exactly (six small linear programs); nearer ones are certainly no sign of an open set.
+/// × inradius: a vertex farther than this, or one that planes added at `horizon` cut, makes construction check `recession`
+/// exactly (six small linear programs); nearer ones certainly do not mean an open set.
 inline const Real farVertex = 1e6;
 
 /// × inradius: where the closing planes stand. Beyond any vertex of a set that is not `recession`-open.
@@ -76,12 +76,12 @@ inline const Real horizon = 1 / (rounding * rounding);
 /// smaller) are the same plane. A plane written twice in different ways (other length, other order) differs by a few roundings.
 inline const Real duplicate = 16 * rounding;
 
-/// Lengths [m] that bodies and coordinates may have, in every unit anybody uses. Beyond, the fifth power of a length (inertia)
-/// leaves the range of double, and the contact path takes a plane at 1e60 for none.
+/// Lengths [m] that bodies and coordinates may have, in any usual unit. Beyond, the fifth power of a length (inertia)
+/// leaves the range of double, and the contact path treats a plane at 1e60 as absent.
 inline const Real smallestLength = 1e-50;
 inline const Real largestLength  = 1e50;
 
-/// A normal this near unit length is left untouched, so that normalising twice changes no bit.
+/// A normal this near unit length is not changed, so that normalising twice changes no bit.
 inline const Real unitLength = 4 * rounding;
 
 /// 2-D: a normal's z, or (× extent) a point's z, up to this is rounding (of a rotation, of a computed point) and is set to zero.

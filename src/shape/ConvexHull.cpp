@@ -64,7 +64,7 @@ namespace {
 			Real     most     = 0;
 			bool     alive = true, visible = false;
 		};
-		/// An edge of the part that a point sees, in the direction of the seen facet.
+		/// An edge of the part that is visible from a point, in the direction of the visible facet.
 		struct Rim {
 			int from, to, outside;
 		};
@@ -112,7 +112,7 @@ namespace {
 			const Vector3 n = b.cross(at(corner[2]) - a);
 			corner[3]       = farthest([&](int i) { return abs(n.dot(at(i) - a)); });
 			if (exact::orientation(a, at(corner[1]), at(corner[2]), at(corner[3])) != 0) return corner;
-			for (int i = 0; i < count; ++i) // rounding has hidden what spans space
+			for (int i = 0; i < count; ++i) // rounding gave no four points that span space
 				for (int j = 0; j < i; ++j)
 					if (exact::orientation(a, at(corner[1]), at(i), at(j)) != 0)
 						return { { corner[0], corner[1], i, j } };
@@ -155,7 +155,7 @@ namespace {
 			}
 		}
 
-		/// Takes the farthest point above a facet into the hull. The facets that it sees make place for a cone of new ones.
+		/// Adds the farthest point above a facet to the hull. The facets visible from it are replaced by a cone of new ones.
 		void raise(int from)
 		{
 			const int apex = facets_[std::size_t(from)].farthest;
@@ -187,7 +187,7 @@ namespace {
 				if (facets_[f].first >= 0) open_.push_back(int(f));
 		}
 
-		/// The facets that a point sees, and the rim of what it sees.
+		/// The facets visible from a point, and the boundary (horizon) of the visible part.
 		void look(int from, int apex)
 		{
 			seen_.assign(1, from);

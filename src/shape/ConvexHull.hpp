@@ -17,7 +17,7 @@ using Triangles = std::vector<Triangle>;
 ///
 /// Quickhull (Barber, Dobkin & Huhdanpaa 1996, "The quickhull algorithm for convex hulls", ACM Trans. Math. Softw. 22:469-483).
 /// Departure: there are no thick facets. On which side of a plane a point lies is decided exactly, by an error bound in Real and
-/// in exact arithmetic where that does not tell, so the surface is closed and convex whatever the points.
+/// in exact arithmetic where that does not decide, so the surface is closed and convex whatever the points.
 Triangles hullTriangles(const std::vector<Vector3>& points);
 
 } // namespace polytope

@@ -45,7 +45,7 @@ ConvexShape::ConvexShape(const HalfSpaces& unit, Polyhedron faces, const Real& t
 	for (const Vector3& v : polyhedron_.vertices)
 		boundingRadius_ = std::max(boundingRadius_, Real(D == 2 ? v.head<2>().norm() : v.norm()));
 	// artificial planes must lie outside the ball: it is inside the body. Not as far as the farthest plane: one that no corner of
-	// the body reaches may be anywhere, and rounding is a part of the reach
+	// the body reaches may be anywhere, and rounding is proportional to the reach
 	const Real reach = 16 * boundingRadius_;
 	inscribedRadius_ = D == 3 ? findInscribedBall<3>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.second)
 	                          : findInscribedBall<2>(planes_, arrays_.data(), padded_, reach, inscribedBasis_, inscribedBall_.first);

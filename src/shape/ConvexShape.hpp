@@ -12,7 +12,7 @@
 namespace polytope {
 
 /// A validated convex particle in its body frame, immutable: what the contact path reads (padded plane arrays, inscribed
-/// ball) and what the rest of the house reads (vertices, faces, mass properties). Bodies of equal planes share one.
+/// ball) and what everything else reads (vertices, faces, mass properties). Bodies of equal planes share one.
 class ConvexShape {
 public:
 	/// Refuses (std::invalid_argument naming `normals`, `offsets`, `dimension`, `thickness` or `cornerRadius`) everything
@@ -22,15 +22,15 @@ public:
 	/// weighs in the analytic centre; withoutDuplicates() and withoutRedundant() are the caller's (ShapeFactory.hpp).
 	ConvexShape(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
 
-	/// The shared instance for these arguments; builds it only if no body holds one. Thread-safe.
+	/// The shared instance for these arguments; builds it only if no body has one. Thread-safe.
 	static std::shared_ptr<const ConvexShape> shared(const HalfSpaces& planes, Real cornerRadius, Real thickness = 1);
 
-	/// The shared instance of planes whose faces and approximate vertices are known: nothing is looked for anew. Without a corner
+	/// The shared instance of planes whose faces and approximate vertices are known: nothing is computed again. Without a corner
 	/// radius, `cornerFraction` of the inscribed ball's. For ShapeFactory.
 	static std::shared_ptr<const ConvexShape> ofFaces(const HalfSpaces& planes, Polyhedron faces,
 	        const std::optional<Real>& cornerRadius, const Real& cornerFraction, const Real& thickness);
 
-	/// The shared instance of this shape with another corner radius, of which nothing else depends.
+	/// The shared instance of this shape with another corner radius, on which nothing else depends.
 	std::shared_ptr<const ConvexShape> withCornerRadius(const Real& radius) const;
 
 	/// The half-space normal·x ≤ 0 alone (an infinite wall): no vertices, no volume, infinite radii. It can meet a bounded
@@ -47,7 +47,7 @@ public:
 	const Real* normalArray(int k) const { return arrays_.data() + k * padded_; }
 	const Real* offsetArray() const { return arrays_.data() + dimension() * padded_; }
 
-	/// Largest inscribed ball (disc in 2-D) and the dimension + 1 planes that hold it: a basis of the phase-one LP that is
+	/// Largest inscribed ball (disc in 2-D) and the dimension + 1 planes that bound it: a basis of the phase-one LP that is
 	/// dual feasible whatever the other body does.
 	Real                      inscribedRadius() const { return inscribedRadius_; }
 	const std::array<int, 4>& inscribedBasis() const { return inscribedBasis_; }

@@ -47,7 +47,7 @@ namespace {
 		return (set.normals[i] - set.normals[j]).cwiseAbs().maxCoeff() <= construction::duplicate;
 	}
 
-	/// The median, not the largest: one far redundant plane must not blur the near ones.
+	/// The median, not the largest: one far redundant plane must not make the tolerance too coarse for the near ones.
 	Real medianOffset(const HalfSpaces& set)
 	{
 		std::vector<Real> sizes;

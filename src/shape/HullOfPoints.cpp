@@ -189,7 +189,7 @@ namespace {
 		planes.offsets.push_back(reach * set.unit + normal.dot(set.centre));
 	}
 
-	/// The middle of the hull's triangles: not of all points, which may crowd in a corner.
+	/// The middle of the hull's triangles: not of all points, which may be concentrated in a corner.
 	Vector3 innerPoint(const std::vector<Vector3>& points, const Triangles& triangles)
 	{
 		Vector3 inner = Vector3::Zero();

@@ -55,7 +55,7 @@ public:
 		return solveWide<Real, D>(planes_, basis_, reach_, limit_, pivots);
 	}
 
-	/// Solves the basis afresh, for what refinement has left of its inverse; whether it is one then.
+	/// Solves the basis afresh, since refinement does not keep its inverse. False if it is singular or not dual feasible.
 	bool solveAgain() { return solveBasis<Real, D>(planes_, basis_) && dualFeasible<Real, D>(basis_); }
 
 	const LpBasis<Real, D>& basis() const { return basis_; }

@@ -12,13 +12,13 @@
 
 namespace polytope {
 
-/// What was made from these very numbers, as long as somebody holds it: a table from lists of numbers to values whose `shape` is
-/// a weak pointer. Entries that nobody holds any more are swept when the table has doubled. Thread-safe.
+/// Shapes by the numbers they were made from, as long as they are in use: a table from lists of numbers to values whose `shape` is
+/// a weak pointer. Entries no longer in use are removed when the table has doubled. Thread-safe.
 template <class Value> class KnownShapes {
 public:
 	using Key = std::vector<Real>;
 
-	/// False if there is none, or nobody holds it any more; else `held` holds it.
+	/// False if there is none, or it is no longer in use; else `held` owns it.
 	template <class Pointer> bool find(const Key& key, Value& value, Pointer& held)
 	{
 		const std::lock_guard<std::mutex> lock(mutex_);

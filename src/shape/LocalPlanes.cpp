@@ -27,7 +27,7 @@ namespace {
 		refuse(out.str());
 	}
 
-	/// A unit direction that no plane closes, or zero. Each face of the cube max|y_k| = 1 is asked in turn.
+	/// A unit direction in which no plane bounds the set, or zero. Each face of the cube max|y_k| = 1 is searched in turn.
 	Vector3 openDirection(const HalfSpaces& set)
 	{
 		const std::vector<Real> level(set.size(), Real(0));
@@ -54,8 +54,8 @@ namespace {
 		return ldexp(Real(1), exponent - 1);
 	}
 
-	/// Which of the two a negative depth means: no point, or flat and rounded. Measured by the farthest plane, for lack of
-	/// an extent; a needlessly far plane can only make a small gap read "flat".
+	/// Which of the two a negative depth means: an empty set, or a flat one with rounding. Measured relative to the farthest plane,
+	/// since there is no extent; a needlessly far plane can only make a small gap be reported as "flat".
 	void refuseIfEmpty(const std::vector<Vector3>& normals, const std::vector<Real>& offsets, const exact::DeepPoint& ball)
 	{
 		Real size = ball.point.norm();
@@ -67,7 +67,7 @@ namespace {
 			       "check the signs of normals and offsets");
 	}
 
-	/// The largest ball in the arithmetic of Real. False where it does not tell for sure that there is one.
+	/// The largest ball in the arithmetic of Real. False where that is not certain to exist.
 	template <int D> bool surelyDeepest(const HalfSpaces& set, const std::vector<Real>& offsets, exact::DeepPoint& ball)
 	{
 		std::vector<Real> arrays;

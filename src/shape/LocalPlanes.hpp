@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <vector>
 
-/// The first half of shape construction: is there a body at all, and what do its planes look like from inside?
+/// The first half of shape construction: whether the set has an interior, and its planes relative to an inner point.
 namespace polytope {
 
 /// The planes about an inner point, in a unit that brings the inradius to between 1 and 2. In 2-D two caps are added,
-/// and in both dimensions four closing planes at the horizon, so that every set has vertices all round.
+/// and in both dimensions four closing planes at the horizon, so that every set is bounded.
 struct LocalPlanes {
 	Vector3              centre;
 	Real                 unit;
@@ -43,11 +43,11 @@ struct LocalPlanes {
 /// Refuses (std::invalid_argument naming `offsets` or `normals`) what has no interior point.
 LocalPlanes aboutInnerPoint(const HalfSpaces& unit);
 
-/// Refuses a set that has no end in some direction, naming it.
+/// Refuses a set that is unbounded, naming a direction.
 void refuseIfOpen(const HalfSpaces& unit);
 
-/// Refuses the set as flat, or, if it is, as open: between walls that are parallel but for rounding everything looks flat
-/// from afar.
+/// Refuses the set as flat, or, if it is, as open: relative to the distance at which walls parallel to rounding meet, every
+/// width is flat.
 [[noreturn]] void refuseFlat(const HalfSpaces& unit);
 
 } // namespace polytope

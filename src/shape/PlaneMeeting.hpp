@@ -31,7 +31,7 @@ inline bool meetingOfThree(const Vector3& n0, const Vector3& n1, const Vector3& 
 }
 
 /// The least squares of planes three of which make no sharp corner: from these three's point by the normal equations. They square
-/// the condition, but of a correction that is small where the planes do meet; where they do not, no digits are asked for.
+/// the condition, but of a correction that is small where the planes do meet; where they do not, no accuracy is needed.
 inline bool meetingFromThree(const std::vector<Vector3>& normals, const std::vector<Real>& slacks, const Indices& planes, Vector3& point)
 {
 	const auto  normal = [&](std::size_t k) -> const Vector3& { return normals[std::size_t(planes[k])]; };
@@ -100,7 +100,7 @@ inline Meeting meeting(const std::vector<Vector3>& normals, const std::vector<Re
 ///
 ///     |Σ y_i s_i| = |Σ y_i (s_i − n_i·x)| ≤ Σ |y_i| max_i |s_i − n_i·x|   for every x,
 ///
-/// and rounding takes no more from a minor than construction::minorRounding.
+/// and rounding changes a minor by no more than construction::minorRounding.
 inline bool missEachOther(const LocalPlanes& local, const std::array<int, 4>& planes, const Real& tolerance)
 {
 	const Vector3* n[4];

@@ -10,7 +10,7 @@
 
 // The way from half-spaces to vertices:
 //  1. a linear program finds the largest inscribed ball, hence an inner point c, or that there is none: in exact arithmetic where the
-//     digits of Real do not tell;
+//     digits of Real do not decide;
 //  2. the planes' polar duals n/(d − n·c) have a convex hull, whose triangles are the vertices of the set, three planes
 //     each. Rounding a dual point is the same as rounding its plane's normal and offset, whatever the set's aspect ratio;
 //  3. triangles whose planes all meet in one point to rounding are joined into one vertex (TriangleClusters.hpp), and
@@ -40,7 +40,7 @@ namespace {
 		return farthest;
 	}
 
-	/// Whether a vertex lies suspiciously far out. By Cramer's rule, which does not hide a vertex that rounding put at infinity.
+	/// Whether a vertex is so far out that the set may be unbounded. By Cramer's rule, which also finds vertices at infinity.
 	bool mayBeOpen(const LocalPlanes& local, const Triangles& triangles)
 	{
 		for (const Triangle& t : triangles) {
@@ -66,7 +66,7 @@ namespace {
 			extent               = std::max(extent, vertex.point.norm());
 			misfit               = std::max(misfit, vertex.misfit);
 		}
-		// three planes that miss each other meet far out, where rounding does not tell
+		// three nearly parallel planes meet far out, at a distance that rounding does not determine
 		const Real least = construction::flatness * local.size(extent);
 		if (!(local.inradius > least && misfit <= least)) refuseFlat(set);
 		return extent;
@@ -118,7 +118,7 @@ namespace {
 		return rings;
 	}
 
-	/// Removes faces with fewer than three vertices and then vertices on fewer than three faces, until all is well.
+	/// Removes faces with fewer than three vertices and then vertices on fewer than three faces, until none is left.
 	void removeDegenerate(std::vector<Indices>& rings, std::size_t vertices)
 	{
 		for (bool changed = true; changed;) {
@@ -208,7 +208,7 @@ namespace {
 		const auto misfit  = [&local](const Indices& planes) { return meeting(local, planes).misfit; };
 		const auto outside = [&local](const Indices& planes) { return reachBeyond(local, meeting(local, planes).point); };
 		Polyhedron shape   = assembled(local, triangles, edges, cluster(triangles, edges, apart, misfit, outside, tolerance));
-		// joining can only fail where the set is as thin as rounding somewhere; slivers are the lesser evil then
+		// joining can only fail where the set is as thin as rounding somewhere; then slivers are accepted
 		if (!isClosed(shape)) shape = assembled(local, triangles, edges, Clusters(triangles));
 		return shape;
 	}

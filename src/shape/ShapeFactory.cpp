@@ -18,8 +18,8 @@ namespace {
 
 	using Known = KnownShapes<KnownCentral>;
 
-	/// Numbers of an input that is remembered. A mesh of more than a thousand points is read in longer than its hull is made, and a key
-	/// of its size would stay as long as the body does.
+	/// Numbers of an input that is remembered. Reading a mesh of more than a thousand points takes longer than making its hull, and a
+	/// key of its size would be stored as long as the body exists.
 	constexpr std::size_t longestKey = 4096;
 
 	/// The numbers that make the shape.
@@ -74,8 +74,8 @@ namespace {
 		return sqrt(square);
 	}
 
-	/// Planes, vertices and faces go to the frame of centroid and principal axes. All of it is told from the numbers about the inner
-	/// point: a small body far out has no others.
+	/// Planes, vertices and faces go to the frame of centroid and principal axes. All of it is computed from the numbers about the
+	/// inner point: only these are accurate for a small body far from the origin.
 	CentralShape made(const HalfSpaces& given, const ShapeOptions& options)
 	{
 		HalfSpaces      set   = withoutDuplicates(normalised(given));
@@ -89,7 +89,7 @@ namespace {
 		if (set.dimension == 2) result.position.z() = 0;
 		const bool central = result.position.norm() <= construction::centred * local.unit * extent;
 		if (central) result.position.setZero();
-		// as the position is written, unless far out it has not the digits to be the centroid
+		// about the rounded position, unless, far from the origin, that is not accurate enough as the centroid
 		Vector3 centroid = (result.position - local.centre) / local.unit;
 		if ((centroid - mass.centroid).norm() > construction::wellCentred * extent) centroid = mass.centroid;
 		if (set.dimension == 2) centroid.z() = 0;

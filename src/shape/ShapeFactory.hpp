@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-/// The one way to a body's shape: planes or points in any frame and options in, the shape that bodies share and where it is out. One
-/// construction for a new shape, none for one whose numbers are known from a body that still exists. (What has planes in
-/// the body's frame already, as an archive has, goes to ConvexShape::shared().)
+/// The one way to make a body's shape. Input: planes or points in any frame, and options; output: the shape that bodies share and
+/// its pose. One construction for a new shape, none for one whose numbers are known from a body that still exists. (Planes that are in
+/// the body's frame already, as those of an archive, go to ConvexShape::shared().)
 namespace polytope {
 
 struct ShapeOptions {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// A hull of rounded points shows one facet as several triangles; which of them belong together?
+/// Finds which triangles of a hull of rounded points belong to one facet.
 ///
 /// Neighbouring triangles are joined while the misfit of all their corners together (the distance by which they miss a
 /// common plane) stays within a tolerance. The corners may be points (hullOf: joined triangles are a facet) or the polar
@@ -18,7 +18,7 @@
 /// planes would have to move to meet in a point). The misfit is a backward error: it measures what the input's rounding
 /// can have done, whereas distances between nearby vertices grow without limit at a blunt or a sharp vertex.
 ///
-/// A fit alone is not enough: corners that coincide or lie on a line fit planes of any direction, also such as cut through
+/// A fit alone is not enough: corners that coincide or lie on a line fit planes of any direction, also planes that cut through
 /// the body. So what was fitted must also leave the whole body on one side.
 namespace polytope {
 
@@ -102,7 +102,7 @@ struct Clusters {
 };
 
 /// Neighbours that fit together, the best first. apart(left triangle, right triangle): whether their corners certainly miss
-/// the tolerance, told at less cost than the misfit.
+/// the tolerance, which costs less than the misfit.
 template <class Apart, class Misfit>
 std::vector<std::pair<int, int>> fittingPairs(
         const Clusters& single, const Edges& edges, const Apart& apart, const Misfit& misfit, const Real& tolerance)
@@ -130,7 +130,7 @@ Clusters cluster(const Triangles& triangles, const Edges& edges, const Apart& ap
 {
 	Clusters   result(triangles);
 	const auto pairs = fittingPairs(result, edges, apart, misfit, tolerance);
-	// again while anything changes: a sliver that pointed anywhere by itself fits in once its neighbour has grown
+	// again while anything changes: a sliver, whose own normal is arbitrary, fits once its neighbour has grown
 	for (bool changed = true; changed;) {
 		changed = false;
 		for (const auto& pair : pairs) {

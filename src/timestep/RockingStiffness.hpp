@@ -23,8 +23,8 @@ struct PlacedShape {
 	Matrix3            rotation;
 };
 
-/// Adds a body's planes to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, what the centre
-/// keeps to any plane: the numbers of a scene far from its origin cannot say.
+/// Adds a body's planes to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, the least
+/// distance of the centre from any plane: in a scene far from its origin small slacks are dominated by rounding.
 inline Real addPlanes(const PlacedShape& body, const Matrix3& axes, Real least, Matrix3& hessian)
 {
 	const HalfSpaces& planes = body.shape.planes();

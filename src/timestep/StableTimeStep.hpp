@@ -12,7 +12,7 @@
 ///     M − (Δt/2) C − (Δt²/4) K   is positive definite,                                                            (1)
 ///
 /// for one degree of freedom Δt < 2 (√(1 + ζ²) − ζ)/ω. K and C are sums over contacts, and a contact between bodies 1 and 2
-/// feels the difference of their motions at the contact point, so its energy is at most twice the sum of what it would be
+/// depends on the difference of their motions at the contact point, so its energy is at most twice the sum of what it would be
 /// with either body held fixed:  (u₂ − u₁)ᵀ k (u₂ − u₁) ≤ 2 u₁ᵀ k u₁ + 2 u₂ᵀ k u₂. Hence (1) holds for the whole heap if it
 /// holds, with 2 K and 2 C, for each body alone between fixed neighbours: a 6 × 6 problem, whose largest eigenvalues are bounds.
 /// With κ and γ the largest eigenvalues of K and C of one body (mass scaled to one)
@@ -36,7 +36,7 @@ inline Matrix3 crossMatrix(const Vector3& a)
 	return m;
 }
 
-/// How easily a body moves: both zero for one that cannot.
+/// Mobility (inverse mass and inertia) of a body: both zero for one that cannot move.
 struct Mobility {
 	Vector3 translation = Vector3::Zero(); ///< 1/√m along each world axis, 0 where blocked
 	Matrix3 rotation    = Matrix3::Zero(); ///< S with S Sᵀ the inverse of the inertia tensor, 0 where blocked

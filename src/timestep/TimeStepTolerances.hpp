@@ -6,7 +6,7 @@
 /// Thresholds of the time step, as Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// × inscribed radius: depth at which a contact that a body may have with a whole face is looked at. Its rocking stiffness over
+/// × inscribed radius: depth at which a potential contact of a body on a whole face is evaluated. Its rocking stiffness over
 /// its normal one is the same at any depth that is small against the body.
 constexpr double potentialDepth = 1e-3;
 
@@ -15,11 +15,11 @@ constexpr double potentialDepth = 1e-3;
 constexpr double potentialPartner = 1e3;
 
 /// Sizes for which a potential contact's stiffness is asked are rounded up to powers of this, so that thousands of bodies of a kind, or of
-/// a range of sizes, take a few hundred questions. The step is shorter by half of it at most (stiffness per area or by radii), 1 %.
+/// a range of sizes, take a few hundred evaluations. The step is shorter by half of it at most (stiffness per area or by radii), 1 %.
 constexpr double potentialSizes = 1.02;
 
-/// Updates of the time step between two looks at the contacts that bodies may have: these change with bodies, at whose number each update
-/// looks, and where a script changes stiffnesses or masses.
+/// Updates of the time step between two evaluations of the potential contacts: these change with the bodies, whose number each update
+/// checks, and where a script changes stiffnesses or masses.
 constexpr unsigned potentialUpdates = 10;
 
 /// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.

@@ -155,7 +155,7 @@ TEST(AnalyticCentre, KnownCentres)
 	EXPECT_NEAR(query(pair).point.z(), (8 - std::sqrt(Real(52))) / 6, 1e-14);
 }
 
-/// Worst distance of the kernel's centre from the precise one in units of what its own digits allow.
+/// Worst distance of the kernel's centre from the precise one in units of the accuracy that rounding allows.
 struct Accuracy {
 	Real worst   = 0;
 	int  checked = 0, thin = 0;

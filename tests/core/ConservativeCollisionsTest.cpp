@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Two free bodies collide without damping or friction: what the conservative contact leaves of the energy's error is the
+// Two free bodies collide without damping or friction: the remaining error of the energy is the
 // integrator's, and falls with the square of the time step.
 #include "PairSamples.hpp"
 
@@ -162,7 +162,7 @@ Errors errors(const std::vector<Collision>& collisions, const ContactSettings& s
 	for (const Collision& collision : collisions) {
 		const Outcome outcome = run(collision, settings, steps);
 		sum.momentum          = std::max(sum.momentum, outcome.momentumError);
-		if (!outcome.over && settings.contactModel == ContactModel::Paper) continue; // it has no energy to count
+		if (!outcome.over && settings.contactModel == ContactModel::Paper) continue; // it has no elastic energy
 		all.push_back(outcome.energyError);
 		sum.rootMeanSquare += outcome.energyError * outcome.energyError;
 	}
@@ -220,9 +220,9 @@ TEST(ConservativeCollisions, DefaultBarrierIsNotMuchWorseThanAnyOther)
 	EXPECT_LT(coarse[tolerance::barrier].rootMeanSquare, coarse[Real(5e-4)].rootMeanSquare / 2);
 }
 
-/// Whose the remaining error is. An energy ∝ Φ² has a force with a kink where contact begins and ends, as every linear spring;
-/// steps that pass it leave an error ∝ Δt². With an energy ∝ Φ⁴, from the same Φ, n and x, leapfrog leaves next to nothing: a
-/// symplectic scheme's error swings while a smooth force acts, and is gone when it is over.
+/// Cause of the remaining error. An energy ∝ Φ² has a force with a kink where contact begins and ends, as every linear spring;
+/// steps that pass it leave an error ∝ Δt². With an energy ∝ Φ⁴, from the same Φ, n and x, leapfrog leaves almost no error: a
+/// symplectic scheme's error oscillates while a smooth force acts, and vanishes afterwards.
 TEST(ConservativeCollisions, WithoutTheKinkOfALinearSpringLeapfrogLeavesNextToNothing)
 {
 	std::mt19937_64        random(600);
@@ -234,7 +234,7 @@ TEST(ConservativeCollisions, WithoutTheKinkOfALinearSpringLeapfrogLeavesNextToNo
 		one.smooth = Real(0.01) * std::min(one.body[0].shape->inscribedRadius(), one.body[1].shape->inscribedRadius());
 	ContactSettings conservative;
 	conservative.contactModel    = ContactModel::Conservative;
-	conservative.newtonTolerance = 1e-20; // what the solver leaves must not show
+	conservative.newtonTolerance = 1e-20; // the solver's error must be negligible
 	for (int steps : { 2000, 4000 }) {
 		const Errors two = errors(linear, conservative, steps), four = errors(smooth, conservative, steps);
 		std::printf("%d steps: energy error, median / root mean square / largest: energy ∝ Φ² %.1e / %.1e / %.1e, ∝ Φ⁴ %.1e / %.1e "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// The conservative contact: its force is the gradient of its energy, it acts in overlap alone, and nothing but the poses
-// decides it.
+// The conservative contact: its force is the gradient of its energy, it acts in overlap alone, and it depends on nothing but the
+// poses.
 #include "PreciseBarrier.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ bool usable(ContactStatus status)
 /// Force on body 2 for unit stiffness.
 Vector3 force(const ContactResult& result) { return result.inContact ? Vector3(result.depth * result.normal) : Vector3(Vector3::Zero()); }
 
-/// Rounding of a plane, over μ: what no answer can be more exact than.
+/// Rounding of a plane, over μ: the best accuracy that is possible.
 Real roundingOverMu(const Pair& pair) { return tolerance::rounding * pair.reach() / (tolerance::barrier * pair.inscribedRadius()); }
 
 class ConservativeContact : public testing::TestWithParam<int> {
@@ -113,7 +113,7 @@ TEST_P(ConservativeContact, ForceAndTorqueAreDifferencesOfTheEnergy)
 		worstTorque = std::max(worstTorque, torqueError / (1 + rounding * 1e13));
 		EXPECT_LE(energyError, 1e-15);
 		EXPECT_LE(forceError, 1e-12 + 10 * rounding);
-		// the point is as soft as its rocking arm is long
+		// the point's uncertainty is proportional to its rocking arm
 		EXPECT_LE(torqueError, 1e-12 + 10 * rounding * (1 + result.rockingArm / size));
 	}
 	EXPECT_GT(contacts, 150);
@@ -408,7 +408,7 @@ TEST_P(ConservativeContact, RockingArmIsTheWayOfThePointPerTilt)
 		const Pair          pair = overlappingPair(shapes, random, -2, Real(-0.5));
 		PairMemory          memory;
 		const ContactResult result = query(pair, conservative(1e-20), &memory);
-		// what a sliver's point moves by is beyond 113 bits
+		// the motion of a sliver's point is below the resolution of 113 bits
 		const Real mu = tolerance::barrier * pair.inscribedRadius();
 		if (!result.inContact || mu < 1e-5 * pair.size()) continue;
 		++compared;
@@ -444,7 +444,7 @@ TEST_P(ConservativeContact, RockingArmIsTheWayOfThePointPerTilt)
 
 TEST(ConservativeContactOf, FaceOnFaceRockingArmIsLengthCubedOverSixtyFourMuSquared)
 {
-	// derived for the four planes at the small cube's sides holding the point; the large one's weigh 10⁻³ of them
+	// derived with the point fixed by the four planes at the small cube's sides; those of the large one weigh 10⁻³ of these
 	Pair pair;
 	pair.shape[0] = ConvexShape::shared(cuboid(10, 10, 10), Real(0.1));
 	pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
@@ -503,7 +503,7 @@ TEST(ConservativeContactOf, AWallIsAPlane)
 			EXPECT_NEAR(result.depth, same.depth, 1e-7);
 			EXPECT_LE((result.normal - same.normal).norm(), 1e-6);
 			EXPECT_LE((result.point + Vector3(0, 1000, 0) - same.point).norm(),
-			        1e-3); // a face's point is as soft as its rocking arm is long
+			        1e-3); // the uncertainty of a point on a face is proportional to its rocking arm
 			EXPECT_LE((result.normal - Vector3::UnitY()).norm(), 1e-6);
 			EXPECT_EQ(query(swapped(wall), conservative()).depth, result.depth);
 		}
@@ -521,7 +521,7 @@ TEST(ConservativeContactOf, DeepOverlapAndCoincidentBodiesHaveAnEnergyAndNextToN
 		const ContactResult top             = query(pair, conservative());
 		EXPECT_TRUE(top.inContact);
 		EXPECT_EQ(top.status, ContactStatus::NoDirection);
-		EXPECT_GT(top.depth, 0); // bodies in balance part
+		EXPECT_GT(top.depth, 0); // bodies in equilibrium separate
 		EXPECT_LE(top.depth, 4 * inner * tolerance::direction);
 		EXPECT_NEAR(top.normal.norm(), 1, 1e-15);
 		// Φ lies above s* = −inner by 2μ (Σ √λ − √2) at most, Σ √λ ≤ √(number of planes)

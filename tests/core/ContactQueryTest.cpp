@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What holds for every pair: swap, rigid motion and scale change nothing but rounding; the answer says what it is.
+// What holds for every pair: swap, rigid motion and scale change nothing but rounding; the status describes the answer.
 #include "contact/ContactQuery.hpp"
 #include "SameAnswer.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // What a query does, counted: regressions of speed are caught by counters, not by clocks. The bounds are what was measured
-// when they were set, with some room for another compiler's rounding; a change that needs more has to say why.
+// when they were set, with some room for another compiler's rounding; a change that needs more has to give a reason.
 #include "PairSamples.hpp"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Counters, HullsOfFiftyFaces)
 	});
 }
 
-/// A cube that lies on another one: what a settled heap and a wall are made of. The faces are parallel: many bases
+/// A cube that lies on another one: the usual contact in a settled heap and in a wall. The faces are parallel: many bases
 /// are optimal, and the first step, which tilts them by 1e-4, makes another one so.
 TEST(Counters, StackedCubes)
 {

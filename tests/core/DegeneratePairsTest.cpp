@@ -136,7 +136,7 @@ TEST(DegeneratePairs, DeeperThanTheCornerRadiusTheDualGivesTheNormal)
 	const ContactResult one = query(pairOf(box(1, 1, 1, 0.5), box(1, 1, 1, 0), Vector3(0.125, 0, 1.75)), settings);
 	EXPECT_EQ(one.status, ContactStatus::NormalFromOneBody);
 	EXPECT_LE((one.normal - Vector3::UnitZ()).norm(), 1e-14);
-	// no body has a say, and the one that has a gradient has no weight
+	// one body has no gradient, and the one that has a gradient has no weight
 	settings.normalWeight[0]       = 0;
 	const ContactResult weightless = query(pairOf(box(1, 1, 1, 0.5), box(1, 1, 1, 0), Vector3(0.125, 0, 1.75)), settings);
 	expectUsable(weightless);
@@ -148,7 +148,7 @@ TEST(DegeneratePairs, GradientsThatCancel)
 	// a cube's centre on the other's, rounded to the core: each body's gradient is zero by symmetry
 	const ContactResult same = query(pairOf(box(1, 1, 1, 1.5), box(1, 1, 1, 1.5), Vector3::Zero()));
 	expectUsable(same);
-	// the small one looks out of the side the big one is pierced from: opposite gradients do not add up to zero
+	// the small one protrudes from the big one: opposite gradients do not add up to zero
 	const ContactResult through = query(pairOf(box(1, 1, 1, 0.5), box(Real(0.1), Real(0.1), 3, 0), Vector3(Real(0.8), 0, 0)));
 	expectUsable(through);
 }

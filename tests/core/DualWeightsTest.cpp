@@ -41,7 +41,7 @@ TEST(DualWeights, AsInWiderArithmetic)
 			if (result.status != ContactStatus::Contact) continue;
 			const PrecisePair exact(pair);
 			QuadVector        normal;
-			// at our own point: what is left is the rounding of planes over the overlap
+			// at our own point: the remaining error is the rounding of planes over the overlap
 			const Real slip = Real(exact.balancedNormal(precise(result.point), normal));
 			if (!(slip > 0) || slip > 1e4) continue;
 			++compared;
@@ -138,7 +138,7 @@ TEST(DualWeights, LaneWidthsAgree)
 	}
 }
 
-/// What Ig2 does for a plate beside another one: the side face that the neighbour covers is left out.
+/// As Ig2 does for a plate beside another one: the side face that the neighbour covers is left out.
 TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 {
 	const Real depth = 1e-4;

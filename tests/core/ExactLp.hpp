@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-/// Phase-one LP of a pair (see SimplexLp.hpp) in exact rational arithmetic: the input's doubles are taken as they stand.
-/// Simplex with Bland's rule from four artificial planes far outside; the optimum is proved by its certificate, so the
-/// way there does not matter.
+/// Phase-one LP of a pair (see SimplexLp.hpp) in exact rational arithmetic: the input's doubles are taken as exact numbers.
+/// Simplex with Bland's rule from four artificial planes far outside; the optimum is proved by its certificate, so
+/// the path to it does not matter.
 namespace polytope::samples {
 
 using Rational = boost::multiprecision::mpq_rational;

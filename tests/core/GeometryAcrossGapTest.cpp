@@ -26,7 +26,7 @@ ContactResult at(const Pair& pair, const Vector3& from, const Vector3& to, Real 
 
 Real jump(const ContactResult& one, const ContactResult& two) { return (one.point - two.point).norm() + (one.normal - two.normal).norm(); }
 
-/// The answer moves on continuously: where two neighbouring answers differ most, halving their distance again and again
+/// The answer is continuous: where two neighbouring answers differ most, halving their distance again and again
 /// makes the difference vanish, but for what a skin of 1e-6 leaves.
 Real lastingJump(const Pair& pair, const Vector3& from, const Vector3& to)
 {
@@ -95,7 +95,7 @@ TEST(GeometryAcrossGap, TheOverlapAtTheSkinHoldsTheTouchingPoint)
 
 TEST(GeometryAcrossGap, DepthIsTheWayBetweenTheSurfaces)
 {
-	// never less than the bodies are apart, seldom more than a few times that: a plane seen edge-on does not count
+	// never less than the bodies are apart, seldom more than a few times that: a plane nearly parallel to the normal does not count
 	std::mt19937_64   random(204);
 	const int         faces[] = { 4, 6, 8, 12, 20 };
 	std::vector<Real> ratios;
@@ -171,7 +171,7 @@ TEST(GeometryAcrossGap, WarmStartedAcrossTheGapItIsTheSame)
 		const Vector3 from = pair.centre2, to = Real(1.02) * from;
 		PairMemory    memory;
 		for (int step = 0; step <= 40; ++step) {
-			// out and back
+			// apart and back
 			const Real          t    = step <= 20 ? Real(step) / 20 : Real(40 - step) / 20;
 			const ContactResult warm = at(pair, from, to, t, &memory), cold = at(pair, from, to, t);
 			ASSERT_EQ(warm.inContact, cold.inContact);

@@ -2,7 +2,7 @@
 //
 // The kinds of tests/reference/reference_cases.json taken further: thinner overlaps, smaller tilts, flatter plates, more
 // copies of planes, other sizes. Bodies as in the file: world axes, each about its own centre. The answers come from
-// ExactLp.hpp and PrecisePair.hpp; what is asked of the kernel is what the file says is attainable in double.
+// ExactLp.hpp and PrecisePair.hpp; the kernel must reach what the file states as attainable in double.
 #include "ExactLp.hpp"
 #include "PrecisePair.hpp"
 
@@ -55,7 +55,7 @@ void expectAttainable(const Pair& pair, NormalSource source)
 	Real slip;
 	if (source == NormalSource::DualWeights) {
 		slip = Real(exact.balancedNormal(centre, normal)) * 2 * loosened;
-		if (!(slip > 0 && slip < 0.1)) return; // the bodies do not agree on a direction, or hardly
+		if (!(slip > 0 && slip < 0.1)) return; // the bodies agree on no direction, or only to few digits
 	} else {
 		ASSERT_TRUE(exact.normal(centre, normal));
 		slip = Real(exact.normalSlip(0, centre, 2 * loosened) + exact.normalSlip(1, centre, 2 * loosened));

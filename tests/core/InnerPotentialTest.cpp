@@ -88,7 +88,7 @@ TEST(InnerPotential, KnownValues)
 	const Real outside[] = { Real(1.25), 0, Real(0.5) };
 	innerPotentialGradient<Real, 3, 2>(rows.planes, 0, outside, Real(0), gradient);
 	EXPECT_EQ(vectorOf(gradient, 3), Vector3(0.5, 0, 0));
-	// the other body's planes are another body's
+	// the other body's planes do not count
 	innerPotentialGradient<Real, 3, 2>(rows.planes, 1, outside, Real(0.5), gradient);
 	EXPECT_EQ(vectorOf(gradient, 3), Vector3(0, 0, 0));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // The kernel for each lane width and instruction set this machine has, whichever of them ContactQuery.cpp chooses.
-// (vectors are handed over within this file only: no ABI to warn of)
+// (vectors are passed within this file only: the ABI warning does not apply)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #include "contact/ContactKernel.hpp"
 #include "SameAnswer.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Ipopt's centre against Newton's and against 113-bit arithmetic; what a build without Ipopt says instead.
+// Ipopt's centre against Newton's and against 113-bit arithmetic; the status of a build without Ipopt.
 #include "centre/IpoptCentre.hpp"
 #include "PrecisePair.hpp"
 
@@ -36,7 +36,7 @@ struct Agreement {
 	void add(const Pair& pair)
 	{
 		const ContactResult newton = query(pair);
-		lpNotConverged += newton.status == ContactStatus::LpNotConverged; // a matter before the centre
+		lpNotConverged += newton.status == ContactStatus::LpNotConverged; // decided before the centre
 		if (!newton.inContact || newton.status == ContactStatus::LpNotConverged) return;
 		ASSERT_NE(newton.status, ContactStatus::CentreByIpopt);
 		const std::clock_t  started = std::clock();
@@ -179,7 +179,7 @@ TEST(IpoptCentre, PrintsNothing)
 		const Shapes    shapes = randomShapes(30, random);
 		for (int trial = 0; trial < 100; ++trial)
 			query(randomPair(shapes, random), byIpopt());
-		// no inside: fails, as quietly
+		// no interior: fails, also without output
 		const Real  normal[3][4] = { { 1, -1, 0, 0 }, { 0, 0, 1, -1 }, { 0, 0, 0, 0 } }, offset[4] = { 1, -2, 1, 1 };
 		const Real* rows[3]    = { normal[0], normal[1], normal[2] };
 		Real        x[3]       = { 0.5, 0, 0 };

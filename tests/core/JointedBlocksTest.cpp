@@ -125,7 +125,7 @@ TEST(JointedBlocks, noPieceHoldsLessThanAsked)
 	}
 }
 
-/// A cut costs the boxes on its way: their number grows as the blocks do, not as blocks times joints.
+/// A cut visits the boxes that it crosses: their number grows as the blocks do, not as blocks times joints.
 TEST(JointedBlocks, theWorkGrowsAsTheBlocks)
 {
 	std::mt19937_64 random(74);

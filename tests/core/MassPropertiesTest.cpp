@@ -39,7 +39,7 @@ TEST(MassProperties, regularSolidsAgreeWithTheTextbook)
 				EXPECT_LT(mass.centroid.norm(), 1e-14 * edge);
 				const PrincipalAxes axes = principalAxes(mass.inertia);
 				EXPECT_EQ(axes.rotation,
-				        Matrix3(Matrix3::Identity())); // equal moments in any orientation: no axes to turn to
+				        Matrix3(Matrix3::Identity())); // equal moments in any orientation: any axes are principal
 			}
 }
 
@@ -92,7 +92,7 @@ TEST(MassProperties, thinBoxesKeepTheDigitsTheirVerticesHave)
 
 TEST(MassProperties, farFromTheOriginOnlyTheInputsDigitsAreLost)
 {
-	// coordinates that are exact in binary: nothing is lost at all
+	// coordinates that are exact in binary: no rounding at all
 	const Vector3 place(1 << 20, -(1 << 21), 1 << 19);
 	const Real    half = std::ldexp(Real(1), -11);
 	const auto    near = massProperties(polyhedron(box(half, half, half)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Inputs on which Newton gives up on the analytic centre, and a search for more.
+// Inputs on which Newton does not converge to the analytic centre, and a search for more.
 #include "ExactLp.hpp"
 #include "PrecisePair.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 // Rectangles with near copies of their planes, the second turned by 1e-14 against the first, overlap 2e-15 of the size. A linear
 // program in double alone takes one of two normals that agree to rounding and its point violates the other by more than the
-// overlap's thickness: contact was said where there is none by the tolerance, and Newton had no inside to start from.
+// overlap's thickness: contact was reported where there is none by the tolerance, and Newton had no interior point to start from.
 TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgramSeesBoth)
 {
 	HalfSpaces set;
@@ -60,7 +60,7 @@ TEST(NewtonGivesUp, NotAtTwinPlanesSinceTheLinearProgramSeesBoth)
 
 // A small body that just touches a large one: by default −s* is 45 roundings of the small one's size at the least, but the planes
 // are rounded by the large one's; with no tolerance any pair may. In the frame of the centre there may be no inside left, and neither Newton
-// nor Ipopt has anything to look for: depths of −3e-16 were said, and that the centre was not reached.
+// nor Ipopt can converge: depths of −3e-16 were reported, with the status that the centre was not reached.
 TEST(NewtonGivesUp, NotWhereRoundingLeavesNoInside)
 {
 	std::mt19937_64 random(905);
@@ -130,7 +130,7 @@ TEST(NewtonGivesUp, Search)
 			        * randomDirection(random, pair.dimension());
 		}
 	}
-	std::cout << pairs << " pairs, " << 40 * pairs << " queries, " << contacts << " contacts: Newton gave up on " << gaveUp
+	std::cout << pairs << " pairs, " << 40 * pairs << " queries, " << contacts << " contacts: Newton did not converge on " << gaveUp
 	          << ", Ipopt found " << byIpopt << " of these\n";
 	EXPECT_GT(contacts, 10 * pairs);
 }

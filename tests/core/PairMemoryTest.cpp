@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What a pair remembers makes the next query cheaper, never different.
+// A pair's memory makes the next query cheaper, never different.
 #include "SameAnswer.hpp"
 
 #include <gtest/gtest.h>

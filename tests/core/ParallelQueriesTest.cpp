@@ -44,7 +44,7 @@ std::vector<Real> numbers(const ContactResult& r)
 
 using History = std::vector<std::vector<Real>>; ///< pair after pair, the numbers of all its steps
 
-/// The bodies of every pair drift; pairs are handed out one by one, so who takes which is chance.
+/// The bodies of every pair drift; pairs are distributed one by one, so which thread computes which pair is random.
 History run(const std::vector<Pair>& pairs, const ContactSettings& settings, int threads)
 {
 	History                 history(pairs.size());

@@ -37,7 +37,7 @@ void expectClosedFormIsBracketed(int dimension)
 		++overlap;
 		const PrecisePair exact(pair);
 		const QuadVector  x = precise(result.point), n = precise(result.normal), back = minus(QuadVector {}, n);
-		if (!(exact.violation(x) < 0)) continue; // thinner than the point's own digits
+		if (!(exact.violation(x) < 0)) continue; // thinner than the point's rounding
 		const Real exit1 = bracketedExit(exact, 0, x, n, pair.reach() * 4),
 		           exit2 = bracketedExit(exact, 1, x, back, pair.reach() * 4);
 		// point and planes are known to a rounding of the pair; a plane met at a glancing angle lengthens it

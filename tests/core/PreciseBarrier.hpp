@@ -40,7 +40,7 @@ public:
 		return other;
 	}
 
-	/// Φ; leaves the minimiser in x and s, from where they are (lifted until inside). NaN if Newton does not get there.
+	/// Φ; leaves the minimiser in x and s, from where they are (lifted until inside). NaN if Newton does not converge.
 	Number value()
 	{
 		s            = std::max<Number>(s, pair.violation(x) + mu / 4);
@@ -91,7 +91,7 @@ public:
 				for (int k = 0; k < n - 1; ++k)
 					x[k] = from[k] + t * step[k];
 				s = level + t * step[n - 1];
-				// near the minimum the objective cannot tell any more
+				// near the minimum differences of the objective are rounding
 				if (pair.violation(x) < s && (gradient < Number(1e-10) || objective() < before)) break;
 			}
 		}

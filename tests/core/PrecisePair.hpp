@@ -91,7 +91,7 @@ public:
 		return sqrt(sum);
 	}
 
-	/// The analytic centre by damped Newton from x (strictly inside), to three quarters of the digits. False if it does not get there.
+	/// The analytic centre by damped Newton from x (strictly inside), to three quarters of the digits. False if it does not converge.
 	bool analyticCentre(Vector& x) const
 	{
 		const Number close

@@ -195,7 +195,7 @@ TEST_P(Reference, LpPoint)
 	// centre of a largest ball, whether or not there are several
 	EXPECT_LE(Real(PrecisePair(pair).violation(precise(result.point))), expected.s + 1e-13 * size);
 	if (!expected.pointUnique) return;
-	// the basis' weights say how far the point moves when a plane does
+	// the basis' weights give how far the point moves when a plane does
 	EXPECT_LE(Real(norm(minus(precise(result.point), expected.lpPoint))),
 	        1e-13 * size / *std::min_element(result.weights.begin(), result.weights.end()));
 }

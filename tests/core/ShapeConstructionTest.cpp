@@ -97,7 +97,7 @@ TEST(ShapeConstruction, planesEqualToRoundingAreOneFace)
 	}
 }
 
-// Between "one plane" and "two planes" either answer is right; a torn or open one is not.
+// Between "one plane" and "two planes" either answer is right; a surface that is not closed is not.
 TEST(ShapeConstruction, nearlyEqualPlanesStaySound)
 {
 	std::mt19937_64 random(15);
@@ -342,7 +342,7 @@ TEST(ShapeConstruction, emptySetsAreRefused)
 		set = moved(box(length, -1e-9 * length, length), Matrix3::Identity(), Vector3(length, length, length));
 		EXPECT_TRUE(says(polyhedronSays(set), "offsets: the half-spaces have no common point"));
 	}
-	HalfSpaces open; // neither bounded nor feasible: the missing point is the first thing to mend
+	HalfSpaces open; // neither bounded nor feasible: the missing point is reported first
 	add(open, Vector3::UnitX(), 0);
 	add(open, -Vector3::UnitX(), -1);
 	add(open, Vector3::UnitY(), 0);

@@ -79,7 +79,7 @@ TEST(ShapeFactory, putsTheBodyBackWhereItWas)
 			}
 }
 
-/// One construction and another give the same numbers: a loaded scene goes on as the saved one would have.
+/// One construction and another give the same numbers: a loaded scene continues as the saved one would have.
 TEST(ShapeFactory, theSamePlanesBuiltAnewAreTheSameToTheLastBit)
 {
 	std::mt19937_64 random(63);

@@ -153,7 +153,7 @@ TEST(SimplexLp, MovedApartAlongTheDualDirectionThePairIsFree)
 		const Pair          pair   = randomPair(shapes, random);
 		const ContactResult result = query(pair);
 		const Real          length = result.dualDirection.norm();
-		if (!result.inContact || length < 1e-3) continue; // one inside the other: no direction frees them cheaply
+		if (!result.inContact || length < 1e-3) continue; // one inside the other: no short motion separates them
 		++moved;
 		const Real apart = -result.infeasibility / length;
 		EXPECT_GE(infeasibility(movedApart(pair, apart * result.dualDirection / length)), -16 * tolerance::rounding * pair.reach());
@@ -231,7 +231,7 @@ TEST(SimplexLp, StartFromAStripWithANearlyParallelPlane)
 	}
 }
 
-// Nearly parallel planes of a pair between whose bases the simplex in double went back and forth for ever (lpNotConverged),
+// Nearly parallel planes of a pair between whose bases the simplex in double cycled (lpNotConverged),
 // 0.4 of the size from the optimum.
 TEST(SimplexLp, NearlyParallelPlanesThatCycled)
 {

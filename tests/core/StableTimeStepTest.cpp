@@ -9,7 +9,8 @@ using namespace polytope;
 
 namespace {
 
-/// Grows without end, or not, with this time step: one degree of freedom, the damper's force from the last half step's velocity.
+/// Whether the motion grows without bound with this time step: one degree of freedom, the damper's force from the last half step's
+/// velocity.
 bool grows(Real stiffness, Real damper, Real step)
 {
 	Real place = 1, velocity = 0;

@@ -15,8 +15,8 @@ bounds = {
         'averaged': {6: 3170, 20: 4370},
         'apart': {6: 400},
 }
-"""Faces of the regular solids: instructions a pair, measured and a tenth more. Touching pairs without and with what the last step has left,
-and pairs that are apart, with it. averaged: touching, with what the last step has left, and the paper's averaged normal."""
+"""Faces of the regular solids: instructions a pair, measured and a tenth more. Touching pairs without and with warm start,
+and separated pairs, with it. averaged: touching, with warm start, and the paper's averaged normal."""
 
 warm = 1.15
 """The same with the default normal: at most so many times the instructions of the averaged one."""

@@ -62,7 +62,7 @@ def testCleanAllWithTheParentAsCacheLeavesTheClone(clone):
 
 
 def testCleanAllLeavesAnotherCloneInTheCache(clone, tmp_path):
-	"""A clone of YADE or of us that somebody put there."""
+	"""A clone of YADE or of this project that a user put there."""
 	cache = filled(tmp_path / 'cache')
 	assert shell(clone, cache, 'claimCache').returncode == 0
 	other = cache / 'yade-trunk'
@@ -95,7 +95,7 @@ def testCleanRefusesWhatItDoesNotKnow(clone, tmp_path):
 
 
 def testARootInUseStays(clone, tmp_path):
-	"""By its lock, as long as somebody holds it; then it goes. The build folder stays with --root."""
+	"""By its lock, as long as a process holds it; then it is removed. The build folder stays with --root."""
 	cache = filled(tmp_path / 'cache')
 	root = cache / 'debian13'
 	root.mkdir()

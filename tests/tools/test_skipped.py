@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""tools/skipped.py: what `./run test` says at its end."""
+"""tools/skipped.py: the summary at the end of `./run test`."""
 import os
 import pathlib
 import subprocess

@@ -5,7 +5,7 @@ import os
 import pathlib
 import sys
 
-os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # threads that wait do not take the core from those that work
+os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # waiting threads do not occupy the cores that working ones need
 
 import pytest
 import yade

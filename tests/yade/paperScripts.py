@@ -35,7 +35,7 @@ def runHere(name, where, monkeypatch, *options):
 
 
 def expectRefusal(name, where, monkeypatch, capsys, options, message):
-	"""The script ends with 2, says *message*, and has written nothing."""
+	"""The script ends with 2 and this *message*, and has written nothing."""
 	with pytest.raises(SystemExit) as ended:
 		runHere(name, where, monkeypatch, *options)
 	assert ended.value.code == 2 and message in capsys.readouterr().err and not (where / 'out').exists()

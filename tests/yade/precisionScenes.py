@@ -10,7 +10,7 @@ import scenes
 
 
 def collision():
-	"""Two bodies of several faces meet out of line, conservatively, and part again, spinning."""
+	"""Two bodies of several faces collide off centre with the conservative contact, and separate again, spinning."""
 	scenes.joint(normalStiffness=1e6, shearStiffness=1e6, frictionAngle=0)
 	scenes.loop(ig2=dict(contactModel='conservative'))
 	O.bodies.append([
@@ -23,7 +23,7 @@ def collision():
 
 
 def blockOnFloor():
-	"""A block, dropped a little askew, on a floor with friction and dampers."""
+	"""A block, dropped a little tilted, on a floor with friction and dampers."""
 	scenes.joint(normalStiffness=1e6, shearStiffness=1e6)
 	scenes.loop(gravity=(0, 0, -scenes.gravity), normalDamping=0.25, shearDamping=0.25)
 	O.bodies.append([

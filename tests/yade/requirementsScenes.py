@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Scenes that polytope.requirements looks at in tests."""
+"""Scenes that polytope.requirements checks in tests."""
 
 from yade import (
 	Bo1_Polytope_Aabb,
@@ -17,7 +17,7 @@ from yade import (
 
 
 def row(number=3, steps=50, spin=0.01, cornerRadius=0.02, material=None, **functor):
-	"""Blocks on a floor, at rest but for what the first steps do; a good scene unless the arguments spoil it."""
+	"""Blocks on a floor, at rest but for the first steps; without a fault unless the arguments add one."""
 	law, newton = {'normalDamping': 0.3}, {'damping': 0.2}
 	O.reset()
 	O.materials.append(RockJointMat(**{'normalStiffness': 1e7, 'shearStiffness': 1e7, 'frictionAngle': 0.5, 'density': 1000, **(material or {})}))

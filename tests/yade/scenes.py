@@ -23,8 +23,8 @@ def joint(**attributes):
 def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):
 	"""Engines with the plug-in's law. Returns the NewtonIntegrator.
 
-	verletDist=0: pairs are looked for in each step. With a Verlet distance YADE looks again when a body has moved by it, and does not count
-	turning: a corner may be found inside another body some steps late, which is not what these tests are about.
+	verletDist=0: pairs are searched for in each step. With a Verlet distance YADE searches again when a body has moved by it, and does not
+	count turning: a corner may be found inside another body some steps late, which is not what these tests are about.
 	"""
 	newton = NewtonIntegrator(gravity=gravity, damping=damping)
 	O.engines = [
@@ -68,7 +68,7 @@ def blockOnFloor(overlap=0., half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **b
 
 
 def driven(body, velocity=(0, 0, 0), angularVelocity=(0, 0, 0)):
-	"""From now on the body moves as told, whatever the forces."""
+	"""From now on the body's motion is prescribed, whatever the forces."""
 	body.state.blockedDOFs = 'xyzXYZ'
 	body.state.vel = velocity
 	body.state.angVel = angularVelocity

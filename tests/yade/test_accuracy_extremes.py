@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`./run accuracy`: its quick variants hold the limits that docs/accuracy.md states, and a fault would be seen."""
+"""`./run accuracy`: its quick variants hold the limits that docs/accuracy.md states, and a fault would be detected."""
 import csv
 import importlib.util
 import json
@@ -96,7 +96,7 @@ def testACoordinateCostsItsOwnRoundingOnly():
 
 
 def testThinPlatesSayThatTheirPointIsRounding():
-	"""Flat on flat, what holds the conservative contact's point along the face is the barrier of far side planes alone."""
+	"""Flat on flat, only the barrier of far side planes fixes the conservative contact's point along the face."""
 	turn = Quaternion((1, 2, 3), 0.7)
 	for aspect, status in ((1e3, 'contact'), (1e6, 'roundingLimited'), (1e8, 'roundingLimited'), (1e10, 'roundingLimited')):
 		one = polytope.cuboid((0, 0, 0), (1, 1, 1 / aspect), turn)

@@ -188,7 +188,7 @@ def testWrongInputIsRefusedByName(build, names):
 
 @pytest.mark.parametrize('far', [1e6, 1e9, 1e10])
 def testBodiesFarFromTheOriginHaveTheirCentroidThere(far):
-	"""The first centroid is rounded by the distance, so that it is looked for again from there."""
+	"""The first centroid is rounded by the distance, so that it is computed again from there."""
 	for k in range(40):
 		normals = [(math.cos(a), math.sin(a), c) for a, c in zip(numpy.linspace(0, 6, 7) + k, (1, -1, 0.3, -0.4, 0.2, -0.1, 0.5), strict=True)]
 		offsets = [numpy.dot(n, (far, far, far)) + 1 for n in normals]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A body that turns in place meets its neighbour however seldom the collider runs; boxes are tight where the collider sees bodies turn."""
+"""A body that turns in place meets its neighbour however rarely the collider runs; boxes are tight where the collider takes account of
+rotation."""
 import math
 
 import numpy as np
@@ -37,7 +38,7 @@ def testRodTurningInPlaceIsSeen(kind, verletDist):
 
 @pytest.mark.parametrize('kind', colliders)
 def testBodyTurnedByTheScriptIsSeen(kind):
-	"""Its angVel stays zero; the other collider is told by a move."""
+	"""Its angVel stays zero; the other collider notices only a translation."""
 	joint()
 	loop()
 	collider(kind, 0.05)
@@ -118,7 +119,7 @@ def runsOfTheCollider(kind, steps):
 
 
 def testFixedObliqueBodyDoesNotKeepTheColliderBusy():
-	"""A body that cannot turn has no room to, and YADE normalises every orientation in each step: it differs by a rounding."""
+	"""The box of a body that cannot turn is not enlarged, and YADE normalises every orientation in each step: it differs by a rounding."""
 	runs = []
 	for kind in colliders:
 		O.reset()

@@ -204,7 +204,7 @@ def testAnEdgeBouncesOnMixedPairsWithoutLoss(other):
 		contacts += any(i.isReal for i in O.interactions)
 		booked.append(dict(O.energy.items()).get('elastPotential', 0))
 	assert contacts > 100 and block.state.vel[2] != 0
-	assert max(booked) > 0.1 * block.state.mass / 2  # the law's book knows the spring
+	assert max(booked) > 0.1 * block.state.mass / 2  # the law's energy terms include the spring
 	error = polytope.mechanicalEnergy() / start - 1
 	print(other, error)
 	assert abs(error) < 1e-4
@@ -310,7 +310,7 @@ def testCoincidentBodiesHaveNoDirectionAndPart():
 	# the energy's top: twice the square of the inscribed radius, less what the barrier adds
 	assert found.geom.energyPerStiffness == pytest.approx(2 * 0.5**2, rel=0.05)
 	assert O.engines[2].geomDispatcher.functors[0].stats()['fallbacks'] == 1
-	# a balance, but none that lasts: what rounding is worth begins to part them
+	# an unstable equilibrium: rounding is enough to start separating them
 	O.dt = 0.2 * sqrt(O.bodies[1].state.mass / found.phys.kn)
 	O.run(2000, wait=True)
 	assert O.bodies[1].state.pos.norm() > 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What bodies do: rest, slide, fly, collide, touch across a periodic boundary; with the plug-in's law and with YADE's own."""
+"""Bodies at rest, sliding, in flight, in collision, across a periodic boundary; with the plug-in's law and with YADE's own."""
 from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
@@ -112,7 +112,7 @@ def testBlockSlidesAboveTheFrictionAngle(slope):
 
 
 def testUndampedFlatBlockSlidesToo():
-	"""A fifth as high as long: the friction's lever is too short to set it rocking."""
+	"""A fifth as high as long: the lever arm of friction is too short to make it rock."""
 	distance, acceleration, theory = tiltTest(40, halfHeight=0.1, rockingDamping=0, normalDamping=0, shearDamping=0)
 	print(f'flat, undamped, 40°: acceleration over theory {acceleration / theory:.4f}')
 	assert acceleration == pytest.approx(theory, rel=0.02)
@@ -120,9 +120,9 @@ def testUndampedFlatBlockSlidesToo():
 
 @pytest.mark.parametrize('dampers', [dict(normalDamping=1, shearDamping=1), dict(normalDamping=0, shearDamping=0)])
 def testCubeWithoutRockingDampingRidesOnItsLeadingEdge(dampers):
-	"""A weakness of one contact point with the averaged normal: sliding shakes the cube onto its leading edge, where the normal leans
-	against it, and it falls behind: by little without any damping, nearly to a stop with a normal damper, which carries the shaking into
-	the edge. Recorded, not wanted."""
+	"""A weakness of one contact point with the averaged normal: sliding excites rocking onto the cube's leading edge, where the normal
+	is inclined against the motion, and the cube is too slow: by little without damping, nearly stopped with a normal damper, which
+	sustains the rocking. Recorded, not wanted."""
 	distance, acceleration, theory = tiltTest(40, rockingDamping=0, ig2={'normal': 'innerPotential'}, **dampers)
 	way = theory / 2 * (0.1 * period(density, stiffness) * 2000)**2
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: {distance:.3f} m of {way:.3f} m')
@@ -131,8 +131,8 @@ def testCubeWithoutRockingDampingRidesOnItsLeadingEdge(dampers):
 
 @pytest.mark.parametrize('dampers, ratio', [(dict(normalDamping=1, shearDamping=1), 0.02), (dict(normalDamping=0, shearDamping=0), 0.25)])
 def testCubeWithoutRockingDampingSlidesWithTheDefaultContact(dampers, ratio):
-	"""Its normal stays the floor's. Shaken by the sudden loss of friction and with no damping at all, the cube still rocks on its edges and
-	falls behind (0.82 of theory): the contact point jumps from edge to edge."""
+	"""Its normal stays the floor's. Excited by the sudden loss of friction and with no damping at all, the cube still rocks on its edges
+	and is slower (0.82 of theory): the contact point jumps from edge to edge."""
 	_, acceleration, theory = tiltTest(40, rockingDamping=0, **dampers)
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: acceleration over theory {acceleration / theory:.4f}')
 	assert acceleration == pytest.approx(theory, rel=ratio)

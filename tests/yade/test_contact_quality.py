@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Smoothness of the contact's path and energy of collisions: the studies' quick variants hold, and notice what they look for."""
+"""Smoothness of the contact's path and energy of collisions: the studies' quick variants hold, and detect the faults they are made for."""
 
 import importlib.util
 import json

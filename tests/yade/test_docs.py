@@ -49,7 +49,7 @@ def testLinksResolve(name):
 
 
 def testLinksAreFound():
-	"""The readers above find what they look for."""
+	"""The functions above find lines, headings and links."""
 	assert links('[a](b.md#c-d) `[x](y)` ![p](q.png) [w](https://example.org)\n```\n[code](no.md)\n```\n') == ['b.md#c-d', 'q.png']
 	assert anchors(project / 'docs/index.md')[0] == 'yade-polytope-documentation'
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""O.trackEnergy: what the terms mean, and that they add up.
+"""O.trackEnergy: the meaning of the terms, and their sum.
 
 The law takes work over a step with the mean of the forces at both ends. With the kinetic energy ½ m v(n−½)·v(n+½) the sum of all
 terms is then constant to rounding whatever happens in a contact; the term *nonconservative* is what stored, frictional and viscous
@@ -92,7 +92,7 @@ def testSlidingDissipatesFrictionTimesWay():
 
 
 def tumble(perArea, turn):
-	"""(nonconservative over what dampers and friction have taken) after four blocks have fallen onto each other."""
+	"""(nonconservative over the dissipation by dampers and friction) after four blocks have fallen onto each other."""
 	O.reset()
 	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.4)
 	loop(perArea, normalDamping=0.2, shearDamping=0.2, rockingDamping=0.2, gravity=(0, 0, -gravity))
@@ -129,7 +129,7 @@ def testFractureReleasesWhatWasStored():
 	O.trackEnergy = True
 	O.dt = 1e-4
 	O.step()
-	# the contact appears compressed: energy from nowhere
+	# the contact appears compressed: its elastic energy has no source
 	assert energies()['nonconservative'] == pytest.approx(-stiffness * 1e-8 / 2, rel=1e-9)
 	block.state.vel = (0, 0, 1e-2)
 	O.step()  # a start out of rest is not leapfrog motion

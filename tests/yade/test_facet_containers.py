@@ -14,7 +14,7 @@ from jointStudy.scenes.facetGrains import EnergyBook, FacetDrum, FacetFunnel
 
 def checkBudget(book, limit=0.01):
 	work = book['gravity'] + book['drive']
-	# heights, velocities and momenta agree with the law's own book: the measurement is right, whatever the contact
+	# heights, velocities and momenta agree with the law's own energy terms: the measurement is right, whatever the contact
 	assert book['missing'] == pytest.approx(book['nonconservative'], abs=5e-3 * work)
 	assert abs(book['missing']) < limit * work
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Findings: what holds and what does not, and that files say it all."""
+"""Findings: rows that hold and rows that are missed, and that the files are complete."""
 import csv
 import json
 import math

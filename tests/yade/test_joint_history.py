@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a joint remembers of its motion: shear force, slip and dilation while the contact area changes, and while the joint is open."""
+"""History of a joint: shear force, slip and dilation while the contact area changes, and while the joint is open."""
 from math import cos, inf, pi, radians, sin, sqrt, tan
 
 import pytest
@@ -43,7 +43,7 @@ def turned(beam, angle, steps):
 
 
 def testShearForceWhileTheAreaShrinksAndGrows():
-	"""Springs that leave the area take their force with them, those that join it are not strained: k_s A u, then the same force."""
+	"""The force of springs that leave the area is lost, those that join it are not strained: k_s A u, then the same force."""
 	beam = crossedBeams(pi / 6)
 	i = O.interactions[0, 1]
 	pushed = 1e-4
@@ -172,7 +172,7 @@ def testSlipOfABlockThatRocksOnASlope(limit):
 
 
 def testDilationIsRememberedWhileTheJointIsOpen():
-	"""Slip, lift, shift back by a quarter, lower: the joint is wider by what is left of the way, and its force knows it."""
+	"""Slip, lift, shift back by a quarter, lower: the joint is wider by the dilation of the remaining slip, and its force follows."""
 	psi = 0.1
 	for perArea in (False, True):
 		O.reset()
@@ -254,7 +254,7 @@ def testBlockThatSlidesAndDilatesDownASlope(perArea):
 
 
 def testStiffnessSetByTheScript():
-	"""Per contact it stays; per area the joint's own values say what it is."""
+	"""Per contact it stays as it is; per area it follows from the joint's own values."""
 	for perArea in (False, True):
 		O.reset()
 		joint(normalStiffness=stiffness, shearStiffness=stiffness)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rock cut into blocks by sets of joints: nothing lost, nothing twice, joints as asked for."""
+"""Rock cut into blocks by sets of joints: the blocks fill the region once, joints are as requested."""
 from math import exp, pi, radians, tanh
 
 import numpy as np
@@ -55,7 +55,7 @@ def testNeighboursTouchWithoutOverlap():
 
 
 def testJointsStartFromTheCentroid():
-	"""Not from the mean of the corners: a corner that is cut off by a hair leaves them where they are."""
+	"""Not from the mean of the corners: a corner that is cut off by very little leaves them where they are."""
 	(whole,), (cut,) = (
 		polytope.jointedRock(normals, offsets, [JointSet(0, 0, 100)]).joints
 		for normals, offsets in ((box, [10, 0, 8, 0, 6, 0]), ([*box, (1, 1, 1)], [10, 0, 8, 0, 6, 0, 24 - 1e-3]))

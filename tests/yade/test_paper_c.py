@@ -63,7 +63,7 @@ def testNoQueryFailed(quick):
 
 
 def testAMissedRowEndsTheScriptWithAnError(quick):
-	"""What the full-range checks above rest on: with another answer the same row is missed."""
+	"""Basis of the checks above: with another answer the same row is missed."""
 	from boon2012.reporting.findings import Findings
 
 	where, _, rows = quick

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Simulation F of the paper: the script's quick variant holds its tolerances, and its budgets notice an error."""
+"""Simulation F of the paper: the script's quick variant holds its tolerances, and its budgets detect an error."""
 
 import json
 

@@ -178,7 +178,7 @@ def testScenesAgreeAsFarAsTheCoarserPrecisionGoes(scene, precision):
 
 
 def testEnergyOfATradeoffIsAPlainNumber():
-	"""A run in any precision hands it over as JSON, see polytope.tradeoff."""
+	"""A run in any precision returns it as JSON, see polytope.tradeoff."""
 	scenes.joint()
 	scenes.loop(gravity=(0, 0, -scenes.gravity))
 	scenes.blockOnFloor(overlap=0.01)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""While it computes a pair, the functor calls for what the pairs after it refer to: whatever that is, and if it is gone."""
+"""While it computes a pair, the functor prefetches the data of the pairs after it: of any kind, also if deleted."""
 import pytest
 from scenes import joint, loop
 from yade import Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Ig2_Facet_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, O, polytope, utils
@@ -31,7 +31,7 @@ def testErasedBodiesLeaveTheRunAlone():
 
 
 def testSortedLoopGivesTheSameContacts():
-	"""There a pair's place in the list is not its turn."""
+	"""There a pair's place in the list is not the order of computation."""
 	geometry = []
 	for ordered in (False, True):
 		scene = heap()

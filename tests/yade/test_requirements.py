@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""polytope.requirements: finds what was put into a scene on purpose, is silent without it, and leaves the scene as it was."""
+"""polytope.requirements: finds faults put into a scene on purpose, reports none without them, and leaves the scene unchanged."""
 
 import math
 

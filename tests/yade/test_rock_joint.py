@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""RockJointMat, RockJointPhys and the Mohr-Coulomb law on one contact whose bodies move as told.
+"""RockJointMat, RockJointPhys and the Mohr-Coulomb law on one contact whose bodies have prescribed motion.
 
 A unit cube (contact area 1 m²) on a floor, pressed in by 1 mm: normal force 1e5 N, one step of 1 ms. Numbers are compared
 with the formulas of the classes' documentation; rounding is all that may differ, unless a line says otherwise.
@@ -219,7 +219,7 @@ def testShearForceTurnsWithTheBodies(axis):
 		O.run(10, True)
 		block.state.vel = (0, 0, 0)
 		O.step()
-		before, arm = Vector3(i.phys.shearForce), Vector3(block.state.pos)  # copies: YADE hands out references
+		before, arm = Vector3(i.phys.shearForce), Vector3(block.state.pos)  # copies: YADE returns references
 		angle = pi / 2 / steps
 		spin = Vector3(*axis).normalized() * angle / dt
 		for step in range(1, steps + 1):
@@ -256,7 +256,7 @@ def testCohesionAndResidualFriction():
 	assert peak - stiffness * 0.1 * dt < largest <= peak
 	block.state.vel = (-0.1, 0, 0)
 	O.run(20, True)
-	assert i.phys.shearForce[0] == pytest.approx(normal * tan(0.3), rel=1e-9)  # and it does not heal
+	assert i.phys.shearForce[0] == pytest.approx(normal * tan(0.3), rel=1e-9)  # and this is permanent
 
 
 def testCohesionIsTimesTheAreaPerContactToo():

@@ -2,9 +2,9 @@
 """A run that is saved, loaded and continued ends where the uninterrupted one does, bit for bit in one thread.
 
 What YADE itself does not keep: forces (O.forces shows zero until the first step), ScGeom.penetrationDepth and shearInc (NaN and zero
-until then), pairs that do not touch (their memory of the last basis starts anew), the collider's state (with verletDist > 0 it looks for
-pairs again at once, so a body that has turned may be found in contact some steps earlier than without the break), and what scripts hold.
-None of it enters the motion here: the scenes look for pairs in each step.
+until then), pairs that do not touch (their memory of the last basis starts anew), the collider's state (with verletDist > 0 it
+searches for pairs again at once, so a body that has turned may be found in contact some steps earlier than without the break), and what
+scripts hold. None of it affects the motion here: the scenes search for pairs in each step.
 """
 import math
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The scene builders make what they say."""
+"""The scene builders make the scenes that they document."""
 import itertools
 
 import numpy as np

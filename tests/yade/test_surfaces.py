@@ -43,7 +43,7 @@ missed = {
 	'testAcceleratesOnAnIncline[facets-cube-False': '0.6 % for 0.5: rocking undamped',
 	'testAGapIsAGapAndAnEndCarries[default-perArea': '1.3 mm for 1 mm: over an end the section is smaller',
 }
-"""What the default contact does not meet yet, and by how much."""
+"""Limits that the default contact does not meet yet, and by how much."""
 
 
 @pytest.fixture(autouse=True)
@@ -130,7 +130,7 @@ def testConservativeContactSlides(floor, perArea):
 
 
 def testSphereForComparison():
-	"""It has one point of contact, and knows of a joint only what lies under that point: it is lifted where it touches two pieces."""
+	"""It touches each piece at one point, whatever lies beside that: it is lifted where it touches two pieces."""
 	assert cross('slab', 'sphere').kept == pytest.approx(1, abs=1e-9)
 	assert 0.98 < cross('plates', 'sphere').kept < 1
 
@@ -276,7 +276,7 @@ def testBodiesLieOnAFace(kind):
 	assert (corners[:, 2] < -scene.depth + 1e-9).sum() >= (2 if scene.planar else 3)
 	assert scene.lying.area > 0
 	scene.settle()
-	# the hull's centroid is off the middle of its face: it leans until the pressure's centre is under it
+	# the hull's centroid is off the middle of its face: it tilts until the centre of pressure is under it
 	assert scene.leaning < (5e-3 if kind == 'hull' else 1e-3) and scene.failures == 0
 	assert scene.lying.height - scene.position[2] == pytest.approx(scene.depth, rel=0.2 if kind == 'hull' else 0.01)
 

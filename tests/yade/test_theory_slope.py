@@ -99,7 +99,7 @@ def testSlopeOfSimulationE():
 
 
 def testMechanismsWorkIsNone():
-	"""At the limit the load k is 0, and with the associated flow joints neither give nor take: gravity has no power over the mechanism."""
+	"""At the limit the load k is 0, and with the associated flow joints neither give nor take: gravity does no work on the mechanism."""
 	free, fixed = slope()
 	limit = criticalFrictionAngle(free, fixed)
 	areas = np.array([centroid(corners)[0] for corners in free])

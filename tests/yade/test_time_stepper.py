@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""PolytopeTimeStepper: the step it gives before contacts and with them, what it says limits it, wrong values, files. Stability: test_time_step_stability.py."""
+"""PolytopeTimeStepper: the step before contacts and with them, the reported limit, wrong values, files. Stability: test_time_step_stability.py."""
 
 import math
 import os
@@ -31,7 +31,7 @@ def testBlockLandsWithoutAStepOfTheScripts(model, perArea, turn):
 	heights, speeds = [], []
 	stepUntil(4, lambda: (heights.append(block.state.pos[2]), speeds.append(block.state.vel.norm())))
 	assert engine.limitedBy in ('material', 'contacts', 'rocking')
-	assert max(heights) < 1.3 and max(speeds) < math.sqrt(2 * gravity * 1.0)  # never thrown up again
+	assert max(heights) < 1.3 and max(speeds) < math.sqrt(2 * gravity * 1.0)  # does not bounce up again
 	assert block.state.pos[2] == pytest.approx(0.5, abs=0.01) and block.state.vel.norm() < 1e-3
 
 

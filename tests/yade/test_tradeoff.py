@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""polytope.tradeoff: rows against what is known of a block on a floor; and that the presets stand in the order they claim."""
+"""polytope.tradeoff: rows against known values of a block on a floor; and the order of the presets."""
 
 import csv
 import pathlib
@@ -160,8 +160,8 @@ def testPresetsStandInTheirOrder(monkeypatch):
 		changes = {name: polytope.settings(name) for name in ('fast', 'balanced', 'exact')}
 		table = polytope.tradeoff(scene.build, changes, scene.measure, scene.truth, repeats=2, timedSeconds=scene.timedSeconds and 0.1)
 		fast, balanced, exact = (table[name] for name in ('fast', 'balanced', 'exact'))
-		assert exact.timeStepOfLimit is None or exact.timeStepOfLimit <= 1  # what stableTimeStep calls safe, and requirements lets pass
-		assert fast.timeStep > balanced.timeStep > exact.timeStep  # steps are what they cost: the time of one hardly differs
+		assert exact.timeStepOfLimit is None or exact.timeStepOfLimit <= 1  # safe by stableTimeStep, and without advice by requirements
+		assert fast.timeStep > balanced.timeStep > exact.timeStep  # the number of steps makes the cost: the time of one hardly differs
 		assert max(fast.error, 1e-4) <= 1.1 * max(balanced.error, 1e-4) and max(exact.error, 1e-4) <= max(balanced.error, 1e-4)
 		if letter == 'F':
 			assert exact.error < 0.01 * balanced.error

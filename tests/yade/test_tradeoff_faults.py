@@ -37,7 +37,7 @@ def testAnAnswerThatIsNoNumberIsNotOnTheFront(value, tmp_path):
 
 
 def testASceneThatBlewUpIsNotOnTheFront():
-	"""Energies of motion from nowhere, and what there was."""
+	"""Kinetic energy without a source, and the energy available."""
 	table = tableOf(calm=(2, 1.5, [-100, 100]), paper=(2, 1.2, [120, 100]), blown=(1, 0.03, [1800, 400]), lost=(1, 0.03, [math.inf, 100]))
 	assert [row.name for row in table.front()] == ['paper']
 	assert 'blew up' in table['blown'].note and 'blew up' in table['lost'].note and not table['paper'].note

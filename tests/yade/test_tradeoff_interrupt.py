@@ -24,7 +24,7 @@ def measure(interrupt):
 	if interrupt:
 		(pathlib.Path(os.environ['POLYTOPE_TEST']) / str(os.getpid())).touch()
 		os.kill(os.getppid(), signal.SIGINT)
-		time.sleep(3600)  # longer than anybody waits for its end below
+		time.sleep(3600)  # longer than the waiting time for its end below
 	return 1.0
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`./run fuzz`, `./run sanitize` and `./run search`: that they start, and what they say of their options. What they find is their own matter."""
+"""`./run fuzz`, `./run sanitize` and `./run search`: that they start, and how they check their options. Their results are not tested here."""
 import os
 import subprocess
 
@@ -52,7 +52,7 @@ def testRefusals(arguments, named):
         (['sanitize'], {'checked': ['polytope_fuzz_construction', 'polytope_core_tests'], 'checked-threads': ['polytope_core_tests']}),
 ])
 def testTheyConfigure(arguments, folders):
-	"""A dry run goes the whole way to the compiler."""
+	"""A dry run reaches the compiler."""
 	done = inside(*arguments, '--dry-run')
 	assert done.returncode == 0, done.stdout + done.stderr
 	for folder, targets in folders.items():

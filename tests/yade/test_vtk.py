@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""PolytopeVTKRecorder: what it writes is read back with VTK's own readers and compared with the scene."""
+"""PolytopeVTKRecorder: its files are read back with VTK's own readers and compared with the scene."""
 import os
 import xml.etree.ElementTree
 

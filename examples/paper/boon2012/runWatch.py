@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run of a scene gave: counters, times, energies, overlaps, and a hash of the state it ended in."""
+"""Results of a run of a scene: counters, times, energies, overlaps, and a hash of the state it ended in."""
 import collections
 import hashlib
 import struct
@@ -22,16 +22,16 @@ def stateHash():
 
 
 class RunWatch:
-	"""Steps the simulation, and measures without disturbing what it measures.
+	"""Steps the simulation, and measures it with little disturbance.
 
 	The loop's time is taken with O.timingEnabled. The contact functor's own clock (Ig2_….timing) costs more than what it
 	measures in a dismissed pair, so it runs in some steps only, and these do not count for the loop's time. A step in which
 	another program took the processor counts for neither the program's nor the centre's time. Steps are taken with O.step in
-	the calling thread: O.run(…, wait=True) looks every 40 ms whether it is done.
+	the calling thread: O.run(…, wait=True) checks only every 40 ms whether it is done.
 	"""
 
 	sampleEvery = 10
-	"""Steps between two looks at all contacts for the deepest overlap; a collision at 0.2 sqrt(m/k) takes some ten."""
+	"""Steps between two searches of all contacts for the deepest overlap; a collision at 0.2 sqrt(m/k) takes some ten."""
 	timeEvery = 100
 	timedSteps = 10
 	"""The functor's clock runs in the first timedSteps of timeEvery steps."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a linear program and a contact point cost with other settings of the contact functor than those of the run."""
+"""Cost of the linear program and of the contact point with other settings of the contact functor than those of the run."""
 
 import collections
 import itertools
@@ -19,7 +19,7 @@ def hasSolver(solver):
 
 
 class StateSample:
-	"""States kept during a run (O.saveTmp), on which the contact detection is timed afterwards: the run goes its way untouched.
+	"""States kept during a run (O.saveTmp), on which the contact detection is timed afterwards: the run is not affected.
 
 	*keep* costs some 50 ms for 200 bodies; the states stay in memory until they are overwritten by the next sample's.
 	"""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a scene needs, and what it pays for without using it: `polytope.requirements(O)`."""
+"""Settings that a scene needs, and settings that cost time without being used: `polytope.requirements(O)`."""
 
 import dataclasses
 
@@ -9,15 +9,15 @@ from .costs import stepTimes
 __all__ = ['Finding', 'Requirements', 'requirements']
 
 withoutContacts = (
-	'No polytopes are in contact now: what depends on contacts was not looked at, and no cost of it was measured. '
-	'Look again when there are some; if bodies flew apart, take a smaller O.dt.'
+	'No polytopes are in contact now: what depends on contacts was not checked, and its cost was not measured. '
+	'Call again when there are some; if bodies flew apart, take a smaller O.dt.'
 )
 """First line about a scene without contacts."""
 
 
 @dataclasses.dataclass
 class Finding:
-	"""One thing looked at."""
+	"""Result of one check."""
 
 	what: str
 	"""'contact area', 'corner radius', …"""
@@ -25,8 +25,8 @@ class Finding:
 	advice: str = ''
 	"""What to change; '' where nothing is to be changed."""
 	cost: float = None
-	"""Of what is paid without use, or of what the advice saves [µs a step]; negative: following the advice costs that. With the timed
-	advice of the findings before it in force: costs add up. None: no time hangs on it, or none was measured."""
+	"""Cost of what is not used, or time that the advice saves [µs a step]; negative: following the advice costs that. With the timed
+	advice of the findings before it in force: costs add up. None: it does not affect the time, or none was measured."""
 	trial: tuple = None
 	"""(name, value) of the change that was timed, see worker.change."""
 
@@ -35,7 +35,7 @@ class Requirements:
 	"""What polytope.requirements() returns; printing it shows all.
 
 	:ivar list findings: of Finding, those with advice first, in the order in which to follow it
-	:ivar list notSeen: (what, why): what could not be looked at as the scene is now
+	:ivar list notSeen: (what, why): what could not be checked in the present scene
 	:ivar float stepMicroseconds: of all engines, as the scene is; None if it was not measured
 	:ivar bool contacts: whether polytopes were in contact
 	"""
@@ -49,7 +49,7 @@ class Requirements:
 			if finding.what == what:
 				return finding
 		why = f' ({dict(self.notSeen)[what]})' if what in dict(self.notSeen) else ''
-		raise KeyError(f'{what!r} was not looked at{why}; there are {[finding.what for finding in self.findings]}')
+		raise KeyError(f'{what!r} was not checked{why}; there are {[finding.what for finding in self.findings]}')
 
 	@property
 	def advice(self):
@@ -70,7 +70,7 @@ class Requirements:
 			head += f', {whole - sum(saved):.4g} µs with all advice that was timed; each row is timed with the advice above it in force'
 		table = tabulate(rows, ['', 'seen', 'advice', 'saves [µs a step]'], maxcolwidths=[18, 48, 56, 16], disable_numparse=True)
 		missing = [f'{what}: {why}' for what, why in self.notSeen]
-		lines = [head, table, *(['Not looked at: ' + '; '.join(missing)] if missing else [])]
+		lines = [head, table, *(['Not checked: ' + '; '.join(missing)] if missing else [])]
 		return '\n'.join(lines if self.contacts else [withoutContacts, *lines])
 
 	def show(self):
@@ -79,25 +79,26 @@ class Requirements:
 
 
 def requirements(O, measure=True):
-	"""Looks at the present scene and says what it needs, and what it pays for without using it.
+	"""Checks the present scene: which settings it needs, and which cost time without being used.
 
-	Looked at: contact area, several pieces under one face with a stiffness per contact, third dimension, damping and energy (and whether
-	stiffnesses let the conservative contact be that), cohesion, corner radius (of the normal 'innerPotential') against the overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of
-	positions, time step against stiffness and mass, the collider's verletDist and boxes, warm start, solver, contact point, clocks and energy
-	tracking. Look at a scene in motion or at rest, with contacts: without any, only settings are seen, no cost of contacts is measured, and
-	the first line says so. What could not be looked at is named at the end. Overlaps are those of the present state (what was before is
-	known only where a counter of the functor tells: contact points deeper than the corner radius): look at the moment of the hardest blow,
-	too. A time step is near the limit above stableTimeStep(1), up to which any heap is stable.
+	Checked are: contact area, several pieces under one face with a stiffness per contact, third dimension, damping and energy (and whether
+	the conservative contact is conservative with these stiffnesses), cohesion, corner radius (of the normal 'innerPotential') against the
+	overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of positions, time step against
+	stiffness and mass, the collider's verletDist and boxes, warm start, solver, contact point, clocks and energy tracking. Check a scene in
+	motion or at rest, with contacts: without any, only settings are checked, no cost of contacts is measured, and the first line says so.
+	What could not be checked is listed at the end. Overlaps are those of the present state (what was before is known only where a counter
+	of the functor tells: contact points deeper than the corner radius): check at the moment of the hardest impact, too. A time step is near
+	the limit above stableTimeStep(1), up to which any heap is stable.
 
 	Costs are measured on this very scene: it is saved to a file (O.save), which another process loads, and steps as it is and changed
-	(engines that run periodically, as recorders and PyRunner, are left out there). Changes may hang on one another, as the solver's cost on
-	the contact point: each is timed with the advice above it in force, so costs add up to what following all of it saves, in this order.
+	(engines that run periodically, as recorders and PyRunner, are left out there). Changes may depend on one another, as the solver's cost
+	on the contact point: each is timed with the advice above it in force, so costs add up to what following all of it saves, in this order.
 	The scene itself is not touched: its state is the same afterwards to the last bit.
 
 	:param O: yade.O
-	:param bool measure: False: look only, at once
+	:param bool measure: False: only check, which takes no time
 	:returns: a :yref:`Requirements`
-	:raises ValueError: naming *measure* if it is neither True nor False; naming *O*: nothing to look at (no engines with a polytope's
+	:raises ValueError: naming *measure* if it is neither True nor False; naming *O*: nothing to check (no engines with a polytope's
 		contact functor), or the simulation is running
 	:raises OSError: naming *measure* if the scene cannot be saved to a temporary folder (TMPDIR)
 	"""

@@ -11,11 +11,11 @@ __all__ = ['boxes', 'verletDist']
 reach = 0.05
 """verletDist over the smallest body's size that is advised where there is none."""
 leastReach = 1e-3
-"""verletDist over that size below which any motion sets the collider going."""
+"""verletDist over that size below which any motion makes the collider run."""
 mostPairs = 8
-"""Pairs looked at for each contact, above which the reach is too far."""
+"""Pairs checked for each contact, above which verletDist is too large."""
 mostApart = 1 / 3
-"""Part of the pairs that tight boxes would not have made, above which that is worth a word."""
+"""Part of the pairs that tight boxes would not have made, above which it is reported."""
 
 
 def verletDist(scene):
@@ -27,13 +27,13 @@ def verletDist(scene):
 	length = abs(present) * (size if present < 0 else 1)
 	pairs = sum(functor.stats()['pairs'] for functor in scene.functors)
 	contacts = sum(functor.stats()['contacts'] for functor in scene.functors)
-	ratio = f', {pairs / contacts:.3g} pairs looked at for each contact so far' if contacts else ''
+	ratio = f', {pairs / contacts:.3g} pairs checked for each contact so far' if contacts else ''
 	if present == 0:
 		seen = '0: the collider sorts in every step'
 	elif length > size and (not contacts or pairs > mostPairs * contacts):
 		seen = f"{length:.3g} m, more than the smallest body's inscribed radius"
 	elif length < leastReach * size:
-		seen = f'{length:.3g} m, next to nothing: the collider runs in nearly every step'
+		seen = f'{length:.3g} m, almost zero: the collider runs in nearly every step'
 	else:
 		return f'{length:.3g} m{ratio}', ''
 	better = 2 * reach * size

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Looks of polytope.requirements() at the contact point and at what solves for it.
+"""Checks of the contact point and of its solver, of polytope.requirements().
 
 The two belong together: only the analytic centre of the paper's contact needs a solver.
 """
 
 __all__ = ['contactPoint', 'solver']
 
-newtonAdvice = "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt takes over where it gives up"
+newtonAdvice = "solver = 'newton': agrees with it to 1e-8 of the overlap; Ipopt is used where it does not converge"
 
 
 def solver(scene):
@@ -32,7 +32,7 @@ def contactPoint(scene):
 	if 'chebyshevCentre' in points:
 		return 'chebyshevCentre, not unique on faces: it jumps', f"contactPoint = 'analyticCentre' where faces meet faces{first}", None, trial
 	if 'centroid' in points:
-		return 'centroid of the overlap', f"contactPoint = 'analyticCentre'{first}, unless it is the centroid's law that you want", None, trial
+		return 'centroid of the overlap', f"contactPoint = 'analyticCentre'{first}, unless you want the force at the centroid", None, trial
 	return 'analyticCentre', ''
 
 

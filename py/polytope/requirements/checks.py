@@ -23,19 +23,19 @@ usual, safe, stable, least = 0.2, 1.0, 2.0, 0.05
 """Time step over τ, docs/time-step.md: as advised, up to where any heap is stable, up to where one body is (see stableTimeStep), and
 below which steps are many."""
 mostTwins = 50
-"""Contacts that are looked at once more without the planes that own no face."""
+"""Contacts that are computed again without the planes that own no face."""
 timedWithoutContacts = ('verletDist',)
-"""Changes whose time tells something in a scene without contacts."""
+"""Changes whose time is meaningful in a scene without contacts."""
 noContacts = 'no contacts now'
 turned, changed = 1.0, 0.05
-"""Angle of a normal [°] and part of a force that such planes may make without a word."""
+"""Changes of a normal's angle [°] and, relatively, of a force by such planes that are not reported."""
 
 sameFace = 1 - 1e-6
 """Cosine between normals of two contacts of one face."""
 
 
 class Scene:
-	"""What several checks need."""
+	"""Data that several checks need."""
 
 	def __init__(self, O):
 		if not isinstance(O, type(yade.O)):
@@ -43,7 +43,7 @@ class Scene:
 		self.O = O
 		self.functors = geometryFunctors()
 		if not self.functors:
-			raise ValueError('O: has no InteractionLoop with an Ig2_Polytope_Polytope_PolytopeGeom, there is nothing to look at')
+			raise ValueError('O: has no InteractionLoop with an Ig2_Polytope_Polytope_PolytopeGeom, there is nothing to check')
 		if O.running:
 			raise ValueError('O: is running; O.pause() first')
 		self.contacts = [contact for contact in O.interactions if contact.isReal and isinstance(contact.geom, PolytopeGeom)]
@@ -75,9 +75,9 @@ class Scene:
 
 
 def checks(O):
-	"""(what was found, [(what could not be looked at, why)], whether there are contacts).
+	"""(what was found, [(what could not be checked, why)], whether there are contacts).
 
-	In the order in which advice can be followed: solver before contact point, for that of the point alone would bring the solver into play,
+	In the order in which advice can be followed: solver before contact point, for that of the point alone would make the solver active,
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
 	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
@@ -126,7 +126,7 @@ def support(scene):
 	several = sum(any(_oneFace(a, b, depth) for a, b in itertools.combinations(found, 2)) for found in faces.values() if (depth := _depth(found)) > 0)
 	seen = f'{shared} contacts with a fixed or clumped piece have their part of the stiffness; {several} bodies have a face on several free bodies'
 	if several:
-		return seen, 'stiffnessPerArea = True: per contact such a face is as stiff as it has pieces, and a piece takes its full part at once'
+		return seen, 'stiffnessPerArea = True: per contact such a face is as stiff as it has pieces, and a piece acts in full at once'
 	return seen, ''
 
 
@@ -149,7 +149,7 @@ def energy(scene):
 			'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
 		)
 	if 'paper' not in models:
-		return 'the conservative contact: energy is kept to what the time step allows', ''
+		return 'the conservative contact: energy is conserved to the error of the time step', ''
 	local = scene.newton.damping if scene.newton else 0
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
 	if local == 0 and viscous == 0:
@@ -180,9 +180,9 @@ def cohesion(scene):
 	bonded = [joint for joint in joints if joint.cohesion > 0 or joint.tensileStrength > 0]
 	intact = sum(joint.intact for joint in bonded)
 	if bonded and not intact:
-		advice = 'none to the clock; materials without cohesion and tensileStrength give the same run from here on'
+		advice = 'none (it costs no time); materials without cohesion and tensileStrength give the same run from here on'
 		return f'{len(bonded)} of {len(joints)} joints had cohesion or tensile strength, none is intact', advice
-	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; it takes no time without', ''
+	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; without them it costs no time', ''
 
 
 def planes(scene):
@@ -193,7 +193,7 @@ def planes(scene):
 		return 'every plane owns a face', ''
 	seen = f'{sum(spare.values())} planes of {len(spare)} bodies own none'
 	if not scene.pairs():
-		return f'{seen}, but no two polytopes are in contact now to see what that does'
+		return f'{seen}, but no two polytopes are in contact now to measure their effect'
 	functor = scene.functors[0]
 	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
@@ -208,12 +208,12 @@ def planes(scene):
 	if compared:
 		seen += f'; without them normals of {compared} contacts turn by up to {angle:.2g}° and forces change by up to {100 * force:.2g} %'
 	if angle > turned or force > changed:
-		return seen, 'fromHalfSpaces(…, keepRedundant=False), unless they are wanted: each one pulls at contact point and normal'
+		return seen, 'fromHalfSpaces(…, keepRedundant=False), unless they are wanted: each one shifts contact point and normal'
 	return seen, ''
 
 
 def _twin(body):
-	"""The body without planes that own no face, where it is."""
+	"""The body without planes that own no face, at its present pose."""
 	shape = body.shape
 	placed = _polytope.ofHalfSpaces(shape.normals, shape.offsets, shape.dimension, shape.thickness, False, shape.cornerRadius, 0)
 	return _polytope.body(placed, body.material, body.state.pos, body.state.ori, True, 0)
@@ -224,19 +224,19 @@ def numbersOfBodies(scene):
 	states = {body.id: (*body.state.pos, *body.state.ori, *body.state.vel, *body.state.angVel) for body in scene.O.bodies if body is not None}
 	lost = [k for k, numbers in states.items() if not all(math.isfinite(float(x)) for x in numbers)]
 	failed = sum(functor.stats()['failures'] for functor in scene.functors)
-	seen = f'{len(lost)} of {len(states)} bodies have places or velocities that are no numbers' + (f', {failed} queries have failed' if failed else '')
+	seen = f'{len(lost)} of {len(states)} bodies have non-finite positions or velocities' + (f', {failed} queries have failed' if failed else '')
 	if lost:
-		return f'{seen} (body {lost[0]})', 'a run that went wrong before: such a body has no contacts; go back, and take a smaller O.dt'
-	return seen, 'look where: docs/statuses.md says what makes a query fail' if failed else ''
+		return f'{seen} (body {lost[0]})', 'the run failed earlier: such a body has no contacts; go back, and take a smaller O.dt'
+	return seen, 'find out where: docs/statuses.md says what makes a query fail' if failed else ''
 
 
 def timeStep(scene):
 	"""time step"""
 	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
 	if steppers:
-		return f'set by {" and ".join(steppers)}', 'keep one of them: each takes the step from the other' if steppers[1:] else ''
+		return f'set by {" and ".join(steppers)}', 'keep one of them: each overwrites the step of the other' if steppers[1:] else ''
 	if not 0 < float(scene.O.dt) < math.inf:
-		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves as it should'
+		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves otherwise'
 	limit = _polytope.timeStepLimits()['contacts']
 	if limit is None:
 		return 'no contact limits it now'
@@ -245,7 +245,7 @@ def timeStep(scene):
 	seen = f'{float(scene.O.dt):.3g} s, {fraction:.2g} of τ (1/ω of the fastest body, less with dampers; any heap is stable up to 1, one body up to 2)'
 	smaller = f'O.dt = {usual * limit:.2g} (polytope.stableTimeStep({usual}))'
 	if fraction > stable:
-		return seen, f'{smaller}: beyond the limit of stability of one body, 2 τ, unless damping and luck hold a heap together'
+		return seen, f'{smaller}: beyond the limit of stability of one body, 2 τ, a heap can be stable there by damping only'
 	if fraction > safe:
 		return seen, f'{smaller}: near the limit of stability, beyond what is safe for any heap, stableTimeStep(1)'
 	if fraction < least:

@@ -40,7 +40,7 @@ def stepTimes(O, trials):
 		if '' in times:
 			return times, ''
 		lines = log.read_text(errors='replace').split('\n')
-		return {}, next((line.strip() for line in reversed(lines) if line.strip()), 'the process that measures ended without a word')
+		return {}, next((line.strip() for line in reversed(lines) if line.strip()), 'the measuring process ended without a message')
 
 
 def _unwritable(what, error):

@@ -23,7 +23,7 @@ __all__ = ['change', 'prismOutline', 'stepTimes']
 seconds, rounds = 0.12, 2
 """Of timed steps for each change in a round, and rounds over all changes: the machine may be busy during one."""
 warmUp = 3
-"""Steps before them: boxes and the contacts' memories are made anew."""
+"""Steps before them: boxes and the contacts' warm-start data are computed again."""
 flat = 1e-9
 """Up to which a normal counts as in the plane, or normal to it."""
 
@@ -49,7 +49,7 @@ def change(name, value):
 	elif name == 'rockingDamping':
 		for law in laws():
 			law.rockingDamping = value
-		for contact in O.interactions:  # whether areas are needed is asked when a contact is made
+		for contact in O.interactions:  # whether areas are needed is determined when a contact is made
 			if contact.isReal:
 				O.interactions.erase(contact.id1, contact.id2)
 	elif name == 'dimension':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What each setting costs in a scene, and what it does to the answer that matters there: `polytope.tradeoff`."""
+"""Cost of each setting in a scene, and its effect on the result of interest: `polytope.tradeoff`."""
 
 import json
 import os
@@ -30,8 +30,8 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	narrows that. One thread, unless OMP_NUM_THREADS says more.
 
 	These processes read the script from its beginning up to this call, no further: *build* and *measure* must stand above it. Put the
-	call, and all that should run once, under ``if __name__ == '__main__':``, and they do not come to it at all. Not after ``from yade
-	import *``, which renames the script ('yade' is among the names it brings, as __name__): the condition is false even in the script
+	call, and all that should run once, under ``if __name__ == '__main__':``, and these processes do not reach it at all. Not after ``from
+	yade import *``, which renames the script ('yade' is among the names it brings, as __name__): the condition is false even in the script
 	itself, and nothing happens. Then either call tradeoff() at the script's end with no condition, or ask before importing::
 
 		isScript = __name__ == '__main__'
@@ -43,12 +43,13 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	What a setting changes besides arguments of *build* is set once, after build(), and looked up again after measure(). A scene that is
 	renewed in between loses it (O.loadTmp of a state saved in build(), engines made in measure()): such a row says 'not in effect', and has
 	neither answer nor cost. To go back to the start save it in measure(), O.saveTmp() first. A measure() may change O.dt (to
-	polytope.stableTimeStep() for example), but then no *timeStep* or *timeStepFactor* is in effect, except a factor of 1. What measure() loses and has put back at its end nobody can see.
+	polytope.stableTimeStep() for example), but then no *timeStep* or *timeStepFactor* is in effect, except a factor of 1. A setting that
+	measure() loses and restores at its end is not detected.
 
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors
 	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …;
-	    a *newtonTolerance* coarser than the default changes next to nothing, for the depth is kept to 2e-14 of the size anyway),
+	    a *newtonTolerance* coarser than the default changes almost nothing, since the depth is kept to 2e-14 of the size anyway),
 	    *timeStep* [s], *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds;
 	    a row says so where the plug-in was not built for it), or any argument of *build*
 	:param measure: function that runs the scene and returns the number that matters, or several as a list (their error is that of the
@@ -89,7 +90,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 
 
 def _measure(rows, reference, where, repeats, timedSeconds, timeLimit):
-	"""All processes, round by round: what disturbs one round does not disturb one setting alone."""
+	"""All processes, round by round: so that a disturbance affects all settings alike."""
 	fits = isinstance(reference, str)
 	with tqdm(total=repeats * len(rows), disable=None, leave=False) as bar:
 		for _ in range(repeats):
@@ -117,7 +118,7 @@ def _run(where, changes, timedSeconds, timeLimit):
 	with tempfile.TemporaryDirectory() as folder:
 		files = [pathlib.Path(folder) / name for name in ('task.json', 'answer.json', 'log.txt')]
 		files[0].write_text(json.dumps(task))
-		# -P: the folder this is called from is no place for modules
+		# -P: modules in the present folder are not to be imported
 		command = [sys.executable, '-P', '-m', 'yade.polytope.tradeoff.worker', *map(str, files[:2])]
 		with open(files[2], 'w') as log:
 			try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What polytope.tradeoff() is given, looked at before anything runs."""
+"""Checks of polytope.tradeoff()'s arguments, made before anything runs."""
 
 import inspect
 import json
@@ -56,7 +56,7 @@ def _checkedChanges(setting, changes):
 		if name in settable and value is None:
 			raise ValueError(f'{where}: must be what {name} of the contact functor is to be, got None; leave it out to keep what it is')
 	if {'timeStep', 'timeStepFactor'} <= checked.keys():
-		raise ValueError(f'settings[{setting!r}]: has both timeStep and timeStepFactor; one of them says what the step is')
+		raise ValueError(f'settings[{setting!r}]: has both timeStep and timeStepFactor; give one of them')
 	if 'precision' in checked:
 		_builds.available(checked['precision'])
 	return checked

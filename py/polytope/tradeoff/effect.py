@@ -16,7 +16,7 @@ closest = 1e-9
 
 
 class Effect:
-	"""Attributes of the contact functors and the time step, set when this is made; the scene stands."""
+	"""Attributes of the contact functors and the time step, set when this is made; the simulation must not be running."""
 
 	def __init__(self, changes):
 		"""

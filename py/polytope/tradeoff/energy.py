@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Whether a scene blew up: the energy that is there at the end of a run and came from nowhere."""
+"""Whether a scene blew up (became unstable): the energy at the end of a run that no source accounts for."""
 
 import math
 
@@ -9,7 +9,7 @@ from yade.utils import kineticEnergy
 __all__ = ['Energy', 'growth']
 
 twice, muchMore = 2, 10
-"""Times what there was, and times what the calmest of the runs created: see growth()."""
+"""Limits, as multiples of the energy available and of the energy created in the run that created least: see growth()."""
 
 
 class Energy:
@@ -20,9 +20,9 @@ class Energy:
 		self.before = float(kineticEnergy()) + _stored()
 
 	def created(self):
-		"""(kinetic energy that neither what was there nor gravity accounts for, what was there and what gravity gave), both [J].
+		"""(kinetic energy that neither the initial energy nor gravity accounts for, initial energy plus work of gravity), both [J].
 
-		Kinetic energy alone: what the springs hold at the end would only add to it. None if these are no longer the same bodies, inf for
+		Kinetic energy alone: the springs' energy at the end would only add to it. None if these are no longer the same bodies, inf for
 		velocities that are not numbers.
 		"""
 		bodies = _moving()
@@ -37,10 +37,11 @@ class Energy:
 
 
 def growth(energies):
-	"""For each of several runs of one scene by how much its energy grew, over what there was; 0 where that is no sign of having blown up.
+	"""For each of several runs of one scene by how much its energy grew, over the energy available; 0 where that does not mean that it blew
+	up.
 
-	It is one if more than twice as much came from nowhere as there was, and much more than in the calmest of the runs. (The paper's contact
-	creates as much as there was in collisions without damping; imposed motion does the same work in all.)
+	It does if more than twice the energy available was created, and much more than in the run that created least. (The paper's contact
+	creates as much as was available in collisions without damping; imposed motion does the same work in all.)
 
 	:param list energies: of Energy.created(), or None
 	"""

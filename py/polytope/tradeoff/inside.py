@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How a process that polytope.tradeoff() started knows that it is one."""
+"""Marks the processes that polytope.tradeoff() starts."""
 
 __all__ = ['CalledAgain', 'inside']
 

@@ -16,7 +16,7 @@ digitSize = (6.5, 9.5)
 clear = 5
 """Room around a point that numbers keep free, where they can [pt]."""
 leastSpan = 12
-"""Of an axis, end over beginning: more than a decade, so that it has a number at least."""
+"""Of an axis, end over beginning: more than a decade, so that it has at least one labelled tick."""
 
 
 def plotTradeoff(path, panels, floor=1e-17, suptitle=''):
@@ -79,7 +79,7 @@ def _number(axes, points):
 		size = np.array([digitSize[0] * len(str(k + 1)), digitSize[1]])
 
 		def cost(offset, size=size, place=place):
-			others = np.linalg.norm(places - place - offset, axis=1).min() < 0.99 * math.hypot(*offset)  # it would seem another's
+			others = np.linalg.norm(places - place - offset, axis=1).min() < 0.99 * math.hypot(*offset)  # it would seem another point's
 			return _covered([*(place + offset - size / 2), *(place + offset + size / 2)], taken, frame) + others * size.prod()
 
 		offset = min(_offsets(size), key=cost)

@@ -61,7 +61,7 @@ class Row:
 
 	@property
 	def counts(self):
-		"""Whether it has cost and error, and nothing is amiss: only then it can be on the front."""
+		"""Whether it has cost and error, and no remark: only then it can be on the front."""
 		return self.error is not None and self.cost is not None and not self.note
 
 
@@ -69,9 +69,9 @@ class TradeoffTable:
 	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see :yref:`Row`.
 
 	Two kinds of answer do not count, and their row's *note* says why: one that is not a number (nan, inf), and one of a scene that blew up.
-	That is taken from the energy of motion after measure() against what was there before it and what gravity gave (energy.py): a
-	row of which more came from nowhere than twice that, and ten times as much as in the calmest row. Where all rows blow up, none does
-	by this rule: look at *dt·ω*.
+	That is judged by the kinetic energy after measure() against the energy before it and the work of gravity (energy.py): a
+	row blew up if it created more than twice that, and ten times as much as the row that created least. Where all rows blow up, none does
+	by this rule: check *dt·ω*.
 	"""
 
 	def __init__(self, rows, reference, true=ofTheRows):
@@ -86,7 +86,7 @@ class TradeoffTable:
 			if not row.note and row.answer is not None and not _isFinite(row.answer):
 				row.note = f'the answer is {_shown(row.answer)}'
 			elif not row.note and grown:
-				row.note = f'blew up: energy of motion from nowhere, {grown:.2g} times what there was'
+				row.note = f'blew up: kinetic energy was created, {grown:.2g} times what was available'
 		true = self._true(reference) if true is ofTheRows else true
 		self.remark = f'no error: the reference, {reference!r}, has no answer that counts' if true is None else ''
 		first = next((row.timeStep for row in rows if row.timeStep), None)
@@ -120,8 +120,8 @@ class TradeoffTable:
 		return TradeoffTable(rows, reference, self._true(reference))
 
 	def front(self):
-		"""Rows that no other one beats in both cost and error, cheapest first; an error less by under a tenth is no gain. Without rows that do
-		not count (see the class)."""
+		"""Rows that no other one surpasses in both cost and error, lowest cost first; an error smaller by under a tenth is no gain. Without
+		rows that do not count (see the class)."""
 		measured = [row for row in self.rows if row.counts]
 		measured.sort(key=lambda row: (row.cost, row.error))
 		best, kept = math.inf, []

@@ -29,7 +29,7 @@ __all__ = ['load', 'takesTheScene']
 digits = 45
 """Decimal digits of an answer: those of float128, and ten more."""
 whatLosesIt = 'O.saveTmp() belongs in measure(), new engines and O.dt in build()'
-"""Said where a setting is lost."""
+"""Advice where a setting is lost."""
 
 
 def load(where):
@@ -48,12 +48,12 @@ def load(where):
 			try:
 				specification.loader.exec_module(module)
 			except CalledAgain:
-				pass  # the script has come to its call of tradeoff(): what it needs stands above that
+				pass  # the script has reached its call of tradeoff(): what it needs is defined above that
 	return getattr(module, where['name'])
 
 
 def takesTheScene(measure):
-	"""Whether *measure* wants what *build* returned."""
+	"""Whether *measure* takes the value that *build* returned."""
 	return bool(inspect.signature(measure).parameters)
 
 
@@ -134,7 +134,7 @@ def main(taskFile, answerFile):
 	pathlib.Path(answerFile).write_text(json.dumps(content))
 	sys.stdout.flush()
 	sys.stderr.flush()
-	os._exit(0)  # YADE's threads and windows need no farewell
+	os._exit(0)  # end at once, without YADE's clean-up of threads and windows
 
 
 if __name__ == '__main__':

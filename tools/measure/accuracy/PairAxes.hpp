@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// The axes along which a pair is taken from easy to the point of breaking. Each is a list of values and of kinds of pairs,
+/// The axes along which a pair is varied from easy to extreme. Each is a list of values and of kinds of pairs,
 /// and makes a pair of any value and kind at random.
 namespace polytope::samples {
 
@@ -23,7 +23,7 @@ struct PairAxis {
 	Maker intended = nullptr;
 	/// The intended pair's lengths are to be multiplied by the value.
 	bool scaled = false;
-	/// Reference solutions cost as many planes: above this value fewer samples, and none in a quick run.
+	/// Reference solutions with many planes are expensive: above this value fewer samples, and none in a quick run.
 	Real costlyAbove = std::numeric_limits<Real>::infinity();
 };
 

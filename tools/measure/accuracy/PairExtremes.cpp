@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Pairs from easy to the point of breaking, each contact in double beside exact arithmetic, as CSV on standard output:
+// Pairs from easy to extreme, each contact in double beside exact arithmetic, as CSV on standard output:
 //
 //     polytope_extremes [--quick] SAMPLES [AXIS …]
 //
@@ -91,7 +91,8 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 		}
 }
 
-/// Body 2 pressed into body 1 along the contact's first normal, the paper's, from 0.3 to 4 corner radii: what changes where the status does.
+/// Body 2 pressed into body 1 along the contact's first normal, the paper's, from 0.3 to 4 corner radii: changes of the contact where its
+/// status changes.
 void pressIn(const PairAxis& deep, const std::string& kind, int number)
 {
 	std::mt19937_64 random(seedOf("transitions/" + kind + '/' + std::to_string(number)));

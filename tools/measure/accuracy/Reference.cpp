@@ -40,7 +40,7 @@ namespace {
 		        && std::isfinite(r.barrierValue) && std::isfinite(r.energy) && std::isfinite(r.rockingArm);
 	}
 
-	/// Whatever the status: what a law makes of it cannot be worse than what bodies of this size can do to each other.
+	/// Whatever the status: the geometry is bounded by the bodies' size, so a law's forces are, too.
 	bool isBounded(const PrecisePairOf<Digits150>& exact, const Pair& pair, const ContactResult& r)
 	{
 		if (!r.hasGeometry) return !r.inContact;
@@ -96,7 +96,7 @@ namespace {
 		c.depthRounding = glance * (roundings / c.size + c.normalRounding * c.depth);
 	}
 
-	/// Freedom from each other after the way the dual direction promises, in the exact program.
+	/// Whether the bodies are separated after the motion along the dual direction that the theory requires, by the exact program.
 	bool isFree(const Pair& pair, const ContactResult& r, const Digits150& infeasibility)
 	{
 		const Real length = r.dualDirection.norm();
@@ -226,7 +226,7 @@ Comparison PairReference::compare(ContactModel model) const
 	const Digits150 size = pair_.size();
 	c.infeasibility      = Real(optimum.infeasibility / size);
 	c.touches            = optimum.infeasibility < 0;
-	// four roundings of planes, and of where the bodies stand
+	// four roundings of planes, and of the bodies' positions
 	c.infeasibilityRounding = 8 * tolerance::rounding * (c.size + pair_.centre2.norm()) / c.size;
 	c.within                = std::abs(c.infeasibility) <= tolerance::contact + c.infeasibilityRounding;
 	const Digits150 above   = Digits150(c.result.infeasibility) - optimum.infeasibility;

@@ -2,7 +2,7 @@
 """Energy error of collisions without friction and damping: the paper's model, the conservative one, YADE's own polyhedra and spheres.
 
 200 random meetings of two regular solids, and cubes that bounce on a floor for 40 s: error against time step, corner radius and
-overlap, and the damping that hides it. YADE's PotentialBlock and Polyhedra are measured where ./run bench has built them.
+overlap, and the damping that makes up for it. YADE's PotentialBlock and Polyhedra are measured where ./run bench has built them.
 Ends with 1 if momentum is not kept, if an error that is the integrator's does not fall with the time step, or one that is the
 contact's does.
 

@@ -206,7 +206,7 @@ class Study:
 		)
 
 	def scaling(self):
-		"""What the largest rates go with."""
+		"""Dependence of the largest rates on overlap and corner radius."""
 		tilt, over = 'tilt, face to edge', 'vertex over an edge to the next face'
 		rows = []
 		for overlap in (0.25, 1, 4):

@@ -4,7 +4,7 @@
 Toppling (Goodman & Bray), a shaken and a rocking block (Housner), a masonry arch, cubes let go on slopes, edges on floors, solids that
 roll over flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, default, the
 paper's normal, conservative. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set that choice
-alone is measured, and held to the same limits.
+alone is measured, and checked against the same limits.
 
 	./run python tools/measure/accuracy/joints.py                                        # all
 	./run python tools/measure/accuracy/joints.py --quick                                # coarser, smaller

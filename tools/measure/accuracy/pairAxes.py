@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the axes of pairs (PairAxes.cpp) mean, and the limits that are stated for them in docs/accuracy.md."""
+"""Meaning of the axes of pairs (PairAxes.cpp), and the limits that docs/accuracy.md states for them."""
 
 import dataclasses
 import math
@@ -11,7 +11,7 @@ __all__ = ['Axis', 'Limit', 'axes']
 class Limit:
 	"""The worst value of a quantity over all samples of a range of the axis must not be above `most`.
 
-	Errors count where the contact's status raises no doubt (see pairTables.quiet); what has another status is loud.
+	Errors count where the contact's status raises no doubt (see pairTables.quiet); any other status is a warning.
 	"""
 
 	text: str
@@ -39,7 +39,7 @@ depths = [
 	Limit('depth over the size', 'depthError', 2e-14, 'paper'),
 	Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative'),
 ]
-"""What holds on most axes; the conservative contact's Newton stops at 1e-10 of each slack, which its weights feel."""
+"""What holds on most axes; the conservative contact's Newton stops at 1e-10 of each slack, which affects its weights."""
 
 axes = {
 	'depth': Axis(
@@ -64,8 +64,8 @@ axes = {
 			Limit('contact point over the overlap', 'centreError', 3e-2, 'conservative'),
 		],
 		'The overlap is a tenth of the thickness. Errors are of the size, so a plate’s depth is known to 1e-15 × aspect ratio of its thickness. '
-		'Flat on flat, only the barrier of far side faces holds the conservative contact’s point: from a ratio of about 1e5 on it is the '
-		'planes’ rounding that places it, and the status says roundingLimited.',
+		'Flat on flat, only the barrier of far side faces fixes the conservative contact’s point: from a ratio of about 1e5 on it is the '
+		'planes’ rounding that determines it, and the status is roundingLimited.',
 	),
 	'size': Axis(
 		'Size ratio of the pair',

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pairs taken along thirteen axes from easy to the point of breaking: error and status in double against exact arithmetic.
+"""Pairs varied along thirteen axes from easy to extreme: error and status in double against exact arithmetic.
 
-The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), asks the contact kernel for both contact models, and
-holds its answers against the linear program in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
+The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), runs the contact kernel with both contact models, and
+compares its answers with the linear program in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
 become one table and one plot per axis. Ends with 1 if an answer is not a number, unbounded, a missed or false contact, or in error beyond
 rounding without a status that says so; or if an error is above the limit that docs/accuracy.md states.
 
@@ -93,7 +93,8 @@ def report(findings, name, samples):
 
 
 def transitions(findings, given):
-	"""What jumps where a pair is pressed in and the paper's normal loses its corners: the status changes there, the conservative one's does not."""
+	"""Jumps where a pair is pressed in deeper than its corner radius: the status of the paper's contact changes there, the conservative
+	one's does not."""
 	path = given.output / 'samples' / 'transitions.csv'
 	with open(path, 'w') as file:
 		subprocess.run([given.program, '--transitions', str(given.samples)], stdout=file, check=True)
@@ -108,7 +109,7 @@ def transitions(findings, given):
 
 	title = 'Status changes at the corner radius (paper)'
 	findings.row(f'{title}: jump of the contact point over the size', largest('point'), accept=(0, 1e-13))
-	findings.row(f'{title}: turn of the normal (chord of the unit vectors)', largest('normal'), note='the model’s own: a body deeper than its corners has no say')
+	findings.row(f'{title}: turn of the normal (chord of the unit vectors)', largest('normal'), note='the model’s own: deep points lack a normal')
 	findings.row(f'{title}: change of depth, relative', largest('depth'))
 	findings.table(
 		'transitions',

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the samples of polytope_extremes say: faults, worst errors, and how contacts ended."""
+"""Evaluation of the samples of polytope_extremes: faults, worst errors, and statuses."""
 
 import collections
 import csv
@@ -9,7 +9,7 @@ import statistics
 __all__ = ['Sample', 'faults', 'quiet', 'readSamples', 'summary', 'worst']
 
 quiet = ('contact', 'normalFromOneBody', 'normalFromDual')
-"""Statuses that raise no doubt about point, depth and normal; every other one is loud."""
+"""Statuses that raise no doubt about point, depth and normal; every other one is a warning."""
 failed = ('failed', 'refused', 'lpNotConverged', 'centreNotConverged', 'ipoptNotAvailable')
 
 rounding = 2.0**-52
@@ -34,7 +34,7 @@ class Sample:
 
 	@property
 	def missed(self):
-		"""A contact called separated, beyond what rounding leaves open. What failed says so."""
+		"""A contact called separated, beyond the uncertainty by rounding. Failures have a status."""
 		return self.touches and not self.inContact and not self.within and self.status == 'separated'
 
 	@property
@@ -42,7 +42,7 @@ class Sample:
 		return self.inContact and not self.touches and not self.within
 
 	def error(self, quantity):
-		"""A column or one of `derived`; NaN where the sample has none, or its status is loud."""
+		"""A column or one of `derived`; NaN where the sample has none, or its status is a warning."""
 		if self.refused or self.status not in (*quiet, 'separated'):
 			return math.nan
 		if quantity in ('depthError', 'centreError', 'forceError', 'normalError') and not self.compared:
@@ -88,7 +88,7 @@ def readSamples(path):
 
 
 def faults(samples):
-	"""What must not be: {name: samples}."""
+	"""Faults: {name: samples}."""
 	asked = [s for s in samples if not s.refused]
 	return {
 		'not a number': [s for s in asked if not s.finite],

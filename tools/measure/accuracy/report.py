@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Studies of accuracy, and one report of what came out: the program behind `./run accuracy`.
+"""Studies of accuracy, and one report of the results: the program behind `./run accuracy`.
 
 Each script of this folder runs as a program of its own and leaves its findings (boon2012.reporting.findings) in a folder of its own. Out of
 these come report.html, with all figures and tables, and results.csv. A study that is complete, of the same source and with the same

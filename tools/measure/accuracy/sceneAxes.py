@@ -29,7 +29,7 @@ density = 2600.0
 
 
 class Scene:
-	"""An empty scene with the plug-in's engines; `failures` and `finite` say how it went."""
+	"""An empty scene with the plug-in's engines; `failures` and `finite` check the result."""
 
 	def __init__(self, model, pull=(0, 0, -gravity), damping=0.0, **law):
 		O.reset()
@@ -154,7 +154,7 @@ def collide(model, massRatio, lightMoves=True, turn=(0.3, -0.5, 0.8)):
 	velocities = [body.state.vel.dot(axis) for body in O.bodies]
 	momentum = masses[0] * velocities[0] + masses[1] * velocities[1]
 	given = masses[moving] * (-speed if lightMoves else speed)
-	# elastic: the light body leaves with
+	# elastic: the light body's speed afterwards
 	light = speed * (massRatio - 1) / (massRatio + 1) if lightMoves else speed * 2 * massRatio / (massRatio + 1)
 	return Collision(
 		momentum / given - 1,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Scenes in YADE taken along six axes from easy to the point of breaking, each beside its closed form, with both contact models.
+"""Scenes in YADE varied along six axes from easy to extreme, each beside its closed form, with both contact models.
 
 Stiffness ratio to 1e6, mass ratio to 1e9, time step to past the critical one, a tower of 50 blocks, 1e6 steps at rest and a slide of 1e6
 steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Plot of surfaces.py: what bodies lose on each floor."""
+"""Plot of surfaces.py: bodies' loss of speed on each floor."""
 
 from extremePlots import save
 from matplotlib.figure import Figure

@@ -89,7 +89,7 @@ class SurfaceStudy:
 		for floor, body in tqdm(pairs, desc='floors', disable=None):
 			for name, rule in self.variants():
 				self._case(floor, body, name, rule)
-		for floor in [f for f in floors if f != 'rock']:  # a comparison; the sphere knows one contact and one rule
+		for floor in [f for f in floors if f != 'rock']:  # a comparison; the sphere has one contact and one rule
 			self._case(floor, 'sphere', 'default', 'per contact')
 		self.findings.text(
 			'Bodies with a face down, about 0.5 m wide, slide at 1 m/s without friction over three joints 1 m apart. Their stiffness follows '

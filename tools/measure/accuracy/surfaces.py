@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies on floors made of flush pieces: do they slide, stop, accelerate and rest as on one smooth floor?
+"""Bodies on floors made of flush pieces: whether they slide, stop, accelerate and rest as on one smooth floor.
 
 All floors, bodies, contacts and both stiffness rules, other speeds, joints at an angle, friction, steps, gaps, impacts, rolling.
 Ends with 1 if the default contact misses a limit; the others are shown beside it. With --floor one crossing alone, in one line.

@@ -42,7 +42,7 @@ namespace {
 			        workspace, result);
 		}
 
-		/// Paper's model: the linear program's own way out frees the pair.
+		/// Paper's model: the motion along the linear program's dual direction separates the pair.
 		bool wayOutIsRight(const Pair& pair) const
 		{
 			if (!result.inContact) return !set->touching;
@@ -156,7 +156,7 @@ namespace {
 
 	// ----------------------------------------------------------------------------------------------------------- floor
 
-	/// One pass over all planes of both bodies at one point, all in one frame already: what no method on planes can go below.
+	/// One pass over all planes of both bodies at one point, all in one frame already: the lower bound for any method on planes.
 #define POLYTOPE_PASS(NAME, TARGET, WIDTH)                                                                                                 \
 	__attribute__((target(TARGET))) Real NAME(const PairPlanes<Real, 3>& planes, const Real* x)                                        \
 	{                                                                                                                                  \
@@ -255,7 +255,7 @@ namespace {
 		return out;
 	}
 
-	/// A peer's wrapper lies beside this program, as `libpeer_<library>.so`; empty if it was not built.
+	/// A peer's wrapper is in the folder of this program, as `libpeer_<library>.so`; empty if it was not built.
 	std::filesystem::path peerFile(const std::string& library)
 	{
 		const auto file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("libpeer_" + library + ".so");
@@ -283,7 +283,7 @@ namespace {
 			const peer::Answer answer = library->query(p.body[0], p.pose[0], p.body[1], p.pose[1]);
 			bool               right  = answer.touching == set.touching;
 			if (answer.touching && answer.hasDepth) {
-				// its own way out must free the pair, to the library's tolerance of 1e-4 … 1e-3
+				// the motion that it returns must separate the pair, to the library's tolerance of 1e-4 … 1e-3
 				Pair free = pair;
 				for (int k = 0; k < 3; ++k)
 					free.centre2[k] += answer.depth * answer.direction[k];

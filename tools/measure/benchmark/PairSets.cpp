@@ -97,7 +97,7 @@ namespace {
 		return ConvexShape::shared(set, Real(0.05));
 	}
 
-	/// What a step of DEM does to a pair, less than would part it: along the contact as much as across it.
+	/// Motion of a pair in a step of DEM, too small to separate it: along the contact as much as across it.
 	Pair afterStep(const Pair& pair, Random& random)
 	{
 		Pair          next  = pair;
@@ -158,7 +158,7 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 				                std::vector<Pair> steps { make(random) };
 				                while (steps.size() < stepCount)
 					                steps.push_back(afterStep(steps.back(), random));
-				                // a thin pair may be parted by the steps: then it is none of a contact that lasts
+				                // a thin pair may be separated by the steps: then it is not a lasting contact
 				                const auto other
 				                        = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
 				                if (std::any_of(steps.begin(), steps.end(), other)) continue;

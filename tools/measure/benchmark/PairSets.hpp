@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-/// The pairs that all methods get. Seeded; made by what a user may have, not by what suits one method.
+/// The pairs that all methods get. Seeded; chosen by what users may have, not to favour one method.
 namespace polytope::benchmarks {
 
 struct PairSet {
 	std::string name;
 	bool        touching; ///< of all pairs
 	/// The pairs, then the same after each of some steps of DEM: moved by 1e-4 of the size, turned by 1e-4, in any direction.
-	/// To and fro between two poses would not do: where many bases are optimal, one is found that serves both.
+	/// Alternating between two poses is not enough: where many bases are optimal, one is found that is optimal for both.
 	std::vector<std::vector<samples::Pair>> steps;
 
 	const std::vector<samples::Pair>& pairs() const { return steps.front(); }

@@ -9,7 +9,7 @@ function(yade_peer name)
 	add_library(pkg_${name} MODULE EXCLUDE_FROM_ALL ${ARGN})
 	polytope_use_yade(pkg_${name})
 	target_compile_definitions(pkg_${name} PRIVATE $<TARGET_PROPERTY:polytope_options,INTERFACE_COMPILE_DEFINITIONS>)
-	target_compile_options(pkg_${name} PRIVATE -O3 -w) # as YADE's own release build; its warnings are not ours to mend
+	target_compile_options(pkg_${name} PRIVATE -O3 -w) # as YADE's own release build; its warnings are not for this project to fix
 	set_target_properties(pkg_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0 PREFIX lib OUTPUT_NAME yadepeer_${name} BUILD_RPATH "${YADE_LIBRARY_DIR}")
 endfunction()
 

@@ -38,7 +38,7 @@ def arguments():
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
 	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
-	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only look at the options
+	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only check the options
 	parser.add_argument('--programs', required=True, help=argparse.SUPPRESS)  # ./run gives it: folder of what was built
 	options = parser.parse_args()
 	options.output = options.output or 'output/bench' + '-quick' * options.quick + (f'-{options.only}' if options.only else '')
@@ -50,7 +50,7 @@ def arguments():
 
 
 def machine(programs):
-	"""What the results belong to."""
+	"""Machine, compiler and revision that the results belong to."""
 	project = here.parents[2]
 
 	def output(*command):
@@ -121,7 +121,7 @@ def kernelGroup(run):
 	run.say(f'µs a pair, median ± half the quartiles\' range of the repetitions; wrong answers of {pairs} pairs in brackets:\n')
 	run.say(tabulate([[name] + [cell(method, name) for method in show] for name in sets], ['', *show]) + '\n')
 	if not any(method.startswith('coal') for method in methods):
-		run.note('coal was not to be had from PyPI: its rows are missing.')
+		run.note('coal could not be fetched from PyPI: its rows are missing.')
 	for name in ('cube', 'icosahedron', 'hull 50'):
 		for start in ('cold', 'warm'):
 			parts = plots.stages(found, name, start)
@@ -170,7 +170,7 @@ def sceneGroup(run):
 
 
 def showExtras(run):
-	"""What is not asked for costs nothing: what it costs where it is."""
+	"""Features that are off cost nothing; their cost where they are on."""
 	found = run.scenes.extras()
 	costs = {name: 1e6 * scenes.meanStep(one) for name, one in found.items()}
 	without = costs['nothing']
@@ -200,7 +200,7 @@ def threadGroup(run):
 
 
 class Run:
-	"""State of one run: options, what was said, results."""
+	"""State of one run: options, messages, results."""
 
 	def __init__(self, options):
 		self.programs, self.quick, self.core = options.programs, options.quick, os.cpu_count() - 1
@@ -228,7 +228,7 @@ def main():
 	run.say(f"{about['processor']}, {about['cores']} cores; {about['compiler']}; revision {about['revision'][:12]}{' with changes' if about['changed'] else ''}")
 	load = about['loadAverage'][0]
 	if load > 0.5:
-		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times say little, ratios are noisy.')
+		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
 	rows, interrupted = [], False
 	for name, group in zip(groups, (kernelGroup, shapeGroup, sceneGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):

@@ -24,7 +24,7 @@ class Request:
 	number: int = 200
 	columns: int = 6
 	compact: bool = False
-	"""Lattice as tight as cubes in any orientation allow: they have fallen the sooner."""
+	"""Lattice as tight as cubes in any orientation allow: they fall in a shorter time."""
 	settle: int = 1000
 	"""Steps before the measured ones."""
 	steps: int = 200
@@ -123,7 +123,7 @@ def replaceByPeer(scene, convert, loop):
 		key = tuple(body.shape.offsets), body.shape.cornerRadius, tuple(map(tuple, body.shape.normals))
 		shapes.setdefault(key, body.shape)
 		state = body.state
-		# copies: what YADE hands out refers to the body
+		# copies: YADE returns references to the body
 		vectors = [Vector3(getattr(state, name)) for name in ('pos', 'vel', 'angVel', 'inertia')]
 		states.append((shapes[key], body.aspherical, vectors, Quaternion(state.ori), state.mass, state.blockedDOFs))
 	step = O.dt
@@ -236,7 +236,7 @@ def memoryInUse():
 
 
 def askFor(scene, request):
-	"""What a script may want besides."""
+	"""Optional features that a script may use."""
 	scene.geometryFunctor.computeArea = request.area
 	if request.perArea:
 		scene.interactionLoop.physDispatcher.functors[0].stiffnessPerArea = True
@@ -261,7 +261,7 @@ def measure(scene, request):
 			engine.execTime = 0
 		before = len(O.interactions), O.interactions.countReal()
 		wall, processor = time.perf_counter(), time.process_time()
-		# in this thread: O.run(…, True) looks every 40 ms whether it is done
+		# in this thread: O.run(…, True) checks only every 40 ms whether it is done
 		for _ in range(each):
 			O.step()
 		wall, processor = time.perf_counter() - wall, time.process_time() - processor
@@ -305,7 +305,7 @@ def main(request):
 		writePairs(request.pairs, scene)
 	speed = np.max([body.state.vel.norm() for body in O.bodies])
 	if not np.isfinite(speed):
-		sys.exit(f'{request.method}: bodies have left with velocities that are no numbers')
+		sys.exit(f'{request.method}: bodies have velocities that are not finite')
 	return {
 	        'request': dataclasses.asdict(request),
 	        'rows': rows,
@@ -323,4 +323,4 @@ def main(request):
 
 if __name__ == '__main__':
 	print('RESULT', json.dumps(main(Request(**json.loads(sys.argv[1])))), flush=True)
-	os._exit(0)  # nothing of YADE's own ending is measured
+	os._exit(0)  # YADE's own clean-up at exit is not measured

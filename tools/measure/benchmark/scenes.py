@@ -105,7 +105,7 @@ class Scenes:
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
 	def extras(self):
-		"""The settled cubes once more from the same state, with what a script may ask for besides: {what: result}."""
+		"""The settled cubes once more from the same state, with optional features: {what: result}."""
 		number, columns = (500, 9) if self.quick else (2000, 18)
 		with tempfile.TemporaryDirectory() as folder:
 			state = f'{folder}/settled.npz'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What it costs to make bodies, and to cut a rock mass into blocks: processor time of this thread, whatever else the machine does.
+"""Cost of making bodies, and of cutting a rock mass into blocks: processor time of this thread, whatever else the machine does.
 
 As a program (bench.py runs it in a process of its own) it prints what it measured as JSON.
 """
@@ -27,7 +27,7 @@ def measure(quick):
 	clouds = [[tuple(float(x) for x in point) for point in cloud] for cloud in clouds]
 
 	def each(number, make):
-		"""Median over five batches. What was made is kept: a shape that nobody holds is a new one the next time."""
+		"""Median over five batches. The bodies are kept: a shape that no body uses is constructed again."""
 		kept, times, items = [make(0)], [], iter(range(1, 5 * number + 1))
 		for _ in range(5):
 			start = time.thread_time()
@@ -83,4 +83,4 @@ def run(core, quick):
 
 if __name__ == '__main__':
 	print('RESULT', json.dumps(measure(sys.argv[1] == 'quick')), flush=True)
-	os._exit(0)  # nothing of YADE's own ending is measured
+	os._exit(0)  # YADE's own clean-up at exit is not measured

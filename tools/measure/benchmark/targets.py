@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The table: where we want to be, and where we are."""
+"""The table of targets and measured values."""
 import dataclasses
 import math
 

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-/// What a fuzzer's bytes mean: numbers, planes, and a sentence that must hold. Where the bytes end, all is zero.
+/// Decodes a fuzzer's bytes into numbers and planes, and checks conditions that must hold. Beyond the end of the bytes, all is zero.
 namespace polytope::fuzz {
 
 /// Ends the process by a trap: libraries that come along with Ipopt (MPI) take other signals from the fuzzer.
@@ -38,7 +38,7 @@ public:
 	/// One of 0 … count − 1.
 	int below(int count) { return byte() % count; }
 
-	/// Ordinary numbers, and every kind of extreme one; often one that was there before, or its neighbour.
+	/// Ordinary numbers, and every kind of extreme one; often one that was used before, or its neighbour.
 	Real number()
 	{
 		const int kind = byte();

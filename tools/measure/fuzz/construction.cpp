@@ -19,7 +19,7 @@ using namespace polytope::fuzz;
 
 namespace {
 
-/// Of a plane's distance to a vertex: what a shape that is let through exceeds (construction::flatness).
+/// Of a plane's distance to a vertex: the lower bound for a shape that is accepted (construction::flatness).
 Real allowance(const Polyhedron& shape)
 {
 	Real size = 0;

@@ -106,7 +106,7 @@ Pair readPair(Bytes& bytes, bool& rigid)
 	return pair;
 }
 
-/// In the contract, or (`proper` false) whatever a script might write.
+/// Within the documented range, or (`proper` false) anything that a script might set.
 ContactSettings readSettings(Bytes& bytes, bool& proper)
 {
 	ContactSettings settings;
@@ -117,7 +117,7 @@ ContactSettings readSettings(Bytes& bytes, bool& proper)
 	settings.geometryAcrossGap = flags & 8;
 	settings.timed             = flags & 16;
 	settings.contactPoint      = ContactPoint(bytes.below(3));
-	settings.solver            = bytes.below(64) == 1 ? CentreSolver::Ipopt : CentreSolver::Newton; // dear
+	settings.solver            = bytes.below(64) == 1 ? CentreSolver::Ipopt : CentreSolver::Newton; // expensive
 	const int others           = bytes.below(8);
 	if (others == 1) {
 		settings.barrier         = std::pow(Real(10), -Real(bytes.below(6)));
@@ -223,7 +223,7 @@ struct Planes {
 		return most;
 	}
 
-	/// What the weights λ say that s* is at least, for any point within `reach`.
+	/// The lower bound of s* by the weights λ, for any point within `reach`.
 	long double bound(const ContactResult& result, int dimension, Real reach) const
 	{
 		std::array<long double, 4> sum {};
@@ -246,11 +246,11 @@ Real exactInfeasibility(const Pair& pair)
 }
 
 /// The linear program's answer is an optimum: its point attains it and its weights prove that none is lower; where they
-/// are too uncertain to (nearly parallel planes), exact arithmetic has the last word. The same with the bodies exchanged.
+/// are too uncertain (nearly parallel planes), exact arithmetic decides. The same with the bodies exchanged.
 void checkOptimum(const Pair& pair)
 {
 	const ContactResult result = samples::linearProgram(pair);
-	if (!result.hasGeometry || result.status == ContactStatus::LpNotConverged) return; // dismissed from far off; or says so
+	if (!result.hasGeometry || result.status == ContactStatus::LpNotConverged) return; // dismissed, or reported as such
 	const Real   allowed = 64 * tolerance::rounding * pair.reach();
 	const Planes planes(pair);
 	const Real   above = Real(planes.violation(result.point) - result.infeasibility);
@@ -289,7 +289,7 @@ void checkPair(Bytes& bytes)
 			if (bounded) checkOptimum(pair);
 		}
 		if (bytes.empty()) return;
-		// a step, small or not; the memory goes along
+		// a step, small or not; the memory is kept
 		const Real stride = std::pow(Real(10), -Real(bytes.below(12))) * pair.inscribedRadius();
 		for (int k = 0; k < pair.dimension(); ++k)
 			pair.centre2[k] += stride * Real(std::int8_t(bytes.byte())) / 128;

@@ -60,7 +60,7 @@ std::string hexadecimal(const Input& input)
 
 Input current;
 
-/// What was run last is what a violation is about.
+/// A violation refers to the input that was run last.
 void printCurrent(int)
 {
 	std::cerr << "the input, as a line of a corpus:\n" << hexadecimal(current) << std::endl;

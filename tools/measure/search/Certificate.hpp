@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-/// The exact predicate, filtered: bounds of s*, and of what is left of the way to a centre, from an answer's own certificate
+/// The exact predicate, filtered: bounds of s*, and of the remaining distance to a centre, from an answer's own certificate
 /// evaluated with 11 digits of binary more than the answer has; rational arithmetic where that does not decide. The
 /// planes are those of the input's doubles, as in ExactLp.hpp and PrecisePair.hpp.
 namespace polytope::search {
@@ -15,7 +15,7 @@ namespace polytope::search {
 using Extended       = long double;
 using ExtendedVector = std::array<Extended, 3>;
 
-/// What s* may be off by: rounding of the pair's planes (tests/core/SimplexLpTest.cpp states the same).
+/// Allowed error of s*: rounding of the pair's planes (tests/core/SimplexLpTest.cpp states the same).
 inline Real allowedError(const samples::Pair& pair) { return 8 * tolerance::rounding * pair.reach(); }
 
 class Certificate {
@@ -65,7 +65,7 @@ public:
 	void solveExactly()
 	{
 		const auto s = dimension_ == 3 ? samples::ExactLp<3>(pair_).infeasibility : samples::ExactLp<2>(pair_).infeasibility;
-		// what a double leaves of it fits another one
+		// the remainder of a double is representable in another one
 		const Real first = Real(s);
 		lower = upper = Extended(first) + Extended(Real(samples::Rational(s - samples::Rational(first))));
 	}
@@ -124,7 +124,7 @@ public:
 		return value - norm(balance) * 4 * reach_ - std::abs(sum - 1) * reach_ + 2 * mu * roots;
 	}
 
-	/// What Newton's next step would lower barrier() by, over μ/2: its root is the distance from the minimiser in the local norm.
+	/// Decrease of barrier() by Newton's next step, over μ/2: its root is the distance from the minimiser in the local norm.
 	Extended barrierDecrement(const Vector3& point, Extended s, Extended mu) const
 	{
 		const ExtendedVector  x = extended(point);

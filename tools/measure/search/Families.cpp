@@ -31,7 +31,7 @@ namespace {
 		return dimension == 3 ? cuboid(1, y, z) : rectangle(1, y);
 	}
 
-	/// Hull of points about a sphere, about its centroid more or less.
+	/// Hull of points near a sphere, centred approximately.
 	HalfSpaces someHull(Random& random, int dimension)
 	{
 		std::vector<Vector3> points;
@@ -158,7 +158,7 @@ namespace {
 		};
 	}
 
-	/// What can touch: a vertex, an edge or a face.
+	/// A feature that can touch: a vertex, an edge or a face.
 	struct Feature {
 		std::vector<Vector3> points, normals;
 	};
@@ -351,7 +351,7 @@ void approach(Pair& pair, const Vector3& direction, Real target)
 		const Real          slope = result.dualDirection.dot(direction), over = result.infeasibility - target;
 		if (!(slope > 0) || !(std::abs(over) > tolerance::rounding * pair.reach())) return;
 		way -= over / slope;
-		if (way < 0) way = 0; // from the centre on the way leads out again
+		if (way < 0) way = 0; // beyond the centre the motion separates the bodies again
 	}
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-/// The kinds of pairs that are searched. A family makes a few shapes (dear) and then any number of poses of them (cheap).
+/// The kinds of pairs that are searched. A family makes a few shapes (expensive) and then any number of poses of them (cheap).
 namespace polytope::search {
 
 using Random = std::mt19937_64;
@@ -25,7 +25,7 @@ const std::vector<Family>& families();
 /// piecewise linear function s* of the way: some five linear programs instead of sixty.
 void approach(samples::Pair& pair, const Vector3& direction, Real target);
 
-/// An s* worth a look: overlaps and gaps from rounding to half the inscribed radius, many about the border of contact.
+/// A random s* to test: overlaps and gaps from rounding to half the inscribed radius, many about the border of contact.
 Real someInfeasibility(const samples::Pair& pair, Random& random);
 
 } // namespace polytope::search

@@ -61,7 +61,7 @@ std::string familyNames()
 	std::exit(2);
 }
 
-/// Months of a machine's work: more is a slip of the finger.
+/// Months of computing: a larger number is assumed to be a typing error.
 constexpr long mostPairs  = 1000000000000;
 constexpr long quickPairs = 250000; // as the tests
 
@@ -124,7 +124,7 @@ void checkLog(const std::string& path)
 	std::fclose(file);
 }
 
-/// All trials, dealt out to the threads one by one; each has its own random numbers.
+/// All trials, distributed to the threads one by one; each has its own random numbers.
 void run(const Options& options, std::vector<Tally>& tallies, std::vector<Finding>& findings)
 {
 	const long        first     = options.family < 0 ? 0 : options.family;

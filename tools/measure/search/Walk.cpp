@@ -30,7 +30,7 @@ namespace {
 		        && std::isfinite(r.barrierValue) && std::isfinite(r.energy) && std::isfinite(r.rockingArm);
 	}
 
-	/// The questions put to one pose.
+	/// The queries made for one pose.
 	class Examiner {
 	public:
 		Examiner(int family, long trial, Tally& tally, std::vector<Finding>& findings)
@@ -38,7 +38,7 @@ namespace {
 		{
 		}
 
-		/// Of all poses of one pair that moves on; forgets what was remembered.
+		/// Of all poses of one moving pair; clears the memory.
 		void start(Random& random)
 		{
 			paper_                   = ContactSettings();
@@ -115,7 +115,7 @@ namespace {
 			return status == ContactStatus::LpNotConverged || status == ContactStatus::Failed;
 		}
 
-		/// What holds for both models.
+		/// Checks that both models must pass.
 		void checkAnswer(const Pair& pair, const Certificate& certificate, const ContactResult& result, const char* way)
 		{
 			++tally_.queries;

@@ -8,20 +8,20 @@
 #include <string>
 #include <vector>
 
-/// One trial: shapes of a family, walked past each other; every pose asked in all ways and compared with its certificate.
+/// One trial: shapes of a family, moved past each other; every pose queried in all ways and compared with its certificate.
 namespace polytope::search {
 
-/// What must not occur.
+/// Defects.
 enum class Defect : int {
-	Miss,           ///< overlap deeper than the contact tolerance, no contact said
-	FalseContact,   ///< contact said without such an overlap
+	Miss,           ///< overlap deeper than the contact tolerance, no contact reported
+	FalseContact,   ///< contact reported without such an overlap
 	Infeasibility,  ///< s* off by more than rounding
-	Centre,         ///< contact said, but the point is not the analytic centre, and the status does not say so
-	NotConverged,   ///< the linear program or the query gave up
-	NotFinite,      ///< a number that is none, a normal that is not unit, a depth that is not positive
+	Centre,         ///< contact reported, but the point is not the analytic centre, and the status does not tell
+	NotConverged,   ///< the linear program or the query did not converge
+	NotFinite,      ///< a value that is not finite, a normal that is not unit, a depth that is not positive
 	ForceAcrossGap, ///< conservative: contact without overlap
 	BelowLp,        ///< conservative: Φ < s*
-	Barrier,        ///< conservative: Φ is not the minimum, or Newton gave up
+	Barrier,        ///< conservative: Φ is not the minimum, or Newton did not converge
 	Shape,          ///< a body that was refused, or failed in construction
 };
 constexpr int defectCount = int(Defect::Shape) + 1;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What `./run tradeoff` varies, one thing at a time, in each of its scenes, and what each answer is held against."""
+"""Settings that `./run tradeoff` varies, one at a time, in each of its scenes, and the reference of each answer."""
 
 import dataclasses
 import math
@@ -70,7 +70,7 @@ class Scene:
 	def __post_init__(self):
 		for name, preset in presets.items():
 			if name != 'balanced':  # that is the default
-				timeless = not self.settings.keys() & times.keys()  # statics: no answer hangs on the time step
+				timeless = not self.settings.keys() & times.keys()  # statics: no answer depends on the time step
 				changes = {key: value for key, value in preset.items() if not (timeless and key == 'timeStepFactor')}
 				self.settings = {**self.settings, f"settings('{name}')": changes}
 
@@ -95,7 +95,7 @@ def allScenes():
 	ten = {'time step × 10': {'timeStepFactor': 10}}  # of the paper's 0.02 √(m/k)
 	statics = {**of, **points, **models, **numerical}
 	dynamics = {**of, **points, **models, **numerical, **times, **stiffnesses}
-	# face on face the conservative contact rocks faster than the time step of the wedge in the roof can follow
+	# face on face the rocking frequency of the conservative contact is too high for the time step of the wedge in the roof
 	factors = dict(zip(models, (0.5, 0.15, 1), strict=True))
 	finer = {name: {**changes, 'timeStepFactor': factors[name]} for name, changes in models.items()}
 	tooSlow = {'C': ('mpfr150',), 'A': ('Ipopt', 'float128', 'mpfr150')}

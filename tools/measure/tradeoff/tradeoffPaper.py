@@ -56,7 +56,7 @@ from yade.polytope._builds import precisions
 
 
 def printPrecisions(given):
-	"""Those that the settings name. The quick run takes what happens to be built."""
+	"""Those that the settings name. The quick run takes those that are already built."""
 	scenes = {} if given.quick else {letter: scene for letter, scene in allScenes().items() if letter in given.only}
 	named = {changes.get('precision', 'double') for scene in scenes.values() for changes in scene.settings.values()}
 	print(end=''.join(f'{name}\n' for name in precisions if name in named - {'double'}))
@@ -105,7 +105,7 @@ def main(given):
 	show(columns, rows)
 	ranks = [[name, *(format(value, '.3g') for value in values)] for name, *values in ranking(tables, scenes)]
 	if ranks:
-		print('\nWhat polytope.settings() rests on (see there): means over the scenes with a closed form that holds for any law')
+		print('\nBasis of polytope.settings() (see there): means over the scenes with a closed form that holds for any law')
 		show(rankingColumns, ranks)
 	writePage(given.output / 'report.html', parts, columns, rows, ranks, pathlib.Path(__file__), given.quick, interrupted)
 	print(f'\nReport: {given.output / "report.html"}')

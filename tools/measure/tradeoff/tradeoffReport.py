@@ -35,7 +35,7 @@ def reportScene(scene, table, folder, finest):
 	:returns: (Findings, {setting: error by arithmetic and solver alone})
 	"""
 	findings = Findings(scene.letter, scene.title, folder)
-	truth = scene.because or ('the mean over seeds' if scene.letter == 'A' else f'{finest or default}, the finest arithmetic at hand')
+	truth = scene.because or ('the mean over seeds' if scene.letter == 'A' else f'{finest or default}, the finest arithmetic available')
 	findings.text(f'Answer: {scene.answer}. Truth: {truth}' + (f', {scene.truth:.9g}.' if scene.truth else '.'))
 	if scene.letter == 'A':
 		mean, deviation = scatter(table)
@@ -61,7 +61,7 @@ def reportScene(scene, table, folder, finest):
 	if bySolver and scene.truth:
 		panels.append((f'the same model in other arithmetic: difference to {finest}', bySolver))
 	plotTradeoff(findings.folder / 'pareto.png', panels, floor, f'{scene.letter} · {scene.title}')
-	findings.figure('pareto.png', 'Error over time, each point a setting; square: default; orange: on the front, beaten by none in both')
+	findings.figure('pareto.png', 'Error over time, each point a setting; square: default; orange: on the front, surpassed by none in both')
 	good = [row for row in table.rows if row.failures == 0 or row.note]
 	findings.row('settings with failed contact queries', len(table.rows) - len(good), theory=0, accept=(0, 0))
 	return findings, errors
@@ -88,7 +88,7 @@ def summary(tables, scenes):
 
 
 def ranking(tables, scenes):
-	"""What the rule of polytope.settings sees: settings that have an answer in all scenes that count, by their cost.
+	"""Settings that the rule of polytope.settings ranks: settings that have an answer in all scenes that count, by their cost.
 
 	:returns: [(name, cost, error, largest error over the default's in any scene)], cost and error geometric means over the default's
 	"""
@@ -171,7 +171,7 @@ th:first-child, td:first-child, .parts td:last-child, .parts th:last-child { tex
 th:first-child, td:first-child { position: sticky; left: 0; background: #fff; } .parts td:last-child { min-width: 6rem; }
 figure { margin: 1.2rem 0; } img { max-width: 100%; border: 1px solid #d9dee6; } .quiet, figcaption { color: #687385; }
 </style></head><body>
-<h1>Accuracy for speed: what each setting costs, and what it does to the answer</h1>
+<h1>Accuracy for speed: cost of each setting, and its effect on the answer</h1>
 <p class="quiet">{{ about.date }}{% if about.quick %} · quick variant: fewer settings{% endif %}{% if about.interrupted %} · interrupted: not all that was asked for is here{% endif %}. One setting is changed at a time. Costs
 are times for as much simulated time as the default's step, over the default's; errors are relative, against closed forms (B, C, D, F,
 rest), the finest arithmetic (pair) or the mean over seeds (A). –: the setting is not run in that scene (too slow there, of no
@@ -180,7 +180,7 @@ answer that counts; the table of the scene says why.</p>
 <h2>All scenes</h2>
 <div class="wide"><table><tr>{% for title in columns %}<th>{{ title }}</th>{% endfor %}</tr>
 {% for row in rows %}<tr>{% for cell in row %}<td{% if ' ' in cell and not loop.first %} class="words"{% endif %}>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>
-{% if ranks %}<h2>What polytope.settings() rests on</h2>
+{% if ranks %}<h2>Basis of polytope.settings()</h2>
 <p>Settings that have an answer in every scene with a closed form that holds for any law (C, D, F, rest): geometric means of cost and
 error over the default's; errors below 1e-4 count as 1e-4.</p>
 <div class="wide"><table><tr>{% for title in head %}<th>{{ title }}</th>{% endfor %}</tr>

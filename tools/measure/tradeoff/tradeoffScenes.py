@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scenes of `./run tradeoff`: for each a function that builds it and one that measures the answer that matters there.
 
-They run in processes of their own with any arithmetic (see polytope.tradeoff), so what they are made from must not hang on it: a number
+They run in processes of their own with any arithmetic (see polytope.tradeoff), so their input must not depend on it: a number
 that is searched for is rounded to few digits. *stiffness* is a factor on all stiffnesses; the time step goes with 1/√stiffness.
 """
 

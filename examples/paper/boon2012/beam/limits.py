@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What can be asked of a three-hinged beam (simulation B) of some shape, and what is taken where nothing is asked.
+"""Range and defaults of the options for a three-hinged beam (simulation B) of any shape.
 
 Angles in degrees, lengths in block heights (the half-beams' height).
 """

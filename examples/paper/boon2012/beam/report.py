@@ -13,7 +13,7 @@ noIpopt = 'This build has no Ipopt: the curve of the analytic centre by Ipopt an
 
 
 class BeamReport:
-	"""Writes down what a BeamStudy found, one part after the other.
+	"""Reports the results of a BeamStudy, one part after the other.
 
 	:param Findings findings: where it goes
 	:param BeamStudy study: after its runs
@@ -168,7 +168,7 @@ class BeamReport:
 			]
 			for size in sizes
 		]
-		caption = "Analytic centre: what the size of the abutments does; their middle is at the height of the beam's middle."
+		caption = "Analytic centre: effect of the abutments' size; their middle is at the height of the beam's middle."
 		self.findings.table('abutments', caption, columns, rows)
 
 	def normals(self, tilted):
@@ -253,10 +253,10 @@ class BeamReport:
 		self._text(
 			f"""Statics has no time step; so the answer to half the time step and double the stiffness is taken from dynamics, in two
 			ways. First, the half-beams turn at a constant rate and move freely otherwise; friction holds them at the abutments,
-			where they do not slip but roll: the hinge has risen by {rises} at the peak. The analytic centre feels that it is off
-			the abutment's middle; this is what remains as the rate goes down. Second, weight is raised in steps, each kept until
+			where they do not slip but roll: the hinge has risen by {rises} at the peak. The analytic centre is affected by being off
+			the abutment's middle; this remains as the rate is reduced. Second, weight is raised in steps, each kept until
 			the half-beams are at rest; when they snap through, half of the step is tried from the last state at rest. This ends a
-			little below the peak, since every step swings beyond its equilibrium, and can show nothing beyond it."""
+			little below the peak, since every step overshoots its equilibrium, and gives no result beyond it."""
 		)
 
 	def _text(self, paragraph):

@@ -131,7 +131,7 @@ class ThreeHingedBeam:
 		O.reset()
 		# the contacts' stiffnesses are given pair by pair; those of the materials only set the weights of the normals
 		weight = self.abutmentNormalWeight
-		ratio = weight / (1 - weight) if weight < 1 else 1e18  # so much that the half-beam's weight is lost in rounding
+		ratio = weight / (1 - weight) if weight < 1 else 1e18  # so large that the half-beam's weight is below rounding
 		joint = {'shearStiffness': self.midspanStiffness, 'frictionAngle': self.frictionAngle, 'density': self.density}
 		beam = O.materials.append(RockJointMat(normalStiffness=self.midspanStiffness, **joint))
 		abutment = O.materials.append(RockJointMat(normalStiffness=ratio * self.midspanStiffness, **joint))
@@ -214,7 +214,7 @@ class ThreeHingedBeam:
 		def unbalanced(behind):
 			self.place(rotation, behind)
 			O.step()
-			return float(O.forces.f(self.beamIds[0])[0])  # SciPy knows floats only, YADE's wider precisions have others
+			return float(O.forces.f(self.beamIds[0])[0])  # SciPy takes floats only, YADE's wider precisions have other types
 
 		behind = brentq(unbalanced, 1e-3 * shared, (1 - 1e-3) * shared, xtol=1e-16, rtol=1e-15)
 		unbalanced(behind)
@@ -263,7 +263,7 @@ class ThreeHingedBeam:
 			state = O.bodies[k].state
 			state.blockedDOFs = 'zXYZ'
 			state.angVel = (0, 0, side * rate)
-			state.vel = (-side * rate * sideways, -rate * self.length / 2, 0)  # else the start is a blow
+			state.vel = (-side * rate * sideways, -rate * self.length / 2, 0)  # else the start is an impact
 		for step in range(1, steps + 1):
 			rotation = self.rotation
 			O.step()
@@ -279,8 +279,8 @@ class ThreeHingedBeam:
 		:param float first: rotation to start from, in equilibrium with its weight [rad]
 		:param float increment: first one [N]
 		:param float precision: ends when the increment is this small against the weight
-		:param int settleSteps: steps between two looks; at rest: rotation changed by less than 1e-7 rad since the last look
-		:param int mostSettles: looks after which a state counts as not at rest
+		:param int settleSteps: steps between two checks; at rest: rotation changed by less than 1e-7 rad since the last check
+		:param int mostSettles: checks after which a state counts as not at rest
 		:returns: (largest weight held, the next that was not [N], readings at rest)
 		:raises RuntimeError: if the half-beams neither come to rest nor turn on
 		"""
@@ -300,7 +300,7 @@ class ThreeHingedBeam:
 			else:
 				tooMuch = held + increment
 				O.loadTmp('held')
-				increment /= 2  # not by bisection: a large increment swings over the peak where small ones do not
+				increment /= 2  # not by bisection: a large increment overshoots the peak where small ones do not
 		return held, tooMuch, readings
 
 	def _comesToRest(self, before, weight, settleSteps, mostSettles):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The runs of simulation B: load and rotation of the three-hinged beam by statics and dynamics, and the theories they are held against.
+"""The runs of simulation B: load and rotation of the three-hinged beam by statics and dynamics, and the theories they are compared with.
 
 Angles in radians. Lengths are given in block heights, as the script's options are: one is the half-beams' height.
 """
@@ -170,7 +170,7 @@ class BeamStudy:
 		return DrivenBeam(contactPoint, label, largest.load / stiffness, largest.rotation, away / top, largest.rise)
 
 	def pushed(self, contactPoint, label, precision, stiffness=1, timeStep=1):
-		"""PushedBeam, see ThreeHingedBeam.push. A look at it takes the same time, whatever the time step."""
+		"""PushedBeam, see ThreeHingedBeam.push. The simulated time between two checks is the same for any time step."""
 		scene = self.scene(stiffness, timeStep, contactPoint=contactPoint)
 		increment = stiffness * self.theory[contactPoint].peak()[0] / 20
 		settleSteps = round(50 / self.given.time_step_fraction / timeStep)

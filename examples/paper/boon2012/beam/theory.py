@@ -17,7 +17,7 @@ __all__ = ['BeamBetweenWalls', 'BeamOfTwoBlocks']
 
 @dataclasses.dataclass
 class _Beam:
-	"""What both models share: the beam, and everything that follows from its load at a rotation."""
+	"""Common to both models: the beam, and everything that follows from its load at a rotation."""
 
 	length: float = 0.138
 	"""L₁ of each half-beam [m]."""

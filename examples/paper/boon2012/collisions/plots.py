@@ -59,7 +59,7 @@ def _pictureSteps(run, panels):
 
 
 def plotOverview(path, run):
-	"""Type, centre, force, depth, and where the energy is and went, over time."""
+	"""Type, centre, force, depth, and the terms of the energy balance, over time."""
 	record = run.record
 	figure = Figure(figsize=(10, 13))
 	centre, force, depth, energy, taken = axes = figure.subplots(5, 1, sharex=True)

@@ -100,7 +100,7 @@ class Collision:
 		self.integrator = NewtonIntegrator(damping=self.damping, dampGravity=self.dampGravity, gravity=(0, 0, -self.gravity))
 		O.engines = [
 			ForceResetter(),
-			# pairs are looked for in each step: the step of the first touch is part of the result
+			# pairs are searched for in each step: the step of the first touch is part of the result
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 			InteractionLoop(
 				[self.geometryFunctor],

@@ -19,11 +19,11 @@ sampleSteps = 200
 """Steps between two samples of the energy."""
 riseElsewhere = {'F1': 0.2, 'F2': 1070}
 """Largest rise of energy between such samples in an independent program of the paper's algorithm, at the reference's settings [J]. Why
-ours is larger in F2 is not known: time step, damping of gravity and contact point (table of settings) do not close the gap."""
+ours is larger in F2 is not known: time step, damping of gravity and contact point (table of settings) do not explain the difference."""
 noticeable = 1e-3
 """Rises of energy below this are not listed [J]."""
 aroundTransition = 60
-"""Steps before and after a change of type in which jumps are looked for."""
+"""Steps before and after a change of type in which jumps are searched for."""
 
 
 class CollisionRun:
@@ -125,7 +125,7 @@ class CollisionRun:
 
 
 class Rise:
-	"""Energy rises from step *begin* to step *end*: what rose, what gave it, what took of it [J]."""
+	"""Energy rises from step *begin* to step *end*: what rose, its source, and the losses [J]."""
 
 	def __init__(self, record, begin, end):
 		def change(values):
@@ -363,7 +363,7 @@ class CollisionReport:
 			self.findings.text(_explanation(run, ofRun))
 		self.findings.table(
 			'energy_rises',
-			f'Every rise of kinetic + potential + elastic energy by {noticeable:g} J or more: what rose, and what gave and took it [J].',
+			f'Every rise of kinetic + potential + elastic energy by {noticeable:g} J or more: what rose, its source, and the losses [J].',
 			['collision', *Rise.columns],
 			[[run.label, *rise.row()] for run, ofRun in rises.items() for rise in ofRun],
 		)
@@ -411,7 +411,7 @@ def _largest(values):
 
 
 def _explanation(run, rises):
-	"""Where the rises of energy come from, with this run's figures."""
+	"""Causes of the rises of energy, with this run's figures."""
 	if not rises:
 		return f'{run.label}: the energy never rises by {noticeable:g} J or more.'
 	record = run.record
@@ -429,5 +429,5 @@ def _explanation(run, rises):
 		f"{most.unexplained:+.1e} J are left unexplained. The spring's force alone would be up to {spring:.4g} kN; with the dashpot's at "
 		f'most {force:.3g} kN act. Cause: the force kₙ δ n is not the gradient of the stored energy ½ kₙ δ². The chord δ along the '
 		'averaged normal grows by more than the blocks approach each other along it, as the contact point moves and the normal turns; '
-		'the spring then holds energy that nobody put in, and the dashpot takes what it gives back.'
+		'the spring then stores energy without work being done on it, and the dashpot dissipates what the spring returns.'
 	)

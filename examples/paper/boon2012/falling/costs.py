@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is found of simulation A's costs (the paper's Fig. 6): time per contact problem against the number of planes of both bodies."""
+"""Costs of simulation A (the paper's Fig. 6): time per contact problem against the number of planes of both bodies."""
 
 import math
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is found of simulation A: whether all have come to rest as they should, over several seeds.
+"""Results of simulation A: whether all have come to rest as they should, over several seeds.
 
-Heaps are chaotic: with another seed each solid ends in another heap. What is known is one run of each solid, so what must hold is
+Heaps are chaotic: with another seed each solid ends in another heap. The reference is one run of each solid, so what must hold is
 compared over the seeds, with their scatter.
 """
 
@@ -16,7 +16,7 @@ from .run import halfStep, quantities
 __all__ = ['FallingPolyhedraReport', 'rounded']
 
 fewestSeeds = 5
-"""With fewer there is no telling chance from cause."""
+"""With fewer, chance and cause cannot be distinguished."""
 
 
 class FallingPolyhedraReport:

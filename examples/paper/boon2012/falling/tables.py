@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What simulation A prints of its runs: costs, outcome, and the states they ended in."""
+"""Tables that simulation A prints: costs, results, and final states."""
 
 from tabulate import tabulate
 

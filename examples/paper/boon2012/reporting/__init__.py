@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the paper's scripts, and the programs of tools/measure, report with: findings, options, runs of several scripts, one page."""
+"""Reporting of the paper's scripts and of the programs of tools/measure: findings, options, runs of several scripts, one page."""

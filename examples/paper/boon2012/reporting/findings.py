@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a simulation found, beside the paper's figure and the closed form: rows, tables, figures, and whether all that must hold does.
+"""Results of a simulation, beside the paper's figure and the closed form: rows, tables, figures, and whether all that must hold does.
 
 One script writes one `Findings` into its folder; `./run paper` puts those of all six together into one report.
 """
@@ -87,7 +87,7 @@ class Findings:
 		return all(row['good'] is not False for row in self.content['rows'])
 
 	def save(self):
-		"""Writes findings.json, last of all files: where it stands, the run is complete. Returns `good`."""
+		"""Writes findings.json, last of all files: if it exists, the run is complete. Returns `good`."""
 		(self.folder / 'findings.json').write_text(json.dumps({**self.content, 'good': self.good}, indent='\t') + '\n')
 		return self.good
 
@@ -108,7 +108,7 @@ def rowCells(row):
 
 
 def rowDifference(row):
-	"""Ours less the closed form, where there is none less the paper's; None where these are no numbers."""
+	"""Ours less the closed form, where there is none less the paper's; None where one of them is not a number."""
 	reference = row['theory'] if row['theory'] is not None else row['paper']
 	numbers = isinstance(reference, (int, float)) and isinstance(row['ours'], (int, float))
 	return row['ours'] - reference if numbers else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Options of the paper's scripts: types that refuse what cannot be meant, and the options that all scripts have.
+"""Options of the paper's scripts: types that refuse invalid values, and the options that all scripts have.
 
 In a script:
 
@@ -73,7 +73,7 @@ def number(above=-math.inf, least=-math.inf, most=math.inf, below=math.inf, whol
 positive = number(above=0)
 notNegative = number(least=0)
 fraction = number(least=0, below=1)
-"""Such as NewtonIntegrator's damping: 1 would let nothing move."""
+"""Such as NewtonIntegrator's damping: with 1 nothing would move."""
 angle = number(above=0, below=90)
 """[°]"""
 count = number(least=1, whole=True)
@@ -138,7 +138,7 @@ def refusing(parser, option):
 
 
 def isReference(parser, given, besides=()):
-	"""Whether all options are as by default, so that results can be held against the paper's.
+	"""Whether all options have their defaults, so that results can be compared with the paper's.
 
 	:param given: what parser.parse_args() returned
 	:param besides: names of options that may differ, as attributes of *given*; those of paperParser() may anyway

@@ -137,7 +137,7 @@ def _processor():
 
 
 def show(sections):
-	"""Prints all rows, then what is amiss; returns whether nothing is."""
+	"""Prints all rows, then what was missed or failed; returns whether all is good."""
 	titles = ['', '', 'unit', 'paper', 'closed form', 'ours', 'difference', 'must be', '']
 	print(tabulate([[part['letter'], *row['cells']] for part in sections for row in part['rows']], titles, disable_numparse=True))
 	amiss = [f'{part["letter"]}: {part["script"]} {part["failure"]}: see {part["folder"]}/log.txt' for part in sections if part['failure']]

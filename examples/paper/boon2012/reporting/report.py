@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What `./run paper` and `./run accuracy` do alike: run the scripts, write one report, say how it ended."""
+"""Common to `./run paper` and `./run accuracy`: run the scripts, write one report, print the outcome."""
 
 import argparse
 import signal
@@ -55,5 +55,5 @@ def report(planned, given, template, base=None):
 
 
 def endOnTerm():
-	"""Lets a program that is told to end stop what perform() started."""
+	"""On a signal to end, stops the processes that perform() started."""
 	signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))

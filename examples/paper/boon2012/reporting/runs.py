@@ -59,11 +59,11 @@ class Run:
 			self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
 
 	def forget(self):
-		"""It is not complete, whatever it was."""
+		"""Marks it as not complete."""
 		(self.folder / 'run.json').unlink(missing_ok=True)
 
 	def ended(self):
-		"""True once the script is through; what it was goes to run.json."""
+		"""True once the script has ended; its key (source, options), exit code and time are written to run.json."""
 		code = self.process.poll()
 		if code is None:
 			return False
@@ -80,7 +80,7 @@ class Run:
 			self.process.wait()
 
 	def read(self, name):
-		"""A JSON file of the folder; empty where there is none or it is not whole."""
+		"""A JSON file of the folder; empty where there is none or it is incomplete."""
 		try:
 			return json.loads((self.folder / name).read_text())
 		except (OSError, ValueError):

@@ -151,7 +151,7 @@ class RoofWedgeReport(WedgeReport):
 		self.symmetric = areEvenlySpread(self.base.scene.joints)
 
 	def must(self, value, half):
-		"""Where the closed forms hold, which know no blunt edges."""
+		"""Where the closed forms hold, which assume sharp edges."""
 		known = self.symmetric and self.given.stiffness_times == 'face' and self.given.contact_model == 'paper'
 		return (value - half, value + half) if known else None
 
@@ -201,7 +201,7 @@ class RoofWedgeReport(WedgeReport):
 		)
 
 	def constantNormal(self, known):
-		"""What is wrong with a constant normal force.
+		"""The error of assuming a constant normal force.
 
 		:param known: (value, half the range) of the angle it would give for the reference
 		"""
@@ -285,20 +285,20 @@ class RoofWedgeReport(WedgeReport):
 			]
 			for case in [*self.ways, *self.cases]
 		]
-		caption = 'What the critical angle hangs on (one setting changed at a time, way 1), and both ways'
+		caption = 'What the critical angle depends on (one setting changed at a time, way 1), and both ways'
 		self.findings.table('settings', caption, [*columns, 'time steps'], rows)
 
 	def explainPaper(self, paper):
-		"""What made the paper's angle with boundary stress, for the reference."""
+		"""The cause of the paper's angle with boundary stress, for the reference."""
 		base, first = self.base, self.touching[0]
 		self.findings.text(
-			f'What made the paper\'s {paper}° with boundary stress. '
+			f'The cause of the paper\'s {paper}° with boundary stress. '
 			'Where the blocks around the wedge touch each other over vertical joints of area A_v, '
 			'these are stiffer than their share of the stress and take more than that from the boundary: '
 			'σ_eff/σ_h = (A + 2A_v)/(A + 3A_v) for rigid blocks and equal stiffnesses, confirmed by the runs below. '
 			f'{paper}° asks for σ_eff = {base.shareFor(paper, 10):.4f} σ_h with g = 10 m/s², {base.shareFor(paper, 9.81):.4f} with 9.81; '
 			f'blocks with A_v = {first.scene.sideArea / base.area:.3f} A give the first. '
-			'The paper does not say how large its blocks are, so this shows that the cause suffices, not that it was the one.'
+			'The paper does not say how large its blocks are, so this shows that the cause is sufficient, not that it was the actual one.'
 		)
 
 	def touchingTable(self):

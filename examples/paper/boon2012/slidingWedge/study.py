@@ -155,7 +155,7 @@ class SlidingWedgeReport(WedgeReport):
 	def backEdge(self, most):
 		"""Its force in the base case, which must not exceed *most*."""
 		force = self.base.atFailure['edge']
-		note = 'next to nothing where stiffness goes by area'
+		note = 'almost zero where stiffness is per area'
 		self.findings.row('force of the back edge over W', force, '-', theory=0, accept=self.ofReference((0, most)), note=note)
 
 	def stiffBackEdge(self, quantity, label, note):
@@ -171,7 +171,7 @@ class SlidingWedgeReport(WedgeReport):
 		columns = ['setting', 'stable [°]', 'failed [°]', 'ended as', 'change [°]', 'T_A/W', 'T_B/W', 'closed form with T [°]']
 		columns += ['back edge/W', 'section/face', 'time steps']
 		rows = [self._settingsRow(case) for case in [self.base, *self.cases]]
-		self.findings.table('settings', 'What the critical angle hangs on (one setting changed at a time)', columns, rows)
+		self.findings.table('settings', 'What the critical angle depends on (one setting changed at a time)', columns, rows)
 
 	def _settingsRow(self, case):
 		if case.failure:
@@ -185,7 +185,7 @@ class SlidingWedgeReport(WedgeReport):
 			'' if case is self.base else f'{case.critical - self.base.critical:+.3f}',
 			f'{forces["transverse"][0]:+.4f}',
 			f'{forces["transverse"][1]:+.4f}',
-			f'{case.withShear():.3f}' if forces['edge'] < leastEdgeForce else '',  # it knows of two faces only
+			f'{case.withShear():.3f}' if forces['edge'] < leastEdgeForce else '',  # it includes two faces only
 			f'{forces["edge"]:.1e}',
 			f'{min(forces["section"]):.4f}' if case.scene.stiffnessTimes != 'contact' else '',
 			case.timeSteps,
@@ -202,16 +202,16 @@ class SlidingWedgeReport(WedgeReport):
 			f'The wedge tilts on its faces: the smaller contact section is {min(self.base.atFailure["section"]):.2f} of its face. '
 			f'Stiffness times the present section is softer by that ({change["stiffness times present contact section"]:+.2f}°); '
 			'here a face keeps the stiffness of its whole area. '
-			'A back edge with a stiffness of its own holds a part of the weight that the two planes of limit equilibrium do not know of. '
+			'A back edge with a stiffness of its own carries a part of the weight, which limit equilibrium on two planes does not include. '
 			'One contact point carries no moment: with damping of 0.3 alone the wedge rocks as it slips, other shear is locked in, '
-			'and the answer hangs on the path '
+			'and the answer depends on the path '
 			f'({change["damping 0.3"]:+.2f}° and {change["damping 0.3, friction steps 1, 0.02"]:+.2f}° '
 			'by two sequences of friction steps); '
-			f'rocking damping of the contacts mends that ({change["damping 0.3, rocking damping 1"]:+.2f}°). '
+			f'rocking damping of the contacts corrects that ({change["damping 0.3, rocking damping 1"]:+.2f}°). '
 			'Started at 36°, the wedge slips while it settles, '
 			f'which locks in other shear as well ({change["start at 36°"]:+.2f}°); '
 			f'starts at 40° and 45° change no more than {starts:.2f}°. '
-			'The LP\'s own point is not unique on a face: it jumps, and the wedge walks off.'
+			'The LP\'s own point is not unique on a face: it jumps, and the wedge drifts away.'
 		)
 
 	def figures(self, slid):

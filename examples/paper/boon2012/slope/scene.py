@@ -30,7 +30,7 @@ dipTolerance = math.radians(5)
 def readSlope(path):
 	"""A slope's polygons from a JSON file {free: [[[x, y], …], …], fixed: […], params: {delta, s}}, as arguments of SlumpingSlope.
 
-	The toe is on the left, and the face looks to the left. *params* may be left out: all blocks then count as one layer.
+	The toe is on the left, and the face points to the left. *params* may be left out: all blocks then count as one layer.
 
 	:returns: dictionary {free, fixed, dip, spacing}
 	:raises ValueError: naming the file and what is wrong in it
@@ -95,7 +95,7 @@ class SlumpingSlope:
 	"""Corners of the blocks that can move [m]."""
 	fixed: list
 	dip: float = None
-	"""Of the face and the bedding [rad], for telling layers apart; the face looks to the left."""
+	"""Of the face and the bedding [rad], for distinguishing layers; the face points to the left."""
 	spacing: float = None
 	"""Of the bedding [m]."""
 	density: float = 2500

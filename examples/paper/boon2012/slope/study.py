@@ -86,7 +86,7 @@ class SlopeRun:
 	def reduce(self):
 		"""Finds the critical angle; a scene that does not settle, or stands at any angle, has a *remark* and no *result*."""
 		types = ContactTypes(self.scene.cornerRadius)
-		with tqdm(desc=self.label, unit=' looks', disable=None) as bar:
+		with tqdm(desc=self.label, unit=' checks', disable=None) as bar:
 
 			def progress(stage):
 				words = f'{math.degrees(stage.angle):.2f}°, {1e3 * stage.displacement:.1f} mm, {stage.speed:.0e} m/s'
@@ -192,8 +192,8 @@ class SlopeReport:
 			f'{given.normal_stiffness:g} and kₛ = {given.shear_stiffness:g} {per}; the corner radius is {given.corner_radius:g} m. '
 			f'Settled at {given.start:g}°; then the friction angle goes down in steps of '
 			f'{", ".join(f"{step:g}" for step in given.steps)}°. A state is stable when all blocks are slower than '
-			f'{given.stable_speed:g} m/s at three looks in turn, and has failed when one has moved by more than '
-			f'{given.failed_distance:g} m since the slope had settled: such a slope arrests itself again and again after smaller motions.'
+			f'{given.stable_speed:g} m/s at three consecutive checks, and has failed when one has moved by more than '
+			f'{given.failed_distance:g} m since the slope had settled: such a slope comes to rest again and again after smaller motions.'
 		)
 		if not self.layersKnown:
 			self.findings.text(

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the wedges of C and D share: blocks cut by joints, their scene, closed forms, and the search for the critical friction angle."""
+"""Common to the wedges of C and D: blocks cut by joints, their scene, closed forms, and the search for the critical friction angle."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A rock wedge between fixed blocks, simulation C of the paper and the ground that simulation D builds on."""
+"""A rock wedge between fixed blocks, simulation C of the paper and the base of simulation D's scene."""
 
 import dataclasses
 import math
@@ -207,7 +207,7 @@ class WedgeScene:
 		return [Joint(name, normal, self._faceArea(normal)) for name, normal in normals.items()]
 
 	def _faceArea(self, normal):
-		"""Of the wedge's face that looks against *normal*."""
+		"""Of the wedge's face whose outward normal is opposite to *normal*."""
 		body = O.bodies[self.wedgeId]
 		corners = np.array([body.state.ori * v for v in body.shape.vertices], float)
 		for face in body.shape.faces:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the studies of the two rock wedges (simulations C and D) share: options, the search for the critical friction angle, the rows
+"""Common to the studies of the two rock wedges (simulations C and D): options, the search for the critical friction angle, the rows
 that both report, pictures. Angles in degrees."""
 
 import math
@@ -57,7 +57,7 @@ def wedgeParser(text, geometry, steps):
 	show('--steps', type=positive, nargs='+', action=Decreasing, default=list(steps), help=reductions)
 	show('--stable-speed', type=positive, default=2e-7, help='slower is at rest [m/s]')
 	show('--failed-distance', type=positive, default=0.02, help='further from where it had settled is failed [m]')
-	show('--check-every', type=count, default=100, help='time steps between two looks at speed and distance')
+	show('--check-every', type=count, default=100, help='time steps between two checks of speed and distance')
 	show('--most-steps', type=count, default=200000, help='time steps at one angle; neither stable nor failed by then counts as failed')
 	return parser
 

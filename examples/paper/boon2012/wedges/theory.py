@@ -40,7 +40,7 @@ def dipOf(normal):
 class SlidingWedge:
 	"""A wedge that rests on two planes and can slide along their line of intersection (Hoek & Bray 1981, Rock Slope Engineering, ch. 8).
 
-	Forces only: moments are not looked at. The planes carry no water, the joints no cohesion.
+	Forces only: moments are not considered. The planes carry no water, the joints no cohesion.
 
 	:raises ValueError: if the planes are parallel or their line is horizontal, or if the wedge would lift off one of them (then it
 	    slides down the other one alone, and stands up to that plane's dip)

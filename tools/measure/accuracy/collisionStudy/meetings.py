@@ -162,7 +162,7 @@ class Collisions(EnergyScene):
 
 
 class Bounces(EnergyScene):
-	"""Cubes of mass and edge 1, turned at random, fall 1 m onto a floor each, and bounce there for good.
+	"""Cubes of mass and edge 1, turned at random, fall 1 m onto a floor each, and bounce there without end.
 
 	:param Contact how: the contact
 	:param steps: time steps in half a period of the contact

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The study of collisions' energy: what is measured with what, rows, tables, figures and words of its findings."""
+"""The study of collisions' energy: measurements, rows, tables, figures and texts of its findings."""
 
 import math
 
@@ -33,7 +33,7 @@ def cells(s):
 
 
 class PeerFailed(Exception):
-	"""Says why there is no result."""
+	"""The reason why there is no result."""
 
 
 class EnergyStudy:
@@ -251,7 +251,7 @@ class EnergyStudy:
 			f'Cubes that fall 1 m onto a floor, turned at random, and bounce there without friction and damping ({steps} steps in half a '
 			'period, PotentialBlock '
 			'and Polyhedra 25, of the stiffness on a tenth of a face: at corners they are softer, so their steps finer): energy at the '
-			'end and at most, over that at the start; way across the floor, which nothing should push them.',
+			'end and at most, over that at the start; way across the floor, which should be zero.',
 			['contact', 'time [s]', 'cubes', 'least at the end', 'median', 'most', 'most at any time', 'largest way across [m]'],
 			rows,
 		)
@@ -288,7 +288,7 @@ class EnergyStudy:
 		self.bounced = byName
 
 	def integrator(self):
-		"""A body alone, so that nothing of it is put down to a contact."""
+		"""A body alone, so that its error is not attributed to a contact."""
 		rows = [
 			[*half, turn, *freeFlight(half, turn, 5000)] for half in ((0.5, 0.5, 0.5), (0.5, 0.35, 0.25)) for turn in (1e-3, 1e-2, 1e-1)
 		]
@@ -305,11 +305,11 @@ class EnergyStudy:
 			'free flight, unequal moments, 0.01 rad a step: change of energy',
 			unequal[4],
 			theory=0,
-			note=f'of angular momentum {unequal[5]:.1g}: regular solids are spared this',
+			note=f'of angular momentum {unequal[5]:.1g}: regular solids do not have this error',
 		)
 
 	def _advice(self):
-		"""What a user should know, with this run's figures."""
+		"""Conclusions for users, with this run's figures."""
 		steps = max(self.spreads[paper])
 		most, gentle = self.spreads[paper][steps], self.spreads[sharp][steps]
 		damped = {z: s for z, s in self.damped[paper].items() if z > 0}
@@ -331,11 +331,11 @@ class EnergyStudy:
 			"contacts give: the paper's simulations B to F (./run paper) hold their closed forms with it."
 		)
 		self.findings.text(
-			f'What hides it. Damping of the contact lowers energy on average, but not in every collision: {left}. With corner radius 0 '
+			f'Effect of damping. Damping of the contact lowers energy on average, but not in every collision: {left}. With corner radius 0 '
 			'the median error is '
 			f"{100 * gentle['median']:.1f} % and falls with the overlap; but then the normal jumps where the nearest feature changes "
 			"(study of the contact's path). "
-			"contactModel='conservative' leaves the integrator's error alone. YADE's own damping (NewtonIntegrator.damping) changes "
+			"contactModel='conservative' has only the integrator's error. YADE's own damping (NewtonIntegrator.damping) changes "
 			"angular momentum as well."
 		)
 		if all(name in self.bounced for name in self.peers):

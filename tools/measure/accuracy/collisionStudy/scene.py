@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the studies of collisions' energy share: the contact, materials and engines; and a body that turns freely."""
+"""Common to the studies of collisions' energy: the contact, materials and engines; and a body that turns freely."""
 
 import dataclasses
 import math
@@ -53,7 +53,7 @@ def contactOf(model):
 
 
 class EnergyScene:
-	"""What both studies share: materials, engines, and what an exchange of the shapes for YADE's own wants to know.
+	"""What both studies share: materials, engines, and data for exchanging the shapes for YADE's own.
 
 	:ivar float half: half a period of the contact, π √(m/k): the time of a central impact [s]
 	"""
@@ -90,7 +90,7 @@ class EnergyScene:
 			)
 		O.engines = [
 			ForceResetter(),
-			InsertionSortCollider(bounds, verletDist=0),  # pairs are looked for in each step
+			InsertionSortCollider(bounds, verletDist=0),  # pairs are searched for in each step
 			self.interactionLoop,
 			NewtonIntegrator(damping=self.damping, gravity=(0, 0, -self.gravity)),
 		]

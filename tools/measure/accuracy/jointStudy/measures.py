@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Scenes of rigid blocks with a closed form, measured with one choice of contact at a time: what `./run accuracy --only joints` tells."""
+"""Scenes of rigid blocks with a closed form, measured with one choice of contact at a time: the results of `./run accuracy --only
+joints`."""
 
 import dataclasses
 import functools
@@ -35,7 +36,7 @@ class Measured:
 	theory: float
 	ours: float
 	allowed: float
-	"""Largest difference that the default contact may have to theory; None: told only."""
+	"""Largest difference that the default contact may have to theory; None: only reported."""
 
 	@property
 	def good(self):
@@ -86,7 +87,7 @@ def shaking(ig2, perArea, quick):
 def arch(ig2, perArea, quick):
 	"""Least thickness of a masonry arch, by limit analysis or, per area, with elastic joints; and whether a thicker one stays at rest."""
 	friction = math.radians(89)
-	# where joints are elastic, the theory of few blocks is at hand
+	# where joints are elastic, there is a theory for few blocks
 	for dimension, blocks in ((2, 8), (3, 8)) if quick or perArea else ((2, 8), (2, 32), (3, 32)):
 		theory = _elasticThickness(blocks, archStiffness[True]) if perArea else leastThickness(blocks, friction)
 		options = {'blocks': blocks, 'dimension': dimension, 'perArea': perArea, 'ig2': ig2}
@@ -179,8 +180,8 @@ def containers(ig2, perArea, quick):
 def _budget(name, book):
 	work = book['gravity'] + book['drive']
 	yield Measured(f'{name}: energy that contacts made, over the work of gravity and drive', '-', 0.0, -book['missing'] / work, 0.01)
-	# the book of the law against heights, velocities and momenta
-	yield Measured(f"{name}: the same by the law's own book", '-', -book['missing'] / work, -book['nonconservative'] / work, 0.005)
+	# the law's energy terms against heights, velocities and momenta
+	yield Measured(f"{name}: the same by the law's own energy terms", '-', -book['missing'] / work, -book['nonconservative'] / work, 0.005)
 
 
 def discharge(funnel, most, filling=0.7):

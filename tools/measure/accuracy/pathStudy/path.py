@@ -2,8 +2,8 @@
 """How contact point, normal and force move while one cube slides, tilts and rolls over another, through every change of contact.
 
 The poses are prescribed: an orientation and a line along which the cube is pushed until the largest ball in the overlap has a given
-radius (−s*, which does not depend on the contact's model). So the path is continuous, and where the answer is not, it is the
-contact's own doing. A jump is told from a steep rise by halving: steps with the largest change are halved again and again; the
+radius (−s*, which does not depend on the contact's model). So the path is continuous, and where the answer is not, the contact
+is the cause. A jump is told from a steep rise by halving: steps with the largest change are halved again and again; the
 change per motion of a jump doubles each time, that of a smooth answer converges to its Lipschitz constant.
 
 Lengths are in edges of the moving cube, forces in units of the mean force on that path.
@@ -108,7 +108,7 @@ class Zoom:
 
 	@property
 	def jump(self):
-		"""What is left of the change when the motion has gone to nothing."""
+		"""Limit of the change as the motion tends to zero."""
 		return float(self.change[-1]) if self.growth > 0.5 and self.change[-1] > rounding else 0.0
 
 

@@ -123,7 +123,7 @@ class Pair:
 		self.moving.state.pos, self.moving.state.ori = pose
 
 	def answer(self, pose):
-		"""(contact point, normal, force over stiffness) of a query that remembers nothing."""
+		"""(contact point, normal, force over stiffness) of a query without warm start."""
 		self.place(pose)
 		found = contact(self.fixed, self.moving, **self.arguments)
 		return np.array([found.point, found.normal, max(found.depth, 0) * found.normal])

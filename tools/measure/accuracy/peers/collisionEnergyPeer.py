@@ -68,7 +68,7 @@ def main(arguments):
 		settings = {'seconds': request['seconds']}
 	heap.replaceByPeer(scene, convert, loop)
 	print('RESULT', json.dumps(scene.run(**settings)), flush=True)
-	os._exit(0)  # not all of the peers end well
+	os._exit(0)  # some of the peers crash when the process ends
 
 
 if __name__ == '__main__':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What must stay as it is on floors made of pieces: steps, gaps, ends, impacts and rolling. Each function is one run or two."""
+"""Effects that floors made of pieces must keep: steps, gaps, ends, impacts and rolling. Each function is one run or two."""
 
 import dataclasses
 import math

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies that slide and rest on floors made of flush pieces, against what one smooth floor does. Each function is one run."""
+"""Bodies that slide and rest on floors made of flush pieces, compared with one smooth floor. Each function is one run."""
 
 import dataclasses
 import math
@@ -56,7 +56,7 @@ def cross(
 
 	It crosses all *seams* joints, and stops with its whole length behind the last one. With *edge* 'front' or 'back' that edge alone
 	crosses the first joint, from 1 mm before it to *behind* [m] it, for speeds so low that more would take long. (The paper's normal
-	notices a joint up to twice the corner radius, 50 mm for the cube.)
+	is affected by a joint up to twice the corner radius, 50 mm for the cube.)
 
 	:param dict contact: attributes of the contact functors
 	:param float speed: [m/s]
@@ -157,7 +157,7 @@ def rest(floor='plates', body='cube', contact=None, perArea=False, off=0.0, spac
 
 @dataclasses.dataclass
 class Way:
-	"""A way that a closed form knows."""
+	"""A distance for which there is a closed form."""
 
 	distance: float
 	"""Over the closed form's; 1 in theory."""

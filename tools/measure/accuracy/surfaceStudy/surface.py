@@ -151,7 +151,7 @@ class SurfaceScene:
 
 		:param float periods: time this takes over √(m/k)
 		"""
-		state, pull = self.moving.state, Vector3(self.newton.gravity)  # a copy: YADE hands out its own
+		state, pull = self.moving.state, Vector3(self.newton.gravity)  # a copy: YADE returns a reference
 		self.newton.gravity = self.turn * Vector3(*(-self.gravity * math.cos(self.incline) * self.up))
 		self.newton.damping = 0.3
 		self.advance(3 * O.dt)  # makes the contacts
@@ -184,7 +184,7 @@ class SurfaceScene:
 
 	def steps(self, number):
 		for _ in range(number):
-			O.step()  # O.run(…, True) looks for its end every 40 ms
+			O.step()  # O.run(…, True) checks for its end only every 40 ms
 
 	@property
 	def position(self):

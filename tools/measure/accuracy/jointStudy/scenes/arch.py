@@ -45,7 +45,7 @@ class MasonryArch:
 		t = self.thickness * self.radius
 		inner, outer = self.radius - t / 2, self.radius + t / 2
 		for side in (-1, 1):
-			# wider than the arch, so that a block that slips outward finds ground
+			# wider than the arch, so that a block that slips outward lands on it
 			O.bodies.append(
 				self._body([(side * (r + way), z) for r, way in ((inner, -t / 2), (outer, t / 2)) for z in (0, -t)], fixed=True)
 			)

@@ -17,7 +17,7 @@ __all__ = ['BlockOnBase', 'RockingBlock', 'ShakenBlock', 'TiltedBlock', 'Verdict
 
 @dataclasses.dataclass
 class Verdict:
-	"""How a block answered to a tilt or an acceleration."""
+	"""Response of a block to a tilt or an acceleration."""
 
 	mode: str
 	"""'stands', 'slides' or 'topples'."""

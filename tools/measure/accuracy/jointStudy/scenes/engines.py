@@ -40,7 +40,7 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 	:param bool perArea: stiffnesses are per area [Pa/m], else per contact [N/m]
 	:param gravity: [m/s²]
 	:param float damping: YADE's own: NewtonIntegrator.damping
-	:param float verlet: how far bodies move before pairs are looked for again [m]
+	:param float verlet: how far bodies move before pairs are searched for again [m]
 	:param moving: engines that move bodies, before the integrator
 	:param watching: engines at the end of the step
 	:param law: attributes of Law2_PolytopeGeom_RockJointPhys_MohrCoulomb
@@ -62,7 +62,7 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 
 
 def stepFactor(ig2):
-	"""What the choice of contact asks of the time step: 1, or `conservativeStep`."""
+	"""Factor of the time step for this choice of contact: 1, or `conservativeStep`."""
 	return conservativeStep if ig2.get('contactModel') == 'conservative' else 1.0
 
 

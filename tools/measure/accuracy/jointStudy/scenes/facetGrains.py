@@ -50,7 +50,7 @@ def cylinderFacets(profile, segments, fromAxis=lambda r, q, z: (r * math.cos(q),
 
 
 class EnergyBook:
-	"""What gravity and a drive did, and where it went. Start it before the first step.
+	"""Energy balance: work of gravity and drive, and where it is stored or dissipated. Start it before the first step.
 
 	Gravity's work is taken from heights, kinetic energy from velocities, the drive's work from the angular momentum of the grains,
 	which the drum and gravity alone change: none of them from contact forces. Friction, dampers and springs are those of the
@@ -82,7 +82,7 @@ class EnergyBook:
 
 @dataclasses.dataclass
 class FacetGrains:
-	"""What the containers have in common."""
+	"""Common to both containers."""
 
 	number: int = 60
 	"""Of grains."""

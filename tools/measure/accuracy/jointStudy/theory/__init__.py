@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the scenes must answer: closed forms and limit analysis, without YADE."""
+"""Theory for the scenes: closed forms and limit analysis, without YADE."""

@@ -81,7 +81,7 @@ class ElasticArch:
 		return (matrix + matrix.T) / 2
 
 	def stands(self, steps=12):
-		"""Whether there is a stable equilibrium all the way up to the whole weight."""
+		"""Whether there is a stable equilibrium at every load up to the whole weight."""
 		moved = np.zeros((self.blocks, 3))
 		for load in np.linspace(0, 1, steps + 1)[1:]:
 			moved = self._equilibrium(moved, load)

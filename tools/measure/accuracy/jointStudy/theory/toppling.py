@@ -26,8 +26,8 @@ def elasticToppling(width, height, pressing, stiffness, followsTilt=True):
 
 		T (Y − L sin θ) = N (X − L/3),        L = √(2 N / (kn θ)),
 
-	and T/N = tan(tilt). It has its largest value at θ ~ (N/kn)^(1/3), where L/3 is twice what leaning costs, (h + b²/h) θ/2; beyond, the
-	block falls. It lies below b/h by (N/kn)^(1/3) to first order, and reaches it for a rigid joint alone.
+	and T/N = tan(tilt). It has its largest value at θ ~ (N/kn)^(1/3), where L/3 is twice the loss of lever arm by tilting, (h + b²/h) θ/2;
+	beyond, the block falls. It lies below b/h by (N/kn)^(1/3) to first order, and reaches it for a rigid joint alone.
 
 	:param float pressing: the block's weight per unit of breadth [N/m]
 	:param float stiffness: kn [Pa/m]
