@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/Scene.hpp>
 #include <core/InteractionLoop.hpp>
+#include <core/Scene.hpp>
 
 #include <atomic>
 

@@ -20,8 +20,8 @@ namespace py = boost::python;
 namespace yade {
 namespace {
 
-	using polytope::HalfSpaces;
 	using polytope::CentralShape;
+	using polytope::HalfSpaces;
 
 	/// cornerRadius None: cornerFraction of the inscribed radius.
 	polytope::ShapeOptions options(Real thickness, bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
@@ -37,7 +37,8 @@ namespace {
 	CentralShape ofHalfSpaces(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
 	        bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
 	{
-		return polytope::centralShape({ normals, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
+		return polytope::centralShape(
+		        { normals, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
 	}
 
 	CentralShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
@@ -139,7 +140,8 @@ void defineConstruction()
 	        .add_property(
 	                "position", +[](const CentralShape& p) { return p.position; }, "Centroid [m].")
 	        .add_property("orientation", +[](const CentralShape& p) { return Quaternionr(Matrix3r(p.rotation)); }, "Principal axes.");
-	py::def("ofHalfSpaces", &ofHalfSpaces, "Shape of planes: normals, offsets, dimension, thickness, keepRedundant, cornerRadius or None, cornerFraction.");
+	py::def("ofHalfSpaces", &ofHalfSpaces,
+	        "Shape of planes: normals, offsets, dimension, thickness, keepRedundant, cornerRadius or None, cornerFraction.");
 	py::def("ofPoints", &ofPoints, "Shape of a hull: points, dimension, coplanar, thickness, cornerRadius or None, cornerFraction.");
 	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");

@@ -111,10 +111,10 @@ namespace {
 	/// A plane that bounds the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
 	struct Candidate {
 		int      plane;
-		Vector3r outside;    ///< from the contact point
-		int      facePlane;  ///< of the face that is slid on
-		Vector3r face;       ///< its normal
-		Real     faceOffset; ///< from the contact point
+		Vector3r outside;      ///< from the contact point
+		int      facePlane;    ///< of the face that is slid on
+		Vector3r face;         ///< its normal
+		Real     faceOffset;   ///< from the contact point
 		int      slidingPlane; ///< of the other body's face that lies on it
 		Real     depth;        ///< of that face below this one
 		bool     covered, carried;
@@ -125,7 +125,8 @@ namespace {
 		bool continuedBy(const Planes& neighbour, Real step) const
 		{
 			return std::any_of(neighbour.begin(), neighbour.end(), [&](const polytope::Plane& plane) {
-				return plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel) && math::abs(plane.offset - faceOffset) <= step;
+				return plane.normal.dot(face) > 1 - Real(polytope::tolerance::parallel)
+				        && math::abs(plane.offset - faceOffset) <= step;
 			});
 		}
 	};
@@ -163,11 +164,12 @@ namespace {
 	/// seams. −1 if there is none.
 	int slidingPlane(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, int j, Real& depth)
 	{
-		const Real     thin = Real(polytope::tolerance::thinContact) * math::min(pair.convex[0]->inscribedRadius(), pair.convex[1]->inscribedRadius());
+		const Real thin = Real(polytope::tolerance::thinContact)
+		        * math::min(pair.convex[0]->inscribedRadius(), pair.convex[1]->inscribedRadius());
 		const Vector3r face = boundingNormal(pair, bounding, piece, j);
 		for (int k = 0; k < bounding.count[1 - piece]; ++k)
 			if (boundingNormal(pair, bounding, 1 - piece, k).dot(face) < Real(polytope::tolerance::parallel) - 1
-			    && (depth = bounding.slack[piece][j] + bounding.slack[1 - piece][k]) < thin)
+			        && (depth = bounding.slack[piece][j] + bounding.slack[1 - piece][k]) < thin)
 				return bounding.plane[1 - piece][k];
 		return -1;
 	}
@@ -188,8 +190,9 @@ namespace {
 				const Vector3r along  = normal - normal.dot(face) * face; // along·normal = |along|²
 				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
-				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along,
-				        bounding.plane[piece][j], face, bounding.slack[piece][j], plane, depth, false, pair.ball >= Real(polytope::tolerance::carriedBall) * depth });
+				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
+				        bounding.slack[piece][j], plane, depth, false,
+				        pair.ball >= Real(polytope::tolerance::carriedBall) * depth });
 			}
 		}
 		return all;
@@ -197,7 +200,10 @@ namespace {
 
 } // namespace
 
-bool mayHaveInternalFaces(const Body& body1, const Body& body2) { return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2); }
+bool mayHaveInternalFaces(const Body& body1, const Body& body2)
+{
+	return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2);
+}
 
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {
@@ -221,7 +227,8 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 			for (Candidate& one : candidates[piece]) {
 				if (one.internal() || !one.continuedBy(planes, step)) continue;
 				one.covered = one.covered || contains(planes, one.outside);
-				one.carried = one.carried || hasRoom(planes, own, one.outside, Real(polytope::tolerance::carriedBall) * one.depth);
+				one.carried = one.carried
+				        || hasRoom(planes, own, one.outside, Real(polytope::tolerance::carriedBall) * one.depth);
 			}
 		});
 	}

@@ -20,11 +20,11 @@ polytope::PairMemory PolytopeGeom::memory() const
 	polytope::PairMemory memory;
 	for (int k = 0; k < 4; ++k)
 		memory.basis[k] = basis[k];
-	memory.hasBasis = basis[4];
-	memory.hasPoint = basis[5];
-	memory.weights  = weights;
-	memory.point    = { point1, point2 };
-	memory.level    = level;
+	memory.hasBasis      = basis[4];
+	memory.hasPoint      = basis[5];
+	memory.weights       = weights;
+	memory.point         = { point1, point2 };
+	memory.level         = level;
 	memory.dualDirection = dual;
 	return memory;
 }
@@ -32,10 +32,10 @@ polytope::PairMemory PolytopeGeom::memory() const
 void PolytopeGeom::remember(const polytope::PairMemory& memory)
 {
 	basis << memory.basis[0], memory.basis[1], memory.basis[2], memory.basis[3], memory.hasBasis, memory.hasPoint;
-	point1 = memory.point[0];
-	point2 = memory.point[1];
-	level  = memory.level;
-	dual   = memory.dualDirection;
+	point1  = memory.point[0];
+	point2  = memory.point[1];
+	level   = memory.level;
+	dual    = memory.dualDirection;
 	weights = memory.weights;
 }
 
@@ -106,10 +106,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.section                   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
-	settings.normalWeight[0]           = geom.normalWeight;
-	settings.normalWeight[1]           = 1 - geom.normalWeight;
-	settings.geometryAcrossGap         = wasReal || force;
+	settings.section = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
+	settings.normalWeight[0]   = geom.normalWeight;
+	settings.normalWeight[1]   = 1 - geom.normalWeight;
+	settings.geometryAcrossGap = wasReal || force;
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
@@ -118,7 +118,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
 		if ((turn || !geom.internalKnown || !wasReal)
-		    && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
+		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
 			settings.bounding = &bounding;
 		settings.internal = geom.internal.get();
 	}
@@ -140,11 +140,12 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
+bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
+        const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
 {
 	const polytope::InternalPlanes found = internalPlanes(pair, bounding);
-	const bool same = geom.internal ? found == *geom.internal : found.none();
-	geom.internalKnown = true;
+	const bool                     same  = geom.internal ? found == *geom.internal : found.none();
+	geom.internalKnown                   = true;
 	if (same) return false;
 	if (found.none()) geom.internal.reset();
 	else geom.internal = std::make_unique<polytope::InternalPlanes>(found);
@@ -203,7 +204,8 @@ namespace {
 
 	/// What the attribute's name stands for. `names`: as the message lists them.
 	template <class Value>
-	Value meaning(const char* attribute, const std::string& name, const std::string& names, std::initializer_list<std::pair<const char*, Value>> all)
+	Value meaning(const char* attribute, const std::string& name, const std::string& names,
+	        std::initializer_list<std::pair<const char*, Value>> all)
 	{
 		for (const auto& [one, value] : all)
 			if (name == one) return value;
@@ -213,8 +215,8 @@ namespace {
 	void requireWithin(const char* attribute, Real value, Real least, Real most, const std::string& leastIs, const std::string& of)
 	{
 		if (value >= least && value <= most) return;
-		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and " + polytope::numberText(most)
-		       + " (a fraction of " + of + ")");
+		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and "
+		        + polytope::numberText(most) + " (a fraction of " + of + ")");
 	}
 
 } // namespace
@@ -230,10 +232,10 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
 	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
 	                { "centroid", ContactPoint::Centroid } });
-	result.normal = meaning<NormalSource>("normal", normal, "'dualWeights' or 'innerPotential'",
-	        { { "dualWeights", NormalSource::DualWeights }, { "innerPotential", NormalSource::InnerPotential } });
-	result.solver = meaning<CentreSolver>(
-	        "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
+	result.normal       = meaning<NormalSource>("normal", normal, "'dualWeights' or 'innerPotential'",
+	              { { "dualWeights", NormalSource::DualWeights }, { "innerPotential", NormalSource::InnerPotential } });
+	result.solver       = meaning<CentreSolver>(
+                "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
 	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
 		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
 		       "-DPOLYTOPE_IPOPT=ON");

@@ -145,10 +145,10 @@ protected:
 private:
 	polytope::ContactSettings    settings_;
 	AreaUsers                    areaUsers_;
-	std::vector<ContactCounters> counters_         = std::vector<ContactCounters>(omp_get_max_threads());
+	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
 	/// contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance, as they were last accepted.
-	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal, solver,
-		barrier, tolerance, newtonTolerance };
+	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal,
+		solver, barrier, tolerance, newtonTolerance };
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
 

@@ -31,7 +31,7 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const ContactLimit  contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
+	const ContactLimit contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
 	consider(material_, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit), 1, "motion");
@@ -47,7 +47,8 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 void PolytopeTimeStepper::setTimeStepUpdateInterval(long interval)
 {
 	if (interval < 1 || interval > std::numeric_limits<int>::max())
-		throw std::invalid_argument("timeStepUpdateInterval: must be a number of steps, at least 1, got " + std::to_string(interval));
+		throw std::invalid_argument(
+		        "timeStepUpdateInterval: must be a number of steps, at least 1, got " + std::to_string(interval));
 	timeStepUpdateInterval = (unsigned int)interval;
 }
 
@@ -64,7 +65,8 @@ void PolytopeTimeStepper::postLoad(PolytopeTimeStepper&)
 	};
 	require(timestepSafetyCoefficient > 0 && timestepSafetyCoefficient <= 2, "timestepSafetyCoefficient", timestepSafetyCoefficient,
 	        "above 0 and at most 2, the limit of one body between fixed ones");
-	require(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit, "above 0 and finite (a fraction of a body's inscribed radius)");
+	require(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit,
+	        "above 0 and finite (a fraction of a body's inscribed radius)");
 	require(maxDt > 0, "maxDt", maxDt, "above 0 [s] (infinity: no limit)");
 	if (timeStepUpdateInterval < 1) {
 		timeStepUpdateInterval = 1;

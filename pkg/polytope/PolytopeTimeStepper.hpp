@@ -43,10 +43,10 @@ Bodies that cannot move limit nothing, blocked degrees of freedom do not count, 
 
 private:
 	PotentialContacts   potential_;
-	TimeStepLimit       material_; ///< of the last evaluation of potential_
+	TimeStepLimit       material_;    ///< of the last evaluation of potential_
 	unsigned            updates_ = 0; ///< since then
-	bool                hasRun_ = false;
-	std::size_t         bodies_ = 0;
+	bool                hasRun_  = false;
+	std::size_t         bodies_  = 0;
 	std::array<Real, 3> good_ { { timestepSafetyCoefficient, motionLimit, maxDt } };
 };
 REGISTER_SERIALIZABLE(PolytopeTimeStepper);

@@ -10,8 +10,8 @@
 #include <src/timestep/TimeStepTolerances.hpp>
 
 #include "PolytopeGeom.hpp"
-#include "RockJointPhysics.hpp"
 #include "RockJointLaw.hpp"
+#include "RockJointPhysics.hpp"
 
 namespace yade {
 
@@ -45,14 +45,15 @@ namespace {
 	Real unitOfFace(const polytope::ConvexShape& shape, const Matrix3r& axes, const Vector3r& normal, const Vector3r& middle,
 	        const Vector3r& centre, const polytope::Mobility& mobility)
 	{
-		const Real     depth = polytope::tolerance::potentialDepth * shape.inscribedRadius();
-		const Vector3r point = middle - depth / 2 * normal; // from the part's centre
-		const auto     floor = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
+		const Real               depth = polytope::tolerance::potentialDepth * shape.inscribedRadius();
+		const Vector3r           point = middle - depth / 2 * normal; // from the part's centre
+		const auto               floor = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
 		polytope::ContactSprings springs;
-		springs.normal           = -normal;
-		springs.normalStiffness  = springs.shearStiffness = 1;
-		springs.rockingStiffness = depth
-		        * polytope::rockingArms({ *floor, normal * depth / 2, Matrix3r::Identity() }, { shape, -point, axes }, springs.normal, depth);
+		springs.normal          = -normal;
+		springs.normalStiffness = springs.shearStiffness = 1;
+		springs.rockingStiffness                         = depth
+		        * polytope::rockingArms(
+		                { *floor, normal * depth / 2, Matrix3r::Identity() }, { shape, -point, axes }, springs.normal, depth);
 		polytope::BodyStiffness sum(mobility);
 		sum.add(springs, centre + point);
 		return sum.stiffness();
@@ -67,8 +68,9 @@ namespace {
 	}
 
 	/// Stiffnesses that an Ip2 functor gives a pair, or where it cannot be called without a real contact, those of elastic bodies.
-	template <class Stiffness> Stiffness answer(Scene& scene, shared_ptr<Material> material1, shared_ptr<Material> material2,
-	        const shared_ptr<Interaction>& contact)
+	template <class Stiffness>
+	Stiffness answer(
+	        Scene& scene, shared_ptr<Material> material1, shared_ptr<Material> material2, const shared_ptr<Interaction>& contact)
 	{
 		for (const auto& engine : scene.engines) {
 			auto* loop = dynamic_cast<InteractionLoop*>(engine.get());
@@ -80,12 +82,15 @@ namespace {
 			        || dynamic_cast<Ip2_RockJointMat_RockJointMat_RockJointPhys*>(functor.get())) {
 				functor->scene = &scene;
 				functor->go(material1, material2, contact);
-				if (const auto* phys = dynamic_cast<const NormShearPhys*>(contact->phys.get())) return { phys->kn, phys->ks };
+				if (const auto* phys = dynamic_cast<const NormShearPhys*>(contact->phys.get()))
+					return { phys->kn, phys->ks };
 			}
-			const auto *elastic1 = dynamic_cast<const ElastMat*>(material1.get()), *elastic2 = dynamic_cast<const ElastMat*>(material2.get());
+			const auto *elastic1 = dynamic_cast<const ElastMat*>(material1.get()),
+			           *elastic2 = dynamic_cast<const ElastMat*>(material2.get());
 			if (!elastic1 || !elastic2) continue;
 			const auto& geom = static_cast<const ScGeom&>(*contact->geom);
-			const Real  k1 = elastic1->young * geom.refR1, k2 = elastic2->young * geom.refR2, k = k1 + k2 > 0 ? 2 * k1 * k2 / (k1 + k2) : 0;
+			const Real  k1 = elastic1->young * geom.refR1, k2 = elastic2->young * geom.refR2,
+			           k = k1 + k2 > 0 ? 2 * k1 * k2 / (k1 + k2) : 0;
 			return { k, k };
 		}
 		return {};
@@ -98,9 +103,9 @@ void PotentialContacts::collect(const Scene& scene)
 	partners_.clear();
 	asked_.clear();
 	std::map<const Material*, std::size_t> known;
-	const Body* last     = nullptr; // consecutive bodies are often of one kind
-	Real        lastArea = 0;
-	std::size_t index    = 0;
+	const Body*                            last     = nullptr; // consecutive bodies are often of one kind
+	Real                                   lastArea = 0;
+	std::size_t                            index    = 0;
 	for (const auto& body : *scene.bodies) {
 		if (!body || !body->material || !body->shape || body->isClump()) continue;
 		if (!last || last->material != body->material) {
@@ -108,11 +113,11 @@ void PotentialContacts::collect(const Scene& scene)
 			if (found.second) partners_.push_back({ body->material });
 			index = found.first->second;
 		}
-		Partners& partners = partners_[index];
+		Partners& partners                                 = partners_[index];
 		(partners.one < 0 ? partners.one : partners.other) = body->id;
-		partners.radius                                     = math::max(partners.radius, boundingRadius(*body->shape));
+		partners.radius                                    = math::max(partners.radius, boundingRadius(*body->shape));
 		if (const auto* polytope = polytopeOf(*body)) {
-			partners.polytopes = true;
+			partners.polytopes     = true;
 			const Polytope* before = last ? polytopeOf(*last) : nullptr;
 			if (!before || before->convex() != polytope->convex()) lastArea = largestFace(*polytope->convex());
 			partners.area = math::max(partners.area, lastArea);
@@ -125,12 +130,12 @@ void PotentialContacts::collect(const Scene& scene)
 
 const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const Body& mover)
 {
-	const auto* polytope = polytopeOf(body);
-	const State &state = *body.state, &moving = *mover.state;
-	const void*  shape = polytope ? static_cast<const void*>(polytope->convex().get()) : body.shape.get();
+	const auto*    polytope = polytopeOf(body);
+	const State &  state = *body.state, &moving = *mover.state;
+	const void*    shape  = polytope ? static_cast<const void*>(polytope->convex().get()) : body.shape.get();
 	const Vector3r centre = &body == &mover ? Vector3r(Vector3r::Zero()) : Vector3r(state.pos - moving.pos);
-	Part part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {} };
-	Part& known = parts_[body.id];
+	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {} };
+	Part&          known = parts_[body.id];
 	if (polytope && known.isOf(part)) return known; // other shapes may change their size
 	if (body.id > 0 && &body == &mover && parts_[body.id - 1].isOf(part)) return known = parts_[body.id - 1]; // bodies of a kind
 
@@ -171,10 +176,10 @@ const PotentialContacts::Stiffness& PotentialContacts::stiffness(const Body& par
 	const auto found = asked_.find(key);
 	if (found != asked_.end()) return found->second;
 
-	auto geom         = polytopes ? shared_ptr<ScGeom>(new PolytopeGeom) : shared_ptr<ScGeom>(new ScGeom);
-	geom->normal      = Vector3r::UnitZ();
-	geom->refR1       = arm;
-	geom->refR2       = math::min(partners.radius, polytope::tolerance::potentialPartner * arm);
+	auto geom    = polytopes ? shared_ptr<ScGeom>(new PolytopeGeom) : shared_ptr<ScGeom>(new ScGeom);
+	geom->normal = Vector3r::UnitZ();
+	geom->refR1  = arm;
+	geom->refR2  = math::min(partners.radius, polytope::tolerance::potentialPartner * arm);
 	if (polytopes) static_cast<PolytopeGeom&>(*geom).contactArea = area;
 	const auto contact = shared_ptr<Interaction>(new Interaction(part.id, partners.one == part.id ? partners.other : partners.one));
 	contact->geom      = geom;
@@ -185,7 +190,7 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 {
 	collect(scene);
 	parts_.resize(scene.bodies->size());
-	const auto*   law = dampingLaw(scene);
+	const auto*   law     = dampingLaw(scene);
 	const Real    damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
 	TimeStepLimit limit;
 	const Body*   last = nullptr;

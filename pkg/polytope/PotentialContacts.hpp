@@ -59,9 +59,9 @@ private:
 	const Part&      partOf(const Body& part, const Body& mover);
 	const Stiffness& stiffness(const Body& part, Partners& partners, const Place& place, Scene& scene);
 
-	std::vector<Part>         parts_; ///< by body id
-	std::vector<Partners>     partners_;
-	std::map<Key, Stiffness>  asked_; ///< of this call
+	std::vector<Part>        parts_; ///< by body id
+	std::vector<Partners>    partners_;
+	std::map<Key, Stiffness> asked_; ///< of this call
 };
 
 } // namespace yade

@@ -159,7 +159,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("timeStepLimits", &timeStepLimits,
-	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts that may be, as "
+	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
+	        "that may be, as "
 	        "a dictionary; None where nothing limits.");
 	yade::defineConstruction();
 
@@ -203,7 +204,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: as on "
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: "
+	        "as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "

@@ -37,7 +37,8 @@ const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene
 	for (const auto& engine : scene.engines)
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
 			for (const auto& functor : loop->lawDispatcher->functors)
-				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get())) return law;
+				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get()))
+					return law;
 	return nullptr;
 }
 
@@ -123,7 +124,8 @@ namespace {
 	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
 	Real gyrationSquared(const Pair& pair, const RockJointPhys& phys)
 	{
-		const auto *polygon = dynamic_cast<const Polytope*>(pair.body1.shape.get()), *other = dynamic_cast<const Polytope*>(pair.body2.shape.get());
+		const auto *polygon = dynamic_cast<const Polytope*>(pair.body1.shape.get()),
+		           *other   = dynamic_cast<const Polytope*>(pair.body2.shape.get());
 		if (!polygon || !other || polygon->dimension != 2) return phys.contactArea / 12;
 		return math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
 	}
@@ -162,7 +164,7 @@ namespace {
 				const auto* phys = dynamic_cast<const NormShearPhys*>(contact.phys.get());
 				if (!geom || !phys) continue;
 				Pair pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom, *phys,
-					    Vector3r::Zero(), Vector3r::Zero() };
+					Vector3r::Zero(), Vector3r::Zero() };
 				if (scene.isPeriodic) {
 					pair.shift2        = scene.cell->intrShiftPos(contact.cellDist);
 					pair.shiftVelocity = scene.cell->intrShiftVel(contact.cellDist);
@@ -210,12 +212,14 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 			if (!mobility.moves()) continue;
 			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);
 			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
-			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step)) continue;
+			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
+				continue;
 			const Real all  = stiffness.stiffness();
 			const Real step = polytope::safeTimeStep(all, stiffness.damping());
 			if (step > below) continue;
 			own.take(step, body->id);
-			if (own.body == body->id) own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
+			if (own.body == body->id)
+				own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
 		}
 #pragma omp critical(polytopeContactLimit)
 		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;

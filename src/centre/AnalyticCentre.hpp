@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "program/PairPlanes.hpp"
 #include "numbers/Tolerances.hpp"
+#include "program/PairPlanes.hpp"
 
 #include <cmath>
 

@@ -31,8 +31,8 @@ namespace {
 	private:
 		ApplicationReturnStatus optimise();
 
-		SmartPtr<IpoptProgram>    program_ = new IpoptProgram;
-		SmartPtr<IpoptLinearSolver> linear_    = new IpoptLinearSolver;
+		SmartPtr<IpoptProgram>      program_ = new IpoptProgram;
+		SmartPtr<IpoptLinearSolver> linear_  = new IpoptLinearSolver;
 		SmartPtr<IpoptApplication>  application_;
 		SmartPtr<NLP>               adapter_;
 		bool                        algorithm_ = false; ///< made, and reusable

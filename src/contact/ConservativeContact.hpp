@@ -3,11 +3,11 @@
 
 #include "centre/AnalyticCentre.hpp"
 #include "centre/BarrierValue.hpp"
-#include "contact/ContactTypes.hpp"
 #include "contact/ContactSection.hpp"
+#include "contact/ContactTypes.hpp"
 #include "contact/MoveInside.hpp"
-#include "program/SimplexLp.hpp"
 #include "contact/WarmStart.hpp"
+#include "program/SimplexLp.hpp"
 
 #include <cmath>
 
@@ -107,16 +107,17 @@ POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactFrame
 /// After the linear program, whose point x is in the planes' frame.
 template <class R, int D, int W>
 POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
-        ContactFrame<R, D>& f, const LpBasis<R, D>& basis, R* x, R reach, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+        ContactFrame<R, D>& f, const LpBasis<R, D>& basis, R* x, R reach, PairMemory& memory, ContactWorkspace& workspace,
+        ContactResult& out)
 {
 	using std::isfinite;
-	const R s     = basis.infeasibility;
-	const R given = settings.barrier * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
-	const R mu    = maxOf<R>(given, R(tolerance::gapBarrier) * s);
-	const bool may  = given > 0 && isfinite(given);
-	out.inContact   = false;
-	out.hasGeometry = false;
-	out.status      = may ? ContactStatus::Separated : ContactStatus::Failed;
+	const R    s     = basis.infeasibility;
+	const R    given = settings.barrier * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+	const R    mu    = maxOf<R>(given, R(tolerance::gapBarrier) * s);
+	const bool may   = given > 0 && isfinite(given);
+	out.inContact    = false;
+	out.hasGeometry  = false;
+	out.status       = may ? ContactStatus::Separated : ContactStatus::Failed;
 	if (!may) return;
 	if (!settings.geometryAcrossGap && apartByWeights<R, D>(basis, lowerBound<R, D>(basis, reach), mu)) {
 		rememberWeights<D>(basis.weight, memory);
@@ -139,8 +140,8 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	memory.hasPoint  = converged;
 	if (!(value < 0) && !settings.geometryAcrossGap) return;
 
-	out.inContact       = value < 0;
-	out.hasGeometry     = true;
+	out.inContact   = value < 0;
+	out.hasGeometry = true;
 	// coincident bodies are in equilibrium; a normal with the length of rounding is enough to start separating them
 	out.depth           = -4 * value * maxOf<R>(length, R(tolerance::direction));
 	out.energy          = value < 0 ? 2 * value * value : R(0);

@@ -16,11 +16,7 @@ namespace polytope {
 /// Time of the stages, if asked for.
 class StageTimer {
 public:
-	explicit StageTimer(bool on)
-	        : on_(on)
-	        , last_(on ? now() : 0)
-	{
-	}
+	explicit StageTimer(bool on) : on_(on), last_(on ? now() : 0) { }
 
 	/// Since the last stage's end [ns].
 	void end(long& stage)
@@ -34,7 +30,8 @@ public:
 private:
 	static long now()
 	{
-		return long(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
+		return long(
+		        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
 	}
 
 	bool on_;

@@ -72,7 +72,8 @@ POLYTOPE_INLINE ContactStatus centrePoint(const ContactSettings& settings, PairP
 		R room;
 		mostViolated<R, D, W>(planes, x, room);
 		const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(planes, x, out) : ContactStatus::RoundingLimited;
-		if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching) outcome = byIpopt;
+		if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching)
+			outcome = byIpopt;
 		return outcome;
 	}
 	for (int k = 0; k < D; ++k)

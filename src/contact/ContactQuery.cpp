@@ -13,7 +13,8 @@ namespace polytope {
 bool InternalPlanes::operator==(const InternalPlanes& other) const
 {
 	for (int body = 0; body < 2; ++body)
-		if (count[body] != other.count[body] || !std::equal(plane[body], plane[body] + count[body], other.plane[body])) return false;
+		if (count[body] != other.count[body] || !std::equal(plane[body], plane[body] + count[body], other.plane[body]))
+			return false;
 	return true;
 }
 

@@ -3,8 +3,8 @@
 
 #include "contact/ContactFrame.hpp"
 #include "contact/ContactTypes.hpp"
-#include "program/PairPlanes.hpp"
 #include "numbers/Tolerances.hpp"
+#include "program/PairPlanes.hpp"
 
 #include <cmath>
 

@@ -37,7 +37,7 @@ enum class NormalSource : int {
 /// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
 /// the first ones where there are more than fit.
 struct BoundingPlanes {
-	static constexpr int most = 16;
+	static constexpr int most     = 16;
 	int                  count[2] = { 0, 0 };
 	int                  plane[2][most];
 	Real                 slack[2][most];
@@ -83,8 +83,8 @@ struct ContactSettings {
 
 /// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction.
 struct PairMemory {
-	bool               hasBasis = false; ///< `basis` is known, and, without a point, `weights`
-	bool               hasPoint = false; ///< `point` and `dualDirection` are known
+	bool               hasBasis = false;         ///< `basis` is known, and, without a point, `weights`
+	bool               hasPoint = false;         ///< `point` and `dualDirection` are known
 	std::array<int, 4> basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
 	/// LP dual λ of the basis' first planes (the last one's is the rest). Any value is safe.
 	Vector3                weights { Vector3::Zero() };

@@ -40,9 +40,9 @@ inline void exchangeBodies(PairMemory& memory)
 {
 	for (int& code : memory.basis)
 		code ^= 1;
-	const Vector3 first = memory.point[0];
-	memory.point[0]     = memory.point[1];
-	memory.point[1]     = first;
+	const Vector3 first  = memory.point[0];
+	memory.point[0]      = memory.point[1];
+	memory.point[1]      = first;
 	memory.dualDirection = -memory.dualDirection;
 }
 

@@ -9,8 +9,8 @@ namespace polytope {
 
 /// Undecided where rounding leaves no optimum certain. `pivots`: steps to other bases than the start's.
 template <class R, int D, int W>
-POLYTOPE_INLINE LpStatus solvePhaseOne(StartBasis start, const PairPlanes<R, D>& planes, const ProgramLimits<R>& limits, R size,
-        LpBasis<R, D>& basis, int& pivots)
+POLYTOPE_INLINE LpStatus solvePhaseOne(
+        StartBasis start, const PairPlanes<R, D>& planes, const ProgramLimits<R>& limits, R size, LpBasis<R, D>& basis, int& pivots)
 {
 	const int limit = maxOf<int>(tolerance::pivotsAtLeast, tolerance::pivotsPerPlane * planes.total);
 	if (start != StartBasis::Unsolved && start != StartBasis::None) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "program/BasisSolver.hpp"
 #include "contact/ContactFrame.hpp"
 #include "contact/ContactTypes.hpp"
+#include "program/BasisSolver.hpp"
 #include "program/PairPlanes.hpp"
 
 #include <cmath>

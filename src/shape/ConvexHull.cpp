@@ -20,9 +20,9 @@ namespace {
 		const Real bx = b.x() - p.x(), by = b.y() - p.y(), bz = b.z() - p.z();
 		const Real cx = c.x() - p.x(), cy = c.y() - p.y(), cz = c.z() - p.z();
 		const Real bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
-		const Real value  = az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay);
-		const Real spread = abs(az) * (abs(bxcy) + abs(cxby))
-		        + abs(bz) * (abs(cxay) + abs(axcy)) + abs(cz) * (abs(axby) + abs(bxay));
+		const Real value = az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay);
+		const Real spread
+		        = abs(az) * (abs(bxcy) + abs(cxby)) + abs(bz) * (abs(cxay) + abs(axcy)) + abs(cz) * (abs(axby) + abs(bxay));
 		certain = abs(value) > construction::volumeRounding * spread + construction::volumeUnderflow;
 		return -value;
 	}

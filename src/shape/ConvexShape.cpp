@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ConvexShape.hpp"
 
+#include "numbers/NumberText.hpp"
 #include "shape/InscribedBall.hpp"
 #include "shape/KnownShapes.hpp"
-#include "numbers/NumberText.hpp"
 
 #include <cmath>
 #include <stdexcept>

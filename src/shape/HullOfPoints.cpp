@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shape/ConstructionTolerances.hpp"
 #include "numbers/NumberText.hpp"
+#include "shape/ConstructionTolerances.hpp"
 #include "shape/PlaneMeeting.hpp"
 #include "shape/ShapeConstruction.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/LocalPlanes.hpp"
 
+#include "numbers/NumberText.hpp"
 #include "shape/CgalGeometry.hpp"
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/InscribedBall.hpp"
-#include "numbers/NumberText.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ShapeConstruction.hpp"
 
-#include "shape/ConstructionTolerances.hpp"
 #include "numbers/NumberText.hpp"
+#include "shape/ConstructionTolerances.hpp"
 #include "shape/PlaneMeeting.hpp"
 
 #include <stdexcept>

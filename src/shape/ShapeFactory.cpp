@@ -40,8 +40,8 @@ namespace {
 	{
 		if (key.size() > longestKey) return make();
 		static Known known;
-		CentralShape  result;
-		KnownCentral  found;
+		CentralShape result;
+		KnownCentral found;
 		if (known.find(key, found, result.shape)) {
 			result.position = found.position;
 			result.rotation = found.rotation;
@@ -83,7 +83,7 @@ namespace {
 		if (!options.keepRedundant) set = facesOnly(set, local.shape);
 		const MassProperties mass   = massProperties(local.shape);
 		const Real           extent = extentOf(local.shape);
-		CentralShape          result;
+		CentralShape         result;
 
 		result.position = local.centre + local.unit * mass.centroid;
 		if (set.dimension == 2) result.position.z() = 0;

@@ -43,10 +43,9 @@ inline Real addPlanes(const PlacedShape& body, const Matrix3& axes, Real least, 
 /// |g| [n]× H⁻¹ [n]×ᵀ [m/rad]: times the normal force, the rocking stiffness. Polygons turn about z alone.
 inline Matrix3 rockingArms(const PlacedShape& body1, const PlacedShape& body2, const Vector3& normal, Real depth)
 {
-	const bool    flat = body2.shape.dimension() == 2;
-	const Vector3 aside
-	        = flat ? Vector3(0, 0, 1) : Vector3(abs(normal[0]) < Real(0.6) ? Vector3(1, 0, 0) : Vector3(0, 1, 0));
-	Matrix3 axes;
+	const bool    flat  = body2.shape.dimension() == 2;
+	const Vector3 aside = flat ? Vector3(0, 0, 1) : Vector3(abs(normal[0]) < Real(0.6) ? Vector3(1, 0, 0) : Vector3(0, 1, 0));
+	Matrix3       axes;
 	axes.col(0) = aside.cross(normal).normalized();
 	axes.col(1) = normal.cross(axes.col(0));
 	axes.col(2) = normal;
@@ -57,11 +56,11 @@ inline Matrix3 rockingArms(const PlacedShape& body1, const PlacedShape& body2, c
 	const Real pull = addPlanes(body2, axes, least, hessian);
 
 	// across the normal; a section is not wider than the smaller body, so H is not below this either
-	const Real radius = body1.shape.boundingRadius() < body2.shape.boundingRadius() ? body1.shape.boundingRadius() : body2.shape.boundingRadius();
-	const Real floor = 1 / (radius * radius);
-	const auto across
-	        = [&](int i, int j) { return hessian(i, j) - hessian(i, 2) * hessian(2, j) / hessian(2, 2); };
-	const Real h00 = across(0, 0) > floor ? across(0, 0) : floor;
+	const Real radius
+	        = body1.shape.boundingRadius() < body2.shape.boundingRadius() ? body1.shape.boundingRadius() : body2.shape.boundingRadius();
+	const Real floor  = 1 / (radius * radius);
+	const auto across = [&](int i, int j) { return hessian(i, j) - hessian(i, 2) * hessian(2, j) / hessian(2, 2); };
+	const Real h00    = across(0, 0) > floor ? across(0, 0) : floor;
 	if (flat) return pull / h00 * axes.col(1) * axes.col(1).transpose();
 	const Real h11 = across(1, 1) > floor ? across(1, 1) : floor;
 	Real       h01 = across(0, 1);
@@ -69,7 +68,8 @@ inline Matrix3 rockingArms(const PlacedShape& body1, const PlacedShape& body2, c
 	const Real determinant = h00 * h11 - h01 * h01;
 	// n × t₁ = t₂ and n × t₂ = −t₁: a tilt about t₁ moves the point along t₂
 	const Vector3 &t1 = axes.col(0), &t2 = axes.col(1);
-	return pull / determinant * (h11 * t2 * t2.transpose() + h00 * t1 * t1.transpose() + h01 * (t1 * t2.transpose() + t2 * t1.transpose()));
+	return pull / determinant
+	        * (h11 * t2 * t2.transpose() + h00 * t1 * t1.transpose() + h01 * (t1 * t2.transpose() + t2 * t1.transpose()));
 }
 
 } // namespace polytope

@@ -256,10 +256,10 @@ TEST(ContactQuery, NormalsAreWeightedAsAsked)
 		const Pair        pair = regularPair(6, 20, Real(0.05), random);
 		const PrecisePair exact(pair);
 		ContactSettings   settings;
-		settings.normal         = NormalSource::InnerPotential;
-		const QuadVector  x     = precise(query(pair).point);
-		const Vector3     first = rounded(exact.innerGradient(0, x)).normalized(),
-		              second    = -rounded(exact.innerGradient(1, x)).normalized();
+		settings.normal        = NormalSource::InnerPotential;
+		const QuadVector x     = precise(query(pair).point);
+		const Vector3    first = rounded(exact.innerGradient(0, x)).normalized(),
+		              second   = -rounded(exact.innerGradient(1, x)).normalized();
 		for (const auto& weights : { std::pair<Real, Real>(1, 0), { 0, 1 }, { 3, 1 }, { 1e-3, 2e-3 } }) {
 			settings.normalWeight[0] = weights.first;
 			settings.normalWeight[1] = weights.second;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ConvexShape.hpp"
-#include "numbers/Lanes.hpp"
 #include "PairSamples.hpp"
+#include "numbers/Lanes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -125,8 +125,8 @@ TEST(DegeneratePairs, DeeperThanTheCornerRadiusTheDualGivesTheNormal)
 	settings.normal = NormalSource::InnerPotential;
 	for (Real overlap : { 0.5, 0.25, 1e-3 })
 		for (Real cornerRadius : { 0., overlap / 8, overlap / 4 }) {
-			const ContactResult result
-			        = query(pairOf(box(1, 1, 1, cornerRadius), box(1, 1, 1, cornerRadius), Vector3(0.125, 0, 2 - overlap)), settings);
+			const ContactResult result = query(
+			        pairOf(box(1, 1, 1, cornerRadius), box(1, 1, 1, cornerRadius), Vector3(0.125, 0, 2 - overlap)), settings);
 			expectUsable(result);
 			EXPECT_EQ(result.status, ContactStatus::NormalFromDual);
 			EXPECT_LE((result.normal - Vector3::UnitZ()).norm(), 1e-14);

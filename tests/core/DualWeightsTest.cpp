@@ -61,9 +61,11 @@ TEST(DualWeights, AnEdgeOnAFaceHasTheFacesNormal)
 		for (Real overlap : { 1e-8, 1e-6, 1e-4, 1e-3 }) {
 			const Real angle = degrees * Real(M_PI) / 180, half = 0.05;
 			const Pair pair = boxes({ 1, 1, 0.1 }, { half, half, half },
-			        { 0.2, 0.1, 0.1 + half * (std::sin(angle) + std::cos(angle)) - overlap * half }, turnedAbout({ 0, 1, 0 }, angle));
+			        { 0.2, 0.1, 0.1 + half * (std::sin(angle) + std::cos(angle)) - overlap * half },
+			        turnedAbout({ 0, 1, 0 }, angle));
 			// the way from the contact to the next plane is half a side's
-			EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-14 + std::pow(overlap * half, 2)) << degrees << "°, " << overlap;
+			EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-14 + std::pow(overlap * half, 2))
+			        << degrees << "°, " << overlap;
 		}
 }
 
@@ -71,8 +73,8 @@ TEST(DualWeights, AVertexOnAFaceHasTheFacesNormalAndCrossedEdgesTheirCrossProduc
 {
 	std::mt19937_64 random(7002);
 	for (int trial = 0; trial < 200; ++trial) {
-		Pair pair        = boxes({ 1, 1, 0.5 }, { 0.1, 0.1, 0.1 }, { 0.3, 0.2, 0 }, randomRotation(random));
-		Real lowest      = 0;
+		Pair pair   = boxes({ 1, 1, 0.5 }, { 0.1, 0.1, 0.1 }, { 0.3, 0.2, 0 }, randomRotation(random));
+		Real lowest = 0;
 		for (int k = 0; k < 3; ++k)
 			lowest -= Real(0.1) * std::abs(pair.rotation[1](2, k));
 		pair.centre2[2] = Real(0.5) - lowest - Real(1e-6);
@@ -82,7 +84,7 @@ TEST(DualWeights, AVertexOnAFaceHasTheFacesNormalAndCrossedEdgesTheirCrossProduc
 	const Matrix3 standing = turnedAbout({ 1, 0, 0 }, Real(M_PI) / 4);
 	for (Real angle : { 30., 60., 90. }) {
 		Pair pair        = boxes({ 1, 0.1, 0.1 }, { 1, 0.1, 0.1 }, { 0, 0, 2 * Real(0.1) * std::sqrt(Real(2)) - Real(1e-6) },
-		        turnedAbout({ 0, 0, 1 }, angle * Real(M_PI) / 180) * standing);
+		               turnedAbout({ 0, 0, 1 }, angle * Real(M_PI) / 180) * standing);
 		pair.rotation[0] = standing;
 		EXPECT_LE(lean(query(pair).normal, Vector3::UnitZ()), 1e-12);
 	}
@@ -111,7 +113,7 @@ TEST(DualWeights, NoJumpAlongAPathOverFacesEdgesAndVertices)
 			Vector3   last  = Vector3::Zero();
 			for (int k = 0; k <= steps; ++k) {
 				const Real angle = Real(M_PI) * k / steps;
-				Pair       pair  = boxes({ 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, {}, turnedAbout({ 1, 2, 3 }, Real(0.7) * angle));
+				Pair pair = boxes({ 0.5, 0.5, 0.5 }, { 0.5, 0.5, 0.5 }, {}, turnedAbout({ 1, 2, 3 }, Real(0.7) * angle));
 				moveTo(pair, Vector3(std::cos(angle), std::sin(angle), Real(0.3) * std::sin(3 * angle)), -overlap / 2);
 				const ContactResult result = query(pair);
 				ASSERT_EQ(result.status, ContactStatus::Contact);
@@ -121,7 +123,8 @@ TEST(DualWeights, NoJumpAlongAPathOverFacesEdgesAndVertices)
 		}
 		// a smooth path: half the step, half the change
 		EXPECT_LT(largest[1], Real(0.6) * largest[0]) << overlap;
-		std::printf("overlap %.0e: largest change of the normal in a step %.2e, %.2e\n", double(overlap), double(largest[0]), double(largest[1]));
+		std::printf("overlap %.0e: largest change of the normal in a step %.2e, %.2e\n", double(overlap), double(largest[0]),
+		        double(largest[1]));
 	}
 }
 

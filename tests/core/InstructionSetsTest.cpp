@@ -3,8 +3,8 @@
 // The kernel for each lane width and instruction set this machine has, whichever of them ContactQuery.cpp chooses.
 // (vectors are passed within this file only: the ABI warning does not apply)
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "contact/ContactKernel.hpp"
 #include "SameAnswer.hpp"
+#include "contact/ContactKernel.hpp"
 
 #include <gtest/gtest.h>
 

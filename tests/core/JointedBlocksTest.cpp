@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/JointedBlocks.hpp"
 
-#include "shape/ConvexShape.hpp"
 #include "ShapeSamples.hpp"
+#include "shape/ConvexShape.hpp"
 
 using namespace polytope;
 using namespace polytope::samples;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/OverlapCentroid.hpp"
-#include "shape/MassProperties.hpp"
 #include "PlaneRows.hpp"
+#include "shape/MassProperties.hpp"
 
 #include <gtest/gtest.h>
 

@@ -95,8 +95,8 @@ TEST(PairMemory, AnyBasisAndPointAreAGoodEnoughStart)
 	for (int trial = 0; trial < 3000 && !HasFailure(); ++trial) {
 		const Pair pair = randomPair(shapes, random);
 		PairMemory memory;
-		memory.hasBasis = true;
-		memory.hasPoint = trial % 2 == 0;
+		memory.hasBasis      = true;
+		memory.hasPoint      = trial % 2 == 0;
 		memory.dualDirection = decades(random, -3, 3) * randomDirection(random);
 		if (trial % 16 < 2) memory.dualDirection[trial % 3] = std::numeric_limits<Real>::quiet_NaN();
 		memory.weights = memory.dualDirection;

@@ -2,8 +2,8 @@
 //
 // Several threads over the same shapes, each with its own workspace, each pair with its own memory: the same bits as one
 // thread. `./run sanitize` runs this under ThreadSanitizer.
-#include "centre/IpoptCentre.hpp"
 #include "PairSamples.hpp"
+#include "centre/IpoptCentre.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ShapeConstruction.hpp"
 
-#include "shape/MassProperties.hpp"
 #include "ShapeSamples.hpp"
+#include "shape/MassProperties.hpp"
 
 #include <limits>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ShapeFactory.hpp"
 
-#include "shape/ConstructionTolerances.hpp"
 #include "ShapeSamples.hpp"
+#include "shape/ConstructionTolerances.hpp"
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -44,7 +44,7 @@ TEST(ShapeFactory, planesAboutTheirCentroidAndAxesStayAsTheyAre)
 {
 	for (int faces : { 4, 6, 8, 12, 20 })
 		for (Real length : lengths) {
-			const HalfSpaces set    = regularSolid(faces, length);
+			const HalfSpaces set     = regularSolid(faces, length);
 			const auto       central = centralShape(set, withCorner());
 			EXPECT_EQ(central.position, Vector3(Vector3::Zero()));
 			EXPECT_EQ(central.rotation, Matrix3(Matrix3::Identity()));
@@ -64,7 +64,7 @@ TEST(ShapeFactory, putsTheBodyBackWhereItWas)
 				const HalfSpaces set
 				        = moved(tangentPlanes(30, length * Vector3(1, 2, 3), random), someRotation(random), centre);
 				const auto       central = centralShape(set, withCorner());
-				const HalfSpaces back   = moved(central.shape->planes(), central.rotation, central.position);
+				const HalfSpaces back    = moved(central.shape->planes(), central.rotation, central.position);
 				ASSERT_EQ(back.size(), set.size());
 				for (std::size_t k = 0; k < set.size(); ++k) {
 					// the axes are orthonormal to a few roundings, and turn it there and back
@@ -96,7 +96,7 @@ TEST(ShapeFactory, theSamePlanesBuiltAnewAreTheSameToTheLastBit)
 	for (int i = 0; i < 50; ++i) {
 		expectSame(centralHull(pointsOnSphere(6 + i, random), 3, 0, withCorner()));
 		expectSame(centralShape(moved(regularSolid(std::vector<int> { 4, 6, 8, 12, 20 }[std::size_t(i % 5)], 1),
-		                               someRotation(random), 3 * someDirection(random)),
+		                                someRotation(random), 3 * someDirection(random)),
 		        withCorner()));
 		HalfSpaces polygon = moved(regularPolygon(3 + i % 9, 2), Matrix3::Identity(), Vector3(1, 2, 0));
 		expectSame(centralShape(polygon, withCorner()));
@@ -120,7 +120,7 @@ TEST(ShapeFactory, redundantPlanesStayOrGo)
 TEST(ShapeFactory, anotherCornerRadiusChangesNothingElse)
 {
 	const auto central = centralShape(box(1, 2, 3), withCorner());
-	const auto other  = central.shape->withCornerRadius(Real(0.5));
+	const auto other   = central.shape->withCornerRadius(Real(0.5));
 	EXPECT_EQ(other->cornerRadius(), Real(0.5));
 	EXPECT_EQ(other, ConvexShape::shared(box(1, 2, 3), Real(0.5)));
 	EXPECT_EQ(other->polyhedron().vertices, central.shape->polyhedron().vertices);
@@ -140,7 +140,8 @@ TEST(ShapeFactory, refusesWithTheWordsOfConstruction)
 	EXPECT_TRUE(says(refusal([&] { centralHull({ Vector3(0, 0, 0) }, 3, 0, {}); }), "points: 1 cannot span a body"));
 	ShapeOptions options;
 	options.cornerRadius = 3;
-	EXPECT_TRUE(says(refusal([&] { centralShape(box(1, 1, 1), options); }), "cornerRadius: must be at least 0 and fit inside the body"));
+	EXPECT_TRUE(
+	        says(refusal([&] { centralShape(box(1, 1, 1), options); }), "cornerRadius: must be at least 0 and fit inside the body"));
 	options.thickness = -1;
 	EXPECT_TRUE(says(refusal([&] { centralShape(regularPolygon(4, 1), options); }), "thickness: it must be positive"));
 }

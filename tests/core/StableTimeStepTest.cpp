@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "timestep/StableTimeStep.hpp"
 #include "shape/RegularSolids.hpp"
 #include "timestep/RockingStiffness.hpp"
-#include "timestep/StableTimeStep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,8 +47,8 @@ TEST(StableTimeStep, TauIsSafeForAChain)
 {
 	const Real stiffness = 3, damper = 0.8;
 	const auto chainGrows = [&](Real step) {
-		constexpr int n           = 40;
-		Real          place[n]    = {}, velocity[n] = {};
+		constexpr int n        = 40;
+		Real          place[n] = {}, velocity[n] = {};
 		for (int k = 0; k < n; ++k)
 			place[k] = k % 2 ? 1 : -1;
 		for (int t = 0; t < 20000; ++t) {
@@ -95,7 +95,8 @@ TEST(StableTimeStep, ArmsMassesAndSprings)
 	BodyStiffness vertex(cube(mass, side));
 	vertex.add(springs, corner);
 	EXPECT_NEAR(double(vertex.stiffness()), double(3 * reachOf(cube(mass, side), corner)), 1e-12);
-	EXPECT_NEAR(double(reachOfBall(cube(mass, side), Vector3::Zero(), corner.norm())), double(reachOf(cube(mass, side), corner)), 1e-12);
+	EXPECT_NEAR(
+	        double(reachOfBall(cube(mass, side), Vector3::Zero(), corner.norm())), double(reachOf(cube(mass, side), corner)), 1e-12);
 
 	EXPECT_EQ(reachOf(Mobility(), corner), 0);
 	EXPECT_FALSE(Mobility().moves());
@@ -113,13 +114,14 @@ TEST(RockingStiffness, OfASquareFace)
 	const ConvexShape large(wide, 0);
 	Quaternion        turn(0.3, -0.5, 0.7, 0.2);
 	turn.normalize();
-	const Matrix3 axes = turn.toRotationMatrix();
-	const Vector3 up   = axes * planes.normals[0];
+	const Matrix3 axes  = turn.toRotationMatrix();
+	const Vector3 up    = axes * planes.normals[0];
 	const auto    floor = ConvexShape::halfSpace(up, 3);
 	const Vector3 above = up * (side / 2 - depth / 2);
 
-	const Matrix3 onHalfSpace = depth * rockingArms({ *floor, -up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
-	const Matrix3 expected    = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
+	const Matrix3 onHalfSpace
+	        = depth * rockingArms({ *floor, -up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
+	const Matrix3 expected = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
 	EXPECT_LT(double((onHalfSpace - expected).norm()), 1e-3 * double(expected.norm()));
 
 	const Vector3 below    = -up * (10 * side / 2 - depth / 2);

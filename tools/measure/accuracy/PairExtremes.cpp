@@ -99,12 +99,12 @@ void pressIn(const PairAxis& deep, const std::string& kind, int number)
 	const Pair      pair   = deep.make(Real(0.3), kind, ContactModel::Paper, random);
 	const Real      radius = pair.shape[0]->cornerRadius(), size = pair.size();
 	ContactSettings settings;
-	settings.normal           = NormalSource::InnerPotential;
-	const Vector3   direction = query(pair, settings).normal;
-	const auto      at        = [&](Real way) { return query(movedApart(pair, -way * direction), settings); };
-	const int       steps     = 400;
-	Real            before    = 0;
-	ContactResult   last      = at(0);
+	settings.normal         = NormalSource::InnerPotential;
+	const Vector3 direction = query(pair, settings).normal;
+	const auto    at        = [&](Real way) { return query(movedApart(pair, -way * direction), settings); };
+	const int     steps     = 400;
+	Real          before    = 0;
+	ContactResult last      = at(0);
 	for (int step = 1; step <= steps; ++step) {
 		const Real    way  = 4 * radius * step / steps;
 		ContactResult here = at(way);
