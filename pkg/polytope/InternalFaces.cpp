@@ -185,7 +185,7 @@ namespace {
 			if (plane < 0) continue;
 			const Vector3r face = boundingNormal(pair, bounding, piece, j);
 			for (int i = 0; i < bounding.count[piece]; ++i) {
-				if (i == j || !bounding.bounds[piece][i]) continue;
+				if (i == j || !bounding.bounds(piece, i)) continue;
 				const Vector3r normal = boundingNormal(pair, bounding, piece, i);
 				const Vector3r along  = normal - normal.dot(face) * face; // along·normal = |along|²
 				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;

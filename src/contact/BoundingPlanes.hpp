@@ -8,6 +8,22 @@
 /// (ContactSettings::internal).
 namespace polytope {
 
+/// Adds a plane, in place of the one with the least leverage if there is no room, unless that is its own.
+POLYTOPE_INLINE void keepLargest(int body, int plane, Real slack, Real leverage, BoundingPlanes& out)
+{
+	int place = out.count[body];
+	if (place < BoundingPlanes::most) ++out.count[body];
+	else {
+		place = 0;
+		for (int k = 1; k < BoundingPlanes::most; ++k)
+			if (out.leverage[body][k] < out.leverage[body][place]) place = k;
+		if (!(leverage > out.leverage[body][place])) return;
+	}
+	out.plane[body][place]    = plane;
+	out.slack[body][place]    = slack;
+	out.leverage[body][place] = leverage;
+}
+
 /// At x, inside the overlap: with the Hessian H = Σ a_i a_iᵀ/σ_i² of the analytic centre, plane i has the leverage
 /// a_iᵀ H⁻¹ a_i / σ_i² in (0, 1]. The leverages add up to D; a plane that the overlap does not reach has almost zero, and one
 /// that cuts off a part of it has at least about 1/(number of planes there).
@@ -28,7 +44,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairP
 		pivot[k] = maxOf<R>(pivot[k], R(tolerance::noise * tolerance::rounding) * h[k][k]);
 	}
 	for (int body = 0; body < 2; ++body)
-		for (int i = planes.begin(body); i < planes.end(body) && out.count[body] < BoundingPlanes::most; ++i) {
+		for (int i = planes.begin(body); i < planes.end(body); ++i) {
 			R reach = 0, v[D]; // aᵀ H⁻¹ a
 			for (int k = D - 1; k >= 0; --k) {
 				v[k] = planes.normal[k][i];
@@ -36,12 +52,9 @@ template <class R, int D, int W> POLYTOPE_INLINE void boundingPlanes(const PairP
 					v[k] -= lower[k][j] * v[j];
 				reach += v[k] * v[k] / pivot[k];
 			}
-			const R slack = planes.slack[i];
-			if (!(reach > R(tolerance::nearLeverage) * slack * slack)) continue;
-			const int next         = out.count[body]++;
-			out.plane[body][next]  = i - planes.begin(body);
-			out.slack[body][next]  = slack;
-			out.bounds[body][next] = reach > R(tolerance::leverage) * slack * slack;
+			const R slack    = planes.slack[i];
+			const R leverage = reach / (slack * slack);
+			if (leverage > R(tolerance::nearLeverage)) keepLargest(body, i - planes.begin(body), slack, leverage, out);
 		}
 }
 

@@ -35,13 +35,15 @@ enum class NormalSource : int {
 };
 
 /// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
-/// the first ones where there are more than fit.
+/// those of the largest leverage where there are more than fit.
 struct BoundingPlanes {
 	static constexpr int most     = 16;
 	int                  count[2] = { 0, 0 };
 	int                  plane[2][most];
 	Real                 slack[2][most];
-	bool                 bounds[2][most]; ///< whether it cuts the overlap; else it is merely near
+	Real                 leverage[2][most];
+	/// Whether the body's k-th one cuts the overlap; else it is merely near.
+	bool bounds(int body, int k) const { return leverage[body][k] > Real(tolerance::leverage); }
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that

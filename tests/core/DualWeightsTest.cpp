@@ -157,7 +157,7 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 			const int plane = bounding.plane[0][k];
 			if (pair.shape[0]->normalArray(0)[plane] < 0.5) continue;
 			internal.plane[0][internal.count[0]++] = plane;
-			EXPECT_TRUE(bounding.bounds[0][k]);
+			EXPECT_TRUE(bounding.bounds(0, k));
 		}
 		ASSERT_EQ(internal.count[0], 1);
 		settings.bounding         = nullptr;
@@ -167,6 +167,32 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 		EXPECT_NEAR(found.depth, depth, 1e-12);
 		EXPECT_NEAR(found.area, width * Real(0.5), 1e-9);
 	}
+}
+
+TEST(BoundingPlanes, OfManyTheFaceThatTheBodyLiesOnIsAmongThem)
+{
+	std::mt19937_64 random(7004);
+	HalfSpaces      round;
+	for (int k = 0; k < 60; ++k) {
+		round.normals.push_back(randomDirection(random));
+		round.offsets.push_back(1);
+	}
+	// cut off: a face as wide as the body, at the end of the list
+	round.normals.push_back(-Vector3::UnitZ());
+	round.offsets.push_back(Real(0.2));
+	Pair pair;
+	pair.shape[0] = ConvexShape::shared(cuboid(5, 5, 1), Real(0.1));
+	pair.shape[1] = ConvexShape::shared(round, Real(0.01));
+	pair.centre2  = Vector3(0, 0, Real(1.2) - Real(1e-3));
+	ContactSettings settings;
+	BoundingPlanes  bounding;
+	settings.bounding = &bounding;
+	ASSERT_TRUE(query(pair, settings).inContact);
+	EXPECT_EQ(bounding.count[1], BoundingPlanes::most);
+	int faces = 0;
+	for (int k = 0; k < bounding.count[1]; ++k)
+		faces += pair.shape[1]->normalArray(2)[bounding.plane[1][k]] == -1 && bounding.bounds(1, k);
+	EXPECT_EQ(faces, 1);
 }
 
 } // namespace
