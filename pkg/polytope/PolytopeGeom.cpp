@@ -39,6 +39,24 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	weights = memory.weights;
 }
 
+polytope::InternalPlanes PolytopeGeom::internalPlanes() const
+{
+	polytope::InternalPlanes planes;
+	for (int code : internalFaces) {
+		const int body                           = code & 1;
+		planes.plane[body][planes.count[body]++] = code >> 1;
+	}
+	return planes;
+}
+
+void PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
+{
+	internalFaces.clear();
+	for (int body = 0; body < 2; ++body)
+		for (int k = 0; k < planes.count[body]; ++k)
+			internalFaces.push_back(2 * planes.plane[body][k] + body);
+}
+
 namespace {
 
 	/// A body's stiffness as it enters the weights of the normals.
@@ -51,9 +69,9 @@ namespace {
 	}
 
 	/// Index bound to the pair's memory: a body whose shape was exchanged must not be read beyond its planes.
-	bool basisFits(const polytope::PairMemory& memory, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
+	template <class Codes> bool fit(const Codes& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
 	{
-		for (int code : memory.basis)
+		for (int code : codes)
 			if (code < 0 || (code >> 1) >= ((code & 1) ? convex2 : convex1).planeCount()) return false;
 		return true;
 	}
@@ -112,29 +130,32 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	settings.geometryAcrossGap = wasReal || force;
 
 	polytope::PairMemory memory = geom.memory();
-	if (memory.hasBasis && !basisFits(memory, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
+	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
+	if (!fit(geom.internalFaces, convex1, convex2)) geom.internalFaces.clear();
 	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
-	const bool               turn = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	polytope::InternalPlanes internal = geom.internalPlanes();
+	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
 		if ((turn || !geom.internalKnown || !wasReal)
 		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
 			settings.bounding = &bounding;
-		settings.internal = geom.internal.get();
+		settings.internal = geom.internalFaces.empty() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
 	const Vector3r          centre2   = state2.pos + shift2 - frame1.origin;
 	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-	if (result.inContact && (settings.bounding || geom.internal)) {
+	if (result.inContact && (settings.bounding || !geom.internalFaces.empty())) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + result.point, result.normal, -result.infeasibility };
 		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
-			settings.internal = geom.internal.get();
+			internal          = geom.internalPlanes();
+			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = geom.internal && geom.needsShare ? shareOfSupport(pair.withNormal(result.normal), *geom.internal) : Real(1);
+		geom.share = geom.needsShare && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
@@ -144,11 +165,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
         const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
 {
 	const polytope::InternalPlanes found = internalPlanes(pair, bounding);
-	const bool                     same  = geom.internal ? found == *geom.internal : found.none();
 	geom.internalKnown                   = true;
-	if (same) return false;
-	if (found.none()) geom.internal.reset();
-	else geom.internal = std::make_unique<polytope::InternalPlanes>(found);
+	if (found == geom.internalPlanes()) return false;
+	geom.setInternalPlanes(found);
 	return true;
 }
 

@@ -23,16 +23,12 @@ public:
 	std::shared_ptr<const polytope::ConvexShape> partner;
 	int                                          side = 0;
 
-	/// Planes that neighbours cover (InternalFaces.hpp), if any, and whether they were searched for since the pair was made or loaded.
-	std::unique_ptr<polytope::InternalPlanes> internal;
-	bool                                      internalKnown = false;
-
-	/// Whether the contact's physics have a stiffness per contact, which `share` is a part of.
-	bool needsShare = true;
-
 	polytope::PairMemory memory() const;
 	void                 remember(const polytope::PairMemory& memory);
-	std::string          statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
+	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
+	polytope::InternalPlanes internalPlanes() const;
+	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
+	std::string              statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
@@ -45,6 +41,9 @@ public:
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
 		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
+		((bool, needsShare, true, (Attr::readonly | Attr::hidden), "Whether the contact's physics have a stiffness per contact, which *share* is a part of"))
+		((vector<int>, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
+		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, the next step's warm-start value"))
 		((Vector3r, dual, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program, if the points are known"))
 		((Vector3r, weights, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Weights of the basis' first planes, if the points are not known"))

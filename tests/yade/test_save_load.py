@@ -47,6 +47,23 @@ def conservativeHeap():
 	heap()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
 
+def slide(perArea):
+	"""A prism slides over the joints of three flush plates that meet in a T."""
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.1)
+	loop(perArea, normalDamping=0.3, gravity=(0, 0, -gravity))
+	for centre, half in (((-2, 0, -.5), (2, 2, .5)), ((2, -1, -.5), (2, 1, .5)), ((2, 1, -.5), (2, 1, .5))):
+		O.bodies.append(polytope.cuboid(centre, half, fixed=True))
+	body = polytope.cuboid((-.2, 0.05, .2495), (.4, .3, .25), Quaternion((0, 0, 1), 0.3))
+	body.state.vel = (2, .1, 0)
+	O.bodies.append(body)
+	O.dt = 3e-4
+
+def slidePerArea():
+	slide(True)
+
+def slidePerContact():
+	slide(False)
+
 def state():
 	out = []
 	for b in O.bodies:
@@ -97,6 +114,14 @@ def testEnergiesAreResumed(tmp_path):
 def testHeapIsResumed(scene, tmp_path):
 	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
 	assert len(uninterrupted) >= 13 * 16 + 6 * 9  # six contacts or more; how many there are just then differs with the numbers' rounding
+	assert resumed == uninterrupted
+
+
+@pytest.mark.parametrize('scene', ['slidePerArea', 'slidePerContact'])
+def testSlideOverJointsIsResumed(scene, tmp_path):
+	"""What is left out as internal faces, and shares of stiffness, go on; saved while the body lies on all three pieces."""
+	uninterrupted, resumed = runs(scene, 300, 501, tmp_path / 'scene.yade.gz')
+	assert len(uninterrupted) >= 4 * 16 + 2 * 9
 	assert resumed == uninterrupted
 
 
