@@ -6,9 +6,11 @@
 
 #include <atomic>
 
-/// Laws that read the area of every contact, whatever its physics. The geometry functor finds them; a law writes nothing into a geometry.
+/// What the scene's loops do with the area of a contact. The geometry functor finds it: a law writes nothing into a geometry, and a new
+/// contact has no physics yet that could say so.
 namespace yade {
 
+/// A law that reads the area of every contact, whatever its physics.
 class UsesContactArea {
 public:
 	virtual ~UsesContactArea() = default;
@@ -16,7 +18,28 @@ public:
 	virtual bool usesContactArea() const = 0;
 };
 
-/// Whether a loop of the scene has such a law. The loops are read once a step, by whichever thread comes first.
+/// A functor whose physics have a stiffness per area, at present.
+class GivesStiffnessPerArea {
+public:
+	virtual ~GivesStiffnessPerArea() = default;
+	virtual bool givesStiffnessPerArea(const Material& material1, const Material& material2) const = 0;
+};
+
+/// Whether the physics of a contact that is made now will have a stiffness per area.
+inline bool getsStiffnessPerArea(const Scene& scene, const Body& body1, const Body& body2)
+{
+	if (!body1.material || !body2.material) return false;
+	for (const auto& engine : scene.engines)
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+			for (const auto& functor : loop->physDispatcher->functors) {
+				const auto* giver = dynamic_cast<const GivesStiffnessPerArea*>(functor.get());
+				if (giver && giver->givesStiffnessPerArea(*body1.material, *body2.material)) return true;
+			}
+	return false;
+}
+
+/// Whether a loop of the scene has a law that reads the area of every contact. The loops are read once a step, by whichever thread
+/// comes first.
 class AreaUsers {
 public:
 	bool in(const Scene& scene)

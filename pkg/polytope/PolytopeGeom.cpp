@@ -110,6 +110,16 @@ ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
 	return counters_[thread < int(counters_.size()) ? thread : 0];
 }
 
+namespace {
+
+	/// Of a contact with a stiffness per area: the paper's normal and the conservative contact have their own depth.
+	bool takesMeanDepth(const polytope::ContactSettings& settings)
+	{
+		return settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::DualWeights;
+	}
+
+} // namespace
+
 bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
         const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
         const shared_ptr<Interaction>& c)
@@ -125,6 +135,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
 	settings.section = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
+	settings.meanDepth         = geom.perArea && takesMeanDepth(settings);
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;
 	settings.geometryAcrossGap = wasReal || force;
@@ -146,6 +157,13 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const Vector3r          centre2   = state2.pos + shift2 - frame1.origin;
 	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	if (!wasReal && result.inContact) {
+		geom.perArea = getsStiffnessPerArea(*scene, *Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+		if (geom.perArea && takesMeanDepth(settings)) {
+			settings.meanDepth = true;
+			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+		}
+	}
 	if (result.inContact && (settings.bounding || !geom.internalFaces.empty())) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + result.point, result.normal, -result.infeasibility };
@@ -155,7 +173,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = geom.needsShare && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
+		geom.share = !geom.perArea && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
@@ -200,7 +218,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea        = result.area;
 	geom.barrierValue       = result.barrierValue;
 	geom.rockingArm         = result.rockingArm;
-	geom.energyPerStiffness = settings_.contactModel == polytope::ContactModel::Conservative ? result.energy : Real(-1);
+	geom.gyration           = result.gyration;
+	const bool hasEnergy    = settings_.contactModel == polytope::ContactModel::Conservative || result.gyration > 0;
+	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	const Vector3r point    = origin1 + result.point;
 	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();
 	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal,

@@ -32,6 +32,11 @@ namespace {
 
 } // namespace
 
+bool Ip2_RockJointMat_RockJointMat_RockJointPhys::givesStiffnessPerArea(const Material& material1, const Material& material2) const
+{
+	return stiffnessPerArea && dynamic_cast<const RockJointMat*>(&material1) && dynamic_cast<const RockJointMat*>(&material2);
+}
+
 void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
         const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& contact)
 {
@@ -60,7 +65,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	}
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
-		geom->needsShare  = !stiffnessPerArea;
+		geom->perArea     = stiffnessPerArea;
 		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;

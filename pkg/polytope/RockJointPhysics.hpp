@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "AreaUsers.hpp"
 #include "RockJoint.hpp"
 
 #include <core/Dispatching.hpp>
@@ -9,10 +10,11 @@
 /// Physics of a contact of two rock joint materials.
 namespace yade {
 
-class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor {
+class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor, public GivesStiffnessPerArea {
 public:
 	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
 	        const shared_ptr<Interaction>& contact) override;
+	bool givesStiffnessPerArea(const Material& material1, const Material& material2) const override;
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,

@@ -103,6 +103,7 @@ namespace {
 	{
 		const Real elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
 		const Real force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
+		if (geom.gyration > 0) return pair.phys.kn * geom.gyration * geom.gyration * across(geom.normal);
 		if (geom.energyPerStiffness >= 0) {
 			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
 			const Real growth = math::max(pair.approach(), Real(0))

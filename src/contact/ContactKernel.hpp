@@ -4,6 +4,7 @@
 #include "contact/BoundingPlanes.hpp"
 #include "contact/ConservativeContact.hpp"
 #include "contact/ContactPointRules.hpp"
+#include "contact/MeanDepth.hpp"
 #include "contact/NormalAndDepth.hpp"
 #include "contact/PhaseOne.hpp"
 
@@ -124,7 +125,11 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
 
 	publishContact<R, D>(in, f, status, x, n, memory, out);
-	if (settings.section) contactSection<R, D>(in, f, planes, x, n, workspace, out);
+	const bool distributed = settings.meanDepth && touching && meanDepth<R, D, W>(in, f, planes, n, x, workspace, out);
+	if (settings.section && !distributed) {
+		contactSection<R, D>(in, f, planes, x, n, workspace, out);
+		if (settings.meanDepth) out.point = out.sectionCentroid;
+	}
 	failUnlessFinite<D>(memory, out);
 }
 

@@ -4,7 +4,7 @@
 #include "centre/AnalyticCentre.hpp"
 #include "centre/IpoptCentre.hpp"
 #include "contact/MoveInside.hpp"
-#include "contact/OverlapCentroid.hpp"
+#include "contact/OverlapVolume.hpp"
 #include "contact/WarmStart.hpp"
 
 /// The contact point by each of the rules of ContactPoint, from the linear program's point.
@@ -93,8 +93,12 @@ POLYTOPE_INLINE ContactStatus contactPoint(const ContactSettings& settings, Pair
 		startOfCentre<R, D, W>(settings, planes, f, basis, memory, atOrigin, deep, x, start);
 		return centrePoint<R, D, W>(settings, planes, f, touching, deep, start, x, dual, out);
 	}
-	if (settings.contactPoint == ContactPoint::Centroid)
-		overlapCentroid<R, D>(planes, x, 2 * f.size, workspace.polygons(4 * (planes.total + 5)));
+	if (settings.contactPoint == ContactPoint::Centroid) {
+		OverlapMass<R, D> overlap;
+		if (Overlap<R, D>(planes, 2 * f.size, workspace).mass(x, overlap))
+			for (int k = 0; k < D; ++k)
+				x[k] = overlap.centroid[k];
+	}
 	return touching ? ContactStatus::Contact : ContactStatus::Separated; // x, the linear program's point, is the Chebyshev centre
 }
 

@@ -31,6 +31,12 @@ Real* ContactWorkspace::polygons(int length)
 	return polygons_.data();
 }
 
+int* ContactWorkspace::indices(int length)
+{
+	if (indices_.size() < std::size_t(length)) indices_.resize(length);
+	return indices_.data();
+}
+
 namespace {
 
 	using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);

@@ -70,6 +70,9 @@ struct ContactSettings {
 	bool warmStart = true;
 	/// Also the contact section's area and centroid (length in 2-D).
 	bool section = false;
+	/// Point, depth and area of a pressure that is proportional to the depth at each place (MeanDepth.hpp), not of a spring at one point.
+	/// Of the contact model Paper.
+	bool meanDepth = false;
 	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
@@ -111,7 +114,8 @@ struct ContactResult {
 	Real    area             = 0;               ///< contact section (times thickness in 2-D)
 	Vector3 sectionCentroid  = Vector3::Zero(); ///< world axes, from body 1's centre
 	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
-	Real    energy           = 0;               ///< conservative: the contact's elastic energy over its normal stiffness, 2 Φ² [m²]
+	Real    energy           = 0;               ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
+	Real    gyration         = 0;               ///< with a mean depth: largest radius of gyration of the section about an axis in it through the contact point [m]
 	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	bool    dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
 	int     simplexPivots    = 0;
@@ -129,9 +133,11 @@ class ContactWorkspace {
 public:
 	Real* rows(int rowCount, int length);
 	Real* polygons(int length);
+	int*  indices(int length);
 
 private:
 	std::vector<Real> rows_, polygons_;
+	std::vector<int>  indices_;
 };
 
 } // namespace polytope

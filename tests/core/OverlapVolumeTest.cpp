@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/OverlapCentroid.hpp"
+#include "contact/OverlapVolume.hpp"
 #include "PlaneRows.hpp"
 #include "shape/MassProperties.hpp"
 
@@ -19,7 +19,7 @@ ContactResult centroidQuery(const Pair& pair)
 	return query(pair, settings);
 }
 
-TEST(OverlapCentroid, BoxOfTwoCubes)
+TEST(OverlapVolume, BoxOfTwoCubes)
 {
 	Pair pair;
 	pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
@@ -33,7 +33,7 @@ TEST(OverlapCentroid, BoxOfTwoCubes)
 	EXPECT_LE((centroidQuery(pair).point - pair.centre2 / 2).norm(), 1e-14);
 }
 
-TEST(OverlapCentroid, TetrahedronAtACorner)
+TEST(OverlapVolume, TetrahedronAtACorner)
 {
 	// the half-space x + y + z ≥ 2 of a big turned cube cuts the corner (1, 1, 1) off the unit cube
 	const Vector3 diagonal = Vector3::Ones().normalized();
@@ -47,7 +47,7 @@ TEST(OverlapCentroid, TetrahedronAtACorner)
 	EXPECT_LE((centroidQuery(swapped(pair)).point + pair.centre2 - Vector3::Constant(0.75)).norm(), 1e-13);
 }
 
-TEST(OverlapCentroid, TriangleOfARectangleTurnedIntoAWall)
+TEST(OverlapVolume, TriangleOfARectangleTurnedIntoAWall)
 {
 	// the paper's Appendix A: a rectangle turned by θ whose lowest corner is δ inside a wall; the overlap is a right triangle
 	// with legs δ/sin θ and δ/cos θ and its centroid lies δ (1/tan θ − tan θ)/3 along the wall, δ/3 from its face
@@ -94,18 +94,18 @@ template <int D> void expectMassCentre(int trials)
 	EXPECT_EQ(measured, trials);
 }
 
-TEST(OverlapCentroid, RandomOverlapsAgreeWithTheMassCentreInThreeDimensions) { expectMassCentre<3>(200); }
+TEST(OverlapVolume, RandomOverlapsAgreeWithTheMassCentreInThreeDimensions) { expectMassCentre<3>(200); }
 
-TEST(OverlapCentroid, RandomOverlapsAgreeWithTheMassCentreInTwoDimensions) { expectMassCentre<2>(100); }
+TEST(OverlapVolume, RandomOverlapsAgreeWithTheMassCentreInTwoDimensions) { expectMassCentre<2>(100); }
 
-TEST(OverlapCentroid, OverlapWithoutVolumeKeepsThePoint)
+TEST(OverlapVolume, OverlapWithoutVolumeHasNone)
 {
 	// both faces of a slab at the same place
 	PlaneRows<Real, 3> rows(cuboid(1, 1, 1), moved(cuboid(1, 1, 1), Matrix3::Identity(), Vector3(0, 0, 2)));
-	std::vector<Real>  buffer(4 * std::size_t(rows.planes.total + 5));
-	Real               x[] = { Real(0.125), Real(0.25), 1 };
-	EXPECT_FALSE((overlapCentroid<Real, 3>(rows.planes, x, 4, buffer.data())));
-	EXPECT_EQ(vectorOf(x, 3), Vector3(0.125, 0.25, 1));
+	ContactWorkspace   workspace;
+	const Real         x[] = { Real(0.125), Real(0.25), 1 };
+	OverlapMass<Real, 3> mass;
+	EXPECT_FALSE((Overlap<Real, 3>(rows.planes, 4, workspace).mass(x, mass)));
 }
 
 } // namespace

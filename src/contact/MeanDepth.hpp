@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactFrame.hpp"
+#include "contact/OverlapVolume.hpp"
+#include "contact/PenetrationDepth.hpp"
+#include "program/SimplexLp.hpp"
+
+/// The contact of two bodies between which there is a pressure k h at each place, h the local depth along n and k a stiffness per
+/// area [N/m³]: an elastic foundation (Winkler 1867) between their faces.
+///
+/// With V the overlap's volume, c its centroid and A the area of its section through c normal to n,
+///
+///     force = ∫ k h dA = k V = (k A) (V/A),      its line of action passes through c (∫ r h dA / ∫ h dA, r across n).
+///
+/// So the depth is V/A, the mean one. Where a face, an edge or a vertex of one body lies on a face of the other, n is that face's normal and the force
+/// is the gradient of an energy,
+///
+///     U = ∫ ½ k h² dA = k ∫ t dV = k V t_c,      t the distance from that face along n, t_c at the centroid:
+///
+/// however a body tilts, rocks or lifts off, what it gets back is what it gave. And the overlap with a solid made of pieces is the sum of those with
+/// the pieces: V, c and U, and so force, moment and energy, are those with the whole. Between two edges that cross, U is an approximation.
+namespace polytope {
+
+/// Point, depth and area of a touching pair with normal n; x: a point inside. False, with nothing changed, if the overlap has no measurable volume.
+template <class R, int D, int W>
+POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* n, const R* x,
+        ContactWorkspace& workspace, ContactResult& out)
+{
+	const Overlap<R, D> overlap(planes, 2 * f.size, workspace);
+	OverlapMass<R, D>   mass;
+	if (!overlap.mass(x, mass)) return false;
+	const OverlapSection<R> section = overlap.section(mass.centroid, n);
+	if (!(section.area > 0)) return false;
+	out.depth    = mass.volume / section.area;
+	out.area     = D == 2 ? section.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : section.area;
+	out.gyration = sqrt(section.gyrationSquared);
+	out.point = out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, mass.centroid));
+	R nearest;
+	mostViolated<R, D, W>(planes, mass.centroid, nearest); // slacks at the centroid
+	out.energy = out.depth * minOf<R>(exitDistance<R, D, W>(planes, 0, n, 1), exitDistance<R, D, W>(planes, 1, n, -1));
+	return true;
+}
+
+} // namespace polytope
