@@ -18,24 +18,33 @@ public:
 	virtual bool usesContactArea() const = 0;
 };
 
-/// A functor whose physics have a stiffness per area, at present.
-class GivesStiffnessPerArea {
-public:
-	virtual ~GivesStiffnessPerArea() = default;
-	virtual bool givesStiffnessPerArea(const Material& material1, const Material& material2) const = 0;
+/// What a contact's stiffness is multiplied with, as far as its geometry depends on that.
+enum class StiffnessRule : int {
+	Unknown = 0, ///< YADE's own physics: the depth is the chord
+	PerArea,     ///< area × depth
+	PerContact,  ///< depth, shared by pieces of one support
 };
 
-/// Whether the physics of a contact that is made now will have a stiffness per area.
-inline bool getsStiffnessPerArea(const Scene& scene, const Body& body1, const Body& body2)
+/// A functor that makes the physics of joints.
+class GivesJointStiffness {
+public:
+	virtual ~GivesJointStiffness() = default;
+	/// At present; Unknown for materials that it is not for.
+	virtual StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const = 0;
+};
+
+/// Of a contact whose physics are made now.
+inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Body& body1, const Body& body2)
 {
-	if (!body1.material || !body2.material) return false;
+	if (!body1.material || !body2.material) return StiffnessRule::Unknown;
 	for (const auto& engine : scene.engines)
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
 			for (const auto& functor : loop->physDispatcher->functors) {
-				const auto* giver = dynamic_cast<const GivesStiffnessPerArea*>(functor.get());
-				if (giver && giver->givesStiffnessPerArea(*body1.material, *body2.material)) return true;
+				const auto*         giver = dynamic_cast<const GivesJointStiffness*>(functor.get());
+				const StiffnessRule rule  = giver ? giver->stiffnessRule(*body1.material, *body2.material) : StiffnessRule::Unknown;
+				if (rule != StiffnessRule::Unknown) return rule;
 			}
-	return false;
+	return StiffnessRule::Unknown;
 }
 
 /// Whether a loop of the scene has a law that reads the area of every contact. The loops are read once a step, by whichever thread

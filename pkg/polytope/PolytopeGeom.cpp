@@ -112,10 +112,15 @@ ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
 
 namespace {
 
-	/// Of a contact with a stiffness per area: the paper's normal and the conservative contact have their own depth.
-	bool takesMeanDepth(const polytope::ContactSettings& settings)
+	/// The paper's normal and the conservative contact have their own depth.
+	polytope::DepthRule depthRule(const polytope::ContactSettings& settings, StiffnessRule rule)
 	{
-		return settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::DualWeights;
+		using polytope::DepthRule;
+		if (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights)
+			return DepthRule::Chord;
+		return rule == StiffnessRule::PerArea ? DepthRule::Mean
+		        : rule == StiffnessRule::PerContact ? DepthRule::MeanOnFaces
+		                                            : DepthRule::Chord;
 	}
 
 } // namespace
@@ -135,7 +140,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
 	settings.section = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
-	settings.meanDepth         = geom.perArea && takesMeanDepth(settings);
+	settings.depthRule         = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;
 	settings.geometryAcrossGap = wasReal || force;
@@ -158,22 +163,22 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	if (!wasReal && result.inContact) {
-		geom.perArea = getsStiffnessPerArea(*scene, *Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-		if (geom.perArea && takesMeanDepth(settings)) {
-			settings.meanDepth = true;
+		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
+		geom.stiffnessRule       = int(rule);
+		settings.depthRule       = depthRule(settings, rule);
+		if (settings.depthRule != polytope::DepthRule::Chord)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-		}
 	}
 	if (result.inContact && (settings.bounding || !geom.internalFaces.empty())) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			{ frame1.rotation, rotation2 }, frame1.origin + result.point, result.normal, -result.infeasibility };
+			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal, -result.infeasibility };
 		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = !geom.perArea && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
+		geom.share = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
@@ -218,8 +223,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea        = result.area;
 	geom.barrierValue       = result.barrierValue;
 	geom.rockingArm         = result.rockingArm;
-	geom.gyration           = result.gyration;
-	const bool hasEnergy    = settings_.contactModel == polytope::ContactModel::Conservative || result.gyration > 0;
+	const bool hasEnergy    = settings_.contactModel == polytope::ContactModel::Conservative || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	const Vector3r point    = origin1 + result.point;
 	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();

@@ -32,9 +32,10 @@ namespace {
 
 } // namespace
 
-bool Ip2_RockJointMat_RockJointMat_RockJointPhys::givesStiffnessPerArea(const Material& material1, const Material& material2) const
+StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const Material& material1, const Material& material2) const
 {
-	return stiffnessPerArea && dynamic_cast<const RockJointMat*>(&material1) && dynamic_cast<const RockJointMat*>(&material2);
+	if (!dynamic_cast<const RockJointMat*>(&material1) || !dynamic_cast<const RockJointMat*>(&material2)) return StiffnessRule::Unknown;
+	return stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
 }
 
 void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
@@ -65,7 +66,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	}
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
-		geom->perArea     = stiffnessPerArea;
+		geom->stiffnessRule = int(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
 		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;

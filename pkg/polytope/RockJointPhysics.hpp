@@ -10,11 +10,11 @@
 /// Physics of a contact of two rock joint materials.
 namespace yade {
 
-class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor, public GivesStiffnessPerArea {
+class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor, public GivesJointStiffness {
 public:
 	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
 	        const shared_ptr<Interaction>& contact) override;
-	bool givesStiffnessPerArea(const Material& material1, const Material& material2) const override;
+	StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const override;
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,

@@ -7,6 +7,7 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
+#include <src/contact/SectionArea.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -98,13 +99,32 @@ namespace {
 		return shape ? shape->convex().get() : nullptr;
 	}
 
+	/// Planes of a body whose centre is there, as seen from the contact point.
+	void addPlanes(std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
+	{
+		const polytope::HalfSpaces& own = shape.planes();
+		for (std::size_t i = 0; i < own.size(); ++i) {
+			const Vector3r normal = rotation * own.normals[i];
+			planes.push_back({ normal, own.offsets[i] + normal.dot(centre) });
+		}
+	}
+
+	/// Moment per tilt of a pressure over the section, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
+	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
+	{
+		const Real area = polytope::sectionArea(planes, normal, reach, dimension);
+		if (!(area > 0)) return Matrix3r::Zero();
+		Matrix3r turn;
+		turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
+		return kn / area * turn * polytope::sectionSecondMoment(planes, normal, reach, dimension) * turn.transpose();
+	}
+
 	/// Moment per tilt by the motion of the contact point.
 	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom, Real steps)
 	{
 		const Real elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
 		const Real force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
-		if (geom.gyration > 0) return pair.phys.kn * geom.gyration * geom.gyration * across(geom.normal);
-		if (geom.energyPerStiffness >= 0) {
+		if (geom.rockingArm > 0) { // conservative
 			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
 			const Real growth = math::max(pair.approach(), Real(0))
 			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.criticalDamping(pair.phys.kn) / 2);
@@ -113,13 +133,18 @@ namespace {
 		const polytope::ConvexShape* shape1 = geom.partner ? geom.partner.get() : shapeOf(pair.body1);
 		const polytope::ConvexShape* shape2 = shapeOf(pair.body2);
 		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
-		const State &state1 = *pair.body1.state, &state2 = *pair.body2.state;
-		const bool   wall = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
-		return force
-		        * polytope::rockingArms({ *shape1, state1.pos - geom.contactPoint,
-		                                        wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()) },
-		                { *shape2, state2.pos + pair.shift2 - geom.contactPoint, state2.ori.toRotationMatrix() }, geom.normal,
-		                geom.penetrationDepth);
+		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;
+		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
+		const Matrix3r rotation1 = wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()),
+		               rotation2 = state2.ori.toRotationMatrix();
+		const Vector3r centre1 = state1.pos - geom.contactPoint, centre2 = state2.pos + pair.shift2 - geom.contactPoint;
+		if (geom.energyPerStiffness >= 0) { // a pressure
+			std::vector<polytope::Plane> planes;
+			addPlanes(planes, *shape1, rotation1, centre1);
+			addPlanes(planes, *shape2, rotation2, centre2);
+			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
+		}
+		return force * polytope::rockingArms({ *shape1, centre1, rotation1 }, { *shape2, centre2, rotation2 }, geom.normal, geom.penetrationDepth);
 	}
 
 	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.

@@ -34,6 +34,13 @@ enum class NormalSource : int {
 	InnerPotential,  ///< Eqs 13-17: gradients of both bodies' inner potential particles, averaged by normalWeight
 };
 
+/// Of the contact model Paper.
+enum class DepthRule : int {
+	Chord = 0,     ///< along the normal through the contact point
+	Mean,          ///< for a stiffness per area: mean depth and centroid of the overlap (MeanDepth.hpp)
+	MeanOnFaces,   ///< for a stiffness per contact: the same where faces lie on each other, the chord at edges and vertices
+};
+
 /// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
 /// those of the largest leverage where there are more than fit.
 struct BoundingPlanes {
@@ -70,9 +77,7 @@ struct ContactSettings {
 	bool warmStart = true;
 	/// Also the contact section's area and centroid (length in 2-D).
 	bool section = false;
-	/// Point, depth and area of a pressure that is proportional to the depth at each place (MeanDepth.hpp), not of a spring at one point.
-	/// Of the contact model Paper.
-	bool meanDepth = false;
+	DepthRule depthRule = DepthRule::Chord;
 	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
@@ -115,7 +120,6 @@ struct ContactResult {
 	Vector3 sectionCentroid  = Vector3::Zero(); ///< world axes, from body 1's centre
 	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy           = 0;               ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
-	Real    gyration         = 0;               ///< with a mean depth: largest radius of gyration of the section about an axis in it through the contact point [m]
 	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	bool    dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
 	int     simplexPivots    = 0;

@@ -22,23 +22,37 @@
 /// the pieces: V, c and U, and so force, moment and energy, are those with the whole. Between two edges that cross, U is an approximation.
 namespace polytope {
 
+/// How much a contact is one of two faces: 1 where the overlap is thin, 0 where it is as thick as wide (an edge or a vertex).
+template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const OverlapSection<R>& section)
+{
+	const R narrow = D == 2 ? section.area : section.area / sqrt(section.gyrationSquared);
+	const R thick  = chord / (R(tolerance::faceContact) * narrow);
+	return 1 / (1 + thick * thick * thick * thick);
+}
+
 /// Point, depth and area of a touching pair with normal n; x: a point inside. False, with nothing changed, if the overlap has no measurable volume.
 template <class R, int D, int W>
-POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* n, const R* x,
-        ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
+        const PairPlanes<R, D>& planes, const R* n, const R* x, ContactWorkspace& workspace, ContactResult& out)
 {
 	const Overlap<R, D> overlap(planes, 2 * f.size, workspace);
 	OverlapMass<R, D>   mass;
 	if (!overlap.mass(x, mass)) return false;
 	const OverlapSection<R> section = overlap.section(mass.centroid, n);
 	if (!(section.area > 0)) return false;
-	out.depth    = mass.volume / section.area;
-	out.area     = D == 2 ? section.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : section.area;
-	out.gyration = sqrt(section.gyrationSquared);
-	out.point = out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, mass.centroid));
 	R nearest;
 	mostViolated<R, D, W>(planes, mass.centroid, nearest); // slacks at the centroid
-	out.energy = out.depth * minOf<R>(exitDistance<R, D, W>(planes, 0, n, 1), exitDistance<R, D, W>(planes, 1, n, -1));
+	const R mean   = mass.volume / section.area;
+	const R energy = mean * minOf<R>(exitDistance<R, D, W>(planes, 0, n, 1), exitDistance<R, D, W>(planes, 1, n, -1));
+	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, section);
+	R       point[D];
+	for (int k = 0; k < D; ++k)
+		point[k] = x[k] + share * (mass.centroid[k] - x[k]);
+	out.energy = out.depth * out.depth / 2 + share * (energy - out.depth * out.depth / 2);
+	out.depth += share * (mean - out.depth);
+	out.area  = D == 2 ? section.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : section.area;
+	out.point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, point));
+	out.sectionCentroid = out.point;
 	return true;
 }
 

@@ -190,7 +190,9 @@ def stop(floor='plates', body='cube', contact=None, perArea=False, speed=2.0, fr
 def slideDown(floor='plates', body='cube', contact=None, perArea=False, incline=45.0, friction=25.0, time=0.8, spacing=0.4, **scene):
 	"""A body released on an incline: from its speed after the first twentieth of a second on, g (sin α − tan φ cos α).
 
-	Until the shear springs are loaded, in the first milliseconds, friction is less than it will be.
+	Until the shear springs are loaded, in the first milliseconds, friction is less than it will be. A body that rocks moves up and down, so that its
+	weight on the slope, and friction, vary; while it slides, x + z tan φ of its centroid (z: height above the slope) accelerates by that all the same:
+	m x'' = m g sin α − N tan φ, m z'' = N − m g cos α. This is what is read.
 
 	:param float incline: [°]
 	:param float friction: angle φ [°]
@@ -204,11 +206,12 @@ def slideDown(floor='plates', body='cube', contact=None, perArea=False, incline=
 	).settle()
 	first = O.iter
 	run.advance(0.05)
-	start, speed, begun = run.position, float(run.velocity[0]), O.time
+	combined = np.array([1, 0, math.tan(phi)])
+	start, speed, begun = run.position, float(run.velocity @ combined), O.time
 	run.advance(time - 0.05)
 	elapsed = O.time - begun
-	start[0] += speed * elapsed
-	return _way(run, start, 0.5 * acceleration * elapsed**2, acceleration * time, first)
+	way = run.position - start
+	return _way(run, run.position - [way @ combined - speed * elapsed, way[1], 0], 0.5 * acceleration * elapsed**2, acceleration * time, first)
 
 
 def _longFloor(floor, body, contact, perArea, travel, spacing, **scene):
