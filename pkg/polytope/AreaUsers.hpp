@@ -33,15 +33,14 @@ public:
 	virtual StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const = 0;
 };
 
-/// Of a contact whose physics are made now.
-inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Body& body1, const Body& body2)
+/// Of a contact of two materials whose physics are made now.
+inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Material& material1, const Material& material2)
 {
-	if (!body1.material || !body2.material) return StiffnessRule::Unknown;
 	for (const auto& engine : scene.engines)
 		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
 			for (const auto& functor : loop->physDispatcher->functors) {
 				const auto*         giver = dynamic_cast<const GivesJointStiffness*>(functor.get());
-				const StiffnessRule rule  = giver ? giver->stiffnessRule(*body1.material, *body2.material) : StiffnessRule::Unknown;
+				const StiffnessRule rule  = giver ? giver->stiffnessRule(material1, material2) : StiffnessRule::Unknown;
 				if (rule != StiffnessRule::Unknown) return rule;
 			}
 	return StiffnessRule::Unknown;

@@ -118,12 +118,17 @@ namespace {
 		using polytope::DepthRule;
 		if (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights)
 			return DepthRule::Chord;
-		return rule == StiffnessRule::PerArea ? DepthRule::Mean
+		return rule == StiffnessRule::PerArea       ? DepthRule::Mean
 		        : rule == StiffnessRule::PerContact ? DepthRule::MeanOnFaces
 		                                            : DepthRule::Chord;
 	}
 
 } // namespace
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::jointsHavePressure() const
+{
+	return depthRule(settings_, StiffnessRule::PerArea) == polytope::DepthRule::Mean;
+}
 
 bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
         const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
@@ -139,8 +144,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.section = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
-	settings.depthRule         = depthRule(settings, StiffnessRule(geom.stiffnessRule));
+	settings.section   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
+	settings.depthRule = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;
 	settings.geometryAcrossGap = wasReal || force;
@@ -163,22 +168,27 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	if (!wasReal && result.inContact) {
-		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-		geom.stiffnessRule       = int(rule);
-		settings.depthRule       = depthRule(settings, rule);
+		const auto &material1 = Body::byId(c->getId1(), scene)->material, &material2 = Body::byId(c->getId2(), scene)->material;
+		const StiffnessRule rule
+		        = material1 && material2 ? stiffnessRuleOfNew(*scene, *material1, *material2) : StiffnessRule::Unknown;
+		geom.stiffnessRule = int(rule);
+		settings.depthRule = depthRule(settings, rule);
 		if (settings.depthRule != polytope::DepthRule::Chord)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
 	if (result.inContact && (settings.bounding || !geom.internalFaces.empty())) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal, -result.infeasibility };
+			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal,
+			-result.infeasibility };
 		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none() ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1);
+		geom.share = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none()
+		        ? shareOfSupport(pair.withNormal(result.normal), internal)
+		        : Real(1);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
@@ -220,10 +230,11 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
-	geom.contactArea        = result.area;
-	geom.barrierValue       = result.barrierValue;
-	geom.rockingArm         = result.rockingArm;
-	const bool hasEnergy    = settings_.contactModel == polytope::ContactModel::Conservative || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
+	geom.contactArea     = result.area;
+	geom.barrierValue    = result.barrierValue;
+	geom.rockingArm      = result.rockingArm;
+	const bool hasEnergy = settings_.contactModel == polytope::ContactModel::Conservative
+	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	const Vector3r point    = origin1 + result.point;
 	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();

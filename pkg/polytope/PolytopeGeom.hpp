@@ -32,14 +32,14 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
-	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the direction on which the linear program's weights of both bodies agree (or the average of the gradients of their inner potential particles, see :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>`), the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
+	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the direction on which the linear program's weights of both bodies agree (or the average of the gradients of their inner potential particles, see :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>`), the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Rock joints (:yref:`RockJointPhys`) press on each other all over the overlap: theirs is the mean depth, the overlap's volume over :yref:`contactArea<PolytopeGeom.contactArea>`, at its centroid (per contact: on faces; docs/contact-force.md). Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
-		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed where a law needs it or :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
+		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed for rock joints, where a law needs it, or if :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`; set when they are made. A law that uses it for all contacts is found by the geometry functor."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
-		((Real, energyPerStiffness, -1, Attr::readonly, "*Conservative* contacts: elastic energy of the normal force over $k_n$, $2\\Phi^2$ [m²]; -1 for those of the paper's model, whose energy is $k_n$ times half the square of the depth."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *conservative* contacts $2\\Phi^2$; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 for others, whose energy is half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
 		((int, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((vector<int>, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
@@ -84,8 +84,10 @@ public:
 	void postLoad(Ig2_Polytope_Polytope_PolytopeGeom&);
 
 	const polytope::ContactSettings& settings() const { return settings_; }
-	boost::python::dict              stats() const;
-	void                             resetStats();
+	/// Whether rock joints get the depth and point of a pressure (MeanDepth.hpp).
+	bool                jointsHavePressure() const;
+	boost::python::dict stats() const;
+	void                resetStats();
 
 	FUNCTOR2D(Polytope, Polytope);
 	DEFINE_FUNCTOR_ORDER_2D(Polytope, Polytope);

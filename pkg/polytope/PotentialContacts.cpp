@@ -9,6 +9,7 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
+#include "AreaUsers.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJointLaw.hpp"
 #include "RockJointPhysics.hpp"
@@ -32,6 +33,21 @@ namespace {
 		return twice / 2;
 	}
 
+	/// ∫ r rᵀ dA / A of a face, r from a point in it.
+	Matrix3r secondMoment(const std::vector<Vector3r>& vertices, const std::vector<int>& face, const Vector3r& point)
+	{
+		Real     area = 0;
+		Matrix3r sum  = Matrix3r::Zero();
+		for (std::size_t k = 2; k < face.size(); ++k) {
+			const Vector3r a = vertices[face[0]] - point, b = vertices[face[k - 1]] - point, c = vertices[face[k]] - point,
+			               all = a + b + c;
+			const Real twice   = (b - a).cross(c - a).norm();
+			area += twice / 2;
+			sum += twice / 24 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + all * all.transpose());
+		}
+		return sum / area;
+	}
+
 	Real largestFace(const polytope::ConvexShape& shape)
 	{
 		const auto& hull = shape.polyhedron();
@@ -41,22 +57,41 @@ namespace {
 		return area;
 	}
 
-	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking included.
+	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking included. `second`: ∫ r rᵀ dA / A of the face where its force is that of a
+	/// pressure (MeanDepth.hpp); else the contact is one at the analytic centre.
 	Real unitOfFace(const polytope::ConvexShape& shape, const Matrix3r& axes, const Vector3r& normal, const Vector3r& middle,
-	        const Vector3r& centre, const polytope::Mobility& mobility)
+	        const Vector3r& centre, const polytope::Mobility& mobility, const Matrix3r* second)
 	{
 		const Real               depth = polytope::tolerance::potentialDepth * shape.inscribedRadius();
 		const Vector3r           point = middle - depth / 2 * normal; // from the part's centre
-		const auto               floor = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
 		polytope::ContactSprings springs;
 		springs.normal          = -normal;
 		springs.normalStiffness = springs.shearStiffness = 1;
-		springs.rockingStiffness                         = depth
-		        * polytope::rockingArms(
-		                { *floor, normal * depth / 2, Matrix3r::Identity() }, { shape, -point, axes }, springs.normal, depth);
+		if (second) {
+			Matrix3r turn;
+			turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
+			springs.rockingStiffness = turn * *second * turn.transpose();
+		} else {
+			const auto floor         = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
+			springs.rockingStiffness = depth
+			        * polytope::rockingArms({ *floor, normal * depth / 2, Matrix3r::Identity() }, { shape, -point, axes },
+			                springs.normal, depth);
+		}
 		polytope::BodyStiffness sum(mobility);
 		sum.add(springs, centre + point);
 		return sum.stiffness();
+	}
+
+	/// Whether forces of rock joints are those of a pressure: a geometry functor with another normal or contact model has its own depth.
+	bool jointsHavePressure(const Scene& scene)
+	{
+		for (const auto& engine : scene.engines)
+			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+				for (const auto& functor : loop->geomDispatcher->functors) {
+					const auto* ours = dynamic_cast<const Ig2_Polytope_Polytope_PolytopeGeom*>(functor.get());
+					if (ours && !ours->jointsHavePressure()) return false;
+				}
+		return true;
 	}
 
 	/// To the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.
@@ -134,7 +169,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const State &  state = *body.state, &moving = *mover.state;
 	const void*    shape  = polytope ? static_cast<const void*>(polytope->convex().get()) : body.shape.get();
 	const Vector3r centre = &body == &mover ? Vector3r(Vector3r::Zero()) : Vector3r(state.pos - moving.pos);
-	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {} };
+	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {}, {} };
 	Part&          known = parts_[body.id];
 	if (polytope && known.isOf(part)) return known; // other shapes may change their size
 	if (body.id > 0 && &body == &mover && parts_[body.id - 1].isOf(part)) return known = parts_[body.id - 1]; // bodies of a kind
@@ -153,17 +188,23 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 		part.vertex.unit   = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + arm));
 		part.vertex.arm    = math::max(part.vertex.arm, Real(vertex.norm()));
 	}
-	Real worst = 0;
+	Real worst = 0, worstPressed = 0;
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
 		const Vector3r area   = axes * areaOf(hull.vertices, hull.faces[k]);
 		Vector3r       middle = Vector3r::Zero();
 		for (int vertex : hull.faces[k])
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
-		const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility), middle.norm(), area.norm() };
-		if (!(place.unit * place.area > worst)) continue;
-		worst     = place.unit * place.area;
-		part.face = place;
+		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
+		const auto     take   = [&](const Matrix3r* pressure, Real& highest, Place& taken) {
+                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, pressure), middle.norm(),
+                                area.norm() };
+                        if (!(place.unit * place.area > highest)) return;
+                        highest = place.unit * place.area;
+                        taken   = place;
+		};
+		take(nullptr, worst, part.face);
+		take(&second, worstPressed, part.pressedFace);
 	}
 	return known = part;
 }
@@ -190,8 +231,9 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 {
 	collect(scene);
 	parts_.resize(scene.bodies->size());
-	const auto*   law     = dampingLaw(scene);
-	const Real    damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
+	const auto*   law      = dampingLaw(scene);
+	const bool    pressure = jointsHavePressure(scene);
+	const Real    damping  = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
 	TimeStepLimit limit;
 	const Body*   last = nullptr;
 	for (const auto& body : *scene.bodies) {
@@ -205,7 +247,9 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 			}
 			for (Partners& partners : partners_) {
 				if (partners.one == part.id && partners.other < 0) continue; // no body but itself
-				for (const Place& place : { places.vertex, places.face }) {
+				const bool pressed = pressure
+				        && stiffnessRuleOfNew(scene, *part.material, *partners.material) != StiffnessRule::Unknown;
+				for (const Place& place : { places.vertex, pressed ? places.pressedFace : places.face }) {
 					if (!(place.unit > 0)) continue;
 					const Stiffness& stiff  = stiffness(part, partners, place, scene);
 					const Real       k      = math::max(stiff.normal, stiff.shear);

@@ -34,8 +34,8 @@ private:
 		Real         mass     = 0;
 		Vector3r     inertia  = Vector3r::Zero();
 		unsigned int blocked  = 0;
-		Real         distance = 0; ///< from the clump's centre
-		Place        vertex, face;
+		Real         distance = 0;              ///< from the clump's centre
+		Place        vertex, face, pressedFace; ///< the last one for forces of a pressure
 
 		bool isOf(const Part& other) const
 		{

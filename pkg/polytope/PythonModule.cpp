@@ -87,9 +87,17 @@ struct Contact {
 	std::string status() const { return polytope::statusName(result.status); }
 };
 
+polytope::DepthRule depthRuleOf(const std::string& depth)
+{
+	if (depth == "chord") return polytope::DepthRule::Chord;
+	if (depth == "mean") return polytope::DepthRule::Mean;
+	if (depth == "meanOnFaces") return polytope::DepthRule::MeanOnFaces;
+	throw std::invalid_argument("depth: must be 'chord', 'mean' or 'meanOnFaces', not '" + depth + "'");
+}
+
 Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
         yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
-        const std::string& normal)
+        const std::string& normal, const std::string& depth)
 {
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
@@ -107,9 +115,13 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	functor.callPostLoad();
 	polytope::ContactSettings settings = functor.settings();
 	settings.section                   = true;
-	settings.geometryAcrossGap         = true;
-	settings.normalWeight[0]           = yade::normalWeightOfFirst(body1.get(), body2.get());
-	settings.normalWeight[1]           = 1 - settings.normalWeight[0];
+	settings.depthRule                 = depthRuleOf(depth);
+	if (settings.depthRule != polytope::DepthRule::Chord
+	        && (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights))
+		throw std::invalid_argument("depth: must be 'chord' with this normal or contactModel");
+	settings.geometryAcrossGap = true;
+	settings.normalWeight[0]   = yade::normalWeightOfFirst(body1.get(), body2.get());
+	settings.normalWeight[1]   = 1 - settings.normalWeight[0];
 
 	polytope::PairMemory       memory;
 	polytope::ContactWorkspace workspace;
@@ -200,16 +212,20 @@ BOOST_PYTHON_MODULE(_polytope)
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
 	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier),
-	                py::arg("normal") = "dualWeights"),
+	                py::arg("normal") = "dualWeights", py::arg("depth") = "chord"),
 	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
 	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: "
 	        "as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
+	        ":param str depth: 'chord' (as with YADE's own physics), 'mean' (rock joints, stiffness per area) or 'meanOnFaces' (rock "
+	        "joints, stiffness per "
+	        "contact); see docs/contact-force.md\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "
 	        "ipoptIterations, simplexPivots\n"
-	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, "
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel, solver or "
+	        "depth, "
 	        "solver 'ipopt' in a build without, tolerances or barrier out of range");
 }

@@ -67,8 +67,8 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
 		geom->stiffnessRule = int(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
-		geom->needsArea   = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
-		phys->contactArea = geom->contactArea; // a new contact's geometry has it already
+		geom->needsArea     = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
+		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
 		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
 		phys->setStiffnesses(geom->share);

@@ -12,8 +12,8 @@ namespace yade {
 
 class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor, public GivesJointStiffness {
 public:
-	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
-	        const shared_ptr<Interaction>& contact) override;
+	void          go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
+	                 const shared_ptr<Interaction>& contact) override;
 	StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const override;
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off

@@ -7,7 +7,7 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
-#include <src/contact/SectionArea.hpp>
+#include <src/contact/OverlapFootprint.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -100,7 +100,8 @@ namespace {
 	}
 
 	/// Planes of a body whose centre is there, as seen from the contact point.
-	void addPlanes(std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
+	void addPlanes(
+	        std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
 	{
 		const polytope::HalfSpaces& own = shape.planes();
 		for (std::size_t i = 0; i < own.size(); ++i) {
@@ -109,14 +110,14 @@ namespace {
 		}
 	}
 
-	/// Moment per tilt of a pressure over the section, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
+	/// Moment per tilt of a pressure over the area seen along the normal, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
 	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
 	{
-		const Real area = polytope::sectionArea(planes, normal, reach, dimension);
-		if (!(area > 0)) return Matrix3r::Zero();
+		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, normal, reach, dimension);
+		if (!(seen.area > 0)) return Matrix3r::Zero();
 		Matrix3r turn;
 		turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
-		return kn / area * turn * polytope::sectionSecondMoment(planes, normal, reach, dimension) * turn.transpose();
+		return kn / seen.area * turn * seen.second * turn.transpose();
 	}
 
 	/// Moment per tilt by the motion of the contact point.
@@ -144,7 +145,9 @@ namespace {
 			addPlanes(planes, *shape2, rotation2, centre2);
 			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
-		return force * polytope::rockingArms({ *shape1, centre1, rotation1 }, { *shape2, centre2, rotation2 }, geom.normal, geom.penetrationDepth);
+		return force
+		        * polytope::rockingArms(
+		                { *shape1, centre1, rotation1 }, { *shape2, centre2, rotation2 }, geom.normal, geom.penetrationDepth);
 	}
 
 	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.

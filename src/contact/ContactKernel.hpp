@@ -125,8 +125,8 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
 
 	publishContact<R, D>(in, f, status, x, n, memory, out);
-	const bool distributed = settings.depthRule != DepthRule::Chord && touching
-	        && meanDepth<R, D, W>(in, settings, f, planes, n, x, workspace, out);
+	const bool distributed
+	        = settings.depthRule != DepthRule::Chord && touching && meanDepth<R, D, W>(in, settings, f, planes, n, x, workspace, out);
 	if (settings.depthRule != DepthRule::Chord && !distributed) out.energy = touching ? out.depth * out.depth / 2 : R(0);
 	if (settings.section && !distributed) {
 		contactSection<R, D>(in, f, planes, x, n, workspace, out);

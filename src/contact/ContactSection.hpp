@@ -15,7 +15,6 @@ namespace polytope {
 template <class R, int D> struct Section {
 	R area        = 0;
 	R centroid[D] = {}; ///< in the frame of the planes
-	R second[3]   = {}; ///< ∫ u², ∫ u v, ∫ v² dA from the plane's origin, along the axes around its normal; 2-D: the first alone
 };
 
 /// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
@@ -81,13 +80,6 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 		section.area += twice / 2;
 		moment[0] += twice * (u1 + u2) / 6;
 		moment[1] += twice * (v1 + v2) / 6;
-		const R u[4] = { here[0], here[0] + u1, here[0] + u2, 3 * here[0] + u1 + u2 },
-		        v[4] = { here[1], here[1] + v1, here[1] + v2, 3 * here[1] + v1 + v2 };
-		for (int corner = 0; corner < 4; ++corner) {
-			section.second[0] += twice / 24 * u[corner] * u[corner];
-			section.second[1] += twice / 24 * u[corner] * v[corner];
-			section.second[2] += twice / 24 * v[corner] * v[corner];
-		}
 	}
 	if (section.area < 0) section.area = 0; // rounding of a sliver
 	const bool some = section.area > 0;
@@ -117,7 +109,6 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	Section<R, 2> section;
 	section.area = high > low ? high - low : R(0);
 	const R t    = section.area > 0 ? (low + high) / 2 : R(0);
-	if (section.area > 0) section.second[0] = (high * high * high - low * low * low) / 3;
 	for (int k = 0; k < 2; ++k)
 		section.centroid[k] = origin[k] + t * axes.m[0][k];
 	return section;

@@ -36,9 +36,9 @@ enum class NormalSource : int {
 
 /// Of the contact model Paper.
 enum class DepthRule : int {
-	Chord = 0,     ///< along the normal through the contact point
-	Mean,          ///< for a stiffness per area: mean depth and centroid of the overlap (MeanDepth.hpp)
-	MeanOnFaces,   ///< for a stiffness per contact: the same where faces lie on each other, the chord at edges and vertices
+	Chord = 0,   ///< along the normal through the contact point
+	Mean,        ///< for a stiffness per area: mean depth and centroid of the overlap (MeanDepth.hpp)
+	MeanOnFaces, ///< for a stiffness per contact: the same where faces lie on each other, the chord at edges and vertices
 };
 
 /// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
@@ -76,7 +76,7 @@ struct ContactSettings {
 	/// Start from the last query's basis and point, kept in PairMemory.
 	bool warmStart = true;
 	/// Also the contact section's area and centroid (length in 2-D).
-	bool section = false;
+	bool      section   = false;
 	DepthRule depthRule = DepthRule::Chord;
 	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
@@ -116,20 +116,21 @@ struct ContactResult {
 	        = 0; ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
 	Vector3 dualDirection = Vector3::
 	        Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
-	Real    area             = 0;               ///< contact section (times thickness in 2-D)
-	Vector3 sectionCentroid  = Vector3::Zero(); ///< world axes, from body 1's centre
-	Real    barrierValue     = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
-	Real    energy           = 0;               ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
-	Real    rockingArm       = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
-	bool    dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
-	int     simplexPivots    = 0;
-	int     newtonIterations = 0;
-	bool    ipoptSolved      = false; ///< Ipopt was called, with or without success
-	int     ipoptIterations  = 0;
-	Real    decrement        = 0;                     ///< Newton decrement before the last step
-	long    lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
-	std::array<int, 4>  basis { { 0, 0, 0, 0 } };     ///< as PairMemory::basis
-	std::array<Real, 4> weights { { 0, 0, 0, 0 } };   ///< LP dual λ of the basis
+	Real    area            = 0;               ///< contact section (times thickness in 2-D)
+	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
+	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
+	Real    energy
+	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
+	Real rockingArm       = 0;     ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
+	bool dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
+	int  simplexPivots    = 0;
+	int  newtonIterations = 0;
+	bool ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int  ipoptIterations  = 0;
+	Real decrement        = 0;                      ///< Newton decrement before the last step
+	long lpNanoseconds = 0, centreNanoseconds = 0;  ///< if asked for: frames and LP; centre
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };   ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
 };
 
 /// Buffers of one thread; grow to the largest pair seen, and keep that size.

@@ -9,7 +9,7 @@
 /// The contact of two bodies between which there is a pressure k h at each place, h the local depth along n and k a stiffness per
 /// area [N/m³]: an elastic foundation (Winkler 1867) between their faces.
 ///
-/// With V the overlap's volume, c its centroid and A the area of its section through c normal to n,
+/// With V the overlap's volume, c its centroid and A its area as seen along n,
 ///
 ///     force = ∫ k h dA = k V = (k A) (V/A),      its line of action passes through c (∫ r h dA / ∫ h dA, r across n).
 ///
@@ -23,9 +23,9 @@
 namespace polytope {
 
 /// How much a contact is one of two faces: 1 where the overlap is thin, 0 where it is as thick as wide (an edge or a vertex).
-template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const OverlapSection<R>& section)
+template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const Footprint<R>& seen)
 {
-	const R narrow = D == 2 ? section.area : section.area / sqrt(section.gyrationSquared);
+	const R narrow = D == 2 ? seen.area : seen.area / sqrt(seen.gyrationSquared());
 	const R thick  = chord / (R(tolerance::faceContact) * narrow);
 	return 1 / (1 + thick * thick * thick * thick);
 }
@@ -38,20 +38,20 @@ POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& setti
 	const Overlap<R, D> overlap(planes, 2 * f.size, workspace);
 	OverlapMass<R, D>   mass;
 	if (!overlap.mass(x, mass)) return false;
-	const OverlapSection<R> section = overlap.section(mass.centroid, n);
-	if (!(section.area > 0)) return false;
+	const Footprint<R> seen = overlap.footprint(mass.centroid, n);
+	if (!(seen.area > 0)) return false;
 	R nearest;
 	mostViolated<R, D, W>(planes, mass.centroid, nearest); // slacks at the centroid
-	const R mean   = mass.volume / section.area;
+	const R mean   = mass.volume / seen.area;
 	const R energy = mean * minOf<R>(exitDistance<R, D, W>(planes, 0, n, 1), exitDistance<R, D, W>(planes, 1, n, -1));
-	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, section);
+	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, seen);
 	R       point[D];
 	for (int k = 0; k < D; ++k)
 		point[k] = x[k] + share * (mass.centroid[k] - x[k]);
 	out.energy = out.depth * out.depth / 2 + share * (energy - out.depth * out.depth / 2);
 	out.depth += share * (mean - out.depth);
-	out.area  = D == 2 ? section.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : section.area;
-	out.point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, point));
+	out.area            = D == 2 ? seen.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : seen.area;
+	out.point           = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, point));
 	out.sectionCentroid = out.point;
 	return true;
 }

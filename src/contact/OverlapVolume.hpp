@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/ContactSection.hpp"
+#include "contact/ContactTypes.hpp"
+#include "numbers/Rotation.hpp"
+#include "numbers/Tolerances.hpp"
+#include "program/PairPlanes.hpp"
 
-/// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and the section by a plane.
+/// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
 ///
 /// A box (a square) is cut by one plane after the other. Each face is a loop of vertices, counter-clockwise seen from outside; what a cut
 /// leaves open is closed by a face of its own, whose loop is chained from the edges that the cut made in the other faces. Most planes cut
@@ -20,19 +23,25 @@ template <class R, int D> struct OverlapMass {
 	R centroid[D] = {};
 };
 
-/// Where a plane (a line) through a point p cuts the overlap.
-template <class R> struct OverlapSection {
-	R area            = 0; ///< [m²]; 2-D: length [m]
-	R gyrationSquared = 0; ///< the largest ∫ (r·t)² dA / A over unit vectors t in the plane, r from p [m²]
+/// The overlap seen along n: its projection on the plane (the line) normal to n.
+template <class R> struct Footprint {
+	R area      = 0;  ///< [m²]; 2-D: length [m]
+	R second[3] = {}; ///< ∫ u², ∫ u v, ∫ v² dA along the axes around n (axesAround), from a point p [m⁴]; 2-D: the first alone, [m³]
+	/// The largest ∫ (r·t)² dA / A over unit vectors t in the plane [m²].
+	R gyrationSquared() const
+	{
+		const R mean = (second[0] + second[2]) / 2, half = (second[0] - second[2]) / 2;
+		return (mean + sqrt(half * half + second[1] * second[1])) / area;
+	}
 };
 
 template <class R, int D> class Overlap;
 
 /// Loops of vertices one after another: face f has the vertices start[f] … start[f + 1] − 1.
 template <class R> struct FaceLoops {
-	R*   at[3];  ///< components of the vertices
+	R*   at[3]; ///< components of the vertices
 	int* start;
-	int* plane;  ///< of each face; −1: of the box that is cut
+	int* plane; ///< of each face; −1: of the box that is cut
 	int  faces = 0;
 
 	void clear() { faces = start[0] = start[1] = 0; }
@@ -116,43 +125,34 @@ public:
 		return true;
 	}
 
-	/// By the plane through p normal to n.
-	POLYTOPE_INLINE OverlapSection<R> section(const R* p, const R* n) const
+	/// Over the faces that are turned to n.
+	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);
-		OverlapSection<R>    result;
-		R                    uu = 0, vv = 0, uv = 0;
+		Footprint<R>         result;
 		for (int face = 0; face < here_.faces; ++face) {
-			R    ends[2][2];
-			bool has[2] = { false, false };
-			R    from[3], last = height(here_.start[face + 1] - 1, p, n, from);
-			for (int vertex = here_.start[face]; vertex < here_.start[face + 1]; ++vertex) {
-				R       to[3];
-				const R value = height(vertex, p, n, to);
-				if ((value > 0) != (last > 0)) {
-					const int end = value > 0; // the section's edge ends where the face's loop leaves the lower side
-					const R   t   = last / (last - value);
-					for (int k = 0; k < 3; ++k)
-						from[k] += t * (to[k] - from[k]);
-					for (int k = 0; k < 2; ++k)
-						ends[end][k] = dot<R, 3>(axes.m[k], from);
-					has[end] = true;
+			R a[3], d;
+			if (here_.plane[face] < 0) continue;
+			planes_.plane(here_.plane[face], a, d);
+			if (!(dot<R, 3>(a, n) > 0)) continue;
+			R first[2], last[2];
+			project(here_.start[face], p, axes, first);
+			project(here_.start[face] + 1, p, axes, last);
+			for (int v = here_.start[face] + 2; v < here_.start[face + 1]; ++v) {
+				R next[2];
+				project(v, p, axes, next);
+				const R twice  = (last[0] - first[0]) * (next[1] - first[1]) - (last[1] - first[1]) * (next[0] - first[0]);
+				const R sum[2] = { first[0] + last[0] + next[0], first[1] + last[1] + next[1] };
+				result.area += twice / 2;
+				for (int k = 0; k < 3; ++k) {
+					const int i = k / 2, j = (k + 1) / 2;
+					result.second[k] += twice / 24
+					        * (first[i] * first[j] + last[i] * last[j] + next[i] * next[j] + sum[i] * sum[j]);
 				}
-				last = value;
-				for (int k = 0; k < 3; ++k)
-					from[k] = to[k];
+				last[0] = next[0];
+				last[1] = next[1];
 			}
-			if (!has[0] || !has[1]) continue;
-			const R *const a = ends[0], *const b = ends[1];
-			const R        twice = a[0] * b[1] - a[1] * b[0];
-			result.area += twice / 2;
-			uu += twice * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]) / 12;
-			vv += twice * (a[1] * a[1] + a[1] * b[1] + b[1] * b[1]) / 12;
-			uv += twice * (a[0] * a[1] + b[0] * b[1] + (a[0] * b[1] + a[1] * b[0]) / 2) / 12;
 		}
-		if (!(result.area > 0)) return OverlapSection<R>(); // rounding of a sliver
-		const R mean = (uu + vv) / 2, half = (uu - vv) / 2;
-		result.gyrationSquared = (mean + sqrt(half * half + uv * uv)) / result.area;
 		return result;
 	}
 
@@ -165,13 +165,15 @@ private:
 		return a[0] * (u[1] * v[2] - u[2] * v[1]) + a[1] * (u[2] * v[0] - u[0] * v[2]) + a[2] * (u[0] * v[1] - u[1] * v[0]);
 	}
 
-	/// Above the plane; `relative`: the vertex as seen from p.
-	POLYTOPE_INLINE R height(int vertex, const R* p, const R* n, R* relative) const
+	/// A vertex in the plane through p of both axes.
+	POLYTOPE_INLINE void project(int vertex, const R* p, const Rotation<R, 3>& axes, R* uv) const
 	{
-		here_.get(vertex, relative);
+		R from[3];
+		here_.get(vertex, from);
 		for (int k = 0; k < 3; ++k)
-			relative[k] -= p[k];
-		return dot<R, 3>(n, relative);
+			from[k] -= p[k];
+		for (int k = 0; k < 2; ++k)
+			uv[k] = dot<R, 3>(axes.m[k], from);
 	}
 
 	POLYTOPE_INLINE void box(R halfWidth)
@@ -182,10 +184,11 @@ private:
 				const int u = (axis + 1) % 3, v = (axis + 2) % 3;
 				for (int corner = 0; corner < 4; ++corner) {
 					R       p[3];
-					const R along = corner == 1 || corner == 2 ? halfWidth : -halfWidth, across = corner < 2 ? -halfWidth : halfWidth;
-					p[axis] = side == 1 ? halfWidth : -halfWidth;
-					p[u]    = side == 1 ? along : across;
-					p[v]    = side == 1 ? across : along;
+					const R along  = corner == 1 || corner == 2 ? halfWidth : -halfWidth,
+					        across = corner < 2 ? -halfWidth : halfWidth;
+					p[axis]        = side == 1 ? halfWidth : -halfWidth;
+					p[u]           = side == 1 ? along : across;
+					p[v]           = side == 1 ? across : along;
 					here_.add(p);
 				}
 				here_.close(-1);
@@ -328,25 +331,18 @@ public:
 		return true;
 	}
 
-	/// By the line through p normal to n.
-	POLYTOPE_INLINE OverlapSection<R> section(const R* p, const R* n) const
+	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
-		const R along[2] = { -n[1], n[0] };
-		R       low = 0, high = 0;
-		bool    some = false;
-		for (int v = 0, last = count_ - 1; v < count_; last = v++) {
-			const R from[2] = { here_[2 * last] - p[0], here_[2 * last + 1] - p[1] },
-			        to[2]   = { here_[2 * v] - p[0], here_[2 * v + 1] - p[1] };
-			const R below = dot<R, 2>(n, from), above = dot<R, 2>(n, to);
-			if ((below > 0) == (above > 0)) continue;
-			const R t = below / (below - above), at = (1 - t) * dot<R, 2>(along, from) + t * dot<R, 2>(along, to);
-			low       = some ? minOf<R>(low, at) : at;
-			high      = some ? maxOf<R>(high, at) : at;
-			some      = true;
+		const Rotation<R, 2> axes = axesAround<R, 2>(n);
+		R                    low = 0, high = 0;
+		for (int v = 0; v < count_; ++v) {
+			const R from[2] = { here_[2 * v] - p[0], here_[2 * v + 1] - p[1] }, at = dot<R, 2>(axes.m[0], from);
+			low  = v > 0 ? minOf<R>(low, at) : at;
+			high = v > 0 ? maxOf<R>(high, at) : at;
 		}
-		OverlapSection<R> result;
-		result.area            = high - low;
-		result.gyrationSquared = (high * high + high * low + low * low) / 3;
+		Footprint<R> result;
+		result.area      = high - low;
+		result.second[0] = (high * high * high - low * low * low) / 3;
 		return result;
 	}
 

@@ -6,7 +6,7 @@
 namespace polytope {
 namespace {
 
-	template <int D> Section<Real, D> sectionOf(const std::vector<Plane>& list, const Vector3& normal, Real halfWidth)
+	template <int D> Real areaOf(const std::vector<Plane>& list, const Vector3& normal, Real halfWidth)
 	{
 		const int                             count = int(list.size());
 		static thread_local std::vector<Real> rows, buffer;
@@ -27,35 +27,14 @@ namespace {
 		Real       n[D];
 		for (int k = 0; k < D; ++k)
 			n[k] = normal[k];
-		return clipPlane<Real>(planes, origin, n, halfWidth, buffer.data(), -1);
-	}
-
-	template <int D> Matrix3 secondMoment(const std::vector<Plane>& planes, const Vector3& normal, Real halfWidth)
-	{
-		const Section<Real, D> section = sectionOf<D>(planes, normal, halfWidth);
-		Real                   n[D];
-		for (int k = 0; k < D; ++k)
-			n[k] = normal[k];
-		const Rotation<Real, D> axes = axesAround<Real, D>(n);
-		Vector3                 u = Vector3::Zero(), v = Vector3::Zero();
-		for (int k = 0; k < D; ++k) {
-			u[k] = axes.m[0][k];
-			v[k] = D == 3 ? axes.m[1][k] : Real(0);
-		}
-		return section.second[0] * u * u.transpose() + section.second[1] * (u * v.transpose() + v * u.transpose())
-		        + section.second[2] * v * v.transpose();
+		return clipPlane<Real>(planes, origin, n, halfWidth, buffer.data(), -1).area;
 	}
 
 } // namespace
 
 Real sectionArea(const std::vector<Plane>& planes, const Vector3& normal, Real halfWidth, int dimension)
 {
-	return dimension == 2 ? sectionOf<2>(planes, normal, halfWidth).area : sectionOf<3>(planes, normal, halfWidth).area;
-}
-
-Matrix3 sectionSecondMoment(const std::vector<Plane>& planes, const Vector3& normal, Real halfWidth, int dimension)
-{
-	return dimension == 2 ? secondMoment<2>(planes, normal, halfWidth) : secondMoment<3>(planes, normal, halfWidth);
+	return dimension == 2 ? areaOf<2>(planes, normal, halfWidth) : areaOf<3>(planes, normal, halfWidth);
 }
 
 } // namespace polytope

@@ -138,8 +138,8 @@ constexpr Real ipoptMove   = 1e-9;
 constexpr int  ipoptRounds = 20;
 
 /// Depth over width of an overlap, at which a contact with a stiffness per contact is half way between one of two faces and one of an edge:
-/// faces are a thousandth deep, edges and vertices about as deep as wide.
-constexpr Real faceContact = 0.1;
+/// faces are a thousandth deep, the wedge between two faces as deep as its angle, edges and vertices about as deep as wide.
+constexpr Real faceContact = 0.01;
 
 /// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
 constexpr Real barrier = 3e-3;

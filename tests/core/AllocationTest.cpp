@@ -73,12 +73,13 @@ void expectNoneAfterTheLargest(ContactSettings settings, int dimension)
 TEST(Allocation, NoneInTheContactPathAfterWarmUp)
 {
 	for (ContactPoint point : { ContactPoint::AnalyticCentre, ContactPoint::ChebyshevCentre, ContactPoint::Centroid })
-		for (bool section : { false, true })
+		for (DepthRule rule : { DepthRule::Chord, DepthRule::Mean })
 			for (bool across : { false, true })
 				for (int dimension = 2; dimension <= 3; ++dimension) {
 					ContactSettings settings;
 					settings.contactPoint      = point;
-					settings.section           = section;
+					settings.depthRule         = rule;
+					settings.section           = rule == DepthRule::Mean || across;
 					settings.geometryAcrossGap = across;
 					expectNoneAfterTheLargest(settings, dimension);
 				}

@@ -101,9 +101,9 @@ TEST(OverlapVolume, RandomOverlapsAgreeWithTheMassCentreInTwoDimensions) { expec
 TEST(OverlapVolume, OverlapWithoutVolumeHasNone)
 {
 	// both faces of a slab at the same place
-	PlaneRows<Real, 3> rows(cuboid(1, 1, 1), moved(cuboid(1, 1, 1), Matrix3::Identity(), Vector3(0, 0, 2)));
-	ContactWorkspace   workspace;
-	const Real         x[] = { Real(0.125), Real(0.25), 1 };
+	PlaneRows<Real, 3>   rows(cuboid(1, 1, 1), moved(cuboid(1, 1, 1), Matrix3::Identity(), Vector3(0, 0, 2)));
+	ContactWorkspace     workspace;
+	const Real           x[] = { Real(0.125), Real(0.25), 1 };
 	OverlapMass<Real, 3> mass;
 	EXPECT_FALSE((Overlap<Real, 3>(rows.planes, 4, workspace).mass(x, mass)));
 }

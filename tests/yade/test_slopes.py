@@ -35,9 +35,15 @@ def testTiltedCubeIsNotKickedAsideByAFrictionlessFloor(floor, perArea):
 	assert wallKick(perArea=perArea, floor=floor) < 1e-3
 
 
-@pytest.mark.xfail(reason='a solid that rolls over a seam goes another way than on one plate, by one to seven per cent')
-@pytest.mark.parametrize('perArea', [False, True])
-@pytest.mark.parametrize('faces', [12, 20])
+@pytest.mark.parametrize(
+	'faces, perArea',
+	[
+		pytest.param(12, False, marks=pytest.mark.xfail(reason='0.6 % of the way for 0.5: impacts multiply what lifting off adds')),
+		(12, True),
+		pytest.param(20, False, marks=pytest.mark.xfail(reason='0.9 % of the way for 0.5: impacts multiply what lifting off adds')),
+		(20, True),
+	],
+)
 def testSolidRollsOverFlushPlatesAsOverOne(faces, perArea):
 	one, ten = (RollingSolid(faces=faces, plates=plates, perArea=perArea).build().path(0.5) for plates in (1, 10))
 	assert np.abs(ten - one).max() < 5e-3 * one[-1, 0]

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from yade import O, Quaternion
+from yade import O, Quaternion, Vector3
 from surfaceStudy.flatBodies import bodyKinds, lyingBody
 from surfaceStudy.floors import Floor, floorKinds
 from surfaceStudy.surface import SurfaceScene
@@ -29,19 +29,7 @@ conservative = {'contactModel': 'conservative'}
 
 
 missed = {
-	'testSlidesOverFlushPieces[bricks': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.012 for 0.002',
-	'testBodiesSlideOverPlates[dodecahedron-perContact': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.0023 for 0.002',
-	'testBodiesSlideOverPlates[hull': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.06 for 0.002',
-	'testSlidesSlowly[0.001': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed); speed to 0.3 % for 0.2',
-	'testSlidesSlowly[0.01': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed)',
-	'testSlidesSlowly[0.1-0.08-front-perContact': 'the body is left rocking (spin, not speed): 0.08 for 0.002',
-	'testPolygonsSlideOverPolygons[oblique-polygon-perContact': 'the body is left rocking (spin, not speed): 0.006 for 0.002',
-	'testSlidesSlowly[0.1-0.08-back': 'speed to 0.5 % for 0.2: rocking grows where a plate ends close behind the body',
-	'testSlidesSlowlyOnOnePiece[slab': 'the body is left rocking: its contact point is pulled by planes beside the overlap (spin, not speed): 0.017 for 0.002',
-	'testAcceleratesOnAnIncline[slab-dodecahedron': '1 % for 0.5: rocking undamped',
-	'testAcceleratesOnAnIncline[plates-cube': '0.8 % for 0.5: rocking undamped',
-	'testAcceleratesOnAnIncline[facets-cube-False': '0.6 % for 0.5: rocking undamped',
-	'testAGapIsAGapAndAnEndCarries[default-perArea': '1.3 mm for 1 mm: over an end the section is smaller',
+	'testBodiesSlideOverPlates[hull-perContact': 'spin 0.036 for 0.002: with a stiffness per contact a body lifts off by rocking more than it takes',
 }
 """Limits that the default contact does not meet yet, and by how much."""
 
@@ -205,8 +193,20 @@ def testAStepIsSeenAtAll():
 def testAGapIsAGapAndAnEndCarries(contact, perArea):
 	wide, narrow = gapHolds(contact, perArea)
 	assert abs(wide) < 1e-3 and narrow == pytest.approx(0.046, abs=1e-3)  # ½ g t² less a little damping
-	assert edgeCarries(contact, perArea, over=0.2) < 1e-3
 	assert edgeCarries(contact, perArea, over=-0.2) > 1e-2
+	if contact or not perArea:
+		assert edgeCarries(contact, perArea, over=0.2) < 1e-3
+
+
+def testAFaceOverAnEndRestsOnAWedgeOfPressure():
+	"""Its centroid lies c inside of the end, a little less once it is tilted: a pressure that falls to 0 over 3 c from the end, and a depth of
+	2/3 of that at the end below the centroid."""
+	side, inside, depth = 0.5, 0.075, SurfaceScene.depth
+	c = inside
+	for _ in range(50):
+		edge = 2 * depth * side / (3 * c)
+		c = inside - side / 2 * edge / (3 * c)
+	assert edgeCarries({}, True, over=inside / (side / 2), time=3) == pytest.approx(edge * 2 / 3 - depth, rel=0.01)
 
 
 @pytest.mark.parametrize('tilt', [0, pytest.param(5), pytest.param(20), 45])
@@ -270,15 +270,39 @@ def testFloorsSayWhatTheyCannot():
 
 @pytest.mark.parametrize('kind', [kind for kind in bodyKinds if kind != 'sphere'])
 def testBodiesLieOnAFace(kind):
-	scene = SurfaceScene('polygon' if kind in ('square', 'polygon') else 'slab', kind).build()
+	scene = SurfaceScene('polygon' if kind in ('square', 'polygon') else 'slab', kind, perArea=True).build()
 	corners = scene.corners()
 	assert corners[:, 2].min() == pytest.approx(-scene.depth, abs=1e-12)
 	assert (corners[:, 2] < -scene.depth + 1e-9).sum() >= (2 if scene.planar else 3)
 	assert scene.lying.area > 0
-	scene.settle()
-	# the hull's centroid is off the middle of its face: it tilts until the centre of pressure is under it
-	assert scene.leaning < (5e-3 if kind == 'hull' else 1e-3) and scene.failures == 0
-	assert scene.lying.height - scene.position[2] == pytest.approx(scene.depth, rel=0.2 if kind == 'hull' else 0.01)
+	scene.settle(300)
+	assert scene.failures == 0
+	(contact,) = (contact for contact in O.interactions if contact.isReal)
+	assert contact.phys.normalForce.norm() == pytest.approx(scene.mass * scene.gravity, rel=1e-3)
+	aside = (contact.geom.contactPoint - scene.moving.state.pos).cross(Vector3(*scene.up)).norm()
+	assert aside < 1e-4 and scene.leaning < 1e-2
+	if kind != 'hull':  # it lifts off on one side
+		assert scene.lying.height - scene.position[2] == pytest.approx(foundationDepth(scene, corners), rel=0.01)
+
+
+def foundationDepth(scene, corners):
+	"""Of the centroid of a body that lies on a face, on springs spread over that face: the mean depth times 1 + e·r⁻²·e, e: from the middle of
+	the face, r²: of its radii of gyration."""
+	low = corners[corners[:, 2] < -scene.depth + 1e-9]
+	if scene.planar:
+		ends = low[:, 0].min(), low[:, 0].max()
+		return scene.depth * (1 + 12 * ((scene.position[0] - sum(ends) / 2) / (ends[1] - ends[0])) ** 2)
+	face = low[:, :2] - low[:, :2].mean(axis=0)
+	face = face[np.argsort(np.arctan2(face[:, 1], face[:, 0]))]
+	area, first, second = 0, np.zeros(2), np.zeros((2, 2))
+	for p, q in zip(face, np.roll(face, -1, axis=0), strict=True):
+		twice = p[0] * q[1] - p[1] * q[0]
+		area += twice / 2
+		first += twice * (p + q) / 6
+		second += twice / 24 * (np.outer(p, p) + np.outer(q, q) + np.outer(p + q, p + q))
+	middle = first / area
+	off = scene.position[:2] - low[:, :2].mean(axis=0) - middle
+	return scene.depth * (1 + off @ np.linalg.solve(second / area - np.outer(middle, middle), off))
 
 
 def testMissedLimitsAreReported(tmp_path):

@@ -330,6 +330,12 @@ namespace {
 				ours.settings.section = true;
 				ours.run(state);
 			});
+			add("ours, stiffness per area warm", set, [](benchmark::State& state, const PairSet& set) {
+				Ours ours { &set, {}, true, {}, {}, {} };
+				ours.settings.section   = true;
+				ours.settings.depthRule = DepthRule::Mean;
+				ours.run(state);
+			});
 			// a pair that its first basis dismisses has no linear program to time
 			if (set.touching)
 				for (const bool warm : { false, true })

@@ -116,6 +116,7 @@ ContactSettings readSettings(Bytes& bytes, bool& proper)
 	settings.section           = flags & 4;
 	settings.geometryAcrossGap = flags & 8;
 	settings.timed             = flags & 16;
+	settings.depthRule         = flags & 32 ? DepthRule::Mean : flags & 64 ? DepthRule::MeanOnFaces : DepthRule::Chord;
 	settings.contactPoint      = ContactPoint(bytes.below(3));
 	settings.solver            = bytes.below(64) == 1 ? CentreSolver::Ipopt : CentreSolver::Newton; // expensive
 	const int others           = bytes.below(8);

@@ -15,6 +15,8 @@ __all__ = ['drawPaths', 'plotHalving', 'plotPaths']
 
 colors = {
 	'default': '#2a9d8f',
+	'default, per area': '#7bc8a4',
+	'default, per contact': '#b5c334',
 	'analytic centre': '#c8451b',
 	'Chebyshev centre': '#8d6bb0',
 	'centroid': '#4c8c4a',

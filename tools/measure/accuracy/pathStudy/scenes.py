@@ -21,13 +21,15 @@ deep = 0.005
 """Radius of the largest ball in the overlap: half the overlap of faces."""
 variants = {
 	'default': {},
+	'default, per area': {'depth': 'mean'},
+	'default, per contact': {'depth': 'meanOnFaces'},
 	'analytic centre': {'normal': 'innerPotential'},
 	'Chebyshev centre': {'contactPoint': 'chebyshevCentre', 'normal': 'innerPotential'},
 	'centroid': {'contactPoint': 'centroid', 'normal': 'innerPotential'},
 	'analytic centre, corner radius 0': {'cornerRadius': 0.0, 'normal': 'innerPotential'},
 	'conservative': {'contactModel': 'conservative'},
 }
-"""Arguments of polytope.contact, and the corner radius where it is not the default: our default contact, the paper's averaged normal at each
+"""Arguments of polytope.contact, and the corner radius where it is not the default: our default contact with YADE's physics and with rock joints, the paper's averaged normal at each
 contact point, and the conservative contact."""
 
 planeSets = ('plain', 'touching', 'repeated')

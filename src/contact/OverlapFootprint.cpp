@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/OverlapFootprint.hpp"
+
+#include "contact/OverlapVolume.hpp"
+
+namespace polytope {
+namespace {
+
+	template <int D> OverlapFootprint footprintOf(const std::vector<Plane>& list, const Vector3& direction, Real halfWidth)
+	{
+		const int                            count = int(list.size());
+		static thread_local ContactWorkspace workspace;
+		Real* const                          row = workspace.rows(D + 1, count);
+		PairPlanes<Real, D>                  planes;
+		for (int k = 0; k < D; ++k)
+			planes.normal[k] = row + k * count;
+		planes.offset = row + D * count;
+		planes.slack = planes.rate = nullptr;
+		planes.first = planes.total = count;
+		for (int i = 0; i < count; ++i) {
+			for (int k = 0; k < D; ++k)
+				planes.normal[k][i] = list[i].normal[k];
+			planes.offset[i] = list[i].offset;
+		}
+		const Real origin[D] = {};
+		Real       n[D];
+		for (int k = 0; k < D; ++k)
+			n[k] = direction[k];
+		const Footprint<Real>   seen = Overlap<Real, D>(planes, halfWidth, workspace).footprint(origin, n);
+		const Rotation<Real, D> axes = axesAround<Real, D>(n);
+		Vector3                 u = Vector3::Zero(), v = Vector3::Zero();
+		for (int k = 0; k < D; ++k) {
+			u[k] = axes.m[0][k];
+			v[k] = D == 3 ? axes.m[1][k] : Real(0);
+		}
+		return { seen.area,
+			seen.second[0] * u * u.transpose() + seen.second[1] * (u * v.transpose() + v * u.transpose())
+			        + seen.second[2] * v * v.transpose() };
+	}
+
+} // namespace
+
+OverlapFootprint overlapFootprint(const std::vector<Plane>& planes, const Vector3& direction, Real halfWidth, int dimension)
+{
+	return dimension == 2 ? footprintOf<2>(planes, direction, halfWidth) : footprintOf<3>(planes, direction, halfWidth);
+}
+
+} // namespace polytope
