@@ -3,8 +3,6 @@
 
 #include "contact/ContactFrame.hpp"
 #include "contact/OverlapVolume.hpp"
-#include "contact/PenetrationDepth.hpp"
-#include "program/SimplexLp.hpp"
 
 /// The contact of two bodies between which there is a pressure k h at each place, h the local depth along n and k a stiffness per
 /// area [N/m³]: an elastic foundation (Winkler 1867) between their faces.
@@ -21,6 +19,28 @@
 /// however a body tilts, rocks or lifts off, what it gets back is what it gave. And the overlap with a solid made of pieces is the sum of those with
 /// the pieces: V, c and U, and so force, moment and energy, are those with the whole. Between two edges that cross, U is an approximation.
 namespace polytope {
+
+/// From x along n to the surface of the body that has a face there: of the planes through which n leaves one body and −n the other, the one more normal
+/// to n. Two faces that are tilted against each other are equally far from the centroid.
+template <class R, int D> POLYTOPE_INLINE R distanceFromFace(const PairPlanes<R, D>& planes, const R* x, const R* n)
+{
+	R distance = 0, steepest = 0;
+	for (int body = 0; body < 2; ++body) {
+		R nearest = R(padOffset), rate = 0;
+		for (int i = planes.begin(body); i < planes.end(body); ++i) {
+			R a[D], d;
+			planes.plane(i, a, d);
+			const R leaving = (body == 0 ? R(1) : R(-1)) * dot<R, D>(a, n), slack = d - dot<R, D>(a, x);
+			if (!(leaving > 0) || !(slack < nearest * leaving)) continue;
+			nearest = slack / leaving;
+			rate    = leaving;
+		}
+		if (!(rate > steepest)) continue;
+		steepest = rate;
+		distance = maxOf<R>(0, nearest);
+	}
+	return distance;
+}
 
 /// How much a contact is one of two faces: 1 where the overlap is thin, 0 where it is as thick as wide (an edge or a vertex).
 template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const Footprint<R>& seen)
@@ -40,10 +60,8 @@ POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& setti
 	if (!overlap.mass(x, mass)) return false;
 	const Footprint<R> seen = overlap.footprint(mass.centroid, n);
 	if (!(seen.area > 0)) return false;
-	R nearest;
-	mostViolated<R, D, W>(planes, mass.centroid, nearest); // slacks at the centroid
 	const R mean   = mass.volume / seen.area;
-	const R energy = mean * minOf<R>(exitDistance<R, D, W>(planes, 0, n, 1), exitDistance<R, D, W>(planes, 1, n, -1));
+	const R energy = mean * distanceFromFace<R, D>(planes, mass.centroid, n);
 	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, seen);
 	R       point[D];
 	for (int k = 0; k < D; ++k)

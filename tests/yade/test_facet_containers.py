@@ -19,8 +19,8 @@ def checkBudget(book, limit=0.01):
 	assert abs(book['missing']) < limit * work
 
 
-# wanted is 1 %: under a stiffness per contact grains that roll over edges gain 3 % (the averaged normal: 13 to 19 %, per area 4 to 7 %)
-@pytest.mark.parametrize('perArea, limit', [(False, 0.04), (True, 0.015)])
+# under a stiffness per contact grains that roll over edges gain 1.4 to 3.7 % (the averaged normal: 13 to 19 %, per area 4 to 7 %)
+@pytest.mark.parametrize('perArea, limit', [(False, 0.04), (True, 0.005)])
 def testDrumOfFacetsKeepsItsEnergyBudget(perArea, limit):
 	drum = FacetDrum(number=16, segments=16, perArea=perArea).build().turn(1.0)
 	assert failures() == 0 and drum.outside == 0
