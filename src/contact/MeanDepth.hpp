@@ -55,7 +55,7 @@ template <class R, int D, int W>
 POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
         const PairPlanes<R, D>& planes, const R* n, const R* x, ContactWorkspace& workspace, ContactResult& out)
 {
-	const Overlap<R, D> overlap(planes, 2 * f.size, workspace);
+	const Overlap<R, D> overlap(planes, x, 2 * f.size, workspace);
 	OverlapMass<R, D>   mass;
 	if (!overlap.mass(x, mass)) return false;
 	const Footprint<R> seen = overlap.footprint(mass.centroid, n);

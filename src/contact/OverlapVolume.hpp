@@ -8,9 +8,9 @@
 
 /// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
 ///
-/// A box (a square) is cut by one plane after the other. Each face is a loop of vertices, counter-clockwise seen from outside; what a cut
+/// A box (a square) is cut by one plane after the other, the nearest first. Each face is a loop of vertices, counter-clockwise seen from outside; what a cut
 /// leaves open is closed by a face of its own, whose loop is chained from the edges that the cut made in the other faces. Most planes cut
-/// nothing and cost one product with each vertex. With an inner point x, and over the faces i with area A_i, centroid c_i and slack
+/// nothing: they cost one product with each vertex, or nothing if they are farther than any vertex. With an inner point x, and over the faces i with area A_i, centroid c_i and slack
 /// σ_i = d_i − a_i·x, the cones from x give
 ///
 ///     V = Σ A_i σ_i / D,      centroid = x + Σ A_i σ_i (c_i − x) / ((D + 1) V).
@@ -37,56 +37,51 @@ template <class R> struct Footprint {
 
 template <class R, int D> class Overlap;
 
-/// Loops of vertices one after another: face f has the vertices start[f] … start[f + 1] − 1.
+/// The vertices of each face, in places of equal length; a face that was cut away has none.
 template <class R> struct FaceLoops {
-	R*   at[3]; ///< components of the vertices
-	int* start;
+	R*   at[3]; ///< components of the vertices: face f's begin at f × room
+	int* count;
 	int* plane; ///< of each face; −1: of the box that is cut
+	int  room  = 0;
 	int  faces = 0;
 
-	void clear() { faces = start[0] = start[1] = 0; }
-	int  vertices() const { return start[faces + 1]; }
-	/// To the face that close() ends.
-	void add(const R* p)
+	void get(int face, int vertex, R* p) const
 	{
 		for (int k = 0; k < 3; ++k)
-			at[k][start[faces + 1]] = p[k];
-		++start[faces + 1];
+			p[k] = at[k][face * room + vertex];
 	}
-	void close(int planeIndex)
-	{
-		plane[faces++]   = planeIndex;
-		start[faces + 1] = start[faces];
-	}
-	void get(int vertex, R* p) const
+	void set(int face, int vertex, const R* p)
 	{
 		for (int k = 0; k < 3; ++k)
-			p[k] = at[k][vertex];
+			at[k][face * room + vertex] = p[k];
 	}
 };
 
 template <class R> class Overlap<R, 3> {
 public:
-	/// `halfWidth`: the overlap lies within this distance of the frame's origin, along each axis.
-	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, R halfWidth, ContactWorkspace& workspace)
-	        : planes_(planes), tolerance_(R(tolerance::violation) * halfWidth), faces_(planes.total + 7), vertices_(6 * faces_)
+	/// x: a point inside. `halfWidth`: the overlap lies within this distance of the frame's origin, along each axis.
+	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, const R* x, R halfWidth, ContactWorkspace& workspace)
+	        : planes_(planes), tolerance_(R(tolerance::violation) * halfWidth), room_(planes.total + 7)
 	{
-		R*   numbers = workspace.polygons(numberCount());
-		int* indices = workspace.indices(4 * (faces_ + 2));
-		for (FaceLoops<R>* loops : { &here_, &there_ }) {
-			for (R*& component : loops->at) {
-				component = numbers;
-				numbers += vertices_;
-			}
-			loops->start = indices;
-			loops->plane = indices + faces_ + 2;
-			indices += 2 * (faces_ + 2);
+		// of at most room_ faces each has less than room_ vertices, one on each of the other faces
+		R* numbers = workspace.polygons(3 * room_ * room_ + 10 * room_ + planes.total);
+		for (R*& component : loops_.at) {
+			component = numbers;
+			numbers += room_ * room_;
 		}
-		value_ = numbers;
-		edge_  = value_ + vertices_;
+		value_       = numbers;
+		left_        = value_ + room_;
+		edge_        = left_ + 3 * room_;
+		R* slack     = edge_ + 6 * room_;
+		loops_.count = workspace.indices(2 * room_ + planes.total);
+		loops_.plane = loops_.count + room_;
+		int* nearest = loops_.plane + room_;
+		loops_.room  = room_;
 		box(halfWidth);
-		for (int i = 0; i < planes.total && whole_; ++i)
-			if (planes.offset[i] < R(padOffset) / 2) cut(i);
+		const int count = sortBySlack(x, slack, nearest);
+		R         reach = reachFrom(x);
+		for (int k = 0; k < count && whole_ && slack[k] < reach; ++k) // from there on planes are farther than any vertex
+			if (cut(nearest[k])) reach = reachFrom(x);
 	}
 
 	/// x: a point inside. False if there is no measurable volume.
@@ -94,19 +89,21 @@ public:
 	{
 		if (!whole_) return false;
 		R moment[3] = {};
-		for (int face = 0; face < here_.faces; ++face) {
-			if (here_.plane[face] < 0) continue; // a face of the box: of an overlap that reaches to it, or of no area
+		for (int face = 0; face < loops_.faces; ++face) {
+			const int count = loops_.count[face];
+			if (count < 3 || loops_.plane[face] < 0)
+				continue; // a face of the box: of an overlap that reaches to it, or of no area
 			R a[3], d;
-			planes_.plane(here_.plane[face], a, d);
+			planes_.plane(loops_.plane[face], a, d);
 			const R height = d - dot<R, 3>(a, x);
 			R       first[3], last[3], arm[3] = {}, area = 0;
-			here_.get(here_.start[face], first);
-			for (int v = here_.start[face] + 1; v < here_.start[face + 1]; ++v) {
+			loops_.get(face, 0, first);
+			for (int v = 1; v < count; ++v) {
 				R next[3];
-				here_.get(v, next);
+				loops_.get(face, v, next);
 				for (int k = 0; k < 3; ++k)
 					next[k] -= first[k];
-				if (v > here_.start[face] + 1) {
+				if (v > 1) {
 					const R twice = triple(a, last, next);
 					area += twice / 2;
 					for (int k = 0; k < 3; ++k)
@@ -130,17 +127,17 @@ public:
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);
 		Footprint<R>         result;
-		for (int face = 0; face < here_.faces; ++face) {
+		for (int face = 0; face < loops_.faces; ++face) {
+			if (loops_.count[face] < 3 || loops_.plane[face] < 0) continue;
 			R a[3], d;
-			if (here_.plane[face] < 0) continue;
-			planes_.plane(here_.plane[face], a, d);
+			planes_.plane(loops_.plane[face], a, d);
 			if (!(dot<R, 3>(a, n) > 0)) continue;
 			R first[2], last[2];
-			project(here_.start[face], p, axes, first);
-			project(here_.start[face] + 1, p, axes, last);
-			for (int v = here_.start[face] + 2; v < here_.start[face + 1]; ++v) {
+			project(face, 0, p, axes, first);
+			project(face, 1, p, axes, last);
+			for (int v = 2; v < loops_.count[face]; ++v) {
 				R next[2];
-				project(v, p, axes, next);
+				project(face, v, p, axes, next);
 				const R twice  = (last[0] - first[0]) * (next[1] - first[1]) - (last[1] - first[1]) * (next[0] - first[0]);
 				const R sum[2] = { first[0] + last[0] + next[0], first[1] + last[1] + next[1] };
 				result.area += twice / 2;
@@ -157,7 +154,40 @@ public:
 	}
 
 private:
-	int numberCount() const { return 7 * vertices_ + 6 * faces_; }
+	/// The planes from the nearest to the farthest, without those of padding: near ones leave little for the others to cut. Returns how many.
+	POLYTOPE_INLINE int sortBySlack(const R* x, R* slack, int* plane) const
+	{
+		int count = 0;
+		for (int i = 0; i < planes_.total; ++i) {
+			R a[3], d;
+			planes_.plane(i, a, d);
+			if (d >= R(padOffset) / 2) continue;
+			const R own = d - dot<R, 3>(a, x);
+			int     k   = count++;
+			for (; k > 0 && slack[k - 1] > own; --k) {
+				slack[k] = slack[k - 1];
+				plane[k] = plane[k - 1];
+			}
+			slack[k] = own;
+			plane[k] = i;
+		}
+		return count;
+	}
+
+	/// Distance of the farthest vertex.
+	POLYTOPE_INLINE R reachFrom(const R* x) const
+	{
+		R farthest = 0;
+		for (int face = 0; face < loops_.faces; ++face)
+			for (int v = 0; v < loops_.count[face]; ++v) {
+				R from[3], square = 0;
+				loops_.get(face, v, from);
+				for (int k = 0; k < 3; ++k)
+					square += (from[k] - x[k]) * (from[k] - x[k]);
+				farthest = maxOf<R>(farthest, square);
+			}
+		return sqrt(farthest);
+	}
 
 	/// a·(u × v)
 	static POLYTOPE_INLINE R triple(const R* a, const R* u, const R* v)
@@ -166,10 +196,10 @@ private:
 	}
 
 	/// A vertex in the plane through p of both axes.
-	POLYTOPE_INLINE void project(int vertex, const R* p, const Rotation<R, 3>& axes, R* uv) const
+	POLYTOPE_INLINE void project(int face, int vertex, const R* p, const Rotation<R, 3>& axes, R* uv) const
 	{
 		R from[3];
-		here_.get(vertex, from);
+		loops_.get(face, vertex, from);
 		for (int k = 0; k < 3; ++k)
 			from[k] -= p[k];
 		for (int k = 0; k < 2; ++k)
@@ -178,7 +208,6 @@ private:
 
 	POLYTOPE_INLINE void box(R halfWidth)
 	{
-		here_.clear();
 		for (int axis = 0; axis < 3; ++axis)
 			for (int side = 0; side < 2; ++side) {
 				const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -189,81 +218,94 @@ private:
 					p[axis]        = side == 1 ? halfWidth : -halfWidth;
 					p[u]           = side == 1 ? along : across;
 					p[v]           = side == 1 ? across : along;
-					here_.add(p);
+					loops_.set(loops_.faces, corner, p);
 				}
-				here_.close(-1);
+				loops_.count[loops_.faces]   = 4;
+				loops_.plane[loops_.faces++] = -1;
 			}
 	}
 
-	/// Removes what lies beyond plane i.
-	POLYTOPE_INLINE void cut(int i)
+	/// Removes what lies beyond plane i; false if nothing does.
+	POLYTOPE_INLINE bool cut(int i)
 	{
 		R a[3], d;
 		planes_.plane(i, a, d);
-		const int count   = here_.vertices();
-		R         highest = -d;
-		for (int v = 0; v < count; ++v) {
-			value_[v] = a[0] * here_.at[0][v] + a[1] * here_.at[1][v] + a[2] * here_.at[2][v] - d;
-			highest   = maxOf<R>(highest, value_[v]);
+		int  edges   = 0;
+		bool changed = false;
+		for (int face = 0; face < loops_.faces && whole_; ++face) {
+			const int count = loops_.count[face];
+			const R * px = loops_.at[0] + face * room_, *py = loops_.at[1] + face * room_, *pz = loops_.at[2] + face * room_;
+			int       outside = 0;
+			for (int v = 0; v < count; ++v) {
+				value_[v] = a[0] * px[v] + a[1] * py[v] + a[2] * pz[v] - d;
+				outside += value_[v] > tolerance_;
+			}
+			if (outside == 0) continue;
+			changed = true;
+			if (outside == count) loops_.count[face] = 0;
+			else cutFace(face, edges);
 		}
-		if (!(highest > tolerance_)) return;
-		there_.clear();
-		int edges = 0;
-		for (int face = 0; face < here_.faces; ++face)
-			if (!cutFace(face, edges)) return;
-		if (!closeCut(i, edges)) return;
-		const FaceLoops<R> swap = here_;
-		here_                   = there_;
-		there_                  = swap;
+		if (changed && whole_) closeCut(i, edges);
+		return changed;
 	}
 
 	/// Where the edge from the inner to the outer vertex meets the plane.
-	POLYTOPE_INLINE void meeting(int inner, int outer, R* p) const
+	POLYTOPE_INLINE void meeting(int face, int inner, int outer, R* p) const
 	{
 		const R t = maxOf<R>(0, value_[inner] / (value_[inner] - value_[outer])); // the inner one may lie beyond it by rounding
+		R       from[3], to[3];
+		loops_.get(face, inner, from);
+		loops_.get(face, outer, to);
 		for (int k = 0; k < 3; ++k)
-			p[k] = here_.at[k][inner] + t * (here_.at[k][outer] - here_.at[k][inner]);
+			p[k] = from[k] + t * (to[k] - from[k]);
 	}
 
-	/// Copies what is left of a face, and stores the edge that closes it.
-	POLYTOPE_INLINE bool cutFace(int face, int& edges)
+	/// Leaves what is inside, and stores the edge that closes it.
+	POLYTOPE_INLINE void cutFace(int face, int& edges)
 	{
-		const int begin = here_.start[face], end = here_.start[face + 1];
-		if (there_.vertices() + end - begin + 2 > vertices_) return whole_ = false;
+		const int count = loops_.count[face];
 		R         exit[3], entry[3];
-		int       exits = 0, entries = 0;
-		const int first = there_.vertices();
-		for (int v = begin, last = end - 1; v < end; last = v++) {
+		int       exits = 0, entries = 0, kept = 0;
+		for (int v = 0, last = count - 1; v < count; last = v++) {
 			const bool inside = !(value_[v] > tolerance_), wasInside = !(value_[last] > tolerance_);
+			if (kept + 2 > room_) {
+				whole_ = false;
+				return;
+			}
 			if (inside != wasInside) {
 				R* point = inside ? entry : exit;
-				meeting(inside ? v : last, inside ? last : v, point);
-				there_.add(point);
+				meeting(face, inside ? v : last, inside ? last : v, point);
+				for (int k = 0; k < 3; ++k)
+					left_[3 * kept + k] = point[k];
+				++kept;
 				(inside ? entries : exits) += 1;
 			}
-			if (inside) {
-				R p[3];
-				here_.get(v, p);
-				there_.add(p);
-			}
+			if (inside) loops_.get(face, v, left_ + 3 * kept++);
 		}
-		if (there_.vertices() > first) there_.close(here_.plane[face]);
-		if (exits == 1 && entries == 1) { // the new face runs along the edge the other way round
-			if (edges == faces_) return whole_ = false;
-			for (int k = 0; k < 3; ++k) {
-				edge_[6 * edges + k]     = entry[k];
-				edge_[6 * edges + 3 + k] = exit[k];
-			}
-			++edges;
+		loops_.count[face] = kept;
+		for (int v = 0; v < kept; ++v)
+			loops_.set(face, v, left_ + 3 * v);
+		if (exits != 1 || entries != 1) return; // rounding: no edge
+		if (edges == room_) {
+			whole_ = false;
+			return;
 		}
-		return true;
+		for (int k = 0; k < 3; ++k) { // the new face runs along the edge the other way round
+			edge_[6 * edges + k]     = entry[k];
+			edge_[6 * edges + 3 + k] = exit[k];
+		}
+		++edges;
 	}
 
 	/// Chains the stored edges into the face in plane i. Neighbouring faces have computed a common vertex each for itself: the nearest is it.
-	POLYTOPE_INLINE bool closeCut(int i, int edges)
+	POLYTOPE_INLINE void closeCut(int i, int edges)
 	{
-		if (there_.vertices() + edges > vertices_ || there_.faces + 1 >= faces_) return whole_ = false;
-		if (edges < 3) return true; // cut along an edge or at a vertex
+		if (edges < 3) return; // cut along an edge or at a vertex
+		if (loops_.faces == room_) {
+			whole_ = false;
+			return;
+		}
+		const int face = loops_.faces++;
 		for (int done = 0; done < edges; ++done) {
 			if (done > 0) {
 				const R* end     = edge_ + 6 * (done - 1) + 3;
@@ -282,28 +324,28 @@ private:
 						edge_[6 * nearest + k] = swap;
 					}
 			}
-			there_.add(edge_ + 6 * done);
+			loops_.set(face, done, edge_ + 6 * done);
 		}
-		there_.close(i);
-		return true;
+		loops_.count[face] = edges;
+		loops_.plane[face] = i;
 	}
 
 	static POLYTOPE_INLINE R distance(const R* p, const R* q) { return abs(p[0] - q[0]) + abs(p[1] - q[1]) + abs(p[2] - q[2]); }
 
 	const PairPlanes<R, 3>& planes_;
 	R                       tolerance_; ///< a vertex less far beyond a plane is on it [m]
-	int                     faces_;     ///< room for so many
-	int                     vertices_;  ///< in all loops: three edges meet at a vertex, each edge is in two loops
+	int                     room_;      ///< for faces, for vertices of a face, and for edges of a cut
 	bool                    whole_ = true;
-	FaceLoops<R>            here_, there_;
-	R*                      value_; ///< of each vertex: beyond the cutting plane [m]
+	FaceLoops<R>            loops_;
+	R*                      value_; ///< of a face's vertices: beyond the cutting plane [m]
+	R*                      left_;  ///< vertices of a face after a cut
 	R*                      edge_;  ///< of the new face, six numbers each
 };
 
 /// The loop of corners alone, cut by one line after the other.
 template <class R> class Overlap<R, 2> {
 public:
-	POLYTOPE_INLINE Overlap(const PairPlanes<R, 2>& planes, R halfWidth, ContactWorkspace& workspace)
+	POLYTOPE_INLINE Overlap(const PairPlanes<R, 2>& planes, const R*, R halfWidth, ContactWorkspace& workspace)
 	        : planes_(planes), here_(workspace.polygons(4 * (planes.total + 5))), there_(here_ + 2 * (planes.total + 5))
 	{
 		const R corners[8] = { -halfWidth, -halfWidth, halfWidth, -halfWidth, halfWidth, halfWidth, -halfWidth, halfWidth };
