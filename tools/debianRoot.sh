@@ -115,10 +115,8 @@ dropDebianRoot() {
 
 # installInDebianRoot FOLDER PACKAGE…: into the existing root; processes that run in it are not affected
 installInDebianRoot() {
-	local folder=$1 way
-	shift
-	way=$(aptWay)
-	inNamespace env APT_WAY="$way" bash "$project/tools/installInRoot.sh" "$folder" "$@"
+	# in the environment: a command line is visible to every user
+	APT_WAY=$(aptWay) inNamespace bash "$project/tools/installInRoot.sh" "$@"
 }
 
 # inDebianRoot FOLDER COMMAND ARGS…: in the same working folder, with the same paths

@@ -4,6 +4,7 @@
 #include "Construction.hpp"
 
 #include "Polytope.hpp"
+#include "Vectors.hpp"
 
 #include <core/Body.hpp>
 #include <core/Material.hpp>
@@ -34,17 +35,17 @@ namespace {
 		return result;
 	}
 
-	CentralShape ofHalfSpaces(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
+	CentralShape ofHalfSpaces(const Vectors& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
 	        bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
 	{
 		return polytope::centralShape(
-		        { normals, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
+		        { normals.rows, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
 	}
 
-	CentralShape ofPoints(const std::vector<Vector3r>& points, int dimension, Real coplanar, Real thickness,
-	        const py::object& cornerRadius, Real cornerFraction)
+	CentralShape ofPoints(
+	        const Vectors& points, int dimension, Real coplanar, Real thickness, const py::object& cornerRadius, Real cornerFraction)
 	{
-		return polytope::centralHull(points, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
+		return polytope::centralHull(points.rows, dimension, coplanar, options(thickness, true, cornerRadius, cornerFraction));
 	}
 
 	CentralShape ofRegular(int faces, Real circumradius, const py::object& cornerRadius, Real cornerFraction)
@@ -104,13 +105,13 @@ namespace {
 	}
 
 	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
-	py::dict jointedBlocks(const std::vector<Vector3r>& normals, const std::vector<Real>& offsets,
-	        const std::vector<Vector3r>& jointNormals, const std::vector<Real>& jointOffsets, Real smallest)
+	py::dict jointedBlocks(const Vectors& normals, const std::vector<Real>& offsets, const Vectors& jointNormals,
+	        const std::vector<Real>& jointOffsets, Real smallest)
 	{
 		std::vector<polytope::Plane> joints;
-		for (std::size_t j = 0; j < jointNormals.size(); ++j)
-			joints.push_back({ jointNormals[j], jointOffsets[j] });
-		const auto          rock = polytope::cutByJoints({ normals, offsets, 3 }, joints, smallest);
+		for (std::size_t j = 0; j < jointNormals.rows.size(); ++j)
+			joints.push_back({ jointNormals.rows[j], jointOffsets[j] });
+		const auto          rock = polytope::cutByJoints({ normals.rows, offsets, 3 }, joints, smallest);
 		std::vector<double> planes, volumes;
 		std::vector<int>    counts, cutting;
 		for (const polytope::Block& block : rock.blocks) {

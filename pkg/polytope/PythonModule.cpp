@@ -7,8 +7,8 @@
 // classes and converters are registered by then.
 #include "Construction.hpp"
 #include "PolytopeGeom.hpp"
-
 #include "PotentialContacts.hpp"
+#include "Vectors.hpp"
 
 #include "BuildInfo.hpp"
 
@@ -48,10 +48,10 @@ py::dict tolerances()
 }
 
 /// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
-py::dict polyhedron(const std::vector<yade::Vector3r>& normals, const std::vector<yade::Real>& offsets)
+py::dict polyhedron(const yade::Vectors& normals, const std::vector<yade::Real>& offsets)
 {
 	const polytope::HalfSpaces set
-	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals, offsets })));
+	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals.rows, offsets })));
 	const auto hull    = polytope::polyhedron(set);
 	const auto mass    = polytope::massProperties(hull);
 	const auto central = polytope::moved(set, yade::Matrix3r::Identity(), -mass.centroid);
@@ -174,6 +174,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "
 	        "a dictionary; None where nothing limits.");
+	yade::defineVectors();
 	yade::defineConstruction();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)

@@ -2,7 +2,7 @@
 """Arguments that scripts give, as YADE's numbers and vectors. What cannot be converted is a ValueError that names the argument."""
 
 import numpy as np
-from yade import Quaternion, Vector3
+from yade import Quaternion, Vector3, _polytope
 
 from .precision import isNumber, real
 
@@ -29,13 +29,10 @@ def numbersOf(values, name):
 
 
 def vectors(rows, name, length):
-	try:
-		vectors = [[real(x) for x in row] for row in rows]
-	except (TypeError, ValueError):
-		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
-	if any(len(v) != length for v in vectors):
-		raise ValueError(f'{name}: every row must have {length} components')
-	return [Vector3(*v) for v in vectors] if length == 3 else vectors
+	"""Rows of *length* numbers, 2 or 3, as the functions of _polytope take them (pkg/polytope/Vectors.cpp)."""
+	if isinstance(rows, np.ndarray):
+		rows = rows.tolist()  # its rows and numbers are slow to iterate
+	return _polytope.vectors(rows, name, length, real)
 
 
 def vector(value, name):

@@ -105,7 +105,7 @@ def polygon(points2d, thickness=1.0, **body):
 	:param float thickness: extent along z for mass and contact areas [m]
 	:raises ValueError: naming *points2d*, *thickness*, or a *velocity* or *angularVelocity* out of the plane
 	"""
-	points, thickness = [Vector3(p[0], p[1], 0) for p in vectors(points2d, 'points2d', 2)], number(thickness, 'thickness')
+	points, thickness = vectors(points2d, 'points2d', 2), number(thickness, 'thickness')
 
 	def shape(*corner):
 		try:

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 
 import numpy as np
 from scipy.stats import vonmises_fisher
-from yade import Vector3, _polytope
+from yade import _polytope
 
 from .arguments import flag, numbersOf, vector, vectors
 from .precision import isNumber, real
@@ -181,4 +181,4 @@ def _finite(value):
 
 
 def _exactly(normals, offsets):
-	return [Vector3(*a) for a in normals], [real(d) for d in offsets]
+	return vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets')

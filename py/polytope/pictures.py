@@ -71,7 +71,7 @@ def picture(
 	:raises RuntimeError: with the drawing program's message, if there is no picture
 	"""
 	drawn = [b for b in (O.bodies if bodies is None else bodies) if b and b.shape]
-	flat = all(b.shape.dimension == 2 for b in drawn if isinstance(b.shape, Polytope)) and any(isinstance(b.shape, Polytope) for b in drawn)
+	flat = _areFlat([b.shape for b in drawn if isinstance(b.shape, Polytope)])
 	view = _unit(view if view is not None else (0, 0, 1) if flat else (-0.55, -1, 0.62))
 	up = _unit(up if up is not None else (0, 1, 0) if flat else (0, 0, 1))
 
@@ -81,9 +81,8 @@ def picture(
 	meshes = collect(drawn, colorOf, _styles(drawn, fixed, view, up))
 	if not meshes:
 		raise ValueError('bodies: there is nothing to draw (only Polytope, Box, Sphere and Facet are)')
-	if frame is None:
-		frame = np.concatenate([mesh['points'] for style, mesh in meshes.items() if style != 'wire' or len(meshes) == 1])
-	camera = _camera(np.asarray(frame, float), view, up, size[0] / size[1], zoom, flat, legendShare if legend else 0)
+	frame = np.asarray(_allPoints(meshes) if frame is None else frame, float)
+	camera = _camera(frame, view, up, size[0] / size[1], zoom, flat, legendShare if legend else 0)
 	_draw(
 	        path, meshes, {
 	                'size': list(size),
@@ -92,14 +91,18 @@ def picture(
 	                'edges': edges,
 	                'shade': not flat,
 	                'shadeRadius': _typicalRadius(drawn),
-	                'legend': legend and {
-	                        'text': legend,
-	                        'low': low,
-	                        'high': high,
-	                        'colors': colorMap
-	                },
+	                'legend': legend and dict(text=legend, low=low, high=high, colors=colorMap),
 	        }
 	)
+
+
+def _areFlat(shapes):
+	return bool(shapes) and all(shape.dimension == 2 for shape in shapes)
+
+
+def _allPoints(meshes):
+	"""What the picture holds by default: all but wires, unless there is nothing else."""
+	return np.concatenate([mesh['points'] for style, mesh in meshes.items() if style != 'wire' or len(meshes) == 1])
 
 
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):

@@ -40,13 +40,9 @@ POLYTOPE_INLINE bool barrierDerivatives(const PairPlanes<R, D>& planes, const R*
 		s = broadcast<R, W>(0);
 	V smallest = broadcast<R, W>(R(padOffset));
 	for (int i = 0; i < planes.total; i += W) {
-		V a[D];
-		V slack = load<R, W>(planes.offset + i);
-		for (int k = 0; k < D; ++k) {
-			a[k] = load<R, W>(planes.normal[k] + i);
-			slack -= a[k] * X[k];
-		}
-		smallest = minOf(smallest, slack);
+		V       a[D];
+		const V slack = slacksOf<R, D, W>(planes, i, X, a);
+		smallest      = minOf(smallest, slack);
 		store<R, W>(planes.slack + i, slack);
 		const V inverse = R(1) / slack;
 		for (int k = 0, next = D; k < D; ++k) {

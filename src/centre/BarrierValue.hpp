@@ -216,14 +216,9 @@ POLYTOPE_INLINE R barrierValue(const PairPlanes<R, D>& planes, R mu, const Barri
 		for (V& s : sum)
 			s = broadcast<R, W>(0);
 		for (int i = planes.begin(body); i < planes.end(body); i += W) {
-			V a[D];
-			V sigma = load<R, W>(planes.offset + i);
-			for (int k = 0; k < D; ++k) {
-				a[k] = load<R, W>(planes.normal[k] + i);
-				sigma -= a[k] * X[k];
-			}
-			sigma += level;
-			const V u = Mu / sigma;
+			V       a[D];
+			const V sigma = slacksOf<R, D, W>(planes, i, X, a) + level;
+			const V u     = Mu / sigma;
 			sum[D] += u;
 			for (int k = 0; k < D; ++k) {
 				const V share = u * u * a[k];

@@ -26,6 +26,28 @@ template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>
 	return difference <= R(tolerance::violation) && abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
 }
 
+/// Area and centroid of the polygon of `count` corners u, v about the origin along the axes, by a fan of triangles from its first corner.
+template <class R> POLYTOPE_INLINE Section<R, 3> polygonSection(const R* corner, int count, const R* origin, const Rotation<R, 3>& axes)
+{
+	Section<R, 3> section;
+	R             moment[2] = { 0, 0 };
+	for (int k = 1; k + 1 < count; ++k) {
+		const R u1 = corner[2 * k] - corner[0], v1 = corner[2 * k + 1] - corner[1];
+		const R u2 = corner[2 * k + 2] - corner[0], v2 = corner[2 * k + 3] - corner[1];
+		const R twice = u1 * v2 - v1 * u2;
+		section.area += twice / 2;
+		moment[0] += twice * (u1 + u2) / 6;
+		moment[1] += twice * (v1 + v2) / 6;
+	}
+	if (section.area < 0) section.area = 0; // rounding of a sliver
+	const bool some = section.area > 0;
+	const R    u    = count > 0 ? corner[0] + (some ? moment[0] / section.area : R(0)) : R(0);
+	const R    v    = count > 0 ? corner[1] + (some ? moment[1] / section.area : R(0)) : R(0);
+	for (int k = 0; k < 3; ++k)
+		section.centroid[k] = origin[k] + u * axes.m[0][k] + v * axes.m[1][k];
+	return section;
+}
+
 /// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half
 /// width; without the planes that lie on plane `skip`, if that is not −1. `buffer` holds 4 (total + 5) numbers.
 template <class R>
@@ -71,23 +93,7 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 		there   = swap;
 		count   = kept;
 	}
-	Section<R, 3> section;
-	R             moment[2] = { 0, 0 };
-	for (int k = 1; k + 1 < count; ++k) {
-		const R u1 = here[2 * k] - here[0], v1 = here[2 * k + 1] - here[1];
-		const R u2 = here[2 * k + 2] - here[0], v2 = here[2 * k + 3] - here[1];
-		const R twice = u1 * v2 - v1 * u2;
-		section.area += twice / 2;
-		moment[0] += twice * (u1 + u2) / 6;
-		moment[1] += twice * (v1 + v2) / 6;
-	}
-	if (section.area < 0) section.area = 0; // rounding of a sliver
-	const bool some = section.area > 0;
-	const R    u    = count > 0 ? here[0] + (some ? moment[0] / section.area : R(0)) : R(0);
-	const R    v    = count > 0 ? here[1] + (some ? moment[1] / section.area : R(0)) : R(0);
-	for (int k = 0; k < 3; ++k)
-		section.centroid[k] = origin[k] + u * axes.m[0][k] + v * axes.m[1][k];
-	return section;
+	return polygonSection<R>(here, count, origin, axes);
 }
 
 /// 2-D: the segment of the line through origin, normal to `normal`, inside both bodies.

@@ -45,12 +45,8 @@ POLYTOPE_INLINE void weightSums(const PairPlanes<R, D>& planes, int body, const 
 	for (V& s : sum)
 		s = broadcast<R, W>(0);
 	for (int i = planes.begin(body); i < planes.end(body); i += W) {
-		V a[D];
-		V slack = load<R, W>(planes.offset + i);
-		for (int k = 0; k < D; ++k) {
-			a[k] = load<R, W>(planes.normal[k] + i);
-			slack -= a[k] * X[k];
-		}
+		V       a[D];
+		const V slack = slacksOf<R, D, W>(planes, i, X, a);
 		store<R, W>(planes.slack + i, slack);
 		const V inverse = unit / slack;
 		const V weight  = inverse * inverse * maxOf(inverse, V(-inverse)); // x may be outside by rounding

@@ -21,12 +21,8 @@ POLYTOPE_INLINE void innerPotentialGradient(const PairPlanes<R, D>& planes, int 
 	}
 	const V zero = broadcast<R, W>(0), r = broadcast<R, W>(cornerRadius);
 	for (int i = planes.begin(body); i < planes.end(body); i += W) {
-		V a[D];
-		V slack = load<R, W>(planes.offset + i);
-		for (int k = 0; k < D; ++k) {
-			a[k] = load<R, W>(planes.normal[k] + i);
-			slack -= a[k] * X[k];
-		}
+		V       a[D];
+		const V slack = slacksOf<R, D, W>(planes, i, X, a);
 		store<R, W>(planes.slack + i, slack);
 		const V bracket = maxOf(V(r - slack), zero);
 		for (int k = 0; k < D; ++k)

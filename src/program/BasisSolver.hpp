@@ -15,6 +15,25 @@
 /// (`noise`) is not mistaken for its sign. An uncertain λ_k does little harm: the other planes bound slack_k there.
 namespace polytope {
 
+/// Cofactors c of the matrix whose rows are e: c_k·e_k = det, which it returns, and c_k·e_j = 0 for j ≠ k.
+template <class R, int D> POLYTOPE_INLINE R cofactors(const R (&e)[D][D], R (&c)[D][D])
+{
+	if constexpr (D == 3) {
+		for (int k = 0; k < 3; ++k) {
+			const R *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
+			c[k][0] = u[1] * v[2] - u[2] * v[1];
+			c[k][1] = u[2] * v[0] - u[0] * v[2];
+			c[k][2] = u[0] * v[1] - u[1] * v[0];
+		}
+	} else {
+		c[0][0] = e[1][1];
+		c[0][1] = -e[1][0];
+		c[1][0] = -e[0][1];
+		c[1][1] = e[0][0];
+	}
+	return dot<R, D>(e[0], c[0]);
+}
+
 /// Inverse, noise, weights and point of the basis from D differences of normals: of planes order[1] … order[D] to plane
 /// order[0], or (`chained`) of the last one to the last but one. Returns the largest noise; infinite where the volume the
 /// differences span is, over their lengths, no more than `leastVolume`.
@@ -24,29 +43,15 @@ template <class R, int D>
 POLYTOPE_INLINE R solveFromDifferences(
         const R (&a)[D + 1][D], const R (&d)[D + 1], const int (&order)[D + 1], bool chained, R leastVolume, LpBasis<R, D>& basis)
 {
-	R e[D][D], c[D][D], difference[D], det;
+	R e[D][D], c[D][D], difference[D];
 	for (int k = 0; k < D; ++k) {
 		const int from = chained && k == D - 1 ? order[D - 1] : order[0];
 		difference[k]  = d[order[k + 1]] - d[from];
 		for (int j = 0; j < D; ++j)
 			e[k][j] = a[order[k + 1]][j] - a[from][j];
 	}
-	if constexpr (D == 3) {
-		for (int k = 0; k < 3; ++k) {
-			const R *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
-			c[k][0] = u[1] * v[2] - u[2] * v[1];
-			c[k][1] = u[2] * v[0] - u[0] * v[2];
-			c[k][2] = u[0] * v[1] - u[1] * v[0];
-		}
-		det = dot<R, 3>(e[0], c[0]);
-	} else {
-		c[0][0] = e[1][1];
-		c[0][1] = -e[1][0];
-		c[1][0] = -e[0][1];
-		c[1][1] = e[0][0];
-		det     = dot<R, 2>(e[0], c[0]);
-	}
-	R lengths = 1;
+	const R det     = cofactors<R, D>(e, c);
+	R       lengths = 1;
 	for (int k = 0; k < D; ++k)
 		lengths *= dot<R, D>(e[k], e[k]);
 	if (!(det * det > leastVolume * leastVolume * lengths)) return R(padOffset);

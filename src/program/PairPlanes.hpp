@@ -26,6 +26,17 @@ template <class R, int D> struct PairPlanes {
 	}
 };
 
+/// Slacks d − a·x of planes i … i + W − 1, and their normals a. X holds x in all lanes.
+template <class R, int D, int W, class V> POLYTOPE_INLINE V slacksOf(const PairPlanes<R, D>& planes, int i, const V (&X)[D], V (&a)[D])
+{
+	V slack = load<R, W>(planes.offset + i);
+	for (int k = 0; k < D; ++k) {
+		a[k] = load<R, W>(planes.normal[k] + i);
+		slack -= a[k] * X[k];
+	}
+	return slack;
+}
+
 /// Turns in place, about the frame's origin: a ← T·a.
 template <class R, int D, int W> POLYTOPE_INLINE void turnPlanes(const Rotation<R, D>& t, PairPlanes<R, D>& planes)
 {

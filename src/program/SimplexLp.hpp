@@ -82,6 +82,26 @@ template <class R, int D> POLYTOPE_INLINE int firstViolated(const PairPlanes<R, 
 	return -1;
 }
 
+/// Column w of the entering plane q in the basis: Σ_k w_k (a_k; 1) = (a_q; 1).
+template <class R, int D>
+POLYTOPE_INLINE void enteringColumn(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, int q, R (&w)[D + 1])
+{
+	for (int k = 0; k <= D; ++k) {
+		w[k] = basis.inverse[D][k];
+		for (int j = 0; j < D; ++j)
+			w[k] += basis.inverse[j][k] * planes.normal[j][q];
+	}
+}
+
+/// s = −Σ λ_k slack_k, from the slacks at the basis' own point: −Σ λ_k d_k is off by the weights' residual times a point of the overlap.
+template <class R, int D> POLYTOPE_INLINE R infeasibilityAtPoint(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis)
+{
+	R s = 0;
+	for (int k = 0; k <= D; ++k)
+		s -= basis.weight[k] * planes.slack[basis.plane[k]];
+	return s;
+}
+
 /// Dual simplex steps from a solved basis until no plane is violated or a bound exceeds dismissAbove. At the optimum the
 /// basis certifies itself: the largest violation at its point bounds s* from above, lowerBound() from below. Undecided
 /// where rounding leaves a gap between these two after the basis is refined, where a basis is singular to rounding, or at the pivot limit.
@@ -111,10 +131,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 			rounding = maxOf<R>(rounding, 2 * abs(planes.slack[now->plane[k]] + now->infeasibility));
 		const R bound = -now->infeasibility - rounding;
 		if (!(smallest < bound)) {
-			// −Σ λ d is off by the weights' residual times a point of the overlap; taken at this point it is not
-			now->infeasibility = 0;
-			for (int k = 0; k <= D; ++k)
-				now->infeasibility -= now->weight[k] * planes.slack[now->plane[k]];
+			now->infeasibility = infeasibilityAtPoint<R, D>(planes, *now);
 			if (-smallest - lowerBound<R, D>(*now, reach) <= R(tolerance::certain) * (size + reach / 2))
 				return end(LpStatus::Optimal);
 			if (refined || !refineBasis<R, D>(planes, *now)) return end(LpStatus::Undecided);
@@ -125,11 +142,7 @@ POLYTOPE_INLINE LpStatus solveLp(
 		if (pivots >= pivotLimit || q < 0) return end(LpStatus::Undecided);
 
 		R w[D + 1];
-		for (int k = 0; k <= D; ++k) {
-			w[k] = now->inverse[D][k];
-			for (int j = 0; j < D; ++j)
-				w[k] += now->inverse[j][k] * planes.normal[j][q];
-		}
+		enteringColumn<R, D>(planes, *now, q, w);
 		const int leaving = leavingRow<R, D>(*now, w, bland);
 		if (leaving < 0) return end(LpStatus::Undecided); // Σ w = 1, so only rounding can bring us here
 		for (int k = 0; k <= D; ++k)

@@ -211,6 +211,21 @@ def testProxyIsLeftNowhere(clone, tmp_path):
 		assert (cache / 'debian13').exists() != bool(fails)
 
 
+def testProxyIsOnNoCommandLine(clone, tmp_path):
+	"""Every user can read the arguments of a running program, but only its owner the environment."""
+	script = '''
+		apt-config() { echo 'Acquire::http::Proxy "http://user:secret@proxy:3128";'; }
+		inNamespace() { bash -c 'echo "arguments: $0 $*"; echo "environment: $APT_WAY"' "$@"; }
+		installInDebianRoot "$cache/debian13" cmake
+	'''
+	done = shell(clone, tmp_path, script)
+	assert done.returncode == 0, done.stderr
+	assert done.stdout.splitlines() == [
+		f'arguments: bash {clone}/tools/installInRoot.sh {tmp_path}/debian13 cmake',
+		'environment: Acquire::http::Proxy "http://user:secret@proxy:3128";',
+	]
+
+
 def testInstallingOnTheMachineIsSaid(clone, tmp_path):
 	script = '''
 		missingPackages() { cat; }

@@ -94,6 +94,70 @@ def testVerticesGiveTheirHull():
 	assert b.state.pos == Vector3(1, .5, .5)
 
 
+HULL = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1.5, 0.25, 2)]
+
+
+@pytest.mark.parametrize(
+        'points', [
+                [list(p) for p in HULL],
+                tuple(HULL),
+                (p for p in HULL),
+                (iter(p) for p in HULL),
+                [Vector3(*p) for p in HULL],
+                [[str(x) for x in p] for p in HULL],
+                [numpy.float32(p) for p in HULL],
+                numpy.array(HULL),
+                numpy.array(HULL, dtype=object),
+        ],
+        ids=['lists', 'tuples', 'generator', 'iterators', 'Vector3', 'text', 'arrays', 'array', 'array of objects']
+)
+def testPointsOfAnySequence(points):
+	"""Whatever gives rows of three numbers, with the numbers as they are."""
+	found, expected = polytope.fromVertices(points), polytope.fromVertices(HULL)
+	assert found.shape.normals == expected.shape.normals and found.shape.offsets == expected.shape.offsets
+	assert found.state.pos == expected.state.pos and found.state.ori == expected.state.ori
+
+
+@pytest.mark.parametrize(
+        'points, names', [
+                (None, ['points', '3-vectors']),
+                (1.5, ['points', '3-vectors']),
+                ('abcd', ['points', '3-vectors']),
+                ([1, 2, 3, 4], ['points', '3-vectors']),
+                (HULL[:4] + [(0, 0, None)], ['points', '3-vectors']),
+                (HULL[:4] + [(0, 0, 'x')], ['points', '3-vectors']),
+                (HULL[:4] + [(0, 0, 1j)], ['points', '3-vectors']),
+                (HULL[:4] + [None], ['points', '3-vectors']),
+                (HULL[:4] + [(0, 0)], ['points', '3 components']),
+                (HULL[:4] + [()], ['points', '3 components']),
+                (HULL[:4] + [(0, 0, 1, 2)], ['points', '3 components']),
+                (numpy.array(HULL)[:, :2], ['points', '3 components']),
+                (numpy.array(1.5), ['points', '3-vectors']),
+                ([], ['points', '4']),
+        ]
+)
+def testWhatIsNoSequenceOfPointsIsRefused(points, names):
+	with pytest.raises(ValueError) as refusal:
+		polytope.fromVertices(points)
+	assert all(name in str(refusal.value) for name in names)
+	if isinstance(points, list):
+		with pytest.raises(ValueError, match='points2d'):
+			polytope.polygon(points)
+
+
+def testOtherExceptionsOfASequenceArePassedOn():
+
+	def rows():
+		yield from HULL[:2]
+		raise RuntimeError('lost')
+
+	with pytest.raises(RuntimeError, match='lost'):
+		polytope.fromVertices(rows())
+	if polytope.buildInfo()['precision'] == 'double':  # wider numbers hold it
+		with pytest.raises(OverflowError):
+			polytope.fromVertices(HULL[:3] + [(10**400, 0, 0)])
+
+
 def testPolygonStaysInItsPlane():
 	b = polytope.polygon([(0, 0), (2, 0), (2, 1), (0, 1)], thickness=0.5)
 	assert b.shape.dimension == 2 and b.state.blockedDOFs == 'zXY'

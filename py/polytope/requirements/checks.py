@@ -12,6 +12,7 @@ import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._scene import geometryFunctors, interactionLoops, laws
+from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
 from .overlaps import cornerRadius, newtonTolerance
@@ -215,7 +216,8 @@ def planes(scene):
 def _twin(body):
 	"""The body without planes that own no face, at its present pose."""
 	shape = body.shape
-	placed = _polytope.ofHalfSpaces(shape.normals, shape.offsets, shape.dimension, shape.thickness, False, shape.cornerRadius, 0)
+	normals = vectors(shape.normals, 'normals', 3)
+	placed = _polytope.ofHalfSpaces(normals, shape.offsets, shape.dimension, shape.thickness, False, shape.cornerRadius, 0)
 	return _polytope.body(placed, body.material, body.state.pos, body.state.ori, True, 0)
 
 

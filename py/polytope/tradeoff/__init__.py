@@ -78,15 +78,19 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	checkReference(reference, settings)
 	checkNumbers(repeats, timedSeconds, timeLimit)
 	takesTheScene(measure)
-	rows = {name: Row(name, changes) for name, changes in settings.items()}
+	return _table([Row(name, changes) for name, changes in settings.items()], reference, where, repeats, timedSeconds, timeLimit)
+
+
+def _table(rows, reference, *how):
+	"""Of the rows, measured; if interrupted, the table of what is measured goes with the exception."""
 	try:
-		_measure(rows.values(), reference, where, repeats, timedSeconds, timeLimit)
+		_measure(rows, reference, *how)
 	except KeyboardInterrupt as interrupt:
-		for row in rows.values():
+		for row in rows:
 			row.note = row.note or ('interrupted before it was run' if row.answer is None else '')
-		interrupt.table = TradeoffTable(list(rows.values()), reference)
+		interrupt.table = TradeoffTable(rows, reference)
 		raise
-	return TradeoffTable(list(rows.values()), reference)
+	return TradeoffTable(rows, reference)
 
 
 def _measure(rows, reference, where, repeats, timedSeconds, timeLimit):

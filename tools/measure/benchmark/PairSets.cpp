@@ -108,6 +108,58 @@ namespace {
 		return next;
 	}
 
+	using MakePair = std::function<Pair(Random&)>;
+
+	/// Twenty bodies of a kind, of which each pair takes two.
+	MakePair ofKind(const std::function<Shape(Random&)>& make, std::uint64_t seed, Real target)
+	{
+		return [=, shapes = std::vector<Shape>()](Random& random) mutable {
+			Random own(seed);
+			while (shapes.size() < 20)
+				shapes.push_back(make(own));
+			const Shape one = shapes[random() % 20], two = shapes[random() % 20];
+			return randomlyTurned(one, two, target, random);
+		};
+	}
+
+	MakePair ofSolid(int faces, Real target)
+	{
+		return [=](Random& random) { return randomlyTurned(solid(faces), solid(faces), target, random); };
+	}
+
+	MakePair squares()
+	{
+		return [shape = ConvexShape::shared(samples::rectangle(1, 1), Real(0.1))](Random& random) {
+			Pair pair;
+			for (int body = 0; body < 2; ++body) {
+				pair.shape[body]    = shape;
+				pair.rotation[body] = samples::randomRotation(random, 2);
+			}
+			samples::moveTo(pair, samples::randomDirection(random, 2), touch * pair.inscribedRadius());
+			return pair;
+		};
+	}
+
+	/// `count` pairs that stay in contact, or apart, through all their steps.
+	PairSet lastingPairs(const std::string& name, bool touching, int count, const MakePair& make, Random random)
+	{
+		constexpr std::size_t stepCount = 6;
+		PairSet               set { name, touching, {} };
+		set.steps.resize(stepCount);
+		for (int trial = 0; int(set.pairs().size()) < count; ++trial) {
+			if (trial > 1000 * count) throw std::runtime_error(name + ": hardly a pair lasts");
+			std::vector<Pair> steps { make(random) };
+			while (steps.size() < stepCount)
+				steps.push_back(afterStep(steps.back(), random));
+			// a thin pair may be separated by the steps: then it is not a lasting contact
+			const auto other = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
+			if (std::any_of(steps.begin(), steps.end(), other)) continue;
+			for (std::size_t k = 0; k < stepCount; ++k)
+				set.steps[k].push_back(steps[k]);
+		}
+		return set;
+	}
+
 } // namespace
 
 /// Contacts of a heap from the file that heap.py writes: faces and circumradius of both, rotation of both (row by row),
@@ -143,48 +195,20 @@ std::vector<Pair> heapPairs(const char* path)
 
 std::vector<NamedSet> pairSets(int count, const char* heap)
 {
-	constexpr std::size_t stepCount = 6;
 	std::vector<NamedSet> sets;
-	const auto add = [&](const std::string& name, bool touching, const std::function<Pair(Random&)>& make, bool flat = false) {
-		const std::uint64_t seed = sets.size() + 1;
-		sets.push_back({ name, touching, flat, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
-			                if (!made->steps.empty()) return *made;
-			                Random random(seed);
-			                made->name     = name;
-			                made->touching = touching;
-			                made->steps.resize(stepCount);
-			                for (int trial = 0; int(made->pairs().size()) < count; ++trial) {
-				                if (trial > 1000 * count) throw std::runtime_error(name + ": hardly a pair lasts");
-				                std::vector<Pair> steps { make(random) };
-				                while (steps.size() < stepCount)
-					                steps.push_back(afterStep(steps.back(), random));
-				                // a thin pair may be separated by the steps: then it is not a lasting contact
-				                const auto other
-				                        = [&](const Pair& pair) { return (samples::infeasibility(pair) < 0) != touching; };
-				                if (std::any_of(steps.begin(), steps.end(), other)) continue;
-				                for (std::size_t k = 0; k < stepCount; ++k)
-					                made->steps[k].push_back(steps[k]);
-			                }
-			                return *made;
-		                } });
-	};
-	// twenty bodies of a kind, of which each pair takes two
-	const auto ofKind = [](const std::function<Shape(Random&)>& make, std::uint64_t seed, Real target) {
-		return [=, shapes = std::vector<Shape>()](Random& random) mutable {
-			Random own(seed);
-			while (shapes.size() < 20)
-				shapes.push_back(make(own));
-			const Shape one = shapes[random() % 20], two = shapes[random() % 20];
-			return randomlyTurned(one, two, target, random);
-		};
+	const auto            add = [&](const std::string& name, bool touching, const MakePair& make, bool flat = false) {
+                const std::uint64_t seed = sets.size() + 1;
+                sets.push_back({ name, touching, flat, [=, made = std::make_shared<PairSet>()]() -> const PairSet& {
+                                        if (made->steps.empty()) *made = lastingPairs(name, touching, count, make, Random(seed));
+                                        return *made;
+                                } });
 	};
 	const std::pair<const char*, int> solids[]
 	        = { { "tetrahedron", 4 }, { "cube", 6 }, { "octahedron", 8 }, { "dodecahedron", 12 }, { "icosahedron", 20 } };
 	for (const auto& [name, faces] : solids)
-		add(name, true, [faces = faces](Random& random) { return randomlyTurned(solid(faces), solid(faces), touch, random); });
+		add(name, true, ofSolid(faces, touch));
 	for (const auto& [name, faces] : solids)
-		add(std::string(name) + " apart", false,
-		        [faces = faces](Random& random) { return randomlyTurned(solid(faces), solid(faces), gap, random); });
+		add(std::string(name) + " apart", false, ofSolid(faces, gap));
 	for (const int faces : { 20, 50, 100, 200 })
 		add("hull " + std::to_string(faces), true, ofKind([faces](Random& random) { return hull(faces, random); }, 1000, touch));
 	add("stacked cubes", true, stacked);
@@ -192,18 +216,7 @@ std::vector<NamedSet> pairSets(int count, const char* heap)
 	add("sizes 1:100", true, [](Random& random) { return randomlyTurned(solid(6, 100), solid(6), touch, random); });
 	add("slivers", true, ofKind(sliver, 7, Real(-0.1)));
 	add("redundant planes", true, ofKind(withRedundantPlanes, 8, touch));
-	add(
-	        "squares, 2-D", true,
-	        [shape = ConvexShape::shared(samples::rectangle(1, 1), Real(0.1))](Random& random) {
-		        Pair pair;
-		        for (int body = 0; body < 2; ++body) {
-			        pair.shape[body]    = shape;
-			        pair.rotation[body] = samples::randomRotation(random, 2);
-		        }
-		        samples::moveTo(pair, samples::randomDirection(random, 2), touch * pair.inscribedRadius());
-		        return pair;
-	        },
-	        true);
+	add("squares, 2-D", true, squares(), true);
 	if (heap)
 		add("settled heap", true,
 		        [pairs = heapPairs(heap), next = std::size_t(0)](Random&) mutable { return pairs[next++ % pairs.size()]; });

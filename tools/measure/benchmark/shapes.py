@@ -39,6 +39,7 @@ def measure(quick):
 	found = {
 		'equal cubes': each(10 * number, lambda i: polytope.cuboid((0, 0, i), (1, 1, 1))),
 		'equal icosahedra': each(10 * number, lambda i: polytope.regular(20, 1, center=(0, 0, i))),
+		'equal hulls of 20 points': each(10 * number, lambda i: polytope.fromVertices(clouds[0])),
 		'new cubes': each(number, lambda i: polytope.cuboid((0, 0, 0), cubes[i])),
 		'new icosahedra': each(number, lambda i: polytope.regular(20, solids[i])),
 		'new hulls of 20 points': each(number, lambda i: polytope.fromVertices(clouds[i])),

@@ -96,6 +96,7 @@ def shapeRows(found):
 	return [
 		below('body of a known shape, cube', 15, cost['equal cubes']),
 		below('body of a known shape, icosahedron', 15, cost['equal icosahedra']),
+		below('body of a known shape, hull of 20 points', 15, cost['equal hulls of 20 points']),
 		below('body of a new hull of 20 points', 200, cost['new hulls of 20 points']),
 		below(f'jointedRock, {more} blocks, per block', 200, cost[many]),
 		atMost(f'jointedRock, per block, {more} blocks', 1.2, f'that of {fewer}', cost[many], cost[few], '{:.1f} µs'),

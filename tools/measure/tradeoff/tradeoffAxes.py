@@ -39,6 +39,12 @@ seeds = {f'seed {seed}': {'seed': seed} for seed in range(2, 7)}
 
 numerical = {**tolerances, **cold, **ipopt, **wide}
 """These change how exactly the same model is computed, not the model."""
+statics = {default: {}, **points, **models, **numerical}
+dynamics = {**statics, **times, **stiffnesses}
+longSteps = {'time step × 10': {'timeStepFactor': 10}}
+"""Of the paper's 0.02 √(m/k)."""
+tooSlow = {'C': ('mpfr150',), 'A': ('Ipopt', 'float128', 'mpfr150')}
+"""Letter of the scene → settings that it is not run with."""
 
 
 def isNumerical(name):
@@ -91,20 +97,12 @@ class Scene:
 
 def allScenes():
 	"""letter → Scene."""
-	of = {default: {}}
-	ten = {'time step × 10': {'timeStepFactor': 10}}  # of the paper's 0.02 √(m/k)
-	statics = {**of, **points, **models, **numerical}
-	dynamics = {**of, **points, **models, **numerical, **times, **stiffnesses}
-	# face on face the rocking frequency of the conservative contact is too high for the time step of the wedge in the roof
-	factors = dict(zip(models, (0.5, 0.15, 1), strict=True))
-	finer = {name: {**changes, 'timeStepFactor': factors[name]} for name, changes in models.items()}
-	tooSlow = {'C': ('mpfr150',), 'A': ('Ipopt', 'float128', 'mpfr150')}
-	wedge = limitEquilibrium(scenes.BlockGeometry.read(scenes.geometry('c_sliding_wedge.json')))
+	return {scene.letter: scene for scene in (*_statics(), *_wedges(), *_dynamics())}
 
-	def without(settings, letter):
-		return {name: changes for name, changes in settings.items() if name not in tooSlow[letter]}
 
-	listed = [
+def _statics():
+	"""Scenes whose answer does not depend on the time step."""
+	return (
 		Scene('pair', 'Overlapping pairs', scenes.buildPairs, scenes.measurePairs, statics, 'forces of 60 contacts'),
 		Scene(
 			'B',
@@ -117,12 +115,22 @@ def allScenes():
 			'Appendix A of Boon et al. (2012), whose forces act at the centroid of the overlap',
 			ofAnyLaw=False,
 		),
+	)
+
+
+def _wedges():
+	"""Scenes whose answer is the friction angle at which a wedge begins to move."""
+	# face on face the rocking frequency of the conservative contact is too high for the time step of the wedge in the roof
+	factors = dict(zip(models, (0.5, 0.15, 1), strict=True))
+	finer = {name: {**changes, 'timeStepFactor': factors[name]} for name, changes in models.items()}
+	wedge = limitEquilibrium(scenes.BlockGeometry.read(scenes.geometry('c_sliding_wedge.json')))
+	return (
 		Scene(
 			'C',
 			'Sliding wedge',
 			scenes.buildSlidingWedge,
 			scenes.measureSlidingWedge,
-			without(dynamics, 'C'),
+			_without(dynamics, 'C'),
 			'critical friction angle',
 			math.degrees(wedge.frictionAngle()),
 			'limit equilibrium (Hoek & Bray 1981)',
@@ -137,12 +145,18 @@ def allScenes():
 			_roofAngle(),
 			'φ = α + atan(W/ΣH)',
 		),
+	)
+
+
+def _dynamics():
+	"""Scenes of bodies that collide and come to rest."""
+	return (
 		Scene(
 			'F',
 			'Collisions without loss',
 			scenes.buildCollision,
 			scenes.measureCollision,
-			{**dynamics, **ten},
+			{**dynamics, **longSteps},
 			'energy after four collisions over that of the fall',
 			1.0,
 			'it is conserved',
@@ -153,14 +167,17 @@ def allScenes():
 			'Cube at rest (F1)',
 			scenes.buildRest,
 			scenes.measureRest,
-			{**dynamics, **ten},
+			{**dynamics, **longSteps},
 			'height at rest + m g/kₙ',
 			0.5,
 			'½ edge − m g/kₙ',
 		),
-		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**without(dynamics, 'A'), **seeds}, 'coordination number'),
-	]
-	return {scene.letter: scene for scene in listed}
+		Scene('A', 'Heap of 96 solids', scenes.buildHeap, scenes.measureHeap, {**_without(dynamics, 'A'), **seeds}, 'coordination number'),
+	)
+
+
+def _without(settings, letter):
+	return {name: changes for name, changes in settings.items() if name not in tooSlow[letter]}
 
 
 def _roofAngle():
