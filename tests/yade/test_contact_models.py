@@ -26,13 +26,25 @@ def table(folder, *parts):
 		return {row[0]: [float(value) if value else None for value in row[1:]] for row in list(csv.reader(file))[1:]}
 
 
+withoutTheory = {
+	('B: peak load [N], centroid', 'conservative'),
+	('B: peak load [N], analyticCentre', 'conservative'),
+	('B: peak load [N], from the energy', 'default'),
+	('B: peak load [N], from the energy', 'paper'),
+}
+"""The conservative contact has a closed form of its own; each other cell of these rows must have its figure."""
+
+
 def testBothModelsAgreeWithClosedForms(tmp_path):
 	rows = table(tmp_path, 'B', 'C', 'D')
 	assert len(rows) == 6
-	for name, (closed, default, paper, conservative) in rows.items():
+	for name, (closed, *found) in rows.items():
 		relative = {'B': 1e-3, 'C': 6e-3, 'D': 1e-3}[name[0]]
-		for value in (default, paper, conservative):
-			assert value is None or value == pytest.approx(closed, rel=relative), name
+		for model, value in zip(('default', 'paper', 'conservative'), found, strict=True):
+			if (name, model) in withoutTheory:
+				assert value is None, (name, model)
+			else:
+				assert value == pytest.approx(closed, rel=relative), (name, model)
 	_, default, paper, conservative = rows['C: critical angle [°]']
 	assert 33.0 < default < 33.4 and 33.0 < paper < 33.4 and 33.3 < conservative < 33.36
 

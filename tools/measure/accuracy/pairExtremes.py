@@ -19,6 +19,7 @@ import pathlib
 import subprocess
 import sys
 
+import yade
 from tqdm import tqdm
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
@@ -30,9 +31,8 @@ from extremePlots import plotPairs
 from pairAxes import axes
 from pairTables import faults, readSamples, summary, summaryColumns, worst
 
-here = pathlib.Path(__file__).resolve().parent
-# of the build whose plug-in is in use; `./run` removes it where the sources have changed since
-program = pathlib.Path(os.environ.get('YADE_PREFIX', here.parents[2] / 'build/overlay')).parent / 'tools/measure/accuracy/polytope_extremes'
+# of the build whose plug-in is loaded; `./run` removes it where the sources have changed since
+program = pathlib.Path(yade.config.prefix).parent / 'tools/measure/accuracy/polytope_extremes'
 
 
 def options(arguments=None):
