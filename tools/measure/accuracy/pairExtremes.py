@@ -29,7 +29,7 @@ from boon2012.reporting.script import conclude
 
 from extremePlots import plotPairs
 from pairAxes import axes
-from pairTables import faults, readSamples, summary, summaryColumns, worst
+from pairTables import faults, readSamples, summary, summaryColumns, unjudged, worst
 
 # of the build whose plug-in is loaded; `./run` removes it where the sources have changed since
 program = pathlib.Path(yade.config.prefix).parent / 'tools/measure/accuracy/polytope_extremes'
@@ -78,6 +78,13 @@ def report(findings, name, samples):
 		f'of {len(samples)}',
 		accept=(0, 0),
 		note=worstOf or 'no NaN, nothing unbounded, missed, false or beyond rounding',
+	)
+	unseen = collections.Counter(f'{s.status}, {s.model}' for s in unjudged(samples))
+	findings.row(
+		f'{axis.title}: share of answers whose errors are not judged',
+		sum(unseen.values()) / len(samples),
+		accept=(0, axis.unjudged),
+		note='; '.join(f'{count} {what}' for what, count in unseen.items()),
 	)
 	for limit in axis.limits:
 		most, least = worst(samples, limit)
