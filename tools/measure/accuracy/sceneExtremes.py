@@ -139,7 +139,7 @@ def towers(findings, quick):
 	last = {model: next(r for m, n, r in results if (m, n) == (model, steps[-1])) for model in models}
 	for model, r in last.items():
 		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 5e-5))
-		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 2e-2))
+		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 5e-3))
 	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
 	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
 		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')

@@ -149,7 +149,8 @@ namespace {
 			        result.infeasibility, pair.size());
 			if (!result.inContact && certificate.upper < level - allowed) report(Defect::Miss, way, s);
 			if (result.inContact && certificate.lower > level + allowed) report(Defect::FalseContact, way, s);
-			if (!result.inContact || (!answered(result.status) && result.status != ContactStatus::NoDirection)) return; // reported
+			if (!result.inContact || (!answered(result.status) && result.status != ContactStatus::NoDirection))
+				return; // reported
 			// the point's own rounding and the planes', over the overlap's thickness
 			const Real loose = 2e-9 + 4 * Real(allowed / -certificate.upper);
 			if (!(loose > 0 && loose < 0.1)) return;
