@@ -17,8 +17,9 @@ import xml.etree.ElementTree
 
 # what the core's tests consist of: a part that the build left out for want of a package has no test at all
 coreParts = {
-        'the core, with GoogleTest': r'^(?!Clang\.|Fuzz\.|Search$|Instructions$|WithoutIpopt$)',
+        'the core, with GoogleTest': r'^(?!Clang\.|Fuzz\.|Search$|Instructions$|WithoutIpopt$|InstructionSet\.)',
         'the core without Ipopt (is Ipopt missing?)': r'^WithoutIpopt$',
+        'the core with lesser instruction sets': r'^InstructionSet\.',
         'instructions of a query': r'^Instructions$',
         'fuzz corpus': r'^Fuzz\.',
         'search': r'^Search$',

@@ -154,7 +154,7 @@ def main():
 	failure, pictures = fail(given, run)
 	report.criticalAngle(run)
 	report.mode(failure)
-	report.failedQueries('failed contact queries', run.failedQueries + failure.failedQueries)
+	report.failedQueries('contact queries without an answer', run.failedQueries + failure.failedQueries)
 	report.contacts(failure)
 	if pictures:
 		sideBySide(given.output / 'failure.png', pictures)
@@ -177,7 +177,7 @@ def main():
 	if not given.quick:
 		others = otherSettings(given)
 		report.settings(others)
-		report.failedQueries('failed contact queries, other settings', sum(other.failedQueries for other in others))
+		report.failedQueries('contact queries without an answer, other settings', sum(other.failedQueries for other in others))
 	return conclude(findings)
 
 

@@ -335,8 +335,11 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	using polytope::ContactStatus;
 	const auto          of = [&](ContactStatus status) { return sum.statuses[int(status)]; };
 	boost::python::dict all, statuses;
-	for (int k = 0; k < polytope::contactStatusCount; ++k)
+	long                unanswered = 0;
+	for (int k = 0; k < polytope::contactStatusCount; ++k) {
 		statuses[polytope::statusName(ContactStatus(k))] = sum.statuses[k];
+		if (!polytope::answered(ContactStatus(k))) unanswered += sum.statuses[k];
+	}
 	all["pairs"]            = sum.pairs;
 	all["contacts"]         = sum.contacts;
 	all["dismissed"]        = sum.dismissed;
@@ -345,10 +348,9 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	all["ipoptSolves"]      = sum.ipoptSolves;
 	all["ipoptIterations"]  = sum.ipoptIterations;
 	all["rescued"]          = of(ContactStatus::CentreByIpopt);
-	all["fallbacks"] = of(ContactStatus::CentreNotConverged) + of(ContactStatus::IpoptNotAvailable) + of(ContactStatus::LpNotConverged)
-	        + of(ContactStatus::NoDirection);
-	all["failures"] = of(ContactStatus::Failed);
-	all["statuses"] = statuses;
+	all["fallbacks"]        = unanswered - of(ContactStatus::Failed);
+	all["failures"]         = unanswered;
+	all["statuses"]         = statuses;
 	if (timing) {
 		all["timedPairs"]    = sum.timedPairs;
 		all["lpSeconds"]     = 1e-9 * double(sum.lpNanoseconds);

@@ -134,6 +134,15 @@ Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_
 	return answer;
 }
 
+/// Name of each status → answered().
+py::dict statuses()
+{
+	py::dict result;
+	for (int k = 0; k < polytope::contactStatusCount; ++k)
+		result[polytope::statusName(polytope::ContactStatus(k))] = polytope::answered(polytope::ContactStatus(k));
+	return result;
+}
+
 template <class T, T polytope::ContactResult::* Member> T field(const Contact& contact) { return contact.result.*Member; }
 
 /// The time steps that PolytopeTimeStepper uses, for the present scene: [s], or None where nothing limits.
@@ -168,6 +177,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Tolerances of the numerical core that the module's advice refers to, see src/numbers/Tolerances.hpp: *rounding* of this "
 	        "precision's "
 	        "numbers, *depth*, over the size, to which the kernel keeps the depth, and *coarsestNewton*, the largest newtonTolerance.");
+	py::def("statuses", &statuses,
+	        "Names of :yref:`PolytopeGeom.status`, and whether a query that ended so found what it was asked for (what *failures* of "
+	        "stats() does not count), as a dictionary.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("timeStepLimits", &timeStepLimits,

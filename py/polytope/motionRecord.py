@@ -12,6 +12,8 @@ noContact = 'none'
 
 _booked = ('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative')
 """Terms of O.energy that the contact law records (RockJoint law: fracture needs strength, which no body here has)."""
+_springs = ('spring', 'normalStored', 'shearStored')
+"""Of the contact: force of the normal spring [N], energy of the normal and of the shear spring [J]."""
 
 
 class MotionRecord:
@@ -21,6 +23,10 @@ class MotionRecord:
 	point, normal, depth (NaN without contact), type (`noContact` or as ContactTypes names it). velocityBefore and velocityAfter
 	(spin…) are YADE's at half a step before and after it. Needs O.trackEnergy, a body of which all motion is free, and a
 	partner that does not move.
+
+	Two accounts of the contact's energy: the law's own terms in O.energy, of which *nonconservative* is whatever makes them add up, and
+	one from states, geometry and forces (`energy`, `normalLoss`, `shearLoss`, `made`), in which nothing is left over; `bookError`
+	compares them.
 
 	:param body: the Body
 	:param contactOf: function without argument: its present Interaction, or None
@@ -42,9 +48,9 @@ class MotionRecord:
 		if contact:
 			geom = contact.geom
 			self.partner = contact.id2 if contact.id1 == self.body.id else contact.id1
-			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth]
+			touch = [*geom.contactPoint, *geom.normal, geom.penetrationDepth, *_springsOf(contact)]
 		else:
-			touch = [np.nan] * 7
+			touch = [*[np.nan] * 7, 0, 0, 0]
 		energy = dict(O.energy.items())  # the law adds its terms at its first contact
 		self._rows.append([*here, *state.vel, *state.angVel, *force, *torque, *touch, *(energy.get(name, 0.0) for name in _booked)])
 
@@ -63,7 +69,7 @@ class MotionRecord:
 			'point',
 			'normal',
 		)
-		widths = {**dict.fromkeys(('time', *vectors, 'depth', *_booked), 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
+		widths = {**dict.fromkeys(('time', *vectors, 'depth', *_springs, *_booked), 1), **dict.fromkeys(vectors, 3), 'orientation': 4}
 		start = 0
 		for name, width in widths.items():
 			setattr(self, name, rows[:, start] if width == 1 else rows[:, start : start + width])
@@ -118,9 +124,13 @@ class MotionRecord:
 	def potentialEnergy(self):
 		return -self.mass * self.position @ self.gravity
 
+	def elasticEnergy(self):
+		"""Of the contact's springs, from the overlap and the shear force [J]."""
+		return self.normalStored + self.shearStored
+
 	def energy(self):
 		"""Kinetic, potential and elastic energy [J]."""
-		return self.kineticEnergy() + self.potentialEnergy() + self.elastPotential
+		return self.kineticEnergy() + self.potentialEnergy() + self.elasticEnergy()
 
 	def dampingLoss(self):
 		"""Energy dissipated by the integrator's damping up to time n [J]."""
@@ -128,22 +138,83 @@ class MotionRecord:
 		work = np.sum((force[:-1] + force[1:]) * self.velocityAfter[:-1] + (torque[:-1] + torque[1:]) * self.spinAfter[:-1], axis=1)
 		return np.concatenate([[0], -0.5 * self.timeStep * np.cumsum(work)])
 
+	def _outward(self):
+		"""Normal from the partner to the body; zero without contact."""
+		sign = 1 if self.partner is not None and self.partner < self.body.id else -1  # YADE's body 1 has the lower id
+		return sign * np.nan_to_num(self.normal)
+
+	def _work(self, force):
+		"""Of a force on the body at the contact point, up to time n [J]: the mean of the forces at both ends of a step times its motion."""
+		torque = np.cross(np.nan_to_num(self.point - self.position), force)
+		power = np.sum((force[:-1] + force[1:]) * self.velocityBefore[1:] + (torque[:-1] + torque[1:]) * self.spinBefore[1:], axis=1)
+		return np.concatenate([[0], 0.5 * self.timeStep * np.cumsum(power)])
+
+	def made(self):
+		"""What the normal spring has given to the motion and still stores, up to time n [J]: zero if its force is the gradient of its
+		energy."""
+		return self._work(self.spring[:, None] * self._outward()) + self.normalStored - self.normalStored[0]
+
+	def normalLoss(self):
+		"""Energy taken along the normal by what the contact's force is beside the spring's, the damper, up to time n [J]."""
+		outward = self._outward()
+		return -self._work((np.sum(self.contactForce * outward, axis=1) - self.spring)[:, None] * outward)
+
+	def shearLoss(self):
+		"""Energy taken across the normal, by friction and the shear damper, less what the shear spring stores, up to time n [J]."""
+		outward = self._outward()
+		across = self.contactForce - np.sum(self.contactForce * outward, axis=1)[:, None] * outward
+		return -self._work(across) - self.shearStored + self.shearStored[0]
+
 	def contactLoss(self):
 		"""Energy dissipated by the contact's friction and dampers up to time n [J]."""
-		return self.plastDissip + self.normDampDissip + self.shearDampDissip
+		return self.normalLoss() + self.shearLoss()
+
+	def bookError(self):
+		"""Largest errors of the law's own terms, by term [J].
+
+		Springs: against `elasticEnergy`. Dampers and friction: against forces times the motion at the contact point, taken as the law
+		takes them, with the mean of the forces at both ends of a step, turned to the present normal, and the present lever arm (`normalLoss`
+		and `shearLoss` have each end's own; where the contact point jumps that differs). Sum: what all of the law's terms leave over.
+		"""
+		outward, force = self._outward(), self.contactForce
+		along = np.sum(force * outward, axis=1)
+		across = force - along[:, None] * outward
+		damper = along - self.spring
+		before = damper[:-1] * np.sum(outward[:-1] * outward[1:], axis=1)
+		motion = self.timeStep * (self.velocityBefore + np.cross(self.spinBefore, np.nan_to_num(self.point - self.position)))[1:]
+		closer = np.sum(motion * outward[1:], axis=1)
+		sideways = motion - closer[:, None] * outward[1:]
+		touching = self.spring[1:] > 0
+		normal = -0.5 * np.cumsum(touching * (before + damper[1:]) * closer)
+		shear = -0.5 * np.cumsum(touching * np.sum((across[:-1] + across[1:]) * sideways, axis=1))
+		pairs = {
+			'springs': (self.elastPotential, self.elasticEnergy()),
+			'normal damper': (self.normDampDissip[1:], normal),
+			'friction and shear damper': (self.plastDissip[1:] + self.shearDampDissip[1:] + self.shearStored[1:], shear),
+			'sum': (self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative, -self._work(force)),
+		}
+		return {name: float(np.abs(law - own).max()) for name, (law, own) in pairs.items()}
 
 	def approach(self):
 		"""Way the bodies have come towards each other along the normal, at the contact point, up to time n [m]; zero without contact."""
 		velocity, spin = (self.velocityBefore + self.velocityAfter) / 2, (self.spinBefore + self.spinAfter) / 2
-		outward = self.normal if self.partner < self.body.id else -self.normal  # from partner to body; YADE's body 1 has the lower id
-		speed = np.sum(outward * (velocity + np.cross(spin, self.point - self.position)), axis=1)
+		speed = np.sum(self._outward() * (velocity + np.cross(spin, self.point - self.position)), axis=1)
 		return -np.cumsum(np.nan_to_num(speed)) * self.timeStep
 
 	def balance(self):
-		"""Energy, all losses, and what the contact law records as nonconservative, less their sum at the start [J]: zero if it is
-		complete."""
-		total = self.energy() + self.contactLoss() + self.nonconservative + self.dampingLoss()
+		"""Energy and all losses, less what the normal spring has made and their sum at the start [J]: zero if forces and states belong
+		together."""
+		total = self.energy() + self.contactLoss() - self.made() + self.dampingLoss()
 		return total - total[0]
+
+
+def _springsOf(contact):
+	"""As `_springs`. A conservative contact's geometry has the energy over the stiffness; else it is that of a linear spring."""
+	geom, phys = contact.geom, contact.phys
+	depth = max(geom.penetrationDepth, 0)
+	perStiffness = geom.energyPerStiffness if geom.energyPerStiffness >= 0 else depth**2 / 2
+	shear = phys.shearForce - phys.shearViscous
+	return phys.kn * depth, phys.kn * perStiffness, shear.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0.0
 
 
 def _wxyz(orientation):

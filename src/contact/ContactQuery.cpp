@@ -5,8 +5,10 @@
 #include "contact/PairOrder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <new>
+#include <string>
 
 namespace polytope {
 
@@ -62,11 +64,15 @@ namespace {
 	POLYTOPE_KERNEL(kernelV3, "arch=x86-64-v3", 4)
 	POLYTOPE_KERNEL(kernelV1, "arch=x86-64", 2)
 
+	/// The best that the machine has, and, where POLYTOPE_INSTRUCTION_SET in the environment names a lesser one, that: for tests of each.
 	Kernels chooseKernels()
 	{
+		const char*       asked  = std::getenv("POLYTOPE_INSTRUCTION_SET");
+		const std::string name   = asked ? asked : "";
+		const bool        upToV3 = name == "AVX2", upToV1 = name == "SSE2";
 		__builtin_cpu_init();
-		if (__builtin_cpu_supports("x86-64-v4")) return { kernelV4<2>, kernelV4<3>, "AVX-512" };
-		if (__builtin_cpu_supports("x86-64-v3")) return { kernelV3<2>, kernelV3<3>, "AVX2" };
+		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1) return { kernelV4<2>, kernelV4<3>, "AVX-512" };
+		if (__builtin_cpu_supports("x86-64-v3") && !upToV1) return { kernelV3<2>, kernelV3<3>, "AVX2" };
 		return { kernelV1<2>, kernelV1<3>, "SSE2" };
 	}
 #else

@@ -3,7 +3,7 @@
 
 namespace polytope {
 
-/// How one contact query ended. Everything but Failed gives a usable answer; the names are what scripts read.
+/// How one contact query ended. answered() says which of these are the answer that was asked for; the names are what scripts read.
 enum class ContactStatus : int {
 	Separated = 0,     ///< s* ≥ −tolerance: no contact
 	Contact,           ///< centre converged, normal from the balanced weights (or both bodies' inner potentials)
@@ -20,6 +20,26 @@ enum class ContactStatus : int {
 };
 
 constexpr int contactStatusCount = int(ContactStatus::Failed) + 1;
+
+/// Whether the query found what it was asked for. Where it did not, there is a substitute that a run can go on with (the linear program's
+/// point, an arbitrary direction), or, where it failed, none; every count of queries without an answer is a count of these.
+constexpr bool answered(ContactStatus status)
+{
+	switch (status) {
+		case ContactStatus::Separated:
+		case ContactStatus::Contact:
+		case ContactStatus::NormalFromOneBody:
+		case ContactStatus::NormalFromDual:
+		case ContactStatus::RoundingLimited:
+		case ContactStatus::CentreByIpopt: return true;
+		case ContactStatus::CentreNotConverged:
+		case ContactStatus::IpoptNotAvailable:
+		case ContactStatus::LpNotConverged:
+		case ContactStatus::NoDirection:
+		case ContactStatus::Failed: return false;
+	}
+	return false;
+}
 
 /// The name scripts see, e.g. "contact".
 const char* statusName(ContactStatus status);

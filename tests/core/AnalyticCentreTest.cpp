@@ -164,8 +164,7 @@ struct Accuracy {
 	{
 		const ContactResult result = query(pair);
 		if (!result.inContact) return;
-		ASSERT_NE(result.status, ContactStatus::CentreNotConverged);
-		ASSERT_NE(result.status, ContactStatus::LpNotConverged);
+		ASSERT_TRUE(answered(result.status)) << statusName(result.status);
 		const PrecisePair exact(pair);
 		QuadVector        centre = precise(result.point);
 		ASSERT_TRUE(exact.analyticCentre(centre)) << "s* " << result.infeasibility << " reach " << pair.reach();

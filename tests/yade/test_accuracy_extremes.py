@@ -80,6 +80,15 @@ def testWhatIsLoudOrUndecidedIsNoFault(changes):
 	assert not any(pairTables.faults([sample(**changes)]).values())
 
 
+def testWhatIsNotJudgedIsCounted():
+	silent = [
+		sample(centreError=1., status='roundingLimited'), sample(inContact=0, status='failed', compared=0), sample(status='noDirection'),
+		sample(status='refused', infeasibilityError=''), sample(compared=0)
+	]
+	judged = [sample(), sample(inContact=0, status='separated', compared=0), sample(status='normalFromDual')]
+	assert pairTables.unjudged(silent + judged) == silent
+
+
 def testACoordinateCostsItsOwnRoundingOnly():
 	"""Up to 1e9 sizes from the origin: the contact is that of the positions as stored, its point rounded where it stands."""
 	turn = Quaternion((1, 2, 3), 0.4)

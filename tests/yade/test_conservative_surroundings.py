@@ -309,7 +309,8 @@ def testCoincidentBodiesHaveNoDirectionAndPart():
 	assert found.geom.status == 'noDirection' and found.phys.normalForce.norm() < 1e-3 and O.bodies[1].state.vel.norm() < 1e-6
 	# the energy's top: twice the square of the inscribed radius, less what the barrier adds
 	assert found.geom.energyPerStiffness == pytest.approx(2 * 0.5**2, rel=0.05)
-	assert O.engines[2].geomDispatcher.functors[0].stats()['fallbacks'] == 1
+	stats = O.engines[2].geomDispatcher.functors[0].stats()
+	assert stats['failures'] == stats['fallbacks'] == stats['statuses']['noDirection'] == 1
 	# an unstable equilibrium: rounding is enough to start separating them
 	O.dt = 0.2 * sqrt(O.bodies[1].state.mass / found.phys.kn)
 	O.run(2000, wait=True)

@@ -31,14 +31,25 @@ def table(folder, *parts):
 		return {row[0]: [float(value) if value else None for value in row[1:]] for row in list(csv.reader(file))[1:]}
 
 
+withoutTheory = {
+	('B: peak load [N], centroid', 'conservative'),
+	('B: peak load [N], analyticCentre', 'conservative'),
+	('B: peak load [N], from the energy', 'default'),
+	('B: peak load [N], from the energy', 'paper'),
+}
+"""The conservative contact has a closed form of its own; each other cell of these rows must have its figure."""
+
+
 def testBothModelsAgreeWithClosedForms(tmp_path):
 	rows = table(tmp_path, 'B', 'C', 'D')
 	assert len(rows) == 6
-	for name, (closed, default, paper, conservative) in rows.items():
+	for name, (closed, *found) in rows.items():
 		relative = {'B': 1e-3, 'C': 6e-3, 'D': 1e-3}[name[0]]
-		for value in (default, paper, conservative):
-			if name[0] != 'C' or value is not default:  # C depends on the shear that is locked in: the next test
-				assert value is None or value == pytest.approx(closed, rel=relative), name
+		for model, value in zip(('default', 'paper', 'conservative'), found, strict=True):
+			if (name, model) in withoutTheory:
+				assert value is None, (name, model)
+			elif (name[0], model) != ('C', 'default'):  # depends on the shear that is locked in: the next test
+				assert value == pytest.approx(closed, rel=relative), (name, model)
 	_, default, paper, conservative = rows['C: critical angle [°]']
 	assert 33.0 < default < 33.4 and 33.0 < paper < 33.4 and 33.3 < conservative < 33.36
 

@@ -39,7 +39,7 @@ def testCentroidIsTheClosedForm(quick):
 	assert rows['centroid: rotation with the load back to zero']['ours'] == pytest.approx(15.195, abs=5e-4)
 	assert rows['centroid: work up to the peak']['ours'] == pytest.approx(204.7, abs=0.05)
 	assert rows['centroid: energy stored at the peak']['ours'] == pytest.approx(223.0, abs=0.05)
-	assert rows['contact queries without a proper answer']['ours'] == 0
+	assert rows['contact queries without an answer']['ours'] == 0
 
 
 def testAnalyticCentre(quick):

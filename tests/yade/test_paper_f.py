@@ -9,6 +9,7 @@ from paperScripts import folder, results, run, runHere
 from yade import O
 from yade.polytope.motionRecord import MotionRecord
 from boon2012.collisions.scene import Block, Collision, readBlocks
+from boon2012.collisions.study import largestFall
 
 name, quick = 'f_collisions', ('--quick', '--no-pictures')
 geometry = folder / 'geometry/f_collisions.json'
@@ -29,6 +30,8 @@ def testQuickVariantHoldsEveryTolerance(tmp_path):
 			assert rows[f'{label}: momentum budget{words}']['ours'] < 1e-6
 			assert rows[f'{label}: energy in free flight{words}']['ours'] < 1e-9
 			assert rows[f'{label}: energy balance{words}']['ours'] < 1e-6
+			assert rows[f"{label}: law's own account of energy{words}"]['ours'] < 1e-7
+			assert rows[f'{label}: energy that dampers and friction give{words}']['ours'] < 1e-6
 	plots = {f'{label}_{plot}.png' for label in ('F1', 'F2') for plot in ('overview', 'jumps', 'transitions')}
 	assert {path.name for path in (tmp_path / 'out').iterdir()} >= {'transitions.csv', 'energy_rises.csv', *plots}
 	types = [line.split(',')[3] for line in (tmp_path / 'out/transitions.csv').read_text().splitlines() if line.startswith('F2')]
@@ -99,8 +102,9 @@ def testGeometryFileIsChecked(tmp_path):
 		readBlocks(path, 'vertexFace')
 
 
-def shortRecord(steps=600, **settings):
+def shortRecord(steps=600, velocity=(0, 0, 0), **settings):
 	scene = Collision(*readBlocks(geometry, 'vertexFace'), **settings).build()
+	scene.body.state.vel = velocity
 	record = MotionRecord(scene.body, scene.contact, scene.integrator)
 	for _ in range(steps):
 		record.step()
@@ -116,6 +120,33 @@ def testBudgetsNoticeAnError():
 	record.damping = 0.3
 	record.contactForce[300] *= 1.01  # one step's force of 600
 	assert record.momentumError() > 1e-6
+	record = shortRecord(velocity=(3, 0, -4))
+	assert abs(record.balance()).max() < 1e-9 * record.energy()[0]
+	record.contactForce[np.linalg.norm(record.contactForce, axis=1).argmax()] *= 1.01
+	assert abs(record.balance()).max() > 1e-6 * record.energy()[0]
+
+
+@pytest.mark.parametrize('term, law', [
+	('springs', 'elastPotential'), ('normal damper', 'normDampDissip'), ('friction and shear damper', 'plastDissip'),
+	('friction and shear damper', 'shearDampDissip'), ('sum', 'nonconservative')
+])
+def testTheLawsAccountIsCompared(term, law):
+	"""A hundredth less of one term of the law, made up for by its term nonconservative: all terms still add up, and it is noticed."""
+	record = shortRecord(velocity=(3, 0, -4), contactDamping=0.1)
+	limit = 1e-7 * record.energy()[0]
+	assert max(record.bookError().values()) < limit
+	missing = getattr(record, law) / 100
+	setattr(record, law, 0.99 * getattr(record, law))
+	if term != 'sum':
+		record.nonconservative = record.nonconservative + missing
+	assert abs(missing).max() > 10 * limit and [name for name, error in record.bookError().items() if error > limit] == [term]
+
+
+def testDampersAndFrictionOnlyTake():
+	record = shortRecord(velocity=(3, 0, -4), contactDamping=0.1)
+	assert largestFall(record.normalLoss()) < 1e-6 * record.energy()[0] > largestFall(record.shearLoss())
+	record.contactForce *= 0.9  # a damper that pushes where it ought to hold
+	assert largestFall(record.normalLoss()) > 1e-6 * record.energy()[0]
 
 
 def testEnergyOfTurningBlockIsRight():

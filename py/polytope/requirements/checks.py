@@ -226,10 +226,10 @@ def numbersOfBodies(scene):
 	states = {body.id: (*body.state.pos, *body.state.ori, *body.state.vel, *body.state.angVel) for body in scene.O.bodies if body is not None}
 	lost = [k for k, numbers in states.items() if not all(math.isfinite(float(x)) for x in numbers)]
 	failed = sum(functor.stats()['failures'] for functor in scene.functors)
-	seen = f'{len(lost)} of {len(states)} bodies have non-finite positions or velocities' + (f', {failed} queries have failed' if failed else '')
+	seen = f'{len(lost)} of {len(states)} bodies have non-finite positions or velocities' + (f', {failed} contact queries had no answer' if failed else '')
 	if lost:
 		return f'{seen} (body {lost[0]})', 'the run failed earlier: such a body has no contacts; go back, and take a smaller O.dt'
-	return seen, 'find out where: docs/statuses.md says what makes a query fail' if failed else ''
+	return seen, 'find out where: docs/statuses.md says why a query may have no answer' if failed else ''
 
 
 def timeStep(scene):

@@ -59,7 +59,7 @@ def plotPairs(path, axis, samples):
 	figure.text(
 		0.5,
 		0.005,
-		f'line: median, marks: worst; ● all statuses “contact”; ◇ another one that says what was done; ✕ not converged, failed or refused. Errors below {least:g} are drawn there.',
+		f'line: median, marks: worst; ● all statuses “contact”; ◇ another one that says what was done; ✕ no answer (docs/statuses.md), or refused. Errors below {least:g} are drawn there.',
 		ha='center',
 		fontsize=8,
 	)

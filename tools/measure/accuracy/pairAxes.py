@@ -11,7 +11,8 @@ __all__ = ['Axis', 'Limit', 'axes']
 class Limit:
 	"""The worst value of a quantity over all samples of a range of the axis must not be above `most`.
 
-	Errors count where the contact's status raises no doubt (see pairTables.quiet); any other status is a warning.
+	Errors count where the contact's status raises no doubt (see pairTables.quiet); any other status is a warning, and Axis.unjudged limits
+	how many there may be.
 	"""
 
 	text: str
@@ -32,6 +33,9 @@ class Axis:
 	"""Of the values."""
 	limits: list
 	note: str = ''
+	unjudged: float = 0
+	"""Largest share of samples of which no error is judged (pairTables.unjudged): refused, with a status that is a warning, or without a
+	reference for the normal. Where it is above zero the note says which they are; the figure is what the pairs of this axis gave."""
 
 
 depths = [
@@ -66,6 +70,7 @@ axes = {
 		'The overlap is a tenth of the thickness. Errors are of the size, so a plate’s depth is known to 1e-15 × aspect ratio of its thickness. '
 		'Flat on flat, only the barrier of far side faces fixes the conservative contact’s point: from a ratio of about 1e5 on it is the '
 		'planes’ rounding that determines it, and the status is roundingLimited.',
+		unjudged=0.05,
 	),
 	'size': Axis(
 		'Size ratio of the pair',
@@ -97,7 +102,8 @@ axes = {
 			Limit('contact point over the size, beyond 3e-9 of the overlap', 'centreTimesOverlap', 5e-15, 'paper'),
 			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
 		],
-		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep.',
+		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep. A wedge of 1e-12 has no reference.',
+		unjudged=0.01,
 	),
 	'twins': Axis(
 		'Two planes of one body that nearly agree',
@@ -136,12 +142,14 @@ axes = {
 		],
 		'The direction between two bodies that nearly coincide is as uncertain as rounding over their distance, and so is the depth along it. Where no '
 		'direction leads out: normalFromDual or noDirection (paper: the normal along the line of centres), no force (conservative).',
+		unjudged=0.31,
 	),
 	'inside': Axis(
 		'One body inside the other',
 		'inner over outer body',
 		[Limit('s* over the size', 'infeasibilityError', 1e-14), Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative')],
 		'No plane of the outer body is near: noDirection (paper), a force that fades out (conservative).',
+		unjudged=0.7,
 	),
 	'deep': Axis(
 		'Overlap beyond the corner radius',
@@ -149,11 +157,13 @@ axes = {
 		[*depths, Limit('contact point over the overlap', 'centreError', 1e-9)],
 		'Deeper than cornerRadius in one body the normal is the other’s (normalFromOneBody), in both the program’s dual direction '
 		'(normalFromDual), checked to lead out: moved along it by what it promises, the pair is free in exact arithmetic.',
+		unjudged=0.02,
 	),
 	'units': Axis(
 		'Units',
 		'one size in metres',
 		[*depths, Limit('difference to the answer in metres, scaled', 'deviation', 1e-11)],
 		'From 1e-45 to 1e45 m; lengths outside 1e-50 … 1e50 m, here at 1e-60, are refused (planes 1e60 m away are what the kernel fills its vectors with).',
+		unjudged=0.072,
 	),
 }

@@ -19,6 +19,7 @@ import pathlib
 import subprocess
 import sys
 
+import yade
 from tqdm import tqdm
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
@@ -28,11 +29,10 @@ from boon2012.reporting.script import conclude
 
 from extremePlots import plotPairs
 from pairAxes import axes
-from pairTables import faults, readSamples, summary, summaryColumns, worst
+from pairTables import faults, readSamples, summary, summaryColumns, unjudged, worst
 
-here = pathlib.Path(__file__).resolve().parent
-# of the build whose plug-in is in use; `./run` removes it where the sources have changed since
-program = pathlib.Path(os.environ.get('YADE_PREFIX', here.parents[2] / 'build/overlay')).parent / 'tools/measure/accuracy/polytope_extremes'
+# of the build whose plug-in is loaded; `./run` removes it where the sources have changed since
+program = pathlib.Path(yade.config.prefix).parent / 'tools/measure/accuracy/polytope_extremes'
 
 
 def options(arguments=None):
@@ -78,6 +78,13 @@ def report(findings, name, samples):
 		f'of {len(samples)}',
 		accept=(0, 0),
 		note=worstOf or 'no NaN, nothing unbounded, missed, false or beyond rounding',
+	)
+	unseen = collections.Counter(f'{s.status}, {s.model}' for s in unjudged(samples))
+	findings.row(
+		f'{axis.title}: share of answers whose errors are not judged',
+		sum(unseen.values()) / len(samples),
+		accept=(0, axis.unjudged),
+		note='; '.join(f'{count} {what}' for what, count in unseen.items()),
 	)
 	for limit in axis.limits:
 		most, least = worst(samples, limit)

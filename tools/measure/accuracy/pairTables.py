@@ -6,11 +6,13 @@ import csv
 import math
 import statistics
 
-__all__ = ['Sample', 'faults', 'quiet', 'readSamples', 'summary', 'worst']
+from yade._polytope import statuses
+
+__all__ = ['Sample', 'faults', 'quiet', 'readSamples', 'summary', 'unjudged', 'worst']
 
 quiet = ('contact', 'normalFromOneBody', 'normalFromDual')
 """Statuses that raise no doubt about point, depth and normal; every other one is a warning."""
-failed = ('failed', 'refused', 'lpNotConverged', 'centreNotConverged', 'ipoptNotAvailable')
+failed = ('refused', *(name for name, answered in statuses().items() if not answered))
 
 rounding = 2.0**-52
 
@@ -98,6 +100,11 @@ def faults(samples):
 		'no way out along the normal': [s for s in asked if not s.free],
 		'error without a status': [s for s in asked if s.silent],
 	}
+
+
+def unjudged(samples):
+	"""Those of which error() has nothing to say: refused, with a status that is a warning, or contacts without a reference."""
+	return [s for s in samples if math.isnan(s.error('infeasibilityError')) or (s.inContact and not s.compared)]
 
 
 def worst(samples, limit):

@@ -3,7 +3,7 @@
 
 Stiffness ratio to 1e6, mass ratio to 1e9, time step to past the critical one, a tower of 50 blocks, 1e6 steps at rest and a slide of 1e6
 steps. Ends with 1 if a number of a scene is not finite, a contact failed, or an error is above the limit that
-docs/accuracy.md states (--quick: a wider one for the tower, which has not come to rest, and the slide, whose first millimetre counts for more).
+docs/accuracy.md states. --quick has fewer values along the axes and the same limits, so the same number of steps where a limit is one of steps.
 
 	./run python tools/measure/accuracy/sceneExtremes.py --quick
 	./run python tools/measure/accuracy/sceneExtremes.py --axes tower rest
@@ -42,7 +42,7 @@ def _text(x):
 
 
 def sound(findings, title, failures, finite):
-	findings.row(f'{title}: scenes with a failed contact or a number that is not finite', sum(map(bool, failures)) + finite.count(False), accept=(0, 0))
+	findings.row(f'{title}: scenes with a contact query without an answer or a number that is not finite', sum(map(bool, failures)) + finite.count(False), accept=(0, 0))
 
 
 def worst(values):
@@ -133,13 +133,13 @@ def timeStep(findings, quick):
 
 def towers(findings, quick):
 	title = 'Tower of 50 blocks'
-	steps = (2000, 8000) if quick else (1000, 3000, 10000, 30000)
+	steps = (3000, 30000) if quick else (1000, 3000, 10000, 30000)
 	results = [(model, n, tower(model, 50, n)) for model in models for n in steps]
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
 	last = {model: next(r for m, n, r in results if (m, n) == (model, steps[-1])) for model in models}
 	for model, r in last.items():
-		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 5e-3 if quick else 5e-5))
-		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 2e-2))
+		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 5e-5))
+		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 5e-3))
 	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
 	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
 		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')
@@ -150,7 +150,7 @@ def towers(findings, quick):
 
 def atRest(findings, quick):
 	title = 'Steps at rest'
-	steps = 20000 if quick else 1000000
+	steps = 1000000
 	results, failures, finite = [], [], []
 	for model in models:
 		rows, failed, good = rest(model, steps)
@@ -159,6 +159,8 @@ def atRest(findings, quick):
 		finite.append(good)
 	sound(findings, title, failures, finite)
 	findings.row(f'{title}: way of a block of 1 m in {steps} steps', worst(r.position for _, _, r in results), 'm', accept=(0, 1e-11))
+	# about the normal nothing turns it back, and it keeps the spin that was left when damping ended, 1e-13 rad/s; the limit is a rounding of the
+	# orientation, 1.1e-16, in each of the million steps
 	findings.row(f'{title}: its turn', worst(r.turn for _, _, r in results), 'rad', accept=(0, 1e-10))
 	findings.row(f'{title}: its kinetic energy over weight × overlap', worst(r.energy for _, _, r in results), accept=(0, 1e-15))
 	findings.text(f'{title}. A block on a floor, both turned in space, has come to rest; then all damping is taken away.')
@@ -169,7 +171,7 @@ def atRest(findings, quick):
 
 def slides(findings, quick):
 	title = 'Slide'
-	steps = 20000 if quick else 1000000
+	steps = 1000000
 	results, failures, finite = [], [], []
 	for model in models:
 		rows, failed, good = slide(model, steps)
@@ -178,8 +180,8 @@ def slides(findings, quick):
 		finite.append(good)
 	sound(findings, title, failures, finite)
 	# the first millimetre is given to the shear that the joint had stored
-	findings.row(f'{title}: distance after {steps} steps, worst relative error', worst(r.distanceError for _, n, r in results if n == steps), accept=(0, 1e-4 if quick else 1e-5))
-	findings.row(f'{title}: speed, worst relative error', worst(r.speedError for _, _, r in results), accept=(0, 1e-4 if quick else 1e-5))
+	findings.row(f'{title}: distance after {steps} steps, worst relative error', worst(r.distanceError for _, n, r in results if n == steps), accept=(0, 1e-5))
+	findings.row(f'{title}: speed, worst relative error', worst(r.speedError for _, _, r in results), accept=(0, 1e-5))
 	findings.row(f'{title}: tilt of the block', worst(r.tilt for _, _, r in results), 'rad', accept=(0, 1e-5))
 	findings.text(f'{title}. A flat block slides down a slope half a degree steeper than its friction angle, with normal and rocking damping.')
 	findings.table('slide', f'{title}; value: steps', *cells(results))
@@ -192,7 +194,7 @@ axes = {'stiffness': stiffness, 'mass': mass, 'timeStep': timeStep, 'tower': tow
 
 def options(arguments=None):
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-	parser.add_argument('--quick', action='store_true', help='fewer values and steps')
+	parser.add_argument('--quick', action='store_true', help='fewer values')
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/sceneExtremes'), help='folder for all files')
 	return parser.parse_args(arguments)

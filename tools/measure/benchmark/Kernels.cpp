@@ -83,7 +83,7 @@ namespace {
 				pivots += result.simplexPivots;
 				iterations += result.newtonIterations;
 				contacts += result.inContact;
-				wrong += result.status == ContactStatus::Failed;
+				wrong += !answered(result.status);
 				const Pair& pair = set->pairs()[i];
 				wrong += settings.contactModel == ContactModel::Conservative ? !energyIsRight(pair) : !wayOutIsRight(pair);
 			}

@@ -74,7 +74,7 @@ namespace {
 			if (!(off <= allowed))
 				report(Defect::Infeasibility, "LP",
 				        text("s* %.17g instead of %.17Lg, size %g", solved.infeasibility, certificate.upper, pair.size()));
-			if (failed(solved.status)) report(Defect::NotConverged, "LP", statusName(solved.status));
+			if (gaveUp(pair, certificate, solved.status)) report(Defect::NotConverged, "LP", statusName(solved.status));
 			tally_.mostPivots = std::max(tally_.mostPivots, solved.simplexPivots);
 			const Real level  = -tolerance::contact * pair.size();
 			if (certificate.upper < level - allowed) ++tally_.overlaps;
@@ -110,9 +110,13 @@ namespace {
 		ContactSettings       paper_, barrier_;
 		PairMemory            memory_[2];
 
-		static bool failed(ContactStatus status)
+		/// No answer, or one that Newton's method did not find. That no direction separates the bodies is an answer where it is
+		/// proved: s* is then that of one body alone.
+		static bool gaveUp(const Pair& pair, const Certificate& certificate, ContactStatus status)
 		{
-			return status == ContactStatus::LpNotConverged || status == ContactStatus::Failed;
+			if (status == ContactStatus::NoDirection)
+				return std::abs(certificate.upper + pair.inscribedRadius()) > 2 * allowedError(pair);
+			return !answered(status) || status == ContactStatus::CentreByIpopt;
 		}
 
 		/// Checks that both models must pass.
@@ -120,7 +124,7 @@ namespace {
 		{
 			++tally_.queries;
 			const Real allowed = allowedError(pair);
-			if (failed(result.status)) report(Defect::NotConverged, way, statusName(result.status));
+			if (gaveUp(pair, certificate, result.status)) report(Defect::NotConverged, way, statusName(result.status));
 			if (!finite(result)) report(Defect::NotFinite, way, "a number is none");
 			if (result.hasGeometry && !(std::abs(result.normal.norm() - 1) <= 1e-14))
 				report(Defect::NotFinite, way, text("normal of length 1 + %g", result.normal.norm() - 1));
@@ -145,9 +149,8 @@ namespace {
 			        result.infeasibility, pair.size());
 			if (!result.inContact && certificate.upper < level - allowed) report(Defect::Miss, way, s);
 			if (result.inContact && certificate.lower > level + allowed) report(Defect::FalseContact, way, s);
-			if (!result.inContact || result.status == ContactStatus::CentreNotConverged
-			        || result.status == ContactStatus::IpoptNotAvailable || failed(result.status))
-				return;
+			if (!result.inContact || (!answered(result.status) && result.status != ContactStatus::NoDirection))
+				return; // reported
 			// the point's own rounding and the planes', over the overlap's thickness
 			const Real loose = 2e-9 + 4 * Real(allowed / -certificate.upper);
 			if (!(loose > 0 && loose < 0.1)) return;

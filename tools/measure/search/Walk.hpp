@@ -17,7 +17,7 @@ enum class Defect : int {
 	FalseContact,   ///< contact reported without such an overlap
 	Infeasibility,  ///< s* off by more than rounding
 	Centre,         ///< contact reported, but the point is not the analytic centre, and the status does not tell
-	NotConverged,   ///< the linear program or the query did not converge
+	NotConverged,   ///< a query without an answer, or one whose contact point Newton's method did not find
 	NotFinite,      ///< a value that is not finite, a normal that is not unit, a depth that is not positive
 	ForceAcrossGap, ///< conservative: contact without overlap
 	BelowLp,        ///< conservative: Φ < s*

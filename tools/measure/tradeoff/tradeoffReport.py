@@ -63,7 +63,7 @@ def reportScene(scene, table, folder, finest):
 	plotTradeoff(findings.folder / 'pareto.png', panels, floor, f'{scene.letter} · {scene.title}')
 	findings.figure('pareto.png', 'Error over time, each point a setting; square: default; orange: on the front, surpassed by none in both')
 	good = [row for row in table.rows if row.failures == 0 or row.note]
-	findings.row('settings with failed contact queries', len(table.rows) - len(good), theory=0, accept=(0, 0))
+	findings.row('settings with contact queries without an answer', len(table.rows) - len(good), theory=0, accept=(0, 0))
 	return findings, errors
 
 

@@ -184,8 +184,8 @@ class BeamReport:
 		self.findings.table('normals', caption, columns + ['peak load (N)', 'rotation (°)', 'change (%)'], rows)
 
 	def failedQueries(self):
-		note = f'failures and fallbacks, of {self.study.queries} queries'
-		self.findings.row('contact queries without a proper answer', self.study.failures, theory=0, accept=(0, 0), note=note)
+		note = f'of {self.study.queries}'
+		self.findings.row('contact queries without an answer', self.study.failures, theory=0, accept=(0, 0), note=note)
 
 	def figures(self):
 		findings, folder, study = self.findings, self.findings.folder, self.study

@@ -138,7 +138,7 @@ class BeamStudy:
 	def _count(self, scene):
 		stats = scene.stats()
 		self.queries += stats['pairs']
-		self.failures += stats['failures'] + stats['fallbacks']
+		self.failures += stats['failures']
 
 	def curve(self, contactPoint, solver, rotations):
 		"""BeamCurve over *rotations* [rad]."""

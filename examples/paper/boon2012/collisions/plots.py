@@ -80,8 +80,8 @@ def plotOverview(path, run):
 	curves = {
 		'contact: dampers and friction': (record.contactLoss(), '#1d4e79'),
 		"YADE's damping": (record.dampingLoss(), '#86bcbb'),
-		'nonconservative (negative: given)': (record.nonconservative, '#c8451b'),
-		'elastic': (record.elastPotential, '#222222'),
+		'made by the normal spring': (record.made(), '#c8451b'),
+		'elastic': (record.elasticEnergy(), '#222222'),
 	}
 	for label, (values, color) in curves.items():
 		taken.plot(record.time, 1e-3 * values, label=label, color=color)

@@ -8,7 +8,7 @@ compared over the seeds, with their scatter.
 import math
 import statistics
 
-from scipy.stats import t
+from scipy.stats import chi2, norm
 
 from .plots import plotEnergies, plotSeeds
 from .run import halfStep, quantities
@@ -26,10 +26,11 @@ class FallingPolyhedraReport:
 	    one that *expected* is known for; otherwise nothing is compared with it
 	:param list results: of all runs, see FallingRun
 	:param dict expected: name in the results → (from, to)
+	:param dict scatter: name in the results → standard deviations between seeds of the least and the largest of the solids
 	"""
 
-	def __init__(self, findings, given, results, expected):
-		self.findings, self.given, self.results, self.expected = findings, given, results, expected
+	def __init__(self, findings, given, results, expected, scatter):
+		self.findings, self.given, self.results, self.expected, self.scatter = findings, given, results, expected, scatter
 		self.firsts = [r for r in results if r['seed'] == given.seed]
 		self.ofSolid = {r['shape']: [other for other in results if other['shape'] == r['shape']] for r in self.firsts}
 		self.several = given.seeds >= fewestSeeds
@@ -71,20 +72,22 @@ class FallingPolyhedraReport:
 			self.findings.row(f'{quantities[key]}: median of the solids', middle, accept=(0, high), note=note)
 
 	def extremes(self, key):
-		"""Least and largest of the five solids. The reference has those of five single runs: each must be within the 99 % prediction
-		interval for one more value beside ours, one of each seed."""
+		"""Least and largest of the five solids. The reference has those of five single runs: the mean of our seeds must differ from it by no
+		more than 99 % of such differences do, at the scatter between seeds that was measured once. It does not grow with that of this run,
+		which must itself be no larger."""
 		if not self.given.reference or len(self.ofSolid) != 5:
 			return
-		for pick, word, reference in zip((min, max), ('least', 'largest'), self.expected[key], strict=True):
+		extremes = zip((min, max), ('least', 'largest'), self.expected[key], self.scatter[key], strict=True)
+		for pick, word, reference, deviation in extremes:
 			values = [pick(r[key] for r in runs) for runs in zip(*self.ofSolid.values(), strict=True)]
-			must, note = None, f'reference, of one run of each solid: {reference:g}'
-			if len(values) >= fewestSeeds:
-				deviation = statistics.stdev(values)
-				half = rounded(t.ppf(0.995, len(values) - 1) * deviation * math.sqrt(1 + 1 / len(values)))
-				must = rounded(reference - half), rounded(reference + half)
-				note += f' ± 99 % prediction interval of our scatter ({deviation:.3g} between seeds); ours: mean of the seeds'
-			ours = rounded(statistics.fmean(values))
-			self.findings.row(f'{quantities[key]}: {word} of the solids', ours, accept=must, note=note)
+			half = rounded(norm.ppf(0.995) * deviation * math.sqrt(1 + 1 / len(values)))
+			must = rounded(reference - half), rounded(reference + half)
+			note = f'reference, of one run of each solid: {reference:g}, ± 99 % at a scatter of {deviation:g} between seeds'
+			title = f'{quantities[key]}: {word} of the solids'
+			self.findings.row(title, rounded(statistics.fmean(values)), accept=must, note=note + '; ours: mean of the seeds' * self.several)
+			if self.several:
+				most = rounded(deviation * math.sqrt(chi2.ppf(0.995, len(values) - 1) / (len(values) - 1)))
+				self.findings.row(f'{title}, scatter between seeds', rounded(statistics.stdev(values)), accept=(0, most), note='99.5 % of such samples are below')
 
 	def singleRuns(self):
 		"""Why single runs are outside the ranges of the reference."""
