@@ -141,7 +141,12 @@ class FrictionReduction:
 		if settled.outcome != 'stable':
 			raise RuntimeError(
 				f'the scene is not stable at the starting angle, {math.degrees(self.start):g}°: {settled.outcome} '
-				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps)'
+				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps); '
+				+ (
+					'start higher, with stiffer contacts, or with a larger failedDistance'
+					if settled.outcome == 'failed'
+					else 'take more damping, a larger stableSpeed, or more mostSteps'
+				)
 			)
 		self.origins = self._positions()
 		O.saveTmp(self.mark)
