@@ -3,7 +3,7 @@
 
 import csv
 import json
-from math import degrees, radians, tan
+from math import atan, degrees, radians, tan
 
 import numpy as np
 import pytest
@@ -234,6 +234,20 @@ def testBlockOnASlopeSlidesAtItsDip():
 	reduction.restore()
 	assert O.bodies[block.id].state.vel.norm() < 2e-7
 	assert O.interactions[0, 1].phys.tangensOfFrictionAngle == pytest.approx(tan(found.stable))
+
+
+@pytest.mark.parametrize('lever', [0, 0.1])
+def testAPermanentForceStays(lever):
+	"""A block that 0.3 of its weight pulls aside, with a torque or without, slides at atan 0.3, though O.loadTmp drops such loads."""
+	_, block = incline(0)
+	pull = 0.3 * 9.81 * block.state.mass
+	O.forces.setPermF(block.id, (pull, 0, 0))
+	O.forces.setPermT(block.id, (0, lever * pull, 0))
+	reduction = FrictionReduction([block.id], radians(30), [radians(step) for step in (5, 0.5, 0.05)], failedDistance=2e-3)
+	found = reduction.run()
+	assert degrees(found.failed) - 0.01 < degrees(atan(0.3)) < degrees(found.stable) + 0.01
+	reduction.restore()
+	assert tuple(O.forces.f(block.id, sync=True)) == (pull, 0, 0) and tuple(O.forces.t(block.id, sync=True)) == (0, lever * pull, 0)
 
 
 def testNewContactsHaveThePresentFriction():

@@ -30,6 +30,27 @@ def testAreaThatIsNeededIsNotBlamed():
 	assert not found.advice and 'need' in found.seen
 
 
+def testOverlapsOfALoadedSceneAreSaidToBeUnknown(tmp_path):
+	"""YADE's archives have no penetration depths."""
+	row(normal='innerPotential')
+	O.save(str(tmp_path / 'scene.yade.gz'))
+	O.load(str(tmp_path / 'scene.yade.gz'))
+	missing = dict(polytope.requirements(O, measure=False).notSeen)
+	for what in ('corner radius', 'several pieces under one face'):
+		assert missing[what].startswith('the depths of 3 contacts are not known') and 'O.step()' in missing[what]
+	O.step()
+	assert not {'corner radius', 'several pieces under one face'} & dict(polytope.requirements(O, measure=False).notSeen).keys()
+
+
+def testPermanentForcesAreNamed():
+	row()
+	assert polytope.requirements(O, measure=False)['permanent forces'].seen == 'none'
+	O.forces.setPermF(2, (1, 0, 0))
+	O.forces.setPermT(3, (1, 0, 0))
+	found = polytope.requirements(O, measure=False)['permanent forces']
+	assert found.seen.startswith('2 bodies') and 'ForceEngine' in found.advice
+
+
 def testTimeStep():
 	row()
 	limit = polytope.stableTimeStep(1)

@@ -11,6 +11,7 @@ import numpy as np
 import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
+from .._loads import permanentLoads
 from .._scene import geometryFunctors, interactionLoops, laws
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
@@ -49,6 +50,7 @@ class Scene:
 		self.contacts = [contact for contact in O.interactions if contact.isReal and isinstance(contact.geom, PolytopeGeom)]
 		self.bodies = [body for body in O.bodies if body is not None and isinstance(body.shape, Polytope)]
 		self.moving = [body for body in self.bodies if body.dynamic]
+		self.unknown = sum(math.isnan(contact.geom.penetrationDepth) for contact in self.contacts)
 		self.depths = [float(contact.geom.penetrationDepth) for contact in self.contacts if contact.geom.penetrationDepth > 0]
 		self.dampers = laws()
 		self.newton = next((engine for engine in O.engines if isinstance(engine, NewtonIntegrator)), None)
@@ -66,6 +68,12 @@ class Scene:
 		pairs = [(contact.id1, contact.id2) for contact in self.contacts]
 		return [pair for pair in pairs if all(isinstance(self.O.bodies[k].shape, Polytope) for k in pair)]
 
+	def withoutDepths(self):
+		"""Why there are no overlaps to check."""
+		if self.unknown:
+			return f'the depths of {self.unknown} contacts are not known: YADE does not save them. Take a step first, O.step()'
+		return 'no polytopes overlap now'
+
 	def size(self):
 		"""Of the smallest polytope [m]."""
 		return min(float(body.shape.inscribedRadius) for body in self.bodies)
@@ -81,7 +89,7 @@ def checks(O):
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
 	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
-	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion)
+	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion, loads)
 	found, missing = [], []
 	for one in each:
 		name, answer = one.__doc__.strip().rstrip('.'), one(scene)
@@ -115,6 +123,8 @@ def support(scene):
 	"""several pieces under one face"""
 	if not scene.contacts:
 		return noContacts
+	if scene.unknown:
+		return scene.withoutDepths()
 	if _stiffnessPerArea(scene):
 		return 'stiffnesses are per area: pieces that lie flush are as stiff as one', ''
 	faces, shared = {}, 0
@@ -183,6 +193,15 @@ def cohesion(scene):
 		advice = 'none (it costs no time); materials without cohesion and tensileStrength give the same run from here on'
 		return f'{len(bonded)} of {len(joints)} joints had cohesion or tensile strength, none is intact', advice
 	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; without them it costs no time', ''
+
+
+def loads(scene):
+	"""permanent forces"""
+	loaded = len(permanentLoads())
+	if not loaded:
+		return 'none', ''
+	advice = 'ForceEngine or TorqueEngine, or set them again after O.load: YADE leaves permanent forces out of O.save and O.saveTmp'
+	return f'{loaded} bodies have one (O.forces.setPermF, setPermT)', advice
 
 
 def planes(scene):
