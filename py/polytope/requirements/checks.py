@@ -15,8 +15,9 @@ from .._loads import permanentLoads
 from .._scene import geometryFunctors, interactionLoops, laws
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
+from .engines import engines
 from .overlaps import cornerRadius, newtonTolerance
-from .plane import dimension
+from .plane import dimension, polygons
 
 __all__ = ['checks']
 
@@ -88,7 +89,7 @@ def checks(O):
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would make the solver active,
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
-	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
+	each = (numbersOfBodies, engines, polygons, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
 	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion, loads)
 	found, missing = [], []
 	for one in each:
@@ -253,7 +254,10 @@ def timeStep(scene):
 	"""time step"""
 	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
 	if steppers:
-		return f'set by {" and ".join(steppers)}', 'keep one of them: each overwrites the step of the other' if steppers[1:] else ''
+		advice = 'keep one of them: each overwrites the step of the other' if steppers[1:] else ''
+		if steppers == ['GlobalStiffnessTimeStepper']:
+			advice = 'PolytopeTimeStepper: GlobalStiffnessTimeStepper neglects the rocking of faces and what the contacts to come will be'
+		return f'set by {" and ".join(steppers)}', advice
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves otherwise'
 	limit = _polytope.timeStepLimits()['contacts']
