@@ -80,8 +80,9 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const s
 	auto& geom = geometry(c);
 	if (!geom.partner) {
 		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
-		geom.partner    = polytope::shapeOrNull(
-		           [&] { return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension()); });
+		geom.partner    = polytope::shapeOrNull([&] {
+                        return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+                });
 	}
 	if (!geom.partner) return failed(c);
 	// the wall's point nearest to the polytope's centre
@@ -117,7 +118,8 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const 
 	}
 	// nor need its corners be the same as in the step before
 	const auto planes = facetPlanes(facet, *convex, geom.side);
-	if (!geom.partner || !isFacet(*geom.partner, planes)) geom.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
+	if (!geom.partner || !isFacet(*geom.partner, planes))
+		geom.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
 	if (!geom.partner) return failed(c);
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
