@@ -2,7 +2,7 @@
 """The default contact, the paper's and the conservative one: 200 polyhedra in a box without friction and damping, and their total energy over time.
 
 	./run python examples/energy.py                 # one to three minutes; writes output/energy.png and prints the errors
-	./run python examples/energy.py --seconds 0.5   # shorter; --output FILE, --help
+	./run python examples/energy.py --seconds 0.5   # shorter; --number N, --output FILE, --help
 
 Stiffness times chord is no gradient of an energy: with the paper's averaged normal (normal='innerPotential') the energy of such a gas grows, at any
 time step; with the default's, on which both bodies agree, by less. With contactModel='conservative' energy is conserved; the remaining
@@ -33,10 +33,10 @@ runs = ('default', 1), ('paper', 1), ('paper', 4), ('conservative', 1), ('conser
 colors = {('default', 1): '#2a9d8f', ('paper', 1): '#c8451b', ('paper', 4): '#f2a541', ('conservative', 1): '#1d4e79', ('conservative', 2): '#5a9bc4', ('conservative', 4): '#a9cfe6'}
 
 
-def energies(model, shorter, seconds, samples=200):
+def energies(model, shorter, seconds, samples=200, number=200):
 	"""One run: times [s], total energies over that at the start, and the shortest polytope.stableTimeStep(2) [s] seen."""
 	scene = FallingPolyhedra(
-		faces=(4, 6, 8, 12, 20), frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=fraction / shorter
+		faces=(4, 6, 8, 12, 20), number=number, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=fraction / shorter
 	).build()
 	for name, value in contacts[model].items():
 		setattr(scene.geometryFunctor, name, value)
@@ -70,11 +70,12 @@ def draw(path, results):
 def main():
 	parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 	parser.add_argument('--seconds', type=float, default=1.2, help='simulated time; the solids reach the floor after 0.2 to 0.6 s')
+	parser.add_argument('--number', type=int, default=200, help='of polyhedra')
 	parser.add_argument('--output', default='output/energy.png', help='the picture')
 	given = parser.parse_args()
 	results, rows = {}, []
 	for model, shorter in runs:
-		times, values, limit = energies(model, shorter, given.seconds)
+		times, values, limit = energies(model, shorter, given.seconds, number=given.number)
 		results[model, shorter] = O.dt, times, values, limit
 		worst = max(abs(value - 1) for value in values)
 		rows.append([model, f'{1e6 * O.dt:.2f}', f'{1e6 * limit:.0f}', f'{100 * (values[-1] - 1):+.4f}', f'{100 * worst:.4f}'])

@@ -17,10 +17,12 @@ fuzzUsage() {
 
   --seconds N      for each target (default: 60)
   --target NAME    construction or contact; may be repeated (default: both)
+  --seed N         of the generated inputs (default: from the clock); one seed starts with the same inputs, what follows hangs on time
   --dry-run        configures and says what would be built, nothing more
   --help           shows this
 
-Ends with 1 if there is a crash; prints how to see it again. What was found stays in build/fuzz and is where the next run starts.
+Ends with 1 if there is a crash; prints how to see it again. What was found stays in build/fuzz and is where the next run starts. Each run
+leaves a log with revision, seed and duration in output/fuzz.
 END
 }
 
@@ -36,11 +38,28 @@ sanitizeUsage() {
   --dry-run        configures and says what would be built, nothing more
   --help           shows this
 
-All parts run, whatever one says; ends with 1 if any finds an error.
+All parts run, whatever one says; ends with 1 if any finds an error. Each run leaves a log with revision, durations and verdicts in
+output/sanitize.
 END
 }
 
 dryRun=()
+
+# A new log in output/KIND, with what identifies the run; prints its path.
+startLog() { # KIND LINE…
+	local file folder=$project/output/$1
+	mkdir -p "$folder"
+	file=$folder/log-$(date -u +%Y%m%d-%H%M%S).txt
+	shift
+	{
+		echo "revision $(revision)"
+		echo "began    $(date -u +%Y-%m-%dT%H:%M:%SZ)"
+		[ $# -eq 0 ] || printf '%s\n' "$@"
+	} >"$file"
+	echo "$file"
+}
+
+revision() { git -c safe.directory="$project" -C "$project" describe --always --abbrev=40 --dirty 2>/dev/null || echo unknown; }
 
 # checkedBuild FOLDER SANITIZERS TARGETS…
 checkedBuild() {
@@ -66,36 +85,44 @@ checkedMemory() { checkedBuild "$build/checked" address,undefined,float-cast-ove
 # fuzz OPTIONS…: see fuzzUsage
 # shellcheck disable=SC2120
 fuzz() {
-	local seconds=60 targets=() target result=0
+	local seconds=60 targets=() target result=0 seed record
+	seed=$(($(date +%s) % 1000000 + 1)) # libFuzzer takes 0 for a seed of its own
 	while [ $# -gt 0 ]; do
 		case $1 in
 			--help | -h) fuzzUsage && return ;;
 			--dry-run) dryRun=(-n) && shift && continue ;;
-			--seconds | --target) [ $# -gt 1 ] || fail "fuzz: $1 needs a value." "./run fuzz --help lists the options." ;;
+			--seconds | --target | --seed) [ $# -gt 1 ] || fail "fuzz: $1 needs a value." "./run fuzz --help lists the options." ;;
 			*) fail "fuzz: there is no option '$1'." "./run fuzz --help lists the options." ;;
 		esac
-		case $1 in --seconds) seconds=$2 ;; --target) targets+=("$2") ;; esac
+		case $1 in --seconds) seconds=$2 ;; --target) targets+=("$2") ;; --seed) seed=$2 ;; esac
 		shift 2
 	done
 	[ ${#targets[@]} -gt 0 ] || targets=(construction contact)
 	[[ $seconds =~ ^[1-9][0-9]{0,8}$ ]] || fail "fuzz: --seconds '$seconds' is not a number of seconds."
+	[[ $seed =~ ^[1-9][0-9]{0,8}$ ]] || fail "fuzz: --seed '$seed' is not a whole number from 1 to 999999999."
 	for target in "${targets[@]}"; do
 		case $target in construction | contact) ;; *) fail "fuzz: there is no target '$target'." "They are: construction, contact." ;; esac
 	done
 	checkedMemory "${targets[@]/#/polytope_fuzz_}" "${targets[@]/#/polytope_replay_}" || return 1
 	[ ${#dryRun[@]} -eq 0 ] || return 0
-	printf '\n%-14s %8s %12s %10s %10s %8s\n' target seconds executions coverage 'new units' crashes
-	for target in "${targets[@]}"; do fuzzTarget "$target" "$seconds" || result=1; done
+	record=$(startLog fuzz "seed     $seed")
+	{
+		printf '\n%-14s %8s %12s %10s %10s %8s\n' target seconds executions coverage 'new units' crashes
+		for target in "${targets[@]}"; do fuzzTarget "$target" "$seconds" "$seed" || result=1; done
+	} > >(tee -a "$record")
+	wait $!
+	echo "ended    $(date -u +%Y-%m-%dT%H:%M:%SZ)" >>"$record"
+	echo "log: $record"
 	return $result
 }
 
 # One line of the table; on a crash what it was and how to see it again.
 fuzzTarget() {
-	local target=$1 seconds=$2 programs=$build/checked/tools/measure/fuzz work=$build/fuzz/$1 log=$logs/fuzz-$1.log crashed=0 file
+	local target=$1 seconds=$2 seed=$3 programs=$build/checked/tools/measure/fuzz work=$build/fuzz/$1 log=$logs/fuzz-$1.log crashed=0 file
 	rm -rf "$work/crashes"
 	mkdir -p "$work/corpus" "$work/crashes" "$logs"
 	"$programs/polytope_replay_$target" --unpack "$work/seeds" "$project/tools/measure/fuzz/$target.corpus" || return 1
-	"$programs/polytope_fuzz_$target" -max_total_time="$seconds" -max_len=400 -timeout=60 -print_final_stats=1 \
+	"$programs/polytope_fuzz_$target" -seed="$seed" -max_total_time="$seconds" -max_len=400 -timeout=60 -print_final_stats=1 \
 		-artifact_prefix="$work/crashes/" "$work/corpus" "$work/seeds" >"$log" 2>&1 </dev/null || crashed=1
 	awk -v target="$target" -v seconds="$seconds" -v crashes=$crashed '
 		/ cov: /                           { for (i = 1; i < NF; ++i) if ($i == "cov:") coverage = $(i + 1) }
@@ -136,7 +163,7 @@ checkValgrind() {
 
 # sanitize OPTIONS…: see sanitizeUsage
 sanitize() {
-	local parts=() part result=0 verdicts=()
+	local parts=() part result=0 verdicts=() record='' began
 	while [ $# -gt 0 ]; do
 		case $1 in
 			--help | -h) sanitizeUsage && return ;;
@@ -151,6 +178,7 @@ sanitize() {
 		shift 2
 	done
 	[ ${#parts[@]} -gt 0 ] || parts=(core threads fuzz valgrind)
+	[ ${#dryRun[@]} -gt 0 ] || record=$(startLog sanitize)
 	for part in "${parts[@]}"; do
 		printf '\n%s: ' "$part"
 		case $part in
@@ -159,8 +187,12 @@ sanitize() {
 			fuzz) echo "construction and contact under libFuzzer" ;;
 			valgrind) echo "a scene of YADE under valgrind" ;;
 		esac
+		began=$SECONDS
 		if ("check${part^}"); then verdicts+=("$part: sound"); else verdicts+=("$part: ERRORS") && result=1; fi
+		[ -z "$record" ] || echo "${verdicts[-1]}, $((SECONDS - began)) s" >>"$record"
 	done
-	[ ${#dryRun[@]} -gt 0 ] || { echo && printf '%s\n' "${verdicts[@]}"; }
+	[ -n "$record" ] || return $result
+	echo "ended    $(date -u +%Y-%m-%dT%H:%M:%SZ)" >>"$record"
+	echo && printf '%s\n' "${verdicts[@]}" "log: $record"
 	return $result
 }

@@ -6,6 +6,7 @@
 
 #include <src/shape/Block.hpp>
 #include <src/shape/ClosestPoint.hpp>
+#include <src/shape/ShapeOrNull.hpp>
 
 #include <array>
 
@@ -17,17 +18,6 @@ YADE_PLUGIN(
 namespace {
 
 	using Convex = std::shared_ptr<const polytope::ConvexShape>;
-
-	/// What `make` makes, or null where that is no solid (construction refuses it) or fails for whatever reason, memory included: this
-	/// runs in YADE's parallel loop, where an exception would end the process.
-	template <class Make> Convex solidOr(const Make& make) noexcept
-	{
-		try {
-			return make();
-		} catch (...) {
-			return nullptr;
-		}
-	}
 
 	bool isBox(const polytope::ConvexShape& solid, const Box& box)
 	{
@@ -86,11 +76,15 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const s
 	const auto& wall   = static_cast<const Wall&>(*shape1);
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
+	if (wall.axis >= convex->dimension()) return failed(c); // parallel to a polygon's plane: it has no edge there
 	auto& geom = geometry(c);
 	if (!geom.partner) {
 		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
-		geom.partner    = polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+		geom.partner    = polytope::shapeOrNull([&] {
+                        return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+                });
 	}
+	if (!geom.partner) return failed(c);
 	// the wall's point nearest to the polytope's centre
 	Body1Frame foot { state2.pos + shift2, Matrix3r::Identity() };
 	foot.origin[wall.axis] = state1.pos[wall.axis];
@@ -105,7 +99,7 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 	auto&       geom = geometry(c);
 	const auto& box  = static_cast<const Box&>(*shape1);
 	// scripts may change the extents of a box in a run
-	if (!geom.partner || !isBox(*geom.partner, box)) geom.partner = solidOr([&] { return boxOf(box, *convex); });
+	if (!geom.partner || !isBox(*geom.partner, box)) geom.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
 	if (!geom.partner) return failed(c);
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
@@ -124,7 +118,8 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const 
 	}
 	// nor need its corners be the same as in the step before
 	const auto planes = facetPlanes(facet, *convex, geom.side);
-	if (!geom.partner || !isFacet(*geom.partner, planes)) geom.partner = solidOr([&] { return facetOf(planes, *convex); });
+	if (!geom.partner || !isFacet(*geom.partner, planes))
+		geom.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
 	if (!geom.partner) return failed(c);
 	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }

@@ -34,7 +34,7 @@ POLYTOPE_MIXED_FUNCTOR(Ig2_Wall_Polytope_PolytopeGeom, Wall,
         "Creates or updates a :yref:`PolytopeGeom` for a :yref:`Wall` and a :yref:`Polytope`. The wall is one half-space, on the side "
         "given by "
         ":yref:`Wall.sense` or, for 0, away from the polytope's centre; the contact normal is the wall's against the polytope's as between "
-        "two polytopes.")
+        "two polytopes. Polygons meet walls along x and y; one along z is counted as a failure.")
 POLYTOPE_MIXED_FUNCTOR(Ig2_Box_Polytope_PolytopeGeom, Box,
         "Creates or updates a :yref:`PolytopeGeom` for a :yref:`Box` and a :yref:`Polytope`: the box as six half-spaces with the "
         "polytope's corner radius "
@@ -49,7 +49,7 @@ POLYTOPE_MIXED_FUNCTOR(Ig2_Sphere_Polytope_PolytopeGeom, Sphere,
         "Creates or updates a :yref:`PolytopeGeom` for a :yref:`Sphere` and a :yref:`Polytope`: the normal is along the shortest distance "
         "from the sphere's "
         "centre to the polytope's surface, the depth the radius less this distance, the contact point in the middle of the overlap along "
-        "the normal "
+        "the normal; a polygon is met as the prism of its :yref:`thickness<Polytope.thickness>` "
         "(:yref:`cornerRadius<Polytope.cornerRadius>` has no part in it); the area is that of the sphere's cut by the contact plane.")
 
 #undef POLYTOPE_MIXED_FUNCTOR

@@ -10,12 +10,14 @@ YADE_PLUGIN((PolytopeTimeStepper));
 bool PolytopeTimeStepper::isActivated()
 {
 	if (!active) return false;
-	return !hasRun_ || bodies_ != scene->bodies->size() || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
+	return !hasRun_ || bodies_ != scene->bodies->size() || isErased(limitingBody, *scene)
+	        || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
 }
 
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 {
-	if (!hasRun_ || bodies_ != ofScene->bodies->size() || ++updates_ >= polytope::tolerance::potentialUpdates) {
+	if (!hasRun_ || bodies_ != ofScene->bodies->size() || isErased(material_.body, *ofScene)
+	        || ++updates_ >= polytope::tolerance::potentialUpdates) {
 		material_ = potential_.limit(*ofScene);
 		updates_  = 0;
 	}

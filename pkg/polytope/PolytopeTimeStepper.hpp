@@ -9,7 +9,8 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper {
 public:
-	/// Active in steps that are multiples of the interval, in its first step, and when bodies were added.
+	/// Active in steps that are multiples of the interval, in its first step, when bodies were added, and when the one that limits the time step
+	/// was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
 
@@ -42,6 +43,8 @@ Bodies that cannot move limit nothing, blocked degrees of freedom do not count, 
 	// clang-format on
 
 private:
+	bool isErased(Body::id_t body, const Scene& ofScene) const { return body != Body::ID_NONE && !ofScene.bodies->exists(body); }
+
 	PotentialContacts   potential_;
 	TimeStepLimit       material_;    ///< of the last evaluation of potential_
 	unsigned            updates_ = 0; ///< since then

@@ -195,8 +195,17 @@ def _material(material):
 	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
 		O.materials.append(utils.defaultMaterial())
 	if isinstance(material, (int, str)):
-		return O.materials[material]
+		return _sound(O.materials[material])
 	made = material() if callable(material) else material
 	if not isinstance(made, Material):
 		raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
-	return made
+	return _sound(made)
+
+
+def _sound(material):
+	"""The material, unless it has a number that YADE takes without a word and no body can be made of."""
+	for name in ('density', 'young'):
+		value = getattr(material, name, 1)
+		if not 0 < value < float('inf'):
+			raise ValueError(f'material: its {name} must be positive and finite, got {value}')
+	return material

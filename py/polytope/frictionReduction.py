@@ -18,6 +18,7 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import tan  # of YADE's numbers, in any precision
 
+from ._loads import givePermanentLoads, permanentLoads
 from ._scene import interactionLoops
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
@@ -83,7 +84,8 @@ class FrictionReduction:
 	A stage is *stable* when all bodies are slower than *stableSpeed* at three consecutive checks, *checkEvery* steps apart (a body that
 	oscillates is slow for a moment), and has *failed* when one of them is further than *failedDistance* from where it was when the scene
 	had settled. States are kept with O.saveTmp: after run(), and after restore(), bodies, contacts and engines are new Python objects,
-	so hold ids, not bodies. Engines' own counters start anew too; failed contact queries are summed up here.
+	so hold ids, not bodies. Engines' own counters start anew too; failed contact queries are summed up here. Permanent forces and torques
+	(O.forces.setPermF, setPermT), which O.saveTmp leaves out, are kept.
 
 	:param bodies: ids of the bodies that are watched
 	:param float start: friction angle to settle at [rad]
@@ -141,10 +143,15 @@ class FrictionReduction:
 		if settled.outcome != 'stable':
 			raise RuntimeError(
 				f'the scene is not stable at the starting angle, {math.degrees(self.start):g}°: {settled.outcome} '
-				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps)'
+				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps); '
+				+ (
+					'start higher, with stiffer contacts, or with a larger failedDistance'
+					if settled.outcome == 'failed'
+					else 'take more damping, a larger stableSpeed, or more mostSteps'
+				)
 			)
 		self.origins = self._positions()
-		O.saveTmp(self.mark)
+		self._save()
 		stable = self.start
 		for level, step in enumerate(self.steps):
 			if level:
@@ -157,6 +164,11 @@ class FrictionReduction:
 		"""Brings back the last stable state."""
 		self._bookQueries()
 		O.loadTmp(self.mark, quiet=True)
+		givePermanentLoads(self.loads)
+
+	def _save(self):
+		O.saveTmp(self.mark, quiet=True)
+		self.loads = permanentLoads()
 
 	def _reduce(self, stable, step):
 		"""Down from a stable angle by *step* until failure: (lowest stable angle, angle of failure)."""
@@ -166,7 +178,7 @@ class FrictionReduction:
 			if self._stage(angle).outcome != 'stable':
 				return stable, angle
 			stable = angle
-			O.saveTmp(self.mark)
+			self._save()
 		raise RuntimeError(f'stable at every friction angle down to {math.degrees(stable):g}°')
 
 	def _stage(self, angle):

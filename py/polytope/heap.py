@@ -2,6 +2,7 @@
 """Porosity and coordination number of a settled heap of polytopes."""
 
 import dataclasses
+import itertools
 import numbers
 
 import numpy as np
@@ -19,17 +20,38 @@ def porosity(lower, upper, ids=None):
 	"""Part of an axis-parallel box that is not filled: 1 − solid volume / box volume.
 
 	Bodies across the box's faces count with the part inside, cut exactly (the polyhedron of both sets of half-spaces). Where bodies in
-	contact overlap, the overlap counts twice. Choose a box inside the heap: near walls and free surface there is less.
+	contact overlap, the overlap counts twice, and so does that of a clump's members. Choose a box inside the heap: near walls and free
+	surface there is less. In a periodic cell every image of a body counts with its part in the box.
 
 	:param lower, upper: opposite corners of the box [m], 3 numbers each
-	:param ids: of the bodies that count; None: all free polytopes
+	:param ids: of the bodies that count, a clump's for all its members; None: all free polytopes
 	:returns: [-]
 	:raises ValueError: naming *upper* where the box has no volume, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
 	lower, upper = np.array(lower, float), np.array(upper, float)
 	if lower.shape != (3,) or upper.shape != (3,) or not (upper > lower).all() or not np.isfinite(upper - lower).all():
 		raise ValueError(f'upper: must be three finite numbers above those of lower, got lower {lower}, upper {upper}')
-	return 1 - sum(volumeWithin(O.bodies[k], lower, upper) for k in _free(ids)) / float(np.prod(upper - lower))
+	solids = [O.bodies[part] for k in _free(ids) for part in _parts(k)]
+	solid = sum(volumeWithin(body, lower - shift, upper - shift) for body in solids for shift in _images(body, lower, upper))
+	return 1 - solid / float(np.prod(upper - lower))
+
+
+def _parts(k):
+	"""Ids of a clump's members; of another body its own."""
+	body = O.bodies[k]
+	return list(body.shape.members) if body.isClump else [k]
+
+
+def _images(body, lower, upper):
+	"""Displacements [m] of those images of a body that may reach into a box; without a periodic cell the body itself."""
+	if not O.periodic:
+		return [np.zeros(3)]
+	cell, centre = np.array(O.cell.hSize, float).reshape(3, 3), np.array(body.state.pos, float)
+	reach = max((float(corner.norm()) for corner in getattr(body.shape, 'vertices', [])), default=0.0)
+	box = np.array(list(itertools.product(*zip(lower - reach - centre, upper + reach - centre, strict=True))))
+	numbers = np.linalg.solve(cell, box.T)  # in periods, its columns being the corners
+	first, last = np.floor(numbers.min(axis=1)).astype(int), np.ceil(numbers.max(axis=1)).astype(int)
+	return [cell @ periods for periods in itertools.product(*(range(a, b + 1) for a, b in zip(first, last, strict=True)))]
 
 
 def volumeWithin(body, lower, upper):
@@ -63,7 +85,7 @@ def volumeWithin(body, lower, upper):
 
 @dataclasses.dataclass
 class Coordination:
-	"""Contacts per body. A contact of two bodies of the heap counts for both, one with a wall or floor once."""
+	"""Contacts per body, a clump being one. A contact of two bodies of the heap counts for both, one with a wall or floor once."""
 
 	mean: float
 	"""Over all bodies, rattlers included."""
@@ -77,23 +99,29 @@ class Coordination:
 
 
 def coordinationNumber(ids=None):
-	"""Contacts per body, of the contacts that bear a normal force. A pair of polytopes has one contact, be it face on face.
+	"""Contacts per body, of the contacts that bear a normal force. A pair of polytopes has one contact, be it face on face. A clump is one
+	body, with the contacts of all its members.
 
-	:param ids: of the heap's bodies; None: all free polytopes
+	:param ids: of the heap's bodies; None: all free polytopes, and clumps of them
 	:returns: Coordination
-	:raises ValueError: naming *ids* if there is none, or a body is not there or named twice
+	:raises ValueError: naming *ids* if there is none, or a body is not there, named twice, or a member of a clump
 	"""
 	touching = dict.fromkeys(_free(ids), 0)
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
 	for contact in O.interactions:
 		if contact.isReal and contact.phys.normalForce.squaredNorm() > 0:
-			for k in (contact.id1, contact.id2):
+			for k in map(_mover, (contact.id1, contact.id2)):
 				if k in touching:
 					touching[k] += 1
 	bearing = [count for count in touching.values() if count > 1]
 	mechanical = sum(bearing) / len(bearing) if bearing else float('nan')
 	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))
+
+
+def _mover(k):
+	"""The body itself, or the clump that it is a member of."""
+	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
 
 
 def _free(ids):
@@ -105,7 +133,10 @@ def _free(ids):
 		for k in ids:
 			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
 				raise ValueError(f'ids: there is no body {k!r}')
+			if _mover(k) != k:
+				raise ValueError(f'ids: body {k} is a member of clump {_mover(k)}; name the clump')
 		if len(set(ids)) < len(ids):
 			raise ValueError('ids: some bodies are named twice')
 		return ids
-	return [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic]
+	free = (_mover(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
+	return [k for k in dict.fromkeys(free) if O.bodies[k].dynamic]

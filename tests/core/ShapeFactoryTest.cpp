@@ -3,6 +3,7 @@
 
 #include "ShapeSamples.hpp"
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/ShapeOrNull.hpp"
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -144,6 +145,16 @@ TEST(ShapeFactory, refusesWithTheWordsOfConstruction)
 	        says(refusal([&] { centralShape(box(1, 1, 1), options); }), "cornerRadius: must be at least 0 and fit inside the body"));
 	options.thickness = -1;
 	EXPECT_TRUE(says(refusal([&] { centralShape(regularPolygon(4, 1), options); }), "thickness: it must be positive"));
+}
+
+TEST(ShapeOrNull, nothingThatConstructionThrowsLeavesIt)
+{
+	using Shape = std::shared_ptr<const ConvexShape>;
+	EXPECT_EQ(shapeOrNull([] { return ConvexShape::shared(box(1, 1, 1), 0); })->planeCount(), 6);
+	EXPECT_EQ(shapeOrNull([] { return ConvexShape::shared(box(1, 0, 1), 0); }), nullptr);
+	EXPECT_EQ(shapeOrNull([]() -> Shape { throw std::runtime_error("the inscribed ball was not found"); }), nullptr);
+	EXPECT_EQ(shapeOrNull([]() -> Shape { throw std::bad_alloc(); }), nullptr);
+	EXPECT_EQ(shapeOrNull([]() -> Shape { throw 1; }), nullptr);
 }
 
 } // namespace

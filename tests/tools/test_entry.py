@@ -2,12 +2,21 @@
 """The entry script `run` and its parts, with a cache folder and a project of the test's own: nothing is downloaded or installed."""
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 
 import pytest
 
 project = pathlib.Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def tmp_path(tmp_path):
+	"""Of clone, cache and all else: a path with what a shell would take apart or expand."""
+	folder = tmp_path / 'with spaces, "quotes", it\'s $HOME & *'
+	folder.mkdir()
+	return folder
 
 
 @pytest.fixture
@@ -101,7 +110,7 @@ def testARootInUseStays(clone, tmp_path):
 	root.mkdir()
 	(clone / 'build').mkdir()
 	holder = subprocess.Popen(
-		['bash', '-c', f'. "{clone}/tools/debianRoot.sh"; holdDebianRoot "{root}"; echo held; read -r _'], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+		['bash', '-c', f'. {shlex.quote(str(clone))}/tools/debianRoot.sh; holdDebianRoot {shlex.quote(str(root))}; echo held; read -r _'], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
 	)
 	try:
 		assert holder.stdout.readline() == 'held\n'
@@ -156,7 +165,7 @@ def testArchivesOfTheRoot(clone, tmp_path):
 	(apt / 'sources.list').write_text('deb [signed-by=/a.gpg] http://mirror/debian trixie main\n\ndeb http://security trixie-security main\n')
 	expected = ['http://mirror/debian trixie main', 'http://security trixie-security main']
 	for _ in range(2):
-		done = shell(clone, tmp_path, f'{functions}\nfound=$(rootArchives "{tmp_path}/root")\necho "$found"')
+		done = shell(clone, tmp_path, f'{functions}\nfound=$(rootArchives {shlex.quote(str(tmp_path))}/root)\necho "$found"')
 		assert done.returncode == 0 and done.stdout.splitlines() == expected
 		(apt / 'sources.list.d/more.list').write_text('deb http://more trixie main\n')
 		expected = [*expected, 'http://more trixie main']

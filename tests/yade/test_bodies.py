@@ -4,7 +4,7 @@ import math
 
 import numpy
 import pytest
-from yade import Body, FrictMat, Ig2_Polytope_Polytope_PolytopeGeom, O, Polytope, Quaternion, Vector3, polytope
+from yade import Body, FrictMat, Ig2_Polytope_Polytope_PolytopeGeom, O, Polytope, Quaternion, RockJointMat, Vector3, polytope
 
 SIZES = [1e-9, 1e-3, 1, 1e3]
 
@@ -338,3 +338,19 @@ def testContactRefusesWhatIsNoPolytope():
 def testWhatMakesNoMaterialIsRefused(material):
 	with pytest.raises(TypeError, match='material: must be a Material'):
 		polytope.cuboid((0, 0, 0), (1, 1, 1), material=material)
+
+
+@pytest.mark.parametrize('value', [-5, 0, float('nan'), float('inf')])
+@pytest.mark.parametrize('name', ['density', 'young'])
+def testMaterialsOfNoBodyAreRefused(name, value):
+	"""YADE takes such numbers without a word: masses and stiffnesses below zero."""
+	for kind in (RockJointMat, FrictMat):
+		material = kind()
+		setattr(material, name, value)
+		index = O.materials.append(material)
+		for how in (material, index, lambda: material):
+			with pytest.raises(ValueError, match=f'^material: its {name} must be positive and finite, got '):
+				polytope.cuboid((0, 0, 0), (1, 1, 1), material=how)
+	with pytest.raises(ValueError, match=f'^material: its {name}'):
+		polytope.regular(8, 1)  # the last one added
+	assert len(O.bodies) == 0

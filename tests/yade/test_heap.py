@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from scenes import gravity, joint, loop
-from yade import O, Quaternion, polytope, utils
+from yade import Matrix3, O, Quaternion, polytope, utils
 from yade.polytope.heap import volumeWithin
 
 
@@ -93,6 +93,39 @@ def testCoordinationOfATowerAndARattler(model):
 	assert (found.bodies, found.rattlers) == (6, 3)
 	assert found.mean == pytest.approx(8 / 6) and found.mechanical == 2
 	assert math.isnan(polytope.coordinationNumber(ids=[5]).mechanical)
+
+
+@pytest.mark.parametrize('lean', [0, 0.3])
+def testImagesOfAPeriodicCellCount(lean):
+	"""A cube at a corner of the cell, straight or sheared, which any box of the cell's size cuts into parts that make one whole."""
+	joint()
+	O.periodic = True
+	O.cell.hSize = Matrix3(1, lean, 0, 0, 1, 0, 0, 0, 1)
+	O.bodies.append(polytope.cuboid((0, 0, 0), (0.3, 0.35, 0.4)))
+	hollow = 1 - 8 * 0.3 * 0.35 * 0.4
+	for corner in ((0, 0, 0), (-0.5, -0.5, -0.5), (3.1, -7.2, 0.4)):
+		assert polytope.porosity(corner, [x + 1 for x in corner]) == pytest.approx(hollow, rel=1e-9)
+	assert polytope.porosity((0, 0, 0), (2, 3, 1)) == pytest.approx(hollow, rel=1e-9)
+
+
+def testAClumpIsOneBody():
+	joint(normalStiffness=1e8)
+	loop(normalDamping=1, gravity=(0, 0, -gravity), damping=0.3)
+	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
+	clump, members = O.bodies.appendClumped([polytope.cuboid((x, 0, 0.4999), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)])
+	O.bodies.append(polytope.cuboid((0, 0, 1.4998), (0.5, 0.5, 0.5)))  # on both members
+	held, _ = O.bodies.appendClumped([polytope.cuboid((x, 0, 0.4999), (0.5, 0.5, 0.5)) for x in (4.5, 5.5)])
+	O.bodies[held].dynamic = False
+	O.dt = 1e-6
+	O.step()
+	found = polytope.coordinationNumber()
+	assert (found.bodies, found.rattlers) == (2, 0)
+	assert found.mean == (4 + 2) / 2  # two members on the floor, one body on both
+	assert polytope.porosity((-1, -0.5, 0), (1, 0.5, 0.9), ids=[clump]) == pytest.approx(0, abs=1e-3)
+	assert polytope.porosity((-1, -0.5, 0), (1, 0.5, 0.9)) == pytest.approx(0, abs=1e-3)
+	for call in (polytope.coordinationNumber, lambda ids: polytope.porosity((0, 0, 0), (1, 1, 1), ids=ids)):
+		with pytest.raises(ValueError, match=f'ids: body {members[0]} is a member of clump {clump}'):
+			call(ids=[members[0]])
 
 
 @pytest.mark.parametrize('ids', [[99], [-1], ['a'], [0, 0], 0])

@@ -122,6 +122,28 @@ def testBlockPushedOffAnEdge():
 	assert largest <= 0 and block.state.pos[0] > 5.49
 
 
+@pytest.mark.parametrize('way', [1, -1])
+def testCohesionFollowsTheArea(way):
+	"""A block half over the floor's edge, drawn off or on: it holds until the spring's force k u is c times the area that there is then,
+	c (A₀ ∓ w u)."""
+	k, cohesion, width, area = 1e6, 4e5, 1, 0.5
+	joint(normalStiffness=k, shearStiffness=k, frictionAngle=0, cohesion=cohesion)
+	loop(perArea=False)
+	floor, block = blockOnFloor(overlap)
+	block.state.pos = (5, 0, block.state.pos[2])
+	driven(block, (way, 0, 0))
+	O.dt = dt
+	O.step()
+	i = contact(floor, block)
+	failure = cohesion * area / (k + way * cohesion * width)
+	for step in range(1, 450):
+		O.step()
+		moved = dt * step
+		assert i.phys.contactArea == pytest.approx(area - way * width * moved, rel=5e-3)
+		assert i.phys.intact == (moved < failure) or abs(moved - failure) < 3 * dt
+	assert not i.phys.intact and dt * 440 > failure
+
+
 @pytest.mark.parametrize('model', ['paper', 'conservative'])
 @pytest.mark.parametrize('psi', [0, 5])
 def testSlipOfABlockThatTipsOntoItsEdge(model, psi):

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Polytopes against YADE's own walls, boxes, facets and spheres: a block comes to rest and is carried, on each."""
+import json
+import math
+import os
+import subprocess
+import sys
+
 import pytest
 from yade import (
         Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Box_Polytope_PolytopeGeom,
@@ -187,3 +193,57 @@ def testFacetWhoseCornersMoveInARun(flip):
 	O.step()
 	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
 	assert functor.stats()['failures'] == 0
+
+
+strange = '''
+import json, math, sys
+from yade import Bo1_Box_Aabb, Bo1_Facet_Aabb, Ig2_Box_Polytope_PolytopeGeom, Ig2_Facet_Polytope_PolytopeGeom, O, Vector3, utils
+sys.path.insert(0, sys.argv[1])
+from test_mixed_pairs import held
+
+numbers = [math.nan, math.inf, -math.inf, 0, -1, 1e-160, 1e-51, 1e-14, 1e-11, 1e-9, 1e-7, 1e8, 1e16, 1e30, 1e51, 1e160]
+answers = []
+
+def stepWith(functor, contact, extents=None, vertices=None):
+	shape = O.bodies[0].shape
+	if extents: shape.extents = extents
+	if vertices: shape.vertices = vertices
+	O.step()
+	geom = contact.geom  # None where a thin solid has let go
+	answers.append((geom.status, geom.penetrationDepth if contact.isReal else 0) if geom else ('none', 0))
+
+box = Ig2_Box_Polytope_PolytopeGeom()
+contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), box, Bo1_Box_Aabb())
+for x in numbers:
+	for axis in range(3):
+		extents = [1, 1, .1]
+		extents[axis] = x
+		stepWith(box, contact, extents=extents)
+stepWith(box, contact, extents=(1, 1, .1))
+facet = Ig2_Facet_Polytope_PolytopeGeom()
+contact = held(utils.facet([Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0)], fixed=True), facet, Bo1_Facet_Aabb())
+corners = [Vector3(v) for v in O.bodies[0].shape.vertices]
+for x in numbers:
+	for axis in range(3):
+		moved = [Vector3(v) for v in corners]
+		moved[0][axis] = x
+		stepWith(facet, contact, vertices=moved)
+	stepWith(facet, contact, vertices=[x * v for v in corners])
+for moved in ([corners[0], corners[0], corners[1]], [corners[0]] * 3, corners):
+	stepWith(facet, contact, vertices=moved)
+counted = sum(functor.stats()['statuses']['failed'] for functor in (box, facet))
+print('ANSWERS', json.dumps([answers, counted]))
+'''
+
+
+def testStrangeBoxesAndFacetsAreCountedNotFatal():
+	"""In YADE's loop: extents and corners that are no solid, too thin, too far, or no numbers. Afterwards all is as before."""
+	where = os.path.dirname(os.path.abspath(__file__))
+	done = subprocess.run([sys.executable, '-c', strange, where], env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=600)
+	assert done.returncode == 0, done.stderr[-2000:]
+	answers, counted = json.loads(next(line for line in done.stdout.splitlines() if line.startswith('ANSWERS'))[8:])
+	failed = [status == 'failed' for status, _ in answers]
+	assert counted == sum(failed) > 40 and len(answers) == 3 * 16 + 1 + 4 * 16 + 3
+	ends = answers[3 * 16], answers[-1]  # the box and the facet as they were
+	assert all(status == 'contact' and depth == pytest.approx(1e-4, rel=1e-9) for status, depth in ends)
+	assert all(math.isfinite(depth) for _, depth in answers)

@@ -199,6 +199,23 @@ def testBoundaryStressClosesTheJoints():
 	assert all(O.bodies[scene.ids[joint.block]].state.blockedDOFs == 'xyzXYZ' for joint in scene.joints)
 
 
+def testSoftShearSpringsKeepTheWedge():
+	"""Blocks that close fast push a weightless wedge out of its joints where these hold it with a tenth of the stiffness."""
+	blocks = touchingRoofBlocks(BlockGeometry.read(geometryFile), 0.6)
+	scene = RoofWedge(blocks, sideArea=0.6, shearStiffness=1e6).build()
+	scene.pressByBoundary()
+	assert scene.horizontalForce() / 1.5e5 == pytest.approx(stressShare(2 / np.sqrt(3), 0.6, pi / 6, 0.1), abs=1e-4)
+	assert O.engines[2].lawDispatcher.functors[0].normalDamping == 0
+
+
+@pytest.mark.parametrize('options,remedy', [((1e4, 20000), '--shear-stiffness'), ((1e7, 50), "--most-steps")])
+def testWhyThereIsNoRest(options, remedy):
+	blocks = touchingRoofBlocks(BlockGeometry.read(geometryFile), 0.6)
+	scene = RoofWedge(blocks, sideArea=0.6, shearStiffness=options[0]).build()
+	with pytest.raises(RuntimeError, match=remedy):
+		scene.pressByBoundary(mostSteps=options[1])
+
+
 @pytest.mark.parametrize('sideArea', [0.1, 0.6])
 def testTouchingBlocksTakeTheirShare(sideArea):
 	blocks = touchingRoofBlocks(BlockGeometry.read(geometryFile), sideArea)

@@ -5,7 +5,18 @@ import math
 
 import pytest
 from requirementsScenes import advised, row
-from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, Polytope, Quaternion, Vector3, polytope
+from yade import (
+	Bo1_Polytope_Aabb,
+	Bo1_Sphere_Aabb,
+	GlobalStiffnessTimeStepper,
+	InsertionSortCollider,
+	InteractionLoop,
+	O,
+	Polytope,
+	Quaternion,
+	Vector3,
+	polytope,
+)
 
 
 def testNothingToSayOfAGoodScene():
@@ -28,6 +39,59 @@ def testAreaThatIsNeededIsNotBlamed():
 	O.step()
 	found = polytope.requirements(O, measure=False)['contact area']
 	assert not found.advice and 'need' in found.seen
+
+
+def testOverlapsOfALoadedSceneAreSaidToBeUnknown(tmp_path):
+	"""YADE's archives have no penetration depths."""
+	row(normal='innerPotential')
+	O.save(str(tmp_path / 'scene.yade.gz'))
+	O.load(str(tmp_path / 'scene.yade.gz'))
+	missing = dict(polytope.requirements(O, measure=False).notSeen)
+	for what in ('corner radius', 'several pieces under one face'):
+		assert missing[what].startswith('the depths of 3 contacts are not known') and 'O.step()' in missing[what]
+	O.step()
+	assert not {'corner radius', 'several pieces under one face'} & dict(polytope.requirements(O, measure=False).notSeen).keys()
+
+
+def testPermanentForcesAreNamed():
+	row()
+	assert polytope.requirements(O, measure=False)['permanent forces'].seen == 'none'
+	O.forces.setPermF(2, (1, 0, 0))
+	O.forces.setPermT(3, (1, 0, 0))
+	found = polytope.requirements(O, measure=False)['permanent forces']
+	assert found.seen.startswith('2 bodies') and 'ForceEngine' in found.advice
+
+
+wrongEngines = [
+	(lambda e: e[1:], 'ForceResetter() at the start'),
+	(lambda e: e[:3], 'NewtonIntegrator() after the InteractionLoop'),
+	(lambda e: [e[0], *e[2:]], 'PolytopeCollider([Bo1_Polytope_Aabb()])'),
+	(lambda e: [e[0], InsertionSortCollider([Bo1_Sphere_Aabb()]), *e[2:]], 'Bo1_Polytope_Aabb() in the collider'),
+	(lambda e: [e[0], e[1], InteractionLoop(e[2].geomDispatcher.functors, [], e[2].lawDispatcher.functors), e[3]], 'an Ip2 functor'),
+	(lambda e: [e[0], e[1], InteractionLoop(e[2].geomDispatcher.functors, e[2].physDispatcher.functors, []), e[3]], 'an Law2 functor'),
+	(lambda e: [e[1], e[2], e[0], e[3]], 'ForceResetter before InteractionLoop'),
+	(lambda e: [e[0], e[2], e[1], e[3]], 'collider before InteractionLoop'),
+	(lambda e: [e[0], e[1], e[3], e[2]], 'InteractionLoop before NewtonIntegrator'),
+]
+
+
+@pytest.mark.parametrize('change,word', wrongEngines, ids=[word for _, word in wrongEngines])
+def testEnginesThatAreMissingOrInTheWrongOrder(change, word):
+	row(steps=0)
+	O.engines = change(O.engines)
+	found = polytope.requirements(O, measure=False)['engines']
+	assert word in found.advice and found.advice.count(';') == 0
+
+
+def testGlobalStiffnessTimeStepperIsAdvisedAgainst():
+	"""With good reason: it takes steps beyond the limit, where the conservative contact of a face rocks."""
+	row(steps=0, contactModel='conservative')
+	O.engines = [*O.engines, GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.8, defaultDt=1e-5, timeStepUpdateInterval=1)]
+	O.dt = 1e-5
+	for _ in range(300):
+		O.step()
+	assert 'PolytopeTimeStepper' in polytope.requirements(O, measure=False)['time step'].advice
+	assert O.dt > 1.5 * polytope.stableTimeStep(1)
 
 
 def testTimeStep():

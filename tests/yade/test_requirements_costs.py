@@ -2,7 +2,9 @@
 """polytope.requirements: what it times, and how; scenes in which there is nothing to time."""
 
 import contextlib
+import json
 import math
+import pathlib
 import sys
 import tempfile
 
@@ -76,10 +78,23 @@ def testContactModelIsTimedAfterWhatItMakesIdle():
 	assert 'neither contactPoint nor solver' in found['damping and energy'].advice
 
 
+def testPermanentForcesActWhereTimesAreMeasured(tmp_path, monkeypatch):
+	"""A scene's file does not hold them."""
+	row()
+	O.forces.setPermF(2, (0, 0, 3e4))  # lifts the block
+	start = O.bodies[2].state.pos[2]
+	heights = []
+	monkeypatch.setattr(requirementsWorker, 'timed', lambda seconds: (heights.append(O.bodies[2].state.pos[2]), 1.0)[1:])
+	monkeypatch.setattr(requirementsWorker, 'warmUp', 50)
+	monkeypatch.setattr(requirementsCosts.subprocess, 'run', lambda command, **how: requirementsWorker.stepTimes(command[4], **json.loads(pathlib.Path(command[5]).read_text())))
+	requirementsCosts.stepTimes(O, [])
+	assert len(heights) == 2 and min(heights) > start + 1e-3
+
+
 def testCostsAddUp(monkeypatch):
 	"""Each change is timed with the advised ones before it in force, but for those that do not run."""
 	times = {(): 10, ('a',): 7, ('a', 'b'): math.inf, ('a', 'c'): 8, ('a', 'c', 'd'): 9}
-	monkeypatch.setattr(requirementsWorker, 'stepTime', lambda scene, changes: times[tuple(name for name, _ in changes)])
+	monkeypatch.setattr(requirementsWorker, 'stepTime', lambda scene, loads, changes: times[tuple(name for name, _ in changes)])
 	trials = [('a', 1, True), ('b', 1, True), ('c', 1, True), ('d', 1, False)]
 	assert requirementsWorker.stepTimes('', trials) == {'': 10, 'a': 7, 'c': 8, 'd': 9}
 

@@ -21,7 +21,8 @@ program = r'''
 import sys
 sys.path.insert(0, sys.argv[1])
 import yade
-from yade import O, Quaternion, Vector3, polytope
+from yade import *
+from yade import O, Quaternion, Vector3, polytope, utils
 from scenes import gravity, joint, loop
 
 def columns():
@@ -63,6 +64,62 @@ def slidePerArea():
 
 def slidePerContact():
 	slide(False)
+
+def centroidHeap():
+	heap()
+	O.engines[2].geomDispatcher.functors[0].contactPoint = 'centroid'
+
+def ipoptTower():
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
+	loop(False, normalDamping=0.3, gravity=(0.3, 0, -gravity), damping=0.1, ig2={'solver': 'ipopt', 'normal': 'innerPotential'})
+	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
+	for k in range(2):
+		O.bodies.append(polytope.cuboid((0.1 * k, 0.05 * k, 0.499 + 0.998 * k), (.5, .5, .5), Quaternion((0, 0, 1), 0.3 * k)))
+	O.dt = 6e-4
+
+def mixed():
+	"""Blocks on a box, a facet, a wall and two spheres."""
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
+	loop(False, normalDamping=0.3, gravity=(0.5, 0, -gravity), damping=0.1)
+	pairs = [Ig2_Polytope_Polytope_PolytopeGeom(), Ig2_Wall_Polytope_PolytopeGeom(), Ig2_Box_Polytope_PolytopeGeom(),
+	         Ig2_Facet_Polytope_PolytopeGeom(), Ig2_Sphere_Polytope_PolytopeGeom()]
+	boxes = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb(), Bo1_Sphere_Aabb()]
+	O.engines = [O.engines[0], InsertionSortCollider(boxes, verletDist=0), InteractionLoop(pairs, *[[one] for one in
+	         (O.engines[2].physDispatcher.functors[0], O.engines[2].lawDispatcher.functors[0])]), O.engines[3]]
+	O.bodies.append([utils.box((0, 0, -.5), (1, 1, .5), fixed=True), utils.facet([(1, -3, 0), (4, -3, 0), (2, 3, 0)], fixed=True),
+	                 utils.wall(-1, 2), utils.sphere((6, .1, 0), .5), utils.sphere((6.9, -.1, 0), .4, fixed=True)])
+	for x in (-3, 0, 2.2, 6.3):
+		O.bodies.append(polytope.cuboid((x, 0, 1), (.5, .4, .3), Quaternion((1, 2, 3), .2)))
+	O.dt = 5e-4
+
+def polygons():
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
+	loop(True, normalDamping=0.3, rockingDamping=0.5, gravity=(0, -gravity, 0), damping=0.1)
+	O.bodies.append(polytope.polygon([(-9, -1), (9, -1), (9, 0), (-9, 0)], fixed=True))
+	for k in range(8):
+		O.bodies.append(polytope.polygon([(x + 1.1 * (k % 3), y + 1.2 * (k // 3) + .6) for x, y in ((-.5, -.4), (.5, -.5), (.4, .5), (-.3, .5))]))
+	O.dt = 5e-4
+
+def shearedCell():
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
+	loop(False, normalDamping=0.3, damping=0.1)
+	O.periodic = True
+	O.cell.setBox(7.9, 7.9, 7.9)
+	O.cell.velGrad = ((-.1, .3, 0), (0, -.1, 0), (0, 0, -.1))
+	for k in range(64):
+		body = polytope.cuboid((2 * (k % 4) + 1, 2 * (k // 4 % 4) + 1, 2 * (k // 16) + 1), (.95, .9, .85))
+		body.state.angVel = (k % 3 - 1, 1, k % 2)
+		O.bodies.append(body)
+	O.dt = 3e-4
+
+def clumps():
+	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
+	loop(False, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.1)
+	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
+	for k in range(3):
+		at = Vector3(.3 * k, .1 * k, .35 + .8 * k)
+		O.bodies.appendClumped([polytope.cuboid(at, (.6, .3, .3)), polytope.cuboid(at + Vector3(.5, .5, 0), (.3, .6, .3))])
+	O.dt = 4e-4
 
 def state():
 	out = []
@@ -127,6 +184,20 @@ def testSlideOverJointsIsResumed(scene, tmp_path):
 	assert resumed == uninterrupted
 
 
+others = [('centroidHeap', 1500, 200, 4), ('mixed', 1500, 300, 4), ('polygons', 1200, 300, 6), ('shearedCell', 600, 300, 4), ('clumps', 1000, 300, 4)]
+"""Scene, steps until it is saved, steps after it, and contacts that there are at least."""
+needsIpopt = pytest.mark.skipif(not polytope.buildInfo()['ipopt'], reason='this build has no Ipopt')
+others.append(pytest.param('ipoptTower', 40, 20, 2, marks=needsIpopt))
+
+
+@pytest.mark.parametrize('scene,before,after,contacts', others)
+def testOtherScenesAreResumed(scene, before, after, contacts, tmp_path):
+	uninterrupted, resumed = runs(scene, before, after, tmp_path / 'scene.yade.gz')
+	assert resumed == uninterrupted
+	bodies = {'centroidHeap': 13, 'ipoptTower': 3, 'mixed': 9, 'polygons': 9, 'shearedCell': 64, 'clumps': 10}[scene]
+	assert len(uninterrupted) >= bodies * 16 + contacts * 9
+
+
 def testAPairApartHasNoJunk():
 	"""Its geometry is saved, too; YADE leaves normal and contact point as they lie in memory."""
 	joint()
@@ -138,3 +209,59 @@ def testAPairApartHasNoJunk():
 	(pair,) = O.interactions.all(onlyReal=False)
 	assert not pair.isReal
 	assert pair.geom.normal == Vector3.Zero and pair.geom.contactPoint == Vector3.Zero
+
+
+damaged = r'''
+import sys
+sys.path.insert(0, sys.argv[1])
+from yade import O, polytope
+from scenes import blockOnFloor, joint, loop
+
+joint()
+loop()
+blockOnFloor(1e-3)
+O.dt = 1e-5
+O.run(5, True)
+folder = sys.argv[2]
+refused = 0
+
+def load(path, content):
+	global refused
+	with open(path, 'wb') as file: file.write(content)
+	try:
+		O.load(path)
+	except (RuntimeError, ValueError) as error:
+		assert str(error)
+		refused += 1
+	else:
+		print('LOADED', path)
+
+for name in ('scene.xml', 'scene.xml.bz2', 'scene.yade', 'scene.yade.gz'):
+	path = folder + '/' + name
+	O.save(path)
+	with open(path, 'rb') as file: whole = file.read()
+	for part in (0, 0.1, 0.5, 0.9, 0.99):
+		load(folder + '/damaged-' + name, whole[:int(part * len(whole))])
+	O.load(path)
+	O.run(3, True)
+	assert len(O.bodies) == 2 and O.interactions[0, 1].isReal
+
+text = open(folder + '/scene.xml').read()
+block = text.index('<offsets', text.index('<offsets') + 1)
+first = text.index('<item>', block) + 6
+end = text.index('</item>', first)
+for number in ('nan', 'inf', '-1', '0', '1e300', '0.6', 'half'):
+	load(folder + '/damaged.xml', (text[:first] + number + text[end:]).encode())
+O.load(folder + '/scene.xml')
+O.run(3, True)
+assert len(O.bodies) == 2 and O.interactions[0, 1].isReal
+print('REFUSED', refused)
+'''
+
+
+def testDamagedArchivesAreRefused(tmp_path):
+	"""Truncated anywhere, or with a plane that makes no body about its centroid: an exception, and the process goes on."""
+	here = os.path.dirname(os.path.abspath(__file__))
+	done = subprocess.run([sys.executable, '-c', damaged, here, str(tmp_path)], capture_output=True, text=True, timeout=600)
+	assert done.returncode == 0, done.stdout[-1000:] + done.stderr[-3000:]
+	assert 'LOADED' not in done.stdout and 'REFUSED 27' in done.stdout, done.stdout

@@ -78,6 +78,26 @@ def testBodiesPutInLaterCountAtOnce():
 	assert engine.limitingBody == small and O.dt == pytest.approx(first / 10**1.5, rel=1e-9)  # the same stiffness, a thousandth of the mass
 
 
+def testAnErasedBodyLimitsNothing():
+	"""Neither in flight, by what its material would give, nor by its contact."""
+	for height in (8, 0.049):
+		O.reset()
+		joint()
+		loop()
+		engine = stepper(timeStepUpdateInterval=1000)
+		blockOnFloor()
+		O.bodies[1].state.pos = Vector3(0, 0, 5)
+		O.run(3, wait=True)
+		first = O.dt
+		small = O.bodies.append(polytope.cuboid((2, 0, height), (0.05, 0.05, 0.05)))
+		O.step()
+		O.step()
+		assert engine.limitingBody == small and O.dt < first / 10
+		O.bodies.erase(small)
+		O.step()
+		assert engine.limitingBody == 1 and O.dt == pytest.approx(first, rel=1e-9)
+
+
 # ------------------------------------------------------------------------------------------------------------------------ what limits
 
 

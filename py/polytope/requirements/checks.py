@@ -11,12 +11,14 @@ import numpy as np
 import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
+from .._loads import permanentLoads
 from .._scene import geometryFunctors, interactionLoops, laws
 from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
+from .engines import engines
 from .overlaps import cornerRadius, newtonTolerance
-from .plane import dimension
+from .plane import dimension, polygons
 
 __all__ = ['checks']
 
@@ -50,6 +52,7 @@ class Scene:
 		self.contacts = [contact for contact in O.interactions if contact.isReal and isinstance(contact.geom, PolytopeGeom)]
 		self.bodies = [body for body in O.bodies if body is not None and isinstance(body.shape, Polytope)]
 		self.moving = [body for body in self.bodies if body.dynamic]
+		self.unknown = sum(math.isnan(contact.geom.penetrationDepth) for contact in self.contacts)
 		self.depths = [float(contact.geom.penetrationDepth) for contact in self.contacts if contact.geom.penetrationDepth > 0]
 		self.dampers = laws()
 		self.newton = next((engine for engine in O.engines if isinstance(engine, NewtonIntegrator)), None)
@@ -67,6 +70,12 @@ class Scene:
 		pairs = [(contact.id1, contact.id2) for contact in self.contacts]
 		return [pair for pair in pairs if all(isinstance(self.O.bodies[k].shape, Polytope) for k in pair)]
 
+	def withoutDepths(self):
+		"""Why there are no overlaps to check."""
+		if self.unknown:
+			return f'the depths of {self.unknown} contacts are not known: YADE does not save them. Take a step first, O.step()'
+		return 'no polytopes overlap now'
+
 	def size(self):
 		"""Of the smallest polytope [m]."""
 		return min(float(body.shape.inscribedRadius) for body in self.bodies)
@@ -81,8 +90,8 @@ def checks(O):
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would make the solver active,
 	and the contact model, which uses neither if it is the conservative one, at the end."""
 	scene = Scene(O)
-	each = (numbersOfBodies, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
-	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion)
+	each = (numbersOfBodies, engines, polygons, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
+	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion, loads)
 	found, missing = [], []
 	for one in each:
 		name, answer = one.__doc__.strip().rstrip('.'), one(scene)
@@ -116,6 +125,8 @@ def support(scene):
 	"""several pieces under one face"""
 	if not scene.contacts:
 		return noContacts
+	if scene.unknown:
+		return scene.withoutDepths()
 	if _stiffnessPerArea(scene):
 		return 'stiffnesses are per area: pieces that lie flush are as stiff as one', ''
 	faces, shared = {}, 0
@@ -186,6 +197,15 @@ def cohesion(scene):
 	return f'{intact} of {len(joints)} joints have cohesion or tensile strength to lose; without them it costs no time', ''
 
 
+def loads(scene):
+	"""permanent forces"""
+	loaded = len(permanentLoads())
+	if not loaded:
+		return 'none', ''
+	advice = 'ForceEngine or TorqueEngine, or set them again after O.load: YADE leaves permanent forces out of O.save and O.saveTmp'
+	return f'{loaded} bodies have one (O.forces.setPermF, setPermT)', advice
+
+
 def planes(scene):
 	"""planes without a face"""
 	spare = {body.id: len(body.shape.normals) - len(body.shape.faces) + 2 * (body.shape.dimension == 2) for body in scene.bodies}
@@ -236,7 +256,10 @@ def timeStep(scene):
 	"""time step"""
 	steppers = [type(engine).__name__ for engine in scene.O.engines if isinstance(engine, TimeStepper) and engine.active]
 	if steppers:
-		return f'set by {" and ".join(steppers)}', 'keep one of them: each overwrites the step of the other' if steppers[1:] else ''
+		advice = 'keep one of them: each overwrites the step of the other' if steppers[1:] else ''
+		if steppers == ['GlobalStiffnessTimeStepper']:
+			advice = 'PolytopeTimeStepper: GlobalStiffnessTimeStepper neglects the rocking of faces and what the contacts to come will be'
+		return f'set by {" and ".join(steppers)}', advice
 	if not 0 < float(scene.O.dt) < math.inf:
 		return f'{float(scene.O.dt):.3g} s', 'O.dt must be above 0: nothing moves otherwise'
 	limit = _polytope.timeStepLimits()['contacts']

@@ -8,6 +8,7 @@ import sys
 import tempfile
 
 from .. import _builds
+from .._loads import permanentLoads
 
 __all__ = ['stepTimes']
 
@@ -26,7 +27,7 @@ def stepTimes(O, trials):
 		scene, changes, answers, log = (pathlib.Path(folder.name) / name for name in ('scene.yade.bin', 'changes.json', 'answers.json', 'log.txt'))
 		try:
 			O.save(str(scene), quiet=True)
-			changes.write_text(json.dumps(trials))
+			changes.write_text(json.dumps({'trials': trials, 'loads': _loads()}))
 			file = open(log, 'w')
 		except (OSError, RuntimeError) as error:  # YADE's own is a RuntimeError
 			raise _unwritable(f'the scene to {scene}', error) from error
@@ -41,6 +42,11 @@ def stepTimes(O, trials):
 			return times, ''
 		lines = log.read_text(errors='replace').split('\n')
 		return {}, next((line.strip() for line in reversed(lines) if line.strip()), 'the measuring process ended without a message')
+
+
+def _loads():
+	"""As JSON: [body's id, force, torque]."""
+	return [[k, [float(x) for x in force], [float(x) for x in torque]] for k, (force, torque) in permanentLoads().items()]
 
 
 def _unwritable(what, error):

@@ -34,7 +34,7 @@ def cornerRadius(scene):
 	since, pairs = scene.count(*deeper), scene.pairs()
 	if not (scene.depths and pairs):
 		before = f'; {since} contact points were deeper than it since the start (or resetStats), by an unknown amount' if since else ''
-		return f'no polytopes overlap now{before}'
+		return f'{scene.withoutDepths()}{before}'
 	shapes = [scene.O.bodies[k].shape for pair in pairs for k in pair]
 	lost = sum(contact.geom.status in deeper for contact in scene.contacts)
 	depth, blow = max(scene.depths), _ofABlow(scene)

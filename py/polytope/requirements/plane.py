@@ -2,11 +2,11 @@
 """The check of the third dimension, of polytope.requirements(): whether all are prisms side by side, and what moves stays in the xy plane."""
 
 import numpy as np
-from yade import NewtonIntegrator, Vector3
+from yade import NewtonIntegrator, Polytope, Sphere, Vector3, Wall
 
 from .worker import prismOutline
 
-__all__ = ['dimension']
+__all__ = ['dimension', 'polygons']
 
 sideBySide = 0.5
 """Part of the least height that all heights must have in common: a polygon meets every other one, whatever its height. With less,
@@ -35,6 +35,22 @@ def dimension(scene):
 		return f'{seen}, but not side by side in one plane: their z ranges have {shared} in common', ''
 	advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
 	return f'{seen}, solved in space', advice, None, ('dimension', 2)
+
+
+def polygons(scene):
+	"""polygons among solids"""
+	flat = sum(body.shape.dimension == 2 for body in scene.bodies)
+	others = [body.id for body in scene.O.bodies if body is not None and flat and not body.isClump and not _meetsPolygons(body.shape)]
+	if not others:
+		return f'{flat} polygons, and nothing that they cannot touch' if flat else 'no polygons', ''
+	seen = f'{flat} polygon{"s" if flat > 1 else ""}, and {len(others)} bodies that polygons cannot touch (body {others[0]})'
+	return seen, 'polyhedra for polygons, or the other way round: polygons touch polygons, walls along x and y, and spheres alone'
+
+
+def _meetsPolygons(shape):
+	if isinstance(shape, Polytope):
+		return shape.dimension == 2
+	return shape is None or isinstance(shape, Sphere) or isinstance(shape, Wall) and shape.axis < 2
 
 
 def _heights(bodies):

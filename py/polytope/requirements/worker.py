@@ -14,6 +14,7 @@ import traceback
 import numpy as np
 from yade import O, PeriodicEngine
 
+from .._loads import givePermanentLoads
 from .._scene import colliders, geometryFunctors, laws
 from .._timing import timed
 from ..bodies import polygon
@@ -73,16 +74,18 @@ def _flatten():
 	O.bodies.append(bodies)
 
 
-def load(scene):
+def load(scene, loads):
+	"""The scene, and what its file does not hold: permanent loads, as costs.py has written them."""
 	O.load(scene, quiet=True)
+	givePermanentLoads({k: (force, torque) for k, force, torque in loads})
 	# what writes files or runs scripts belongs to the scene of the user
 	O.engines = [engine for engine in O.engines if not isinstance(engine, PeriodicEngine)]
 
 
-def stepTime(scene, changes):
+def stepTime(scene, loads, changes):
 	"""Of the scene with these changes [µs]; infinite if it does not run."""
 	try:
-		load(scene)
+		load(scene, loads)
 		for name, value in changes:
 			change(name, value)
 		for _ in range(warmUp):
@@ -93,25 +96,26 @@ def stepTime(scene, changes):
 		return math.inf
 
 
-def stepTimes(scene, trials):
+def stepTimes(scene, trials, loads=()):
 	"""Name → time of a step [µs] with that change and the advised ones before it in force; '' as the scene is. Without what does not run.
 
 	:param list trials: (name, value, whether it is advised)
+	:param loads: [body's id, force, torque] of permanent loads
 	"""
-	plans, times, inForce = {'': []}, {'': stepTime(scene, [])}, []
+	plans, times, inForce = {'': []}, {'': stepTime(scene, loads, [])}, []
 	for name, value, advised in trials:
 		plans[name] = [*inForce, (name, value)]
-		times[name] = stepTime(scene, plans[name])
+		times[name] = stepTime(scene, loads, plans[name])
 		if advised and times[name] < math.inf:
 			inForce = plans[name]
 	for _ in range(rounds - 1):
 		for name, plan in plans.items():
-			times[name] = min(times[name], stepTime(scene, plan))
+			times[name] = min(times[name], stepTime(scene, loads, plan))
 	return {name: time for name, time in times.items() if time < math.inf}
 
 
 def main(scene, trials, answers):
-	times = stepTimes(scene, json.loads(pathlib.Path(trials).read_text()))
+	times = stepTimes(scene, **json.loads(pathlib.Path(trials).read_text()))
 	pathlib.Path(answers).write_text(json.dumps(times))
 	sys.stdout.flush()
 	os._exit(0)

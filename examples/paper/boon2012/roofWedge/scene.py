@@ -12,6 +12,10 @@ from ..wedges.theory import dipOf, jointForces
 
 __all__ = ['RoofWedge']
 
+pressingDamping = 0.3
+"""Of contacts in normal and shear direction while the joints close, fraction of critical. YADE's own damping reduces forces, and without
+contacts there are none: blocks that close fast would push a weightless wedge out, for good, where the shear stiffness is low."""
+
 
 @dataclasses.dataclass
 class RoofWedge(WedgeScene):
@@ -62,14 +66,16 @@ class RoofWedge(WedgeScene):
 
 	def pressByBoundary(self, restSpeed=2e-7, mostSteps=200000):
 		"""Way 2: the outer blocks are pressed inward by the stress on their boundary, the wedge being weightless; the joints close.
-		Once all is at rest the outer blocks are fixed and the wedge gets its weight. The blocks can neither turn nor rise.
+		Once all is at rest the outer blocks are fixed and the wedge gets its weight. The blocks can neither turn nor rise. Contacts are
+		damped meanwhile (pressingDamping): the state of rest is elastic, and does not depend on it.
 
 		:param float restSpeed: [m/s] of the fastest block
 		:returns: how far each outer block has moved [m]
 		:raises RuntimeError: if they do not come to rest
 		"""
-		newton = O.engines[-1]
+		newton, law = O.engines[-1], O.engines[2].lawDispatcher.functors[0]
 		newton.gravity = Vector3.Zero
+		law.normalDamping = law.shearDamping = max(self.contactDamping, pressingDamping)
 		blocks = [O.bodies[self.ids[joint.block]] for joint in self.joints]
 		origins = [block.state.pos for block in blocks]
 		for joint, block in zip(self.joints, blocks, strict=True):
@@ -85,12 +91,25 @@ class RoofWedge(WedgeScene):
 			if count % 100 == 99 and max(block.state.vel.norm() for block in moving) < restSpeed:
 				break
 		else:
-			raise RuntimeError(f'the outer blocks do not come to rest within {mostSteps} steps')
+			raise RuntimeError(self._whyNoRest(mostSteps))
+		law.normalDamping = law.shearDamping = self.contactDamping
 		O.forces.reset(True)
 		for block in blocks:
 			self._hold(block.id)
 		newton.gravity = (0, 0, -self.gravity)
 		return [(block.state.pos - origin).norm() for block, origin in zip(blocks, origins, strict=True)]
+
+	def _whyNoRest(self, steps):
+		lost = [joint.block for joint in self.joints if not O.interactions.has(self.wedgeId, self.ids[joint.block], onlyReal=True)]
+		if lost:
+			return (
+				f'the wedge is pushed out of its joints (with {lost}) while the boundary stress closes them: take a larger shear '
+				'stiffness (--shear-stiffness) or a smaller stress (--horizontal-stress)'
+			)
+		return (
+			f'the outer blocks do not come to rest within {steps} steps: take more of them (--most-steps), a shorter time step '
+			'(--time-step-fraction) or more damping (--damping, --contact-damping)'
+		)
 
 	def establishContacts(self):
 		super().establishContacts()

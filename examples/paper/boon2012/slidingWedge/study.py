@@ -86,6 +86,7 @@ class SlidingWedgeReport(WedgeReport):
 	def criticalAngle(self, paper, expected, tolerance, note):
 		base = self.base
 		bracket = f'middle of the last step, {base.failed:.3f}° (failed) to {base.stable:.3f}° (stable); '
+		bracket += f'{base.hops}; ' if base.hops else ''
 		must = self.must(expected, tolerance)
 		self.findings.row('critical friction angle', base.critical, '°', self.ofReference(paper), self.limit, must, bracket + note)
 
@@ -150,7 +151,8 @@ class SlidingWedgeReport(WedgeReport):
 			case = self.case(label)
 			change = math.nan if case.failure else case.critical - self.base.critical
 			must = self.ofReference((-tolerance, tolerance))
-			self.findings.row(f'change of the critical angle: {label}', change, '°', theory=0, accept=must)
+			note = case.failure or case.hops
+			self.findings.row(f'change of the critical angle: {label}', change, '°', theory=0, accept=must, note=note)
 
 	def backEdge(self, most):
 		"""Its force in the base case, which must not exceed *most*."""
@@ -175,7 +177,7 @@ class SlidingWedgeReport(WedgeReport):
 
 	def _settingsRow(self, case):
 		if case.failure:
-			return [case.label, '', '', 'does not come to rest at the start'] + 7 * ['']
+			return [case.label, '', '', case.failure] + 7 * ['']
 		forces = case.atFailure
 		return [
 			case.label,

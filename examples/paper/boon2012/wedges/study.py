@@ -91,6 +91,7 @@ class WedgeCase:
 
 	:ivar scene: as built
 	:ivar FrictionReductionResult result: of search()
+	:ivar int remade: of search(): contacts that opened and closed again on the way to rest, and got their stiffness back at the next check
 	"""
 
 	def __init__(self, given, label, builder, blocks=None, start=None, steps=None, **changes):
@@ -116,9 +117,15 @@ class WedgeCase:
 
 		:param progress: a tqdm bar, one unit of which is this search
 		:param measure: see FrictionReduction
-		:raises RuntimeError: as FrictionReduction.run() and WedgeScene.checkStiffness() do
+		:raises RuntimeError: as FrictionReduction.run() does
 		"""
 		given = self.given
+		stages = []
+
+		def check(stage):
+			progress.set_postfix_str(f'{math.degrees(stage.angle):.3f}°', refresh=False)
+			stages.extend([stage] * self.scene.keepStiffness())
+
 		try:
 			reduction = FrictionReduction(
 				[self.scene.wedgeId],
@@ -129,11 +136,11 @@ class WedgeCase:
 				checkEvery=given.check_every,
 				mostSteps=given.most_steps,
 				measure=measure,
-				progress=lambda stage: progress.set_postfix_str(f'{math.degrees(stage.angle):.3f}°', refresh=False),
+				progress=check,
 			)
 			self.result = reduction.run()
 			reduction.restore()
-			self.scene.checkStiffness()
+			self.remade = sum(stage.outcome == 'stable' for stage in stages)  # in a failure all contacts open
 		finally:
 			progress.update()
 
@@ -156,6 +163,11 @@ class WedgeCase:
 	def timeSteps(self):
 		"""Number of them, over all stages."""
 		return sum(stage.steps for stage in self.result.stages)
+
+	@property
+	def hops(self):
+		"""What there is to say of *remade*, '' if nothing."""
+		return f'contacts opened {self.remade} times; --rocking-damping 1 or --contact-damping 0.3 keeps them closed' if self.remade else ''
 
 	def lastStage(self, angle):
 		"""The Stage at the end of which the angle was found *stable* or *failed* [rad]."""
