@@ -7,7 +7,13 @@ from yade import _polytope
 
 from .precision import isNumber
 
-__all__ = ['stableTimeStep']
+__all__ = ['safeTimeStep', 'stableTimeStep']
+
+
+def safeTimeStep():
+	"""τ [s] of the present contacts; in a scene without any, of those that may come; None where nothing limits it."""
+	limits = _polytope.timeStepLimits()
+	return limits['material'] if limits['contacts'] is None else limits['contacts']
 
 
 def stableTimeStep(fraction=0.2, default=None):
@@ -27,8 +33,7 @@ def stableTimeStep(fraction=0.2, default=None):
 		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction!r}')
 	if default is not None and not (isNumber(default) and not isinstance(default, bool) and 0 < default < math.inf):
 		raise ValueError(f'default: must be a finite time step above 0, got {default!r}')
-	limits = _polytope.timeStepLimits()
-	limit = limits['material'] if limits['contacts'] is None else limits['contacts']
+	limit = safeTimeStep()
 	if limit is not None:
 		return fraction * limit
 	if default is None:
