@@ -6,11 +6,7 @@
 import os
 from math import radians
 
-from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        PolytopeCollider, RockJointMat, polytope
-)
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
 from yade.polytope.pictures import picture
 
 pebble = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pebble.obj')  # in centimetres
@@ -24,16 +20,8 @@ for k in range(20):
 	body.state.pos = (0.12 * (k % 2) - 0.06, 0.12 * (k // 2 % 2) - 0.06, 0.05 + 0.07 * (k // 4))
 	O.bodies.append(body)
 
-O.engines = [
-        ForceResetter(),
-        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.002),
-        InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.3)]
-        ),
-        NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
-]
-O.dt = 1e-4
-O.run(15000, wait=True)
+O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+while O.time < 1.5:
+	O.run(100, wait=True)
 print('volume of the smallest pebble:', O.bodies[5].shape.volume, 'm³, with', len(O.bodies[5].shape.normals), 'planes')
 picture('pebbles.png', view=(-0.5, -1, 1.1))

@@ -2,8 +2,8 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: :yref:`fromHalfSpaces`, *fromVertices*, *regular*, *cuboid*,
-*polygon*, *fromMesh*; a rock mass cut by joints: *jointedRock*. One pair without a scene: *contact*. What is wrong before the first step:
-*check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
+*polygon*, *fromMesh*; a rock mass cut by joints: *jointedRock*. One pair without a scene: *contact*. The usual engines:
+*engines*; what is wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
 Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
@@ -13,6 +13,7 @@ from yade._polytope import buildInfo, contact
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
 from .check import check
 from .energy import mechanicalEnergy
+from .engines import engines
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
 from .pictures import picture
@@ -23,4 +24,4 @@ from .tradeoff import tradeoff
 
 __version__ = buildInfo()['version']
 
-__all__ = ['JointSet', 'JointedRock', 'buildInfo', 'check', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'jointedRock', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'settings', 'stableTimeStep', 'tradeoff']
+__all__ = ['JointSet', 'JointedRock', 'buildInfo', 'check', 'contact', 'coordinationNumber', 'cuboid', 'engines', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'jointedRock', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'settings', 'stableTimeStep', 'tradeoff']

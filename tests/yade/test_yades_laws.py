@@ -20,7 +20,7 @@ from yade import (
 	Vector3,
 	polytope,
 )
-from yade.polytope.check.pairs import unsuitedLaws
+from yade.polytope.check.pairs import notPeriodicLaws, unsuitedLaws
 
 elastic = {'density': 2600, 'young': 1e7, 'poisson': 0.3, 'frictionAngle': 0.5}
 springs = {'density': 2600, 'kn': 1e6, 'ks': 1e6, 'cn': 100, 'cs': 100, 'frictionAngle': 0.5}
@@ -32,23 +32,27 @@ suited = {
 	'Law2_ScGeom_ViscElPhys_Basic': ('ViscElMat', springs, 'Ip2_ViscElMat_ViscElMat_ViscElPhys', {}),
 	'Law2_ScGeom_ViscoFrictPhys_CundallStrack': ('FrictMat', elastic, 'Ip2_FrictMat_FrictMat_ViscoFrictPhys', {'sphericalBodies': False}),
 }
+suited['Law2_ScGeom_FrictViscoPhys_CundallStrackVisco'] = (
+	'FrictViscoMat',
+	{**elastic, 'betan': 0.2},
+	'Ip2_FrictViscoMat_FrictViscoMat_FrictViscoPhys',
+	{'sphericalBodies': False},
+)
 unsuited = {
 	'Law2_ScGeom_MindlinPhys_HertzWithLinearShear': ('FrictMat', elastic, 'Ip2_FrictMat_FrictMat_MindlinPhys'),
 	'Law2_ScGeom_MindlinPhys_MindlinDeresiewitz': ('FrictMat', elastic, 'Ip2_FrictMat_FrictMat_MindlinPhys'),
-	'Law2_ScGeom_FrictViscoPhys_CundallStrackVisco': (
-		'FrictViscoMat',
-		{**elastic, 'betan': 0.2},
-		'Ip2_FrictViscoMat_FrictViscoMat_FrictViscoPhys',
-	),
 	'Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM': ('JCFpmMat', elastic, 'Ip2_JCFpmMat_JCFpmMat_JCFpmPhys'),
 }
 start = radians(18)
 """Of the block's axis; it balances at 11.3°."""
 
 
-def tilt(material, values, physics, law, settings, seconds=0.4):
+def tilt(material, values, physics, law, settings, periodic=False, seconds=0.4):
 	"""The block's after this time [rad]."""
 	O.reset()
+	O.periodic = periodic
+	if periodic:
+		O.cell.setBox(10, 10, 10)
 	O.materials.append(getattr(yade, material)(**values))
 	turn = Quaternion((0, 1, 0), start)
 	middle = turn * Vector3(-0.1, 0, 0.5)
@@ -81,11 +85,20 @@ def testBlockStaysWith(law):
 	assert law in found.seen and 'never topples' in found.seen
 
 
-@pytest.mark.parametrize('law', ['Law2_ScGeom_FrictPhys_CundallStrack', 'Law2_ScGeom_ViscoFrictPhys_CundallStrack'])
+@pytest.mark.parametrize('law', [law for law in suited if suited[law][3]])
 def testBlockStaysWithSphericalBodies(law):
 	material, values, physics, _ = suited[law]
 	assert degrees(tilt(material, values, physics, law, {})) < 18.5
 	assert 'sphericalBodies=False' in polytope.check(O)['laws'].advice
+
+
+@pytest.mark.parametrize('law', suited)
+def testBlockInAPeriodicCell(law):
+	*others, settings = suited[law]
+	toppled = degrees(tilt(*others, law, settings, periodic=True)) > 22
+	found = [one.seen for one in polytope.check(O) if one.what == 'laws']
+	assert toppled == (law not in notPeriodicLaws) == (not found), found
+	assert toppled or f'{law} in a periodic cell' in found[0]
 
 
 def testAllThatCheckNamesIsTried():

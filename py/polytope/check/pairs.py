@@ -8,7 +8,7 @@ The dispatchers themselves are asked, with a body of each kind.
 import yade
 from yade import PolytopeGeom
 
-__all__ = ['pairFindings', 'unsuitedLaws']
+__all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
 yadesOwn = ('Box', 'Facet', 'Sphere', 'Wall')
 """Shapes that this module has contacts with polytopes for."""
@@ -16,12 +16,14 @@ exactly = (*yadesOwn, 'Polytope', 'GridNode')
 """Classes that a functor of polytopes meets as what they are. YADE passes those derived from Sphere to the functor of spheres."""
 
 unsuitedLaws = (
-	'Law2_ScGeom_FrictViscoPhys_CundallStrackVisco',
 	'Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM',
 	'Law2_ScGeom_MindlinPhys_HertzWithLinearShear',
 	'Law2_ScGeom_MindlinPhys_MindlinDeresiewitz',
 )
 """Laws whose moments are those of spheres: the normal force has none, and a body never topples (tests/yade/test_yades_laws.py)."""
+
+notPeriodicLaws = ('Law2_ScGeom_FrictViscoPhys_CundallStrackVisco', 'Law2_ScGeom_MindlinPhys_Mindlin')
+"""Laws that do so in a periodic cell."""
 
 
 def pairFindings(scene):
@@ -146,6 +148,13 @@ def forces(scene, loop, functor, one, other):
 			)
 		elif getattr(law, 'sphericalBodies', False):
 			yield 'laws', f'{name} has sphericalBodies=True: its moments are those of spheres', f'{name}(sphericalBodies=False)'
+		elif name in notPeriodicLaws and scene.O.periodic:
+			seen = f'{name} in a periodic cell: its moments are those of spheres there'
+			yield (
+				'laws',
+				seen,
+				'take Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) or Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()',
+			)
 
 
 def _made(functor):
