@@ -16,9 +16,8 @@ tray = [((0, 0, -0.01), (0.16, 0.16, 0.01)), ((-0.15, 0, 0.06), (0.01, 0.16, 0.0
 tray += [((0, -0.15, 0.06), (0.14, 0.01, 0.06)), ((0, 0.15, 0.06), (0.14, 0.01, 0.06))]
 O.bodies.append([polytope.cuboid(center, extents, fixed=True, color=(0.8, 0.8, 0.78)) for center, extents in tray])
 for k in range(20):
-	body = polytope.fromMesh(pebble, scale=0.007 + 0.0002 * k, color=(0.80, 0.70 - 0.015 * k, 0.55 - 0.02 * k))
-	body.state.pos = (0.12 * (k % 2) - 0.06, 0.12 * (k // 2 % 2) - 0.06, 0.05 + 0.07 * (k // 4))
-	O.bodies.append(body)
+	place = (0.12 * (k % 2) - 0.06, 0.12 * (k // 2 % 2) - 0.06, 0.05 + 0.07 * (k // 4))
+	O.bodies.append(polytope.fromMesh(pebble, scale=0.007 + 0.0002 * k, center=place, color=(0.80, 0.70 - 0.015 * k, 0.55 - 0.02 * k)))
 
 O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 while O.time < 1.5:

@@ -2,19 +2,23 @@
 """Bodies with Polytope shapes, from half-spaces, points, dimensions or mesh files.
 
 All functions return a yade Body, ready for ``O.bodies.append``, with mass and inertia from the material's density. They
-share these keyword arguments (*body* below), with the meaning they have in :yref:`yade.utils.box`:
+share these keyword arguments (*body* below), with the meaning they have in yade.utils.box:
 
+:param Vector3 center: where the body's centroid is [m]; default where its planes or points are (*regular*, *cuboid*: their centre)
+:param Quaternion orientation: turns the body about its centroid
 :param material: Material instance, index or label in O.materials, or a function that makes one; default the last one added
 :param bool fixed: block all degrees of freedom
 :param float cornerRadius: radius of the inner potential particle's corners [m] (Polytope.cornerRadius), read by the contact normal
     'innerPotential' alone; default a tenth of the inscribed ball's radius
-:param Vector3 color: RGB in 0…1; default random
+:param Vector3 color: RGB in 0…1; default random, as (-1, -1, -1)
 :param bool wire: draw edges only
 :param bool highlight: highlight in the 3d view
 :param int mask: Body.mask
 :param Vector3 velocity: initial velocity [m/s]
 :param Vector3 angularVelocity: initial angular velocity [rad/s]
 """
+import functools
+import inspect
 import numbers
 import os
 import random
@@ -45,13 +49,33 @@ singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
 
 
+randomColor = (-1, -1, -1)
+"""What stands for a random colour in YADE."""
+
+
+def builder(make):
+	"""A function that makes a body: where a keyword is unknown it is named, and what the function takes."""
+	own = [name for name, one in inspect.signature(make).parameters.items() if one.kind is not one.VAR_KEYWORD]
+
+	@functools.wraps(make)
+	def checked(*given, **named):
+		for name in named:
+			if name not in own and name not in ofAllBodies:
+				others = ', '.join(one for one in ofAllBodies if one not in own)
+				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {", ".join(own)}, and as all bodies {others}')
+		return make(*given, **named)
+
+	return checked
+
+
+@builder
 def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid.
 
 	:param normals: (n, 3) outward normals of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]
 	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
-	    section 2.2) and change normals, see :yref:`Polytope`. Planes that repeat another one are dropped in any case.
+	    section 2.2) and change normals, see *Polytope*. Planes that repeat another one are dropped in any case.
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
@@ -59,6 +83,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
 
 
+@builder
 def fromVertices(points, **body):
 	"""Convex hull of points in world coordinates, as a body at its centroid.
 
@@ -69,6 +94,7 @@ def fromVertices(points, **body):
 	return _body(lambda *corner: _polytope.ofPoints(points, 3, 0, 1, *corner), **body)
 
 
+@builder
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
 	"""Regular polyhedron.
 
@@ -81,23 +107,26 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 	if not isinstance(faces, numbers.Integral):
 		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
 	faces, circumradius = int(faces), number(circumradius, 'circumradius')
-	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), vector(center, 'center'), rotation(orientation), **body)
+	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), center=center, orientation=orientation, **body)
 
 
+@builder
 def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	"""Rectangular block.
 
 	:param Vector3 center: centre [m]
-	:param Vector3 extents: half-lengths along the body's axes [m], as for :yref:`yade.utils.box`
+	:param Quaternion orientation: of the body
+	:param Vector3 extents: half-lengths along the body's axes [m], as for *yade.utils.box*
 	:param Quaternion orientation: of the body
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
 	if not all(0 < half[k] < float('inf') for k in range(3)):
 		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
-	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), vector(center, 'center'), rotation(orientation), **body)
+	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), center=center, orientation=orientation, **body)
 
 
+@builder
 def polygon(points2d, thickness=1.0, **body):
 	"""Convex polygon in the xy plane (2-D): the hull of the points, with z and rotations out of the plane blocked.
 
@@ -116,6 +145,7 @@ def polygon(points2d, thickness=1.0, **body):
 	return _body(shape, flat=True, **body)
 
 
+@builder
 def fromMesh(path, scale=1.0, **body):
 	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
 
@@ -153,9 +183,10 @@ def fromMesh(path, scale=1.0, **body):
 
 def _body(
         shape,
-        centre=None,
-        orientation=Quaternion.Identity,
         flat=False,
+        *,
+        center=None,
+        orientation=None,
         material=-1,
         fixed=False,
         cornerRadius=None,
@@ -166,13 +197,15 @@ def _body(
         velocity=still,
         angularVelocity=still
 ):
-	"""The body of the shape that shape(cornerRadius, default's fraction) makes; *centre* and *orientation* move it there from its own frame."""
+	"""The body of the shape that shape(cornerRadius, default's fraction) makes."""
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
 	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
-	body = _polytope.body(placed, _material(material), centre, orientation, flag(fixed, 'fixed'), isotropyTolerance)
+	body = _polytope.body(placed, _material(material), None, Quaternion.Identity, flag(fixed, 'fixed'), isotropyTolerance)
 	look, state = body.shape, body.state
-	look.color = Vector3(colours.random(), colours.random(), colours.random()) if color is None else vector(color, 'color')
+	_place(state, center, orientation, flat)
+	given = None if color is None else vector(color, 'color')
+	look.color = Vector3(colours.random(), colours.random(), colours.random()) if given is None or tuple(given) == randomColor else given
 	if flag(wire, 'wire'):
 		look.wire = True
 	if flag(highlight, 'highlight'):
@@ -188,6 +221,23 @@ def _body(
 		if flat and (state.angVel[0] != 0 or state.angVel[1] != 0):
 			raise ValueError(f'angularVelocity: a polygon turns about z alone; the first two components must be 0, got {angularVelocity!r}')
 	return body
+
+
+ofAllBodies = tuple(name for name, one in inspect.signature(_body).parameters.items() if one.kind is one.KEYWORD_ONLY)
+
+
+def _place(state, center, orientation, flat):
+	"""Moves the centroid to *center* and turns the body about it; displacements count from there."""
+	if center is not None:
+		state.pos = vector(center, 'center')
+		if flat and state.pos[2] != 0:
+			raise ValueError(f'center: a polygon lies in the plane z = 0; the third component must be 0, got {center!r}')
+	if orientation is not None:
+		turn = rotation(orientation)
+		if flat and (turn[0] != 0 or turn[1] != 0):
+			raise ValueError(f'orientation: a polygon turns about z alone, got {orientation!r}')
+		state.ori = turn * state.ori
+	state.refPos, state.refOri = state.pos, state.ori
 
 
 def _material(material):

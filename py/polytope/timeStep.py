@@ -19,7 +19,7 @@ def safeTimeStep():
 def stableTimeStep(fraction=0.2, default=None):
 	"""Time step from the stiffnesses of all present contacts, as a fraction of τ, which is 1/ω of the fastest body where no contact is damped.
 
-	What :yref:`PolytopeTimeStepper` computes, without its limit of motion: in most scenes put that engine into O.engines instead, which keeps
+	What *PolytopeTimeStepper* computes, without its limit of motion: in most scenes put that engine into O.engines instead, which keeps
 	the step right as the run goes on (docs/time-step.md says what τ is). One body between fixed ones is stable up to 2 τ, any heap up to
 	τ. YADE's GlobalStiffnessTimeStepper neglects rocking. In a scene without contacts it is the τ of the contacts that may come,
 	from the materials.

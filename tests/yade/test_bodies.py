@@ -274,3 +274,65 @@ def testContactRefusesWhatIsNoPolytope():
 def testWhatMakesNoMaterialIsRefused(material):
 	with pytest.raises(TypeError, match='material: must be a Material'):
 		polytope.cuboid((0, 0, 0), (1, 1, 1), material=material)
+
+
+# ------------------------------------------------------------------------------------------------ arguments of all builders
+
+tetrahedron = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)]
+outline = [(0, 0), (2, 0), (0, 1)]
+
+
+def builders(tmp_path):
+	"""Name → function of further arguments."""
+	trimesh = pytest.importorskip('trimesh')
+	path = tmp_path / 'a.stl'
+	trimesh.convex.convex_hull(numpy.array(tetrahedron, float)).export(path)
+	planes = polytope.fromVertices(tetrahedron)
+	turn, place = planes.state.ori, planes.state.pos
+	normals = [turn * normal for normal in planes.shape.normals]
+	offsets = [offset + normal.dot(place) for normal, offset in zip(normals, planes.shape.offsets, strict=True)]
+	return {
+		'fromHalfSpaces': lambda **body: polytope.fromHalfSpaces(normals, offsets, **body),
+		'fromVertices': lambda **body: polytope.fromVertices(tetrahedron, **body),
+		'fromMesh': lambda **body: polytope.fromMesh(path, **body),
+		'regular': lambda **body: polytope.regular(8, 1, **body),
+		'cuboid': lambda **body: polytope.cuboid(**{'center': (0, 0, 0), 'extents': (1, 2, 3), **body}),
+		'polygon': lambda **body: polytope.polygon(outline, **body),
+	}
+
+
+@pytest.mark.parametrize('name', ['fromHalfSpaces', 'fromVertices', 'fromMesh', 'regular', 'cuboid', 'polygon'])
+def testCenterAndOrientationOfEveryBuilder(name, tmp_path):
+	"""The centroid goes to the center, the body is turned about it, and displacements count from there."""
+	build = builders(tmp_path)[name]
+	plain = build()
+	turn = Quaternion((0, 0, 1), 0.3) if name == 'polygon' else Quaternion((1, 2, 3), 0.7)
+	placed = build(center=(4, 5, 0), orientation=turn)
+	assert list(placed.state.pos) == [4, 5, 0]
+	for was, now in zip(plain.shape.vertices, placed.shape.vertices, strict=True):
+		assert (turn * (plain.state.ori * was) - placed.state.ori * now).norm() < 1e-14
+	for body in (plain, placed, build(center=(1, 1, 0)), build(orientation=turn)):
+		assert body.state.refPos == body.state.pos and body.state.refOri == body.state.ori
+	assert build(orientation=turn).state.pos == plain.state.pos and build(center=(1, 1, 0)).state.ori == plain.state.ori
+
+
+@pytest.mark.parametrize('name', ['fromHalfSpaces', 'fromVertices', 'fromMesh', 'regular', 'cuboid', 'polygon'])
+def testUnknownArgumentNamesTheFunctionAndWhatItTakes(name, tmp_path):
+	build = builders(tmp_path)[name]
+	with pytest.raises(TypeError, match=rf"^{name}: there is no argument 'colour'; it takes .*, and as all bodies .*\bcolor\b.*\bcenter\b|orientation") as caught:
+		build(colour=(1, 0, 0))
+	assert 'material' in str(caught.value) and '_body' not in str(caught.value)
+	for taken in ('center', 'orientation', 'fixed', 'velocity'):
+		assert str(caught.value).count(taken) >= 1
+
+
+def testPolygonsArePlacedInTheirPlane():
+	for wrong in ({'center': (0, 0, 1)}, {'orientation': Quaternion((1, 0, 0), 0.1)}):
+		with pytest.raises(ValueError, match=next(iter(wrong))):
+			polytope.polygon(outline, **wrong)
+
+
+def testYadesRandomColour():
+	colours = {tuple(polytope.regular(4, 1, color=(-1, -1, -1)).shape.color) for _ in range(5)}
+	assert len(colours) == 5 and all(0 <= x <= 1 for colour in colours for x in colour)
+	assert tuple(polytope.regular(4, 1, color=(0, 0, 1)).shape.color) == (0, 0, 1)

@@ -42,7 +42,7 @@ def check(O):
 	nothing was found does not mean that the scene is what you meant. What PyRunner does is not seen.
 
 	:param O: yade.O
-	:returns: :yref:`Check`, a list of findings, empty where nothing is wrong: ``print(polytope.check(O))``
+	:returns: *Check*, a list of findings, empty where nothing is wrong: ``print(polytope.check(O))``
 	:raises ValueError: naming *O* if it is not yade.O, or the simulation is running
 	"""
 	return checkOf(O, None)
