@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
-A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*; a rock mass cut
-by joints: *jointedRock*. One pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and
-accuracy of settings: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
-Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*, *prism*,
+*frustum*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints: *jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair
+without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*,
+*requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
+RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
+
 import builtins
 
 from yade import Quaternion, Vector3
@@ -23,8 +25,10 @@ from .jointedRock import JointedRock, JointSet, jointedRock
 from .pictures import picture
 from .requirements import requirements
 from .settings import settings
+from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
+from .voronoi import VoronoiCells, voronoi
 
 __version__ = buildInfo()['version']
 
@@ -35,4 +39,33 @@ for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
 
 _helpTexts.rewrite()
 
-__all__ = ['JointSet', 'JointedRock', 'buildInfo', 'check', 'contact', 'coordinationNumber', 'cuboid', 'engines', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'jointedRock', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'settings', 'stableTimeStep', 'tradeoff']
+__all__ = [
+	'JointSet',
+	'JointedRock',
+	'VoronoiCells',
+	'buildInfo',
+	'check',
+	'contact',
+	'coordinationNumber',
+	'cuboid',
+	'engines',
+	'fromHalfSpaces',
+	'fromMesh',
+	'fromVertices',
+	'frustum',
+	'jointedRock',
+	'mechanicalEnergy',
+	'picture',
+	'plates',
+	'polygon',
+	'porosity',
+	'prism',
+	'regular',
+	'requirements',
+	'settings',
+	'stableTimeStep',
+	'terrain',
+	'tradeoff',
+	'tube',
+	'voronoi',
+]

@@ -53,16 +53,21 @@ randomColor = (-1, -1, -1)
 """What stands for a random colour in YADE."""
 
 
-def builder(make):
-	"""A function that makes a body: where a keyword is unknown it is named, and what the function takes."""
+def builder(make=None, *, lacks=()):
+	"""Decorates a function that makes a body or several: where a keyword is unknown it is named, and what the function takes.
+
+	:param lacks: arguments of all bodies that this one does not have
+	"""
+	if make is None:
+		return functools.partial(builder, lacks=lacks)
 	own = [name for name, one in inspect.signature(make).parameters.items() if one.kind is not one.VAR_KEYWORD]
 
 	@functools.wraps(make)
 	def checked(*given, **named):
+		others = [name for name in ofAllBodies if name not in own and name not in lacks]
 		for name in named:
-			if name not in own and name not in ofAllBodies:
-				others = ', '.join(one for one in ofAllBodies if one not in own)
-				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {", ".join(own)}, and as all bodies {others}')
+			if name not in own and name not in others:
+				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {", ".join(own)}, and as all bodies {", ".join(others)}')
 		return make(*given, **named)
 
 	return checked
@@ -154,20 +159,9 @@ def fromMesh(path, scale=1.0, **body):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'path: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"path: there is no file '{path}'")
 	if not isNumber(scale) or not 0 < scale < float('inf'):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
-	import trimesh
-	try:
-		mesh = trimesh.load(path, force='mesh', process=False)
-		points = mesh.vertices * scale
-	except Exception as error:  # trimesh passes on the exceptions of its readers
-		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
-	if len(points) == 0:
-		raise ValueError(f"path: '{path}' has no vertices; its content may not be of the format that its name indicates")
+	points = readMesh(path, 'path')[0] * scale
 	points = vectors(points, 'points', 3)
 
 	def shape(*corner):
@@ -179,6 +173,26 @@ def fromMesh(path, scale=1.0, **body):
 			raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
 
 	return _body(shape, **body)
+
+
+def readMesh(path, name):
+	"""(points (n, 3), triangles (m, 3)) of a mesh file, whatever trimesh reads; refuses as fromMesh() does.
+
+	:param str name: of the argument
+	"""
+	if not isinstance(path, (str, os.PathLike)):
+		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
+	if not os.path.exists(path):
+		raise FileNotFoundError(f"{name}: there is no file '{path}'")
+	import trimesh
+	try:
+		mesh = trimesh.load(path, force='mesh', process=False)
+		points, triangles = mesh.vertices * 1.0, mesh.faces
+	except Exception as error:  # trimesh passes on the exceptions of its readers
+		raise ValueError(f"{name}: '{path}' cannot be read as a mesh ({error})") from error
+	if len(points) == 0:
+		raise ValueError(f"{name}: '{path}' has no vertices; its content may not be of the format that its name indicates")
+	return points, triangles
 
 
 def _body(
