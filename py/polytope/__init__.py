@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
-A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*, *prism*,
-*frustum*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints: *jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair
-without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*,
-*requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom,
-RockJointMat, …) are YADE's like any other.
+A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
+*prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is wrong
+before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a
+screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
@@ -20,6 +20,7 @@ from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, reg
 from .check import check
 from .energy import mechanicalEnergy
 from .engines import engines
+from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
 from .pictures import picture
@@ -45,6 +46,7 @@ __all__ = [
 	'VoronoiCells',
 	'buildInfo',
 	'check',
+	'cloud',
 	'contact',
 	'coordinationNumber',
 	'cuboid',
@@ -53,6 +55,7 @@ __all__ = [
 	'fromMesh',
 	'fromVertices',
 	'frustum',
+	'grains',
 	'jointedRock',
 	'mechanicalEnergy',
 	'picture',
@@ -60,6 +63,7 @@ __all__ = [
 	'polygon',
 	'porosity',
 	'prism',
+	'randomGrain',
 	'regular',
 	'requirements',
 	'settings',

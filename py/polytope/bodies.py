@@ -215,7 +215,7 @@ def _body(
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
 	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
-	body = _polytope.body(placed, _material(material), None, Quaternion.Identity, flag(fixed, 'fixed'), isotropyTolerance)
+	body = _polytope.body(placed, materialOf(material), None, Quaternion.Identity, flag(fixed, 'fixed'), isotropyTolerance)
 	look, state = body.shape, body.state
 	_place(state, center, orientation, flat)
 	given = None if color is None else vector(color, 'color')
@@ -254,7 +254,7 @@ def _place(state, center, orientation, flat):
 	state.refPos, state.refOri = state.pos, state.ori
 
 
-def _material(material):
+def materialOf(material):
 	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
 	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
 		O.materials.append(utils.defaultMaterial())
