@@ -3,9 +3,10 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is wrong
-before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. The scene as a PNG, without a
-screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is
+wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*,
+*contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. The scene as a
+PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
@@ -23,6 +24,7 @@ from .engines import engines
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
+from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
 from .pictures import picture
 from .requirements import requirements
 from .settings import settings
@@ -44,10 +46,13 @@ __all__ = [
 	'JointSet',
 	'JointedRock',
 	'VoronoiCells',
+	'aabbExtrema',
+	'bodyStress',
 	'buildInfo',
 	'check',
 	'cloud',
 	'contact',
+	'contactFabric',
 	'coordinationNumber',
 	'cuboid',
 	'engines',
@@ -58,6 +63,7 @@ __all__ = [
 	'grains',
 	'jointedRock',
 	'mechanicalEnergy',
+	'particleFabric',
 	'picture',
 	'plates',
 	'polygon',
@@ -67,6 +73,7 @@ __all__ = [
 	'regular',
 	'requirements',
 	'settings',
+	'sizeDistribution',
 	'stableTimeStep',
 	'terrain',
 	'tradeoff',
