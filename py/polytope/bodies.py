@@ -22,6 +22,7 @@ import inspect
 import numbers
 import os
 import random
+import warnings
 
 from yade import Material, O, Quaternion, Vector3
 from yade import utils
@@ -44,6 +45,9 @@ still = (0, 0, 0)
 
 colours = random.Random()
 """Of bodies without a given one: a generator of their own, so that the script's random numbers are not affected."""
+
+notConvex = 1e-3
+"""Part of the hull's volume that a mesh may lack and still count as convex: curved surfaces of flat triangles lack some."""
 
 singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
@@ -154,6 +158,8 @@ def polygon(points2d, thickness=1.0, **body):
 def fromMesh(path, scale=1.0, **body):
 	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
 
+	A mesh that is not closed, or not convex, is warned of.
+
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
 	:raises FileNotFoundError: if there is no such file
@@ -161,18 +167,32 @@ def fromMesh(path, scale=1.0, **body):
 	"""
 	if not isNumber(scale) or not 0 < scale < float('inf'):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
-	points = readMesh(path, 'path')[0] * scale
-	points = vectors(points, 'points', 3)
+	points, triangles = readMesh(path, 'path')
+	points = points * scale
+	corners = vectors(points, 'points', 3)
 
 	def shape(*corner):
 		try:
-			return _polytope.ofPoints(points, 3, singlePrecision, 1, *corner)
+			return _polytope.ofPoints(corners, 3, singlePrecision, 1, *corner)
 		except ValueError as error:
 			if not str(error).startswith('points'):
 				raise
 			raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
 
-	return _body(shape, **body)
+	made = _body(shape, **body)
+	_tellWhatTheHullHides(path, points, triangles, float(made.shape.volume))
+	return made
+
+
+def _tellWhatTheHullHides(path, points, triangles, hull):
+	"""Warns where the hull is not the body of the mesh."""
+	import trimesh
+	mesh = trimesh.Trimesh(points, triangles)  # joins equal vertices: STL has three for each triangle
+	if not len(triangles) or not mesh.is_watertight:
+		warnings.warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices", stacklevel=4)
+	elif abs(mesh.volume) < (1 - notConvex) * hull:
+		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
+		warnings.warn(f'{seen}; cut it into convex meshes and clump their bodies (O.bodies.appendClumped)', stacklevel=4)
 
 
 def readMesh(path, name):

@@ -336,3 +336,28 @@ def testYadesRandomColour():
 	colours = {tuple(polytope.regular(4, 1, color=(-1, -1, -1)).shape.color) for _ in range(5)}
 	assert len(colours) == 5 and all(0 <= x <= 1 for colour in colours for x in colour)
 	assert tuple(polytope.regular(4, 1, color=(0, 0, 1)).shape.color) == (0, 0, 1)
+
+
+def testMeshThatIsNotItsHullIsWarnedOf(tmp_path, recwarn):
+	trimesh = pytest.importorskip('trimesh')
+	closed = trimesh.creation.box((2, 1, 1))
+	closed.export(tmp_path / 'box.stl')
+	trimesh.creation.icosphere(3).export(tmp_path / 'ball.stl')
+	for name in ('box.stl', 'ball.stl'):
+		polytope.fromMesh(tmp_path / name)
+	assert not recwarn.list
+	outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]  # an L of three squares, whose hull has half a square more
+	points = [(x, y, z) for z in (0, 1) for x, y in outline]
+	caps = [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)]
+	sides = [triangle for k in range(6) for triangle in ((k, (k + 1) % 6, 6 + k), ((k + 1) % 6, 6 + (k + 1) % 6, 6 + k))]
+	mesh = trimesh.Trimesh(points, [tuple(reversed(cap)) for cap in caps] + [tuple(6 + k for k in cap) for cap in caps] + sides)
+	assert mesh.is_watertight and mesh.volume == pytest.approx(3)
+	mesh.export(tmp_path / 'angle.stl')
+	with pytest.warns(UserWarning, match='not convex: it has 3 m³, its hull, which the body is, 3.5 m³'):
+		polytope.fromMesh(tmp_path / 'angle.stl')
+	with pytest.warns(UserWarning, match='0.003 m³'):
+		polytope.fromMesh(tmp_path / 'angle.stl', scale=0.1)
+	trimesh.Trimesh(closed.vertices, closed.faces[:-1]).export(tmp_path / 'open.stl')
+	with pytest.warns(UserWarning, match='is not closed') as told:
+		polytope.fromMesh(tmp_path / 'open.stl')
+	assert told[0].filename == __file__, 'the line of the script'
