@@ -71,7 +71,8 @@ def builder(make=None, *, lacks=()):
 		others = [name for name in ofAllBodies if name not in own and name not in lacks]
 		for name in named:
 			if name not in own and name not in others:
-				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {", ".join(own)}, and as all bodies {", ".join(others)}')
+				takes = f'{", ".join(own)}, and as all bodies {", ".join(others)}'
+				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {takes}')
 		return make(*given, **named)
 
 	return checked

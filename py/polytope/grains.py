@@ -155,11 +155,11 @@ def _corners(body):
 
 def _points(random, vertices, elongation, flatness):
 	"""Vertices of a grain of size 1."""
-	found = np.empty((vertices, 3))
-	for k in range(vertices):
-		fresh = random.normal(size=(candidates if k else 1, 3))
-		fresh /= np.sqrt((fresh * fresh).sum(axis=1))[:, None]
-		found[k] = fresh[(fresh @ found[:k].T).max(axis=1).argmin()] if k else fresh[0]
+	fresh = random.normal(size=(vertices, candidates, 3))
+	fresh /= np.sqrt(np.einsum('ijk,ijk->ij', fresh, fresh))[:, :, None]
+	found = fresh[:, 0].copy()
+	for k in range(1, vertices):
+		found[k] = fresh[k, (fresh[k] @ found[:k].T).max(axis=1).argmin()]
 	low, high = found.min(axis=0), found.max(axis=0)
 	return (found - (low + high) / 2) / (high - low) * (1 / elongation, 1, flatness)
 

@@ -143,8 +143,8 @@ def _cells(points, normals, offsets, corners, box):
 def _neighbours(images, number, corners):
 	"""Of the first *number* points, those whose cells share a face with theirs, and maybe more.
 
-	Eight points far outside bound every cell and make a triangulation of points in one plane possible. Every point of the region is nearer to
-	a seed than to any of them.
+	Eight points far outside bound every cell and make a triangulation of points in one plane possible. Every point of the region is nearer
+	to a seed than to any of them.
 	"""
 	low, high = (bound([*images, *corners], axis=0) for bound in (np.min, np.max))
 	reach = helpersReach * float(np.linalg.norm(high - low))
