@@ -5,11 +5,7 @@
 """
 from math import radians
 
-from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        PolytopeCollider, PolytopeTimeStepper, RockJointMat, polytope
-)
+from yade import O, RockJointMat, polytope
 
 # stiffnesses per area [Pa/m]: a contact's own is this times the area in which the blocks meet
 O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=radians(35)))
@@ -17,16 +13,7 @@ O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffnes
 O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
 block = O.bodies.append(polytope.cuboid(center=(0, 0, 0.55), extents=(0.5, 0.4, 0.5)))
 
-O.engines = [
-        ForceResetter(),
-        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
-        InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3)]
-        ),
-        NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
-        PolytopeTimeStepper(),  # sets O.dt
-]
+O.engines = polytope.engines()  # the usual ones, gravity 9.81 m/s² along −z; sets O.dt
 while O.time < 2:
         O.run(100, wait=True)
 

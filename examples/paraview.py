@@ -8,7 +8,8 @@ from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 FallingPolyhedra(faces=(4, 6, 8, 12, 20), number=60, columns=4).build()
 O.engines = O.engines + [PolytopeVTKRecorder(fileName='output/paraview/', iterPeriod=100)]
-O.run(4000, wait=True)
+for _ in range(40):  # Ctrl-C ends it between two calls of O.run
+	O.run(100, wait=True)
 
 # In ParaView: the bodies' “color” is in bytes, so uncheck “Map Scalars” for it; for the contacts add a Glyph (arrows) along
 # “normalForce”, scaled by its magnitude.

@@ -6,11 +6,7 @@
 from math import cos, pi, radians, sin
 from random import Random
 
-from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        PolytopeCollider, RockJointMat, polytope
-)
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
 from yade.polytope.pictures import picture
 
 O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, frictionAngle=radians(25)))
@@ -25,15 +21,7 @@ for k in range(72):
 	angles = [2 * pi * (i + random.uniform(0, 0.4)) / corners for i in range(corners)]
 	O.bodies.append(polytope.polygon([(x + 0.12 * cos(a), y + 0.12 * sin(a)) for a in angles]))
 
-O.engines = [
-        ForceResetter(),
-        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
-        InteractionLoop(
-                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
-                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2)]
-        ),
-        NewtonIntegrator(gravity=(0, -9.81, 0), damping=0.1),
-]
-O.dt = 2e-4
-O.run(10000, wait=True)
+O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+while O.time < 2:
+	O.run(100, wait=True)
 picture('polygons.png', colorBy='speed', legend='speed [m/s]')

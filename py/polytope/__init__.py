@@ -1,25 +1,82 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
-A particle is a list of half-spaces a·x ≤ d. Bodies: :yref:`fromHalfSpaces`, *fromVertices*, *regular*, *cuboid*,
-*polygon*, *fromMesh*; a rock mass cut by joints: *jointedRock*. One pair without a scene: *contact*. Cost and accuracy of settings:
-*tradeoff*, *requirements*, *settings*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
-Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
+*prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is
+wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*,
+*contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. The scene as a
+PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
+
+import builtins
+
+from yade import Quaternion, Vector3
 from yade._polytope import buildInfo, contact
 
+from . import _helpTexts
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .check import check
 from .energy import mechanicalEnergy
+from .engines import engines
+from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
+from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
 from .pictures import picture
 from .requirements import requirements
 from .settings import settings
+from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
+from .voronoi import VoronoiCells, voronoi
 
 __version__ = buildInfo()['version']
 
-__all__ = ['JointSet', 'JointedRock', 'buildInfo', 'contact', 'coordinationNumber', 'cuboid', 'fromHalfSpaces', 'fromMesh', 'fromVertices', 'jointedRock', 'mechanicalEnergy', 'picture', 'polygon', 'porosity', 'regular', 'requirements', 'settings', 'stableTimeStep', 'tradeoff']
+# `from yade import *` in plain Python lacks what scripts of the program yade have; YADE itself makes O known in this way
+for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
+	if not hasattr(builtins, _name):
+		setattr(builtins, _name, _class)
+
+_helpTexts.rewrite()
+
+__all__ = [
+	'JointSet',
+	'JointedRock',
+	'VoronoiCells',
+	'aabbExtrema',
+	'bodyStress',
+	'buildInfo',
+	'check',
+	'cloud',
+	'contact',
+	'contactFabric',
+	'coordinationNumber',
+	'cuboid',
+	'engines',
+	'fromHalfSpaces',
+	'fromMesh',
+	'fromVertices',
+	'frustum',
+	'grains',
+	'jointedRock',
+	'mechanicalEnergy',
+	'particleFabric',
+	'picture',
+	'plates',
+	'polygon',
+	'porosity',
+	'prism',
+	'randomGrain',
+	'regular',
+	'requirements',
+	'settings',
+	'sizeDistribution',
+	'stableTimeStep',
+	'terrain',
+	'tradeoff',
+	'tube',
+	'voronoi',
+]

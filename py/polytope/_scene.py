@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Engines and functors of the present scene that *tradeoff*, *requirements* and *frictionReduction* read or change."""
+"""Engines and functors of the present scene that *check*, *tradeoff*, *requirements* and *frictionReduction* read or change."""
 
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O
 
-__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws']
+__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws', 'notConservative', 'stiffnessesPerArea']
+
+notConservative = (
+	'the conservative contact with stiffnesses per area',
+	'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
+)
+"""What *check* and *requirements* say about it: (seen, advice)."""
 
 
 def interactionLoops():
@@ -24,3 +30,9 @@ def laws():
 	"""The plug-in's laws of the scene."""
 	functors = (functor for loop in interactionLoops() for functor in loop.lawDispatcher.functors)
 	return [functor for functor in functors if isinstance(functor, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb)]
+
+
+def stiffnessesPerArea(loops):
+	"""Whether these loops make joints whose stiffness is per area."""
+	makers = (functor for loop in loops for functor in loop.physDispatcher.functors)
+	return any(getattr(functor, 'stiffnessPerArea', False) for functor in makers)

@@ -2,22 +2,27 @@
 """Bodies with Polytope shapes, from half-spaces, points, dimensions or mesh files.
 
 All functions return a yade Body, ready for ``O.bodies.append``, with mass and inertia from the material's density. They
-share these keyword arguments (*body* below), with the meaning they have in :yref:`yade.utils.box`:
+share these keyword arguments (*body* below), with the meaning they have in yade.utils.box:
 
+:param Vector3 center: where the body's centroid is [m]; default where its planes or points are (*regular*, *cuboid*: their centre)
+:param Quaternion orientation: turns the body about its centroid
 :param material: Material instance, index or label in O.materials, or a function that makes one; default the last one added
 :param bool fixed: block all degrees of freedom
 :param float cornerRadius: radius of the inner potential particle's corners [m] (Polytope.cornerRadius), read by the contact normal
     'innerPotential' alone; default a tenth of the inscribed ball's radius
-:param Vector3 color: RGB in 0…1; default random
+:param Vector3 color: RGB in 0…1; default random, as (-1, -1, -1)
 :param bool wire: draw edges only
 :param bool highlight: highlight in the 3d view
 :param int mask: Body.mask
 :param Vector3 velocity: initial velocity [m/s]
 :param Vector3 angularVelocity: initial angular velocity [rad/s]
 """
+import functools
+import inspect
 import numbers
 import os
 import random
+import warnings
 
 from yade import Material, O, Quaternion, Vector3
 from yade import utils
@@ -41,17 +46,46 @@ still = (0, 0, 0)
 colours = random.Random()
 """Of bodies without a given one: a generator of their own, so that the script's random numbers are not affected."""
 
+notConvex = 1e-3
+"""Part of the hull's volume that a mesh may lack and still count as convex: curved surfaces of flat triangles lack some."""
+
 singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
 
 
+randomColor = (-1, -1, -1)
+"""What stands for a random colour in YADE."""
+
+
+def builder(make=None, *, lacks=()):
+	"""Decorates a function that makes a body or several: where a keyword is unknown it is named, and what the function takes.
+
+	:param lacks: arguments of all bodies that this one does not have
+	"""
+	if make is None:
+		return functools.partial(builder, lacks=lacks)
+	own = [name for name, one in inspect.signature(make).parameters.items() if one.kind is not one.VAR_KEYWORD]
+
+	@functools.wraps(make)
+	def checked(*given, **named):
+		others = [name for name in ofAllBodies if name not in own and name not in lacks]
+		for name in named:
+			if name not in own and name not in others:
+				takes = f'{", ".join(own)}, and as all bodies {", ".join(others)}'
+				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {takes}')
+		return make(*given, **named)
+
+	return checked
+
+
+@builder
 def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid.
 
 	:param normals: (n, 3) outward normals of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]
 	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
-	    section 2.2) and change normals, see :yref:`Polytope`. Planes that repeat another one are dropped in any case.
+	    section 2.2) and change normals, see *Polytope*. Planes that repeat another one are dropped in any case.
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
@@ -59,6 +93,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
 
 
+@builder
 def fromVertices(points, **body):
 	"""Convex hull of points in world coordinates, as a body at its centroid.
 
@@ -69,6 +104,7 @@ def fromVertices(points, **body):
 	return _body(lambda *corner: _polytope.ofPoints(points, 3, 0, 1, *corner), **body)
 
 
+@builder
 def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
 	"""Regular polyhedron.
 
@@ -81,23 +117,26 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 	if not isinstance(faces, numbers.Integral):
 		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
 	faces, circumradius = int(faces), number(circumradius, 'circumradius')
-	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), vector(center, 'center'), rotation(orientation), **body)
+	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), center=center, orientation=orientation, **body)
 
 
+@builder
 def cuboid(center, extents, orientation=Quaternion.Identity, **body):
 	"""Rectangular block.
 
 	:param Vector3 center: centre [m]
-	:param Vector3 extents: half-lengths along the body's axes [m], as for :yref:`yade.utils.box`
+	:param Quaternion orientation: of the body
+	:param Vector3 extents: half-lengths along the body's axes [m], as for *yade.utils.box*
 	:param Quaternion orientation: of the body
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
 	if not all(0 < half[k] < float('inf') for k in range(3)):
 		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
-	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), vector(center, 'center'), rotation(orientation), **body)
+	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), center=center, orientation=orientation, **body)
 
 
+@builder
 def polygon(points2d, thickness=1.0, **body):
 	"""Convex polygon in the xy plane (2-D): the hull of the points, with z and rotations out of the plane blocked.
 
@@ -116,46 +155,73 @@ def polygon(points2d, thickness=1.0, **body):
 	return _body(shape, flat=True, **body)
 
 
+@builder
 def fromMesh(path, scale=1.0, **body):
 	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
+
+	A mesh that is not closed, or not convex, is warned of.
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'path: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"path: there is no file '{path}'")
 	if not isNumber(scale) or not 0 < scale < float('inf'):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
-	import trimesh
-	try:
-		mesh = trimesh.load(path, force='mesh', process=False)
-		points = mesh.vertices * scale
-	except Exception as error:  # trimesh passes on the exceptions of its readers
-		raise ValueError(f"path: '{path}' cannot be read as a mesh ({error})") from error
-	if len(points) == 0:
-		raise ValueError(f"path: '{path}' has no vertices; its content may not be of the format that its name indicates")
-	points = vectors(points, 'points', 3)
+	points, triangles = readMesh(path, 'path')
+	points = points * scale
+	corners = vectors(points, 'points', 3)
 
 	def shape(*corner):
 		try:
-			return _polytope.ofPoints(points, 3, singlePrecision, 1, *corner)
+			return _polytope.ofPoints(corners, 3, singlePrecision, 1, *corner)
 		except ValueError as error:
 			if not str(error).startswith('points'):
 				raise
 			raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
 
-	return _body(shape, **body)
+	made = _body(shape, **body)
+	_tellWhatTheHullHides(path, points, triangles, float(made.shape.volume))
+	return made
+
+
+def _tellWhatTheHullHides(path, points, triangles, hull):
+	"""Warns where the hull is not the body of the mesh."""
+	import trimesh
+	mesh = trimesh.Trimesh(points, triangles)  # joins equal vertices: STL has three for each triangle
+	if not len(triangles) or not mesh.is_watertight:
+		warnings.warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices", stacklevel=4)
+	elif abs(mesh.volume) < (1 - notConvex) * hull:
+		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
+		warnings.warn(f'{seen}; cut it into convex meshes and clump their bodies (O.bodies.appendClumped)', stacklevel=4)
+
+
+def readMesh(path, name):
+	"""(points (n, 3), triangles (m, 3)) of a mesh file, whatever trimesh reads; refuses as fromMesh() does.
+
+	:param str name: of the argument
+	"""
+	if not isinstance(path, (str, os.PathLike)):
+		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
+	if not os.path.exists(path):
+		raise FileNotFoundError(f"{name}: there is no file '{path}'")
+	import trimesh
+	try:
+		mesh = trimesh.load(path, force='mesh', process=False)
+		points, triangles = mesh.vertices * 1.0, mesh.faces
+	except Exception as error:  # trimesh passes on the exceptions of its readers
+		raise ValueError(f"{name}: '{path}' cannot be read as a mesh ({error})") from error
+	if len(points) == 0:
+		raise ValueError(f"{name}: '{path}' has no vertices; its content may not be of the format that its name indicates")
+	return points, triangles
 
 
 def _body(
         shape,
-        centre=None,
-        orientation=Quaternion.Identity,
         flat=False,
+        *,
+        center=None,
+        orientation=None,
         material=-1,
         fixed=False,
         cornerRadius=None,
@@ -166,13 +232,15 @@ def _body(
         velocity=still,
         angularVelocity=still
 ):
-	"""The body of the shape that shape(cornerRadius, default's fraction) makes; *centre* and *orientation* move it there from its own frame."""
+	"""The body of the shape that shape(cornerRadius, default's fraction) makes."""
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
 	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
-	body = _polytope.body(placed, _material(material), centre, orientation, flag(fixed, 'fixed'), isotropyTolerance)
+	body = _polytope.body(placed, materialOf(material), None, Quaternion.Identity, flag(fixed, 'fixed'), isotropyTolerance)
 	look, state = body.shape, body.state
-	look.color = Vector3(colours.random(), colours.random(), colours.random()) if color is None else vector(color, 'color')
+	_place(state, center, orientation, flat)
+	given = None if color is None else vector(color, 'color')
+	look.color = Vector3(colours.random(), colours.random(), colours.random()) if given is None or tuple(given) == randomColor else given
 	if flag(wire, 'wire'):
 		look.wire = True
 	if flag(highlight, 'highlight'):
@@ -190,7 +258,24 @@ def _body(
 	return body
 
 
-def _material(material):
+ofAllBodies = tuple(name for name, one in inspect.signature(_body).parameters.items() if one.kind is one.KEYWORD_ONLY)
+
+
+def _place(state, center, orientation, flat):
+	"""Moves the centroid to *center* and turns the body about it; displacements count from there."""
+	if center is not None:
+		state.pos = vector(center, 'center')
+		if flat and state.pos[2] != 0:
+			raise ValueError(f'center: a polygon lies in the plane z = 0; the third component must be 0, got {center!r}')
+	if orientation is not None:
+		turn = rotation(orientation)
+		if flat and (turn[0] != 0 or turn[1] != 0):
+			raise ValueError(f'orientation: a polygon turns about z alone, got {orientation!r}')
+		state.ori = turn * state.ori
+	state.refPos, state.refOri = state.pos, state.ori
+
+
+def materialOf(material):
 	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
 	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
 		O.materials.append(utils.defaultMaterial())

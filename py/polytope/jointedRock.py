@@ -100,7 +100,7 @@ class JointSet:
 
 @dataclasses.dataclass
 class JointedRock:
-	"""What :yref:`jointedRock` made."""
+	"""What *jointedRock* made."""
 
 	blocks: list
 	"""(normals, offsets) of each block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
@@ -123,11 +123,11 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
 
 	:param normals: (n, 3) outward normals of the region, of any length [-]
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}
-	:param jointSets: sequence of :yref:`JointSet`
+	:param jointSets: sequence of *JointSet*
 	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
 	    of the smallest spacing or of the region's own inscribed radius
 	:param int seed: of the random distances and normals
-	:returns: :yref:`JointedRock`
+	:returns: *JointedRock*
 	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 100 000
 	    blocks to be expected, *smallest* negative or above the region's inscribed radius, *seed* negative
 	"""

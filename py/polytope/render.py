@@ -13,9 +13,23 @@ import subprocess
 import sys
 
 import numpy as np
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  text of the legend
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkExtractEdges, vtkPolyDataNormals
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
 supersampling = 2
 """The picture is drawn this much larger and then reduced: smooth edges."""
+shadingReduction = 2
+"""The soft shading is drawn this much smaller and then enlarged: it has no detail, and its cost grows with the pixels. At full size it took
+nine tenths of the time."""
+shadingSamples = 32
+"""Of the surroundings of each of its pixels."""
 
 styleOpacity = {'solid': 1.0, 'smooth': 1.0, 'glass': 0.16, 'wire': 0.0}
 edgeColor = (0.10, 0.12, 0.15)
@@ -50,15 +64,13 @@ def virtualDisplay():
 
 
 def polyData(mesh):
-	import vtk
-	from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-	points = vtk.vtkPoints()
+	points = vtkPoints()
 	points.SetData(numpy_to_vtk(mesh['points'], deep=True))
-	faces = vtk.vtkCellArray()
+	faces = vtkCellArray()
 	faces.SetData(*(numpy_to_vtkIdTypeArray(mesh[name].astype(np.int64), deep=True) for name in ('offsets', 'connectivity')))
 	colors = numpy_to_vtk(mesh['colors'], deep=True)
 	colors.SetName('color')
-	data = vtk.vtkPolyData()
+	data = vtkPolyData()
 	data.SetPoints(points)
 	data.SetPolys(faces)
 	data.GetCellData().SetScalars(colors)
@@ -66,22 +78,21 @@ def polyData(mesh):
 
 
 def actorOf(style, mesh, edges):
-	import vtk
-	mapper = vtk.vtkPolyDataMapper()
+	mapper = vtkPolyDataMapper()
 	data = polyData(mesh)
 	if style == 'smooth':
-		normals = vtk.vtkPolyDataNormals()
+		normals = vtkPolyDataNormals()
 		normals.SetInputData(data)
 		normals.SplittingOff()
 		mapper.SetInputConnection(normals.GetOutputPort())
 	elif style == 'wire':
-		outline = vtk.vtkExtractEdges()
+		outline = vtkExtractEdges()
 		outline.SetInputData(data)
 		mapper.SetInputConnection(outline.GetOutputPort())
 		mapper.ScalarVisibilityOff()
 	else:
 		mapper.SetInputData(data)
-	actor = vtk.vtkActor()
+	actor = vtkActor()
 	actor.SetMapper(mapper)
 	look = actor.GetProperty()
 	look.SetLineWidth(edgeWidth * supersampling)
@@ -108,14 +119,13 @@ def actorOf(style, mesh, edges):
 
 def addLights(renderer, camera):
 	"""A key light over the camera's left shoulder, a weak fill from its right, a little from above."""
-	import vtk
 	renderer.AutomaticLightCreationOff()
 	focus, position, up = (np.array(camera[name]) for name in ('focus', 'position', 'up'))
 	back = position - focus
 	back /= np.linalg.norm(back)
 	right = np.cross(up, back)
 	for direction, intensity in ((-0.5 * right + 0.8 * up + 0.8 * back, 0.70), (0.9 * right + 0.1 * up + 0.6 * back, 0.25), (up, 0.12)):
-		light = vtk.vtkLight()
+		light = vtkLight()
 		light.SetLightTypeToSceneLight()
 		light.PositionalOff()
 		light.SetFocalPoint(0, 0, 0)
@@ -138,15 +148,14 @@ def placeCamera(renderer, settings):
 
 
 def addLegend(renderer, legend, height):
-	import vtk
-	table = vtk.vtkLookupTable()
+	table = vtkLookupTable()
 	colors = [[int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)] for color in legend['colors']]
 	table.SetNumberOfTableValues(256)
 	for k in range(256):
 		rgb = [np.interp(k / 255, np.linspace(0, 1, len(colors)), [color[c] for color in colors]) for c in range(3)]
 		table.SetTableValue(k, *rgb, 1)
 	table.SetTableRange(legend['low'], legend['high'])
-	bar = vtk.vtkScalarBarActor()
+	bar = vtkScalarBarActor()
 	bar.SetLookupTable(table)
 	bar.SetTitle(legend['text'])
 	bar.SetNumberOfLabels(4)
@@ -169,53 +178,78 @@ def addLegend(renderer, legend, height):
 
 def shadingPass(radius):
 	"""Ambient occlusion: gaps and undersides are darker, which shows where bodies rest on each other."""
-	import vtk
-	occlusion = vtk.vtkSSAOPass()
-	occlusion.SetDelegatePass(vtk.vtkRenderStepsPass())
+	occlusion = vtkSSAOPass()
+	occlusion.SetDelegatePass(vtkRenderStepsPass())
 	occlusion.SetRadius(1.6 * radius)
 	occlusion.SetBias(0.04 * radius)
-	occlusion.SetKernelSize(128)
+	occlusion.SetKernelSize(shadingSamples)
 	occlusion.BlurOn()
 	return occlusion
 
 
+def pixelsOf(window, width, height):
+	"""The scene in this size, as (height, width, 3) array in 0…255, from the bottom row up."""
+	window.SetSize(width, height)
+	window.Render()
+	grab = vtkWindowToImageFilter()
+	grab.SetInput(window)
+	grab.ReadFrontBufferOff()
+	grab.Update()
+	values = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
+	return values.reshape(height, width, -1)[:, :, :3].astype(np.float32)
+
+
+def shadingOf(renderer, window, settings):
+	"""Factor in 0…1 for each pixel of the picture: the small picture with the shading over the one without."""
+	width, height = settings['size']
+	small = -(-width // shadingReduction), -(-height // shadingReduction)
+	plain = pixelsOf(window, *small).sum(axis=2)
+	renderer.SetPass(shadingPass(settings['shadeRadius']))
+	shaded = pixelsOf(window, *small).sum(axis=2)
+	factor = np.clip(shaded / np.maximum(plain, 1), 0, 1)
+	rows, columns = (np.clip((np.arange(n) + 0.5) / shadingReduction - 0.5, 0, m - 1) for n, m in ((height, small[1]), (width, small[0])))
+	for axis, places in enumerate((rows, columns)):  # linear between pixels
+		low = np.minimum(places.astype(int), factor.shape[axis] - 1)
+		high = np.minimum(low + 1, factor.shape[axis] - 1)
+		share = np.expand_dims(places - low, 1 - axis)
+		factor = (1 - share) * factor.take(low, axis) + share * factor.take(high, axis)
+	return factor[:, :, None]
+
+
+def write(pixels, path):
+	"""PNG of an array as pixelsOf() gives it."""
+	height, width, _ = pixels.shape
+	image = vtkImageData()
+	image.SetDimensions(width, height, 1)
+	image.GetPointData().SetScalars(numpy_to_vtk(np.round(pixels).astype(np.uint8).reshape(-1, 3), deep=True))
+	writer = vtkPNGWriter()
+	writer.SetFileName(path)
+	writer.SetInputData(image)
+	writer.Write()
+	if writer.GetErrorCode():
+		raise SystemExit(f'cannot write {path}')
+
+
 def draw(meshes, settings, path):
-	import vtk
-	width, height = (supersampling * n for n in settings['size'])
-	renderer = vtk.vtkRenderer()
+	width, height = settings['size']
+	renderer = vtkRenderer()
 	renderer.SetBackground(*settings['background'])
 	for style, mesh in meshes.items():
 		renderer.AddActor(actorOf(style, mesh, settings['edges']))
 	addLights(renderer, settings['camera'])
 	placeCamera(renderer, settings['camera'])
 	if settings['legend']:
-		addLegend(renderer, settings['legend'], height)
-	if settings['shade']:
-		renderer.SetPass(shadingPass(settings['shadeRadius']))
-
-	window = vtk.vtkRenderWindow()
+		addLegend(renderer, settings['legend'], supersampling * height)
+	window = vtkRenderWindow()
 	window.OffScreenRenderingOn()
 	window.SetMultiSamples(0)
-	window.SetSize(width, height)
 	window.AddRenderer(renderer)
-	window.Render()
-
-	pixels = vtk.vtkWindowToImageFilter()
-	pixels.SetInput(window)
-	pixels.ReadFrontBufferOff()
-	smooth = vtk.vtkImageSincInterpolator()
-	smooth.AntialiasingOn()
-	reduced = vtk.vtkImageResize()
-	reduced.SetInputConnection(pixels.GetOutputPort())
-	reduced.SetInterpolator(smooth)
-	reduced.SetOutputDimensions(*settings['size'], 1)
-	writer = vtk.vtkPNGWriter()
-	writer.SetFileName(path)
-	writer.SetInputConnection(reduced.GetOutputPort())
-	writer.Write()
+	large = pixelsOf(window, supersampling * width, supersampling * height)
+	pixels = large.reshape(height, supersampling, width, supersampling, 3).mean(axis=(1, 3))
+	if settings['shade']:
+		pixels *= shadingOf(renderer, window, settings)
 	window.Finalize()  # before the display ends
-	if writer.GetErrorCode():
-		raise SystemExit(f'cannot write {path}')
+	write(pixels, path)
 
 
 def main(folder, path):

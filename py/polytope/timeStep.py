@@ -7,13 +7,19 @@ from yade import _polytope
 
 from .precision import isNumber
 
-__all__ = ['stableTimeStep']
+__all__ = ['safeTimeStep', 'stableTimeStep']
+
+
+def safeTimeStep():
+	"""τ [s] of the present contacts; in a scene without any, of those that may come; None where nothing limits it."""
+	limits = _polytope.timeStepLimits()
+	return limits['material'] if limits['contacts'] is None else limits['contacts']
 
 
 def stableTimeStep(fraction=0.2, default=None):
 	"""Time step from the stiffnesses of all present contacts, as a fraction of τ, which is 1/ω of the fastest body where no contact is damped.
 
-	What :yref:`PolytopeTimeStepper` computes, without its limit of motion: in most scenes put that engine into O.engines instead, which keeps
+	What *PolytopeTimeStepper* computes, without its limit of motion: in most scenes put that engine into O.engines instead, which keeps
 	the step right as the run goes on (docs/time-step.md says what τ is). One body between fixed ones is stable up to 2 τ, any heap up to
 	τ. YADE's GlobalStiffnessTimeStepper neglects rocking. In a scene without contacts it is the τ of the contacts that may come,
 	from the materials.
@@ -27,8 +33,7 @@ def stableTimeStep(fraction=0.2, default=None):
 		raise ValueError(f'fraction: must be above 0 and at most 2, the limit of one body, got {fraction!r}')
 	if default is not None and not (isNumber(default) and not isinstance(default, bool) and 0 < default < math.inf):
 		raise ValueError(f'default: must be a finite time step above 0, got {default!r}')
-	limits = _polytope.timeStepLimits()
-	limit = limits['material'] if limits['contacts'] is None else limits['contacts']
+	limit = safeTimeStep()
 	if limit is not None:
 		return fraction * limit
 	if default is None:

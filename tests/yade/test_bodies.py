@@ -354,3 +354,90 @@ def testMaterialsOfNoBodyAreRefused(name, value):
 	with pytest.raises(ValueError, match=f'^material: its {name}'):
 		polytope.regular(8, 1)  # the last one added
 	assert len(O.bodies) == 0
+
+
+# ------------------------------------------------------------------------------------------------ arguments of all builders
+
+tetrahedron = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)]
+outline = [(0, 0), (2, 0), (0, 1)]
+
+
+def builders(tmp_path):
+	"""Name → function of further arguments."""
+	trimesh = pytest.importorskip('trimesh')
+	path = tmp_path / 'a.stl'
+	trimesh.convex.convex_hull(numpy.array(tetrahedron, float)).export(path)
+	planes = polytope.fromVertices(tetrahedron)
+	turn, place = planes.state.ori, planes.state.pos
+	normals = [turn * normal for normal in planes.shape.normals]
+	offsets = [offset + normal.dot(place) for normal, offset in zip(normals, planes.shape.offsets, strict=True)]
+	return {
+		'fromHalfSpaces': lambda **body: polytope.fromHalfSpaces(normals, offsets, **body),
+		'fromVertices': lambda **body: polytope.fromVertices(tetrahedron, **body),
+		'fromMesh': lambda **body: polytope.fromMesh(path, **body),
+		'regular': lambda **body: polytope.regular(8, 1, **body),
+		'cuboid': lambda **body: polytope.cuboid(**{'center': (0, 0, 0), 'extents': (1, 2, 3), **body}),
+		'polygon': lambda **body: polytope.polygon(outline, **body),
+	}
+
+
+@pytest.mark.parametrize('name', ['fromHalfSpaces', 'fromVertices', 'fromMesh', 'regular', 'cuboid', 'polygon'])
+def testCenterAndOrientationOfEveryBuilder(name, tmp_path):
+	"""The centroid goes to the center, the body is turned about it, and displacements count from there."""
+	build = builders(tmp_path)[name]
+	plain = build()
+	turn = Quaternion((0, 0, 1), 0.3) if name == 'polygon' else Quaternion((1, 2, 3), 0.7)
+	placed = build(center=(4, 5, 0), orientation=turn)
+	assert list(placed.state.pos) == [4, 5, 0]
+	for was, now in zip(plain.shape.vertices, placed.shape.vertices, strict=True):
+		assert (turn * (plain.state.ori * was) - placed.state.ori * now).norm() < 1e-14
+	for body in (plain, placed, build(center=(1, 1, 0)), build(orientation=turn)):
+		assert body.state.refPos == body.state.pos and body.state.refOri == body.state.ori
+	assert build(orientation=turn).state.pos == plain.state.pos and build(center=(1, 1, 0)).state.ori == plain.state.ori
+
+
+@pytest.mark.parametrize('name', ['fromHalfSpaces', 'fromVertices', 'fromMesh', 'regular', 'cuboid', 'polygon'])
+def testUnknownArgumentNamesTheFunctionAndWhatItTakes(name, tmp_path):
+	build = builders(tmp_path)[name]
+	with pytest.raises(TypeError, match=rf"^{name}: there is no argument 'colour'; it takes .*, and as all bodies .*\bcolor\b.*\bcenter\b|orientation") as caught:
+		build(colour=(1, 0, 0))
+	assert 'material' in str(caught.value) and '_body' not in str(caught.value)
+	for taken in ('center', 'orientation', 'fixed', 'velocity'):
+		assert str(caught.value).count(taken) >= 1
+
+
+def testPolygonsArePlacedInTheirPlane():
+	for wrong in ({'center': (0, 0, 1)}, {'orientation': Quaternion((1, 0, 0), 0.1)}):
+		with pytest.raises(ValueError, match=next(iter(wrong))):
+			polytope.polygon(outline, **wrong)
+
+
+def testYadesRandomColour():
+	colours = {tuple(polytope.regular(4, 1, color=(-1, -1, -1)).shape.color) for _ in range(5)}
+	assert len(colours) == 5 and all(0 <= x <= 1 for colour in colours for x in colour)
+	assert tuple(polytope.regular(4, 1, color=(0, 0, 1)).shape.color) == (0, 0, 1)
+
+
+def testMeshThatIsNotItsHullIsWarnedOf(tmp_path, recwarn):
+	trimesh = pytest.importorskip('trimesh')
+	closed = trimesh.creation.box((2, 1, 1))
+	closed.export(tmp_path / 'box.stl')
+	trimesh.creation.icosphere(3).export(tmp_path / 'ball.stl')
+	for name in ('box.stl', 'ball.stl'):
+		polytope.fromMesh(tmp_path / name)
+	assert not recwarn.list
+	outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]  # an L of three squares, whose hull has half a square more
+	points = [(x, y, z) for z in (0, 1) for x, y in outline]
+	caps = [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)]
+	sides = [triangle for k in range(6) for triangle in ((k, (k + 1) % 6, 6 + k), ((k + 1) % 6, 6 + (k + 1) % 6, 6 + k))]
+	mesh = trimesh.Trimesh(points, [tuple(reversed(cap)) for cap in caps] + [tuple(6 + k for k in cap) for cap in caps] + sides)
+	assert mesh.is_watertight and mesh.volume == pytest.approx(3)
+	mesh.export(tmp_path / 'angle.stl')
+	with pytest.warns(UserWarning, match='not convex: it has 3 m³, its hull, which the body is, 3.5 m³'):
+		polytope.fromMesh(tmp_path / 'angle.stl')
+	with pytest.warns(UserWarning, match='0.003 m³'):
+		polytope.fromMesh(tmp_path / 'angle.stl', scale=0.1)
+	trimesh.Trimesh(closed.vertices, closed.faces[:-1]).export(tmp_path / 'open.stl')
+	with pytest.warns(UserWarning, match='is not closed') as told:
+		polytope.fromMesh(tmp_path / 'open.stl')
+	assert told[0].filename == __file__, 'the line of the script'

@@ -97,7 +97,7 @@ def requirements(O, measure=True):
 
 	:param O: yade.O
 	:param bool measure: False: only check, which takes no time
-	:returns: a :yref:`Requirements`
+	:returns: a *Requirements*
 	:raises ValueError: naming *measure* if it is neither True nor False; naming *O*: nothing to check (no engines with a polytope's
 		contact functor), or the simulation is running
 	:raises OSError: naming *measure* if the scene cannot be saved to a temporary folder (TMPDIR)

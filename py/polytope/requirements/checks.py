@@ -12,7 +12,7 @@ import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._loads import permanentLoads
-from .._scene import geometryFunctors, interactionLoops, laws
+from .._scene import geometryFunctors, interactionLoops, laws, notConservative, stiffnessesPerArea
 from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
@@ -156,10 +156,7 @@ def energy(scene):
 	"""damping and energy"""
 	models = scene.values('contactModel')
 	if 'conservative' in models and _stiffnessPerArea(scene):
-		return (
-			'the conservative contact with stiffnesses per area',
-			'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
-		)
+		return notConservative
 	if 'paper' not in models:
 		return 'the conservative contact: energy is conserved to the error of the time step', ''
 	local = scene.newton.damping if scene.newton else 0
@@ -180,8 +177,7 @@ def _stiffnessPerArea(scene):
 	joints = [contact.phys for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)]
 	if joints:
 		return any(joint.normalStiffness > 0 for joint in joints)
-	makers = (functor for loop in interactionLoops() for functor in loop.physDispatcher.functors)
-	return any(getattr(functor, 'stiffnessPerArea', False) for functor in makers)
+	return stiffnessesPerArea(interactionLoops())
 
 
 def cohesion(scene):

@@ -61,7 +61,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 	:param float timedSeconds: of each process [s]; 0: the times are means over the steps that measure() itself takes, since it last
 	    made new engines (O.loadTmp does)
 	:param float timeLimit: after which a process is stopped and its row says so [s]
-	:returns: a :yref:`TradeoffTable` with show(), csv(path), plot(path), front(), against(reference). A row whose answer is not a number,
+	:returns: a *TradeoffTable* with show(), csv(path), plot(path), front(), against(reference). A row whose answer is not a number,
 	    or whose scene blew up (see TradeoffTable), or whose setting was not in effect, says so and is never on the front
 	:raises ValueError: naming the argument: functions that cannot be found by another process (lambdas, functions within functions),
 	    a reference that is no setting (or of another length than the first answer), an unknown precision, a time step that is not above 0

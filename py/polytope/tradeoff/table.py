@@ -66,7 +66,7 @@ class Row:
 
 
 class TradeoffTable:
-	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see :yref:`Row`.
+	"""What polytope.tradeoff() returns: *rows* in the order of the settings, see *Row*.
 
 	Two kinds of answer do not count, and their row's *note* says why: one that is not a number (nan, inf), and one of a scene that blew up.
 	That is judged by the kinetic energy after measure() against the energy before it and the work of gravity (energy.py): a

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is wrong with a scene before its first step, each with the remedy: `polytope.check(O)`."""
+
+from ..requirements import Finding
+from .bodies import bodyFindings
+from .engines import engineFindings
+from .pairs import pairFindings
+from .scene import SceneToCheck
+from .steps import stepFindings
+
+__all__ = ['Check', 'check', 'checkOf']
+
+
+class Check(list):
+	"""What polytope.check() returns: a list of findings (`what`, `seen`, `advice`), empty where nothing is wrong. Printing it shows all."""
+
+	def __getitem__(self, what):
+		"""The finding of that name, or of that place in the list."""
+		if not isinstance(what, str):
+			return super().__getitem__(what)
+		for finding in self:
+			if finding.what == what:
+				return finding
+		raise KeyError(f'{what!r} was not found; there are {[finding.what for finding in self]}')
+
+	def __repr__(self):
+		if not self:
+			return 'nothing was found that is wrong'
+		return '\n'.join(f'{finding.what}: {finding.seen}\n\t{finding.advice}' for finding in self)
+
+
+def check(O):
+	"""Checks the present scene for what is wrong before the first step. Most of it YADE would not tell.
+
+	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
+	apply forces as for spheres, functors of one loop that disagree in contactModel, conservative contacts with stiffness per area, polygons
+	that meet what they cannot touch, density, mass and size of bodies, stiffnesses too low for the loads, attributes that nothing reads,
+	the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's collider
+	does not notice.
+
+	It reads, and changes nothing. What a scene in motion needs, and what it pays for without using it, tells polytope.requirements(O). That
+	nothing was found does not mean that the scene is what you meant. What PyRunner does is not seen.
+
+	:param O: yade.O
+	:returns: *Check*, a list of findings, empty where nothing is wrong: ``print(polytope.check(O))``
+	:raises ValueError: naming *O* if it is not yade.O, or the simulation is running
+	"""
+	return checkOf(O, None)
+
+
+def checkOf(O, engines):
+	"""The same of the scene with other engines; None: its own."""
+	scene = SceneToCheck(O, engines)
+	found = [*engineFindings(scene), *pairFindings(scene), *bodyFindings(scene), *stepFindings(scene)]
+	return Check(Finding(*one) for one in found)

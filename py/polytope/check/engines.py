@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of O.engines and of the settings of functors, of polytope.check(). Each yields (what, seen, advice)."""
+
+from yade import ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom
+
+from .._scene import notConservative, stiffnessesPerArea
+
+__all__ = ['engineFindings']
+
+
+def engineFindings(scene):
+	for one in (missing, order, contactModels, conservativeWithArea):
+		yield from one(scene)
+
+
+def missing(scene):
+	"""Engines without which nothing touches or nothing moves."""
+	if not any(scene.moves(body) for body in scene.bodies):
+		return
+	if not scene.loops:
+		yield 'engines', 'O.engines has no InteractionLoop: bodies pass through each other', 'O.engines = polytope.engines()'
+	elif not scene.colliders:
+		yield (
+			'engines',
+			'O.engines has no collider: no pair is ever found',
+			'put PolytopeCollider([Bo1_Polytope_Aabb(), …]) before the InteractionLoop',
+		)
+	if not scene.integrators:
+		yield (
+			'engines',
+			'O.engines has no NewtonIntegrator: nothing moves',
+			'put NewtonIntegrator(gravity=(0, 0, -9.81)) after the InteractionLoop',
+		)
+	if not scene.those(ForceResetter):
+		yield 'engines', 'O.engines has no ForceResetter: forces add up from step to step', 'put ForceResetter() first'
+
+
+def order(scene):
+	"""From a ForceResetter on, and round to the first engine again, the loop must come before the integrator."""
+	resetters = scene.those(ForceResetter)
+	if not resetters or not scene.loops or not scene.integrators:
+		return
+	start = scene.engines.index(resetters[0])
+	after = scene.engines[start + 1 :] + scene.engines[:start]
+	if after.index(scene.loops[0]) > after.index(scene.integrators[0]):
+		where = 'between the InteractionLoop and the NewtonIntegrator: it erases the contact forces before they act'
+		yield (
+			'order of engines',
+			f'ForceResetter is {where}',
+			'put ForceResetter first in O.engines, then collider, InteractionLoop, NewtonIntegrator',
+		)
+
+
+def contactModels(scene):
+	"""The sphere's functor has one contact, whatever its contactModel."""
+	for loop in scene.loops:
+		models = {}
+		for functor in loop.geomDispatcher.functors:
+			if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and not isinstance(functor, Ig2_Sphere_Polytope_PolytopeGeom):
+				models.setdefault(functor.contactModel, []).append(type(functor).__name__)
+		if len(models) > 1:
+			seen = '; '.join(f'{model!r} in {", ".join(names)}' for model, names in models.items())
+			yield (
+				'contactModel',
+				f'contact functors of one loop differ: {seen}',
+				'give all of them the same contactModel (settings are not shared)',
+			)
+
+
+def conservativeWithArea(scene):
+	for loop in scene.loops:
+		functors = [one for one in loop.geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)]
+		if any(one.contactModel == 'conservative' for one in functors) and stiffnessesPerArea([loop]):
+			yield 'damping and energy', *notConservative

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Data of a scene that several checks of polytope.check() need."""
+
+import collections
+import itertools
+
+import yade
+from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
+
+__all__ = ['Kind', 'SceneToCheck']
+
+Kind = collections.namedtuple('Kind', 'shape variant material')
+"""Bodies that the dispatchers treat alike: name of the shape's class, dimension of a polytope or axis of a wall, name of the
+material's class."""
+
+Member = collections.namedtuple('Member', 'mask moving clump')
+
+
+class SceneToCheck:
+	def __init__(self, O, engines=None):
+		if not isinstance(O, type(yade.O)):
+			raise ValueError(f'O: must be yade.O, got {O!r}')
+		if O.running:
+			raise ValueError('O: is running; O.pause() first')
+		self.O, self.ownEngines = O, engines is None
+		self.engines = [engine for engine in (O.engines if engines is None else engines) if not engine.dead]
+		self.loops = self.those(InteractionLoop)
+		self.colliders = self.those(InsertionSortCollider)
+		self.integrators = self.those(NewtonIntegrator)
+		self.bodies = [body for body in O.bodies if body is not None and body.shape is not None and not body.isClump]
+		self.kinds, self.examples = self._kinds()
+
+	def those(self, *classes):
+		return [engine for engine in self.engines if isinstance(engine, classes)]
+
+	def moves(self, body):
+		"""Whether forces move it: a member of a clump moves with the clump."""
+		return (self.O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
+
+	def gravity(self):
+		"""Largest of the integrators [m/s²]."""
+		return max((float(sum(x * x for x in engine.gravity)) ** 0.5 for engine in self.integrators), default=0.0)
+
+	def _kinds(self):
+		"""(kind → its different members with how many of each there are, kind → one body)."""
+		kinds, examples = {}, {}
+		for body in self.bodies:
+			shape = body.shape
+			variant = shape.dimension if isinstance(shape, Polytope) else shape.axis if isinstance(shape, Wall) else None
+			kind = Kind(type(shape).__name__, variant, type(body.material).__name__)
+			member = Member(body.mask, self.moves(body), body.clumpId if body.isClumpMember else None)
+			kinds.setdefault(kind, collections.Counter())[member] += 1
+			examples.setdefault(kind, body)
+		return kinds, examples
+
+	def meetings(self):
+		"""Pairs of kinds that contain two bodies which can touch: not both held, not of one clump, with a bit of the masks in common."""
+		return [pair for pair in itertools.combinations_with_replacement(self.kinds, 2) if self._canMeet(*pair)]
+
+	def _canMeet(self, one, other):
+		avoid = self.colliders[0].avoidSelfInteractionMask if self.colliders else 0
+		for a, b in itertools.product(self.kinds[one], self.kinds[other]):
+			alone = one == other and a == b and self.kinds[one][a] < 2
+			sameClump = a.clump is not None and a.clump == b.clump
+			if (a.moving or b.moving) and a.mask & b.mask and not a.mask & b.mask & avoid and not alone and not sameClump:
+				return True
+		return False

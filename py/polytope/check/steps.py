@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of time step and motion, of polytope.check(). Each yields (what, seen, advice)."""
+
+import math
+
+from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
+
+from ..requirements.checks import safe, usual
+from ..timeStep import safeTimeStep
+
+__all__ = ['stepFindings']
+
+
+def stepFindings(scene):
+	for one in (steppers, timeStep, farInAStep, turningUnnoticed):
+		yield from one(scene)
+
+
+def steppers(scene):
+	active = [engine for engine in scene.those(TimeStepper) if engine.active]
+	if len(active) > 1:
+		names = ' and '.join(type(engine).__name__ for engine in active)
+		yield 'time step', f'{names} both set O.dt', 'keep one of them: each overwrites the step of the other'
+	for engine in active:
+		if isinstance(engine, GlobalStiffnessTimeStepper) and not float(engine.defaultDt) > 0:
+			seen = 'GlobalStiffnessTimeStepper has no defaultDt: until the first contact O.dt is that of a wave in spheres, 1 s or so'
+			yield 'time step', seen, 'PolytopeTimeStepper() in its place, or defaultDt = 0.2 √(m/k) with the least mass'
+
+
+def timeStep(scene):
+	"""τ follows from the engines that O has: nothing is known of others."""
+	if (
+		any(engine.active for engine in scene.those(TimeStepper))
+		or not scene.ownEngines
+		or not any(scene.moves(body) for body in scene.bodies)
+	):
+		return
+	dt, remedy = float(scene.O.dt), 'put PolytopeTimeStepper() into O.engines'
+	if not 0 < dt < math.inf:
+		yield 'time step', f'O.dt is {dt:.3g} s', f'{remedy}, or set O.dt above 0'
+		return
+	limit = safeTimeStep() if scene.loops else None
+	if limit is not None and dt > safe * limit:
+		share = dt / float(limit)
+		seen = f"O.dt is {dt:.3g} s, {share:.2g} of the largest step that is stable for any heap (YADE's PWaveTimeStep is for spheres)"
+		yield 'time step', seen, f'{remedy}, or O.dt = {usual * float(limit):.2g} (polytope.stableTimeStep({usual}))'
+
+
+def farInAStep(scene):
+	"""PolytopeTimeStepper sees to it itself."""
+	if any(isinstance(engine, PolytopeTimeStepper) and engine.active for engine in scene.those(TimeStepper)):
+		return
+	fast = [body for body in scene.bodies if float(body.state.vel.norm() * scene.O.dt) > _size(body)]
+	if fast:
+		body = max(fast, key=lambda one: float(one.state.vel.norm()))
+		speed = f'body {body.id}: {float(body.state.vel.norm()):.3g} m/s × {float(scene.O.dt):.3g} s'
+		seen = f'{len(fast)} bodies move farther than their size in a step ({speed})'
+		yield 'speed', seen, 'PolytopeTimeStepper() limits the step by motion, too; or take a smaller O.dt, or mend the velocity'
+
+
+def _size(body):
+	"""What it must not move by in a step [m]; infinite for shapes without an inside."""
+	if isinstance(body.shape, Polytope):
+		return float(body.shape.inscribedRadius)
+	return float(body.shape.radius) if isinstance(body.shape, Sphere) else math.inf
+
+
+def turningUnnoticed(scene):
+	"""Boxes of bodies are made anew after translations; PolytopeCollider notices rotations of polytopes alone."""
+	if not any(float(collider.verletDist) != 0 for collider in scene.colliders):
+		return
+	driven = {key for engine in scene.those(RotationEngine) if float(engine.angularVelocity) != 0 for key in engine.ids}
+	turning = [body for body in scene.bodies if _leavesItsBox(body) and (body.id in driven or float(body.state.angVel.norm()) > 0)]
+	if turning:
+		name = type(turning[0].shape).__name__
+		seen = f'body {turning[0].id}, a {name}, turns, which the collider does not notice: it can pass through resting bodies'
+		instead = 'a thin polytope' if isinstance(turning[0].shape, Facet) else 'polytope.cuboid(…)'
+		yield 'turning bodies', seen, f'{instead} with PolytopeCollider, or verletDist=0 in the collider'
+
+
+def _leavesItsBox(body):
+	return type(body.shape).__name__ in ('Box', 'Facet')

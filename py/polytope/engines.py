@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The usual engines of a scene in one line: `polytope.engines(…)`."""
+
+import warnings
+
+import yade
+from yade import (
+	Bo1_Box_Aabb,
+	Bo1_Facet_Aabb,
+	Bo1_Polytope_Aabb,
+	Bo1_Sphere_Aabb,
+	Bo1_Wall_Aabb,
+	Collider,
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	IGeomFunctor,
+	InteractionLoop,
+	Ip2_FrictMat_FrictMat_FrictPhys,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	IPhysFunctor,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	Law2_ScGeom_FrictPhys_CundallStrack,
+	LawFunctor,
+	NewtonIntegrator,
+	O,
+	Polytope,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	RockJointMat,
+	TimeStepper,
+	Vector3,
+)
+
+from .arguments import vector
+from .check import checkOf
+from .check.scene import SceneToCheck
+
+__all__ = ['engines']
+
+usualNormalDamping, usualDamping = 0.3, 0.2
+"""Of critical in contacts; YADE's artificial damping."""
+reach = 0.1
+"""verletDist over the inscribed radius of the smallest body that can move, as polytope.requirements advises it."""
+reachOfNothing = 0.02
+"""verletDist [m] in a scene without such a body."""
+allShapes = ('Box', 'Facet', 'Polytope', 'Sphere', 'Wall')
+gravityOnEarth = 9.81
+
+
+def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, integrator=None, timeStepper=None):
+	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
+
+	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
+	and laws for its materials; NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
+	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
+
+	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
+	:param geometry: an Ig2_Polytope_Polytope_PolytopeGeom, whose settings the functors of the other pairs get, or a list of all contact
+	    functors; default the plug-in's default contact
+	:param physics: Ip2 functor or a list of them; default by the materials there are: Ip2_RockJointMat_RockJointMat_RockJointPhys() with
+	    stiffnesses per area for RockJointMat, Ip2_FrictMat_FrictMat_FrictPhys() for FrictMat
+	:param law: Law2 functor or a list of them; default Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3), and
+	    Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) where there is FrictMat, or spheres without a law of their own
+	:param collider: default PolytopeCollider with a verletDist of a tenth of the smallest moving body's inscribed radius
+	:param integrator: default NewtonIntegrator(gravity=gravity, damping=0.2)
+	:param timeStepper: default PolytopeTimeStepper(); False: none, O.dt is yours
+	:returns: list of engines
+	:raises ValueError: naming an argument that is not of its kind, and *gravity* if *integrator* is given too
+	"""
+	scene = SceneToCheck(O, [])
+	if integrator is not None and gravity is not None:
+		raise ValueError('gravity: belongs to the integrator, which is given too; set it there')
+	gravity = _usualGravity(scene) if gravity is None else vector(gravity, 'gravity')
+	loop = InteractionLoop(_geometry(scene, geometry), _physics(scene, physics), _laws(scene, law))
+	made = [
+		ForceResetter(),
+		_one(collider, Collider, 'collider') or _collider(scene),
+		loop,
+		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=usualDamping),
+	]
+	if timeStepper is not False:
+		made.append(_one(timeStepper, TimeStepper, 'timeStepper') or PolytopeTimeStepper())
+	for finding in checkOf(O, made):
+		warnings.warn(f'{finding.what}: {finding.seen}; {finding.advice}', stacklevel=2)
+	return made
+
+
+def _one(given, kind, name):
+	if given is not None and not isinstance(given, kind):
+		raise ValueError(f'{name}: must be a {kind.__name__}, got {given!r}')
+	return given
+
+
+def _several(given, kind, name):
+	functors = list(given) if isinstance(given, (list, tuple)) else [given]
+	if not functors or not all(isinstance(functor, kind) for functor in functors):
+		raise ValueError(f'{name}: must be a functor ({kind.__name__}) or a list of them, got {given!r}')
+	return functors
+
+
+def _usualGravity(scene):
+	dimensions = {body.shape.dimension for body in scene.bodies if isinstance(body.shape, Polytope)}
+	return Vector3(0, -gravityOnEarth, 0) if dimensions == {2} else Vector3(0, 0, -gravityOnEarth)
+
+
+def _collider(scene):
+	sizes = [float(body.shape.inscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)]
+	bounds = [Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb(), Bo1_Box_Aabb()]
+	return PolytopeCollider(bounds, verletDist=reach * min(sizes) if sizes else reachOfNothing)
+
+
+def _shapes(scene):
+	"""Of the scene that contacts are known for; in one without bodies all."""
+	return sorted({kind.shape for kind in scene.kinds} & set(allShapes)) or list(allShapes)
+
+
+def _geometry(scene, given):
+	"""Contact functors of all pairs of these shapes for which there are any, those of polytopes with the settings of *given*."""
+	if given is not None and type(given) is not Ig2_Polytope_Polytope_PolytopeGeom:
+		return _several(given, IGeomFunctor, 'geometry')
+	shapes = _shapes(scene)
+	settings = {key: value for key, value in given.dict().items() if key != 'label'} if given else {}
+	functors = []
+	if 'Polytope' in shapes:
+		functors.append(given or Ig2_Polytope_Polytope_PolytopeGeom())
+		functors += [getattr(yade, f'Ig2_{name}_Polytope_PolytopeGeom')(**settings) for name in shapes if name != 'Polytope']
+	if 'Sphere' in shapes:
+		functors += [getattr(yade, f'Ig2_{name}_Sphere_ScGeom')() for name in shapes if name != 'Polytope']
+	return functors
+
+
+def _physics(scene, given):
+	if given is not None:
+		return _several(given, IPhysFunctor, 'physics')
+	rock, others = _materials(scene)
+	return [Ip2_RockJointMat_RockJointMat_RockJointPhys()] * rock + [Ip2_FrictMat_FrictMat_FrictPhys()] * others
+
+
+def _laws(scene, given):
+	rock, others = _materials(scene)
+	laws = [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=usualNormalDamping)] * rock
+	if given is not None:
+		laws, others = _several(given, LawFunctor, 'law'), False
+	spheres = 'Sphere' in _shapes(scene) and all(isinstance(one, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb) for one in laws)
+	return laws + [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)] * (others or spheres)
+
+
+def _materials(scene):
+	"""(whether there are rock joints, or no bodies yet; whether there is another material)."""
+	rock = {isinstance(body.material, RockJointMat) for body in scene.bodies}
+	return True in rock or not rock, False in rock

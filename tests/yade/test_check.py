@@ -1,0 +1,470 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.check names each mistake in a scene, with the remedy, and finds nothing wrong with right scenes.
+
+Every mistake is one change of a right scene; its finding must come by that change alone.
+"""
+
+import math
+
+import pytest
+import yade
+from yade import (
+	Bo1_Box_Aabb,
+	Bo1_Facet_Aabb,
+	Bo1_Polytope_Aabb,
+	Bo1_Sphere_Aabb,
+	Bo1_Wall_Aabb,
+	ForceResetter,
+	FrictMat,
+	GlobalStiffnessTimeStepper,
+	Ig2_Box_Polytope_PolytopeGeom,
+	Ig2_Box_Sphere_ScGeom,
+	Ig2_Facet_Polytope_PolytopeGeom,
+	Ig2_Facet_Sphere_ScGeom,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	Ig2_Sphere_Sphere_ScGeom,
+	Ig2_Wall_Polytope_PolytopeGeom,
+	Ig2_Wall_Sphere_ScGeom,
+	InteractionLoop,
+	Ip2_FrictMat_FrictMat_FrictPhys,
+	Ip2_FrictMat_FrictMat_MindlinPhys,
+	Ip2_JCFpmMat_JCFpmMat_JCFpmPhys,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	JCFpmMat,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	Law2_ScGeom_FrictPhys_CundallStrack,
+	Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM,
+	Law2_ScGeom_MindlinPhys_HertzWithLinearShear,
+	Law2_ScGeom_MindlinPhys_Mindlin,
+	NewtonIntegrator,
+	O,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	RockJointMat,
+	RotationEngine,
+	polytope,
+	utils,
+)
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
+
+bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
+withPolytopes = (
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	Ig2_Wall_Polytope_PolytopeGeom,
+	Ig2_Facet_Polytope_PolytopeGeom,
+	Ig2_Box_Polytope_PolytopeGeom,
+)
+withSpheres = (Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom, Ig2_Box_Sphere_ScGeom)
+
+
+def rock(**attributes):
+	return RockJointMat(**{'density': 2600, 'normalStiffness': 1e8, 'shearStiffness': 1e8, 'frictionAngle': 0.6, **attributes})
+
+
+def scene(others=list, material=None, physics=None, laws=None):
+	"""A block above a floor, with the bodies that others() makes, and an engine for everything."""
+	O.reset()
+	O.materials.append(material or rock())
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.55), (0.5, 0.4, 0.5)))
+	O.bodies.append(others())
+	O.engines = [
+		ForceResetter(),
+		PolytopeCollider([one() for one in bounds], verletDist=0.02),
+		InteractionLoop(
+			[one() for one in (*withPolytopes, *withSpheres)],
+			physics or [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
+			laws or [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(), Law2_ScGeom_FrictPhys_CundallStrack()],
+		),
+		NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.2),
+		PolytopeTimeStepper(),
+	]
+
+
+def otherShapes():
+	return [
+		utils.sphere((0, 0, 3), 0.3),
+		utils.sphere((2, 0, 3), 0.3),
+		utils.wall((0, 0, -2), axis=2),
+		utils.facet([(-5, -5, -1), (5, -5, -1), (0, 5, -1)]),
+		utils.box((4, 0, 0), (0.1, 1, 1), fixed=True),
+	]
+
+
+def loop():
+	return O.engines[2]
+
+
+def without(functors, kind):
+	return [one for one in functors if type(one) is not kind]
+
+
+def onlyFinding(what):
+	found = polytope.check(O)
+	assert [one.what for one in found] == [what], repr(found)
+	assert found[what].seen and found[what].advice and found[what].advice in repr(found)
+	return found[what]
+
+
+# ------------------------------------------------------------------------------------------------ right scenes
+
+
+def testRightScenesGiveNothing():
+	scene()
+	assert not polytope.check(O) and 'nothing' in repr(polytope.check(O))
+	scene(otherShapes)
+	assert not polytope.check(O)
+	for _ in range(300):
+		O.step()
+	assert not polytope.check(O), 'nor with contacts'
+	FallingPolyhedra(number=20).build()
+	assert not polytope.check(O)
+
+
+def testRightSceneOfYadesMaterial():
+	scene(
+		material=FrictMat(density=2600, young=1e8),
+		physics=[Ip2_FrictMat_FrictMat_FrictPhys()],
+		laws=[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+	)
+	assert not polytope.check(O)
+	scene(
+		material=FrictMat(density=2600, young=1e8), physics=[Ip2_FrictMat_FrictMat_MindlinPhys()], laws=[Law2_ScGeom_MindlinPhys_Mindlin()]
+	)
+	assert not polytope.check(O)
+
+
+def testRightSceneOfPolygons():
+	scene()
+	O.bodies.clear()
+	O.bodies.append(polytope.polygon([(-2, -1), (2, -1), (2, 0), (-2, 0)], fixed=True))
+	O.bodies.append(polytope.polygon([(0, 0.1), (1, 0.1), (0, 1)]))
+	O.bodies.append(utils.wall((-3, 0, 0), axis=0))
+	assert not polytope.check(O)
+
+
+def testRightSceneWithAClumpAndMasks():
+	"""Members of one clump do not meet, nor do bodies without a common bit."""
+	scene()
+	O.bodies.appendClumped([polytope.cuboid((0, 0, 2), (0.2, 0.2, 0.2)), utils.sphere((0, 0, 2.2), 0.2)])
+	assert not polytope.check(O)
+	for kind in (Ig2_Sphere_Polytope_PolytopeGeom, Ig2_Sphere_Sphere_ScGeom):
+		loop().geomDispatcher.functors = without(loop().geomDispatcher.functors, kind)
+	assert polytope.check(O), 'the sphere of the clump meets floor and block'
+	for body in O.bodies:
+		if isinstance(body.shape, yade.Sphere):
+			body.mask = 2
+	assert not polytope.check(O)
+
+
+def testTheOrderOfEnginesIsARound():
+	scene()
+	O.engines = O.engines[2:4] + O.engines[:2] + O.engines[4:]
+	assert not polytope.check(O)
+
+
+# ------------------------------------------------------------------------------------------------ engines
+
+
+@pytest.mark.parametrize('missing, words', [(0, 'ForceResetter'), (1, 'collider'), (2, 'InteractionLoop'), (3, 'NewtonIntegrator')])
+def testMissingEngine(missing, words):
+	scene()
+	O.engines = O.engines[:missing] + O.engines[missing + 1 :]
+	assert f'no {words}' in onlyFinding('engines').seen
+
+
+def testForceResetterAfterTheLoop():
+	scene()
+	resetter, collider, interactions, newton, stepper = O.engines
+	O.engines = [collider, interactions, resetter, newton, stepper]
+	assert 'put ForceResetter first' in onlyFinding('order of engines').advice
+
+
+def testContactModelsThatDiffer():
+	scene(otherShapes, physics=[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)])
+	loop().geomDispatcher.functors[0].contactModel = 'conservative'
+	found = onlyFinding('contactModel')
+	assert "'conservative' in Ig2_Polytope_Polytope_PolytopeGeom" in found.seen and 'Ig2_Wall_Polytope_PolytopeGeom' in found.seen
+	for functor in loop().geomDispatcher.functors:
+		if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and not isinstance(functor, Ig2_Sphere_Polytope_PolytopeGeom):
+			functor.contactModel = 'conservative'
+	assert not polytope.check(O), 'a sphere has one contact'
+
+
+def testConservativeWithStiffnessPerArea():
+	scene()
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')]
+	assert 'stiffnessPerArea = False' in onlyFinding('damping and energy').advice
+	loop().physDispatcher.functors[0].stiffnessPerArea = False
+	assert not polytope.check(O)
+
+
+# ------------------------------------------------------------------------------------------------ pairs
+
+
+@pytest.mark.parametrize('name', ['Polytope', 'Sphere', 'Wall', 'Facet', 'Box'])
+def testMissingBound(name):
+	scene(otherShapes)
+	collider = O.engines[1]
+	collider.boundDispatcher.functors = without(collider.boundDispatcher.functors, getattr(yade, f'Bo1_{name}_Aabb'))
+	found = onlyFinding('bounds')
+	assert f'no functor for {name}' in found.seen and f'Bo1_{name}_Aabb()' in found.advice
+
+
+@pytest.mark.parametrize('kind', [*withPolytopes, *withSpheres])
+def testMissingContactFunctor(kind):
+	scene(otherShapes)
+	loop().geomDispatcher.functors = without(loop().geomDispatcher.functors, kind)
+	assert onlyFinding('contact functors').advice == f'add {kind.__name__}()'
+
+
+@pytest.mark.parametrize(
+	'name, words', [('PFacet', 'no contact with polytopes'), ('Cylinder', 'taken for a sphere'), ('GridConnection', 'taken for a sphere')]
+)
+def testShapesThatHaveNoContact(name, words):
+	scene()
+	body = utils.sphere((0, 0, 3), 0.3, fixed=True)
+	body.shape = getattr(yade, name)()
+	O.bodies.append(body)
+	O.engines[1].boundDispatcher.functors = [*O.engines[1].boundDispatcher.functors, getattr(yade, f'Bo1_{name}_Aabb')()]
+	found = onlyFinding('contact functors')
+	assert found.seen.startswith(name) and words in found.seen and 'Facets' in found.advice
+
+
+@pytest.mark.parametrize(
+	'partner, words',
+	[
+		(lambda: polytope.cuboid((5, 0, 0), (1, 1, 1), fixed=True), 'polyhedra'),
+		(lambda: utils.facet([(5, 0, 0), (6, 0, 0), (5, 1, 0)]), 'Facet'),
+		(lambda: utils.box((5, 0, 0), (1, 1, 1), fixed=True), 'Box'),
+		(lambda: utils.wall((0, 0, -1), axis=2), 'Wall along z'),
+	],
+	ids=['polyhedron', 'facet', 'box', 'wall'],
+)
+def testPolygonsThatMeetWhatTheyDoNotTouch(partner, words):
+	scene()
+	O.bodies.clear()
+	O.bodies.append([polytope.polygon([(0, 0.1), (1, 0.1), (0, 1)]), partner()])
+	found = onlyFinding('polygons')
+	assert words in found.seen and 'polytope.polygon' in found.advice
+
+
+@pytest.mark.parametrize('partner', ['wall', 'box', 'facet', 'cuboid'])
+def testPolygonsDoNotTouchThemIndeed(partner):
+	"""A polygon that overlaps one feels no force."""
+	scene()
+	O.bodies.clear()
+	floor = {
+		'wall': lambda: utils.wall((0, 0, 0.45), axis=2),
+		'box': lambda: utils.box((0, -1, 0), (3, 1.01, 1), fixed=True),
+		'facet': lambda: utils.facet([(-3, 0.01, -3), (3, 0.01, -3), (0, 0.01, 3)]),
+		'cuboid': lambda: polytope.cuboid((0, -1, 0), (3, 1.01, 1), fixed=True),
+	}
+	O.bodies.append([polytope.polygon([(0, 0), (1, 0), (0, 1)]), floor[partner]()])
+	O.step()
+	O.step()
+	assert not any(contact.isReal for contact in O.interactions)
+
+
+def testFrictMatWithThePhysicsOfRockJoints():
+	scene()
+	O.bodies[1].material = FrictMat(density=2600)
+	found = onlyFinding('materials')
+	assert 'RockJointMat and FrictMat' in found.seen and 'give all bodies a RockJointMat' in found.advice
+	scene(material=FrictMat(density=2600))
+	assert 'FrictMat and FrictMat' in onlyFinding('materials').seen
+
+
+def testLawThatIsMissing():
+	scene(laws=[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)], physics=[Ip2_FrictMat_FrictMat_MindlinPhys()])
+	loop().lawDispatcher.functors = [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()]
+	assert 'no law for PolytopeGeom and MindlinPhys' in onlyFinding('laws').seen
+
+
+def testLawOfSphericalBodies():
+	scene(material=FrictMat(density=2600), physics=[Ip2_FrictMat_FrictMat_FrictPhys()], laws=[Law2_ScGeom_FrictPhys_CundallStrack()])
+	assert onlyFinding('laws').advice == 'Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)'
+	scene(lambda: [utils.sphere((0, 0, 3), 0.3)], laws=[Law2_ScGeom_FrictPhys_CundallStrack()])
+	assert onlyFinding('laws').what, 'a rock joint between polytopes too'
+
+
+@pytest.mark.parametrize(
+	'material, physics, law',
+	[
+		(FrictMat, Ip2_FrictMat_FrictMat_MindlinPhys, Law2_ScGeom_MindlinPhys_HertzWithLinearShear),
+		(JCFpmMat, Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM),
+	],
+)
+def testLawsThatNeverToppleABody(material, physics, law):
+	scene(material=material(density=2600), physics=[physics()], laws=[law()])
+	found = onlyFinding('laws')
+	assert law.__name__ in found.seen and 'never topples' in found.seen and 'docs/making-bodies.md' in found.advice
+
+
+# ------------------------------------------------------------------------------------------------ bodies and materials
+
+
+def testNegativeDensity():
+	scene(material=rock(density=-2600))
+	found = polytope.check(O)
+	assert [one.what for one in found] == ['density', 'mass'] and '-2600' in found['density'].seen and 'mass -' in found['mass'].seen
+
+
+def testMassZero():
+	scene()
+	O.bodies[1].state.mass = 0
+	assert 'body 1 can move and has mass 0' in onlyFinding('mass').seen
+	O.bodies[1].dynamic = False
+	assert not polytope.check(O), 'one that is held needs none'
+
+
+def testInertiaZero():
+	scene()
+	O.bodies[1].state.inertia = (0, 1, 1)
+	assert 'no inertia' in onlyFinding('mass').seen
+
+
+def testMeshInMillimetres(tmp_path):
+	trimesh = pytest.importorskip('trimesh')
+	path = tmp_path / 'brick.stl'
+	trimesh.creation.box((100, 100, 100)).export(path)
+	scene()
+	O.bodies.erase(1)
+	O.bodies.append(polytope.fromMesh(path))
+	found = onlyFinding('size')
+	assert '100 m across and weighs 2.6e+09 kg' in found.seen and 'scale=0.001' in found.advice
+	scene()
+	O.bodies.append([polytope.fromMesh(path, scale=0.001), polytope.fromMesh(path, scale=0.001)])
+	assert not polytope.check(O)
+	scene()
+	O.bodies.erase(1)
+	O.bodies.append([polytope.cuboid((0, 0, k), (0.01, 0.01, 0.01)) for k in range(3)] + [polytope.cuboid((20, 0, 0), (5, 5, 5))])
+	assert '10 m across' in onlyFinding('size').seen, 'grains of 2 cm beside one of 10 m'
+
+
+def testStiffnessPerContactWithStiffnessPerArea():
+	scene(material=rock(normalStiffness=1e5))
+	O.bodies.erase(1)
+	O.bodies.append(polytope.cuboid((0, 0, 0.02), (0.02, 0.02, 0.02)))
+	found = onlyFinding('stiffness')
+	assert '1e+05 Pa/m' in found.seen and 'meant in N/m' in found.advice and 'stiffnessPerArea=False' in found.advice
+	loop().physDispatcher.functors[0].stiffnessPerArea = False
+	assert not polytope.check(O)
+
+
+def testStiffnessTooLowForTheSpeed():
+	scene(material=rock(normalStiffness=1e6))
+	O.engines[3].gravity = (0, 0, 0)
+	assert not polytope.check(O)
+	O.bodies[1].state.vel = (0, 0, -10)
+	assert 'sinks in by' in onlyFinding('stiffness').seen
+
+
+def testYoungThatNothingReads():
+	scene(material=rock(young=5e7))
+	assert 'young of RockJointMat' in onlyFinding('elastic constants').seen
+	loop().physDispatcher.functors = [*loop().physDispatcher.functors, Ip2_FrictMat_FrictMat_FrictPhys()]
+	assert not polytope.check(O)
+
+
+# ------------------------------------------------------------------------------------------------ time step and motion
+
+
+def ownTimeStep(dt):
+	O.engines = O.engines[:-1]
+	O.dt = dt
+
+
+def testTimeStepAboveTheStableOne():
+	scene()
+	ownTimeStep(1)
+	limit = polytope.stableTimeStep(1)
+	O.dt = 0.99 * limit
+	assert not polytope.check(O)
+	O.dt = 3 * limit
+	found = onlyFinding('time step')
+	assert '3 of the largest' in found.seen and 'PolytopeTimeStepper()' in found.advice
+
+
+def testTimeStepOfAPWave():
+	scene()
+	ownTimeStep(0.5 * utils.PWaveTimeStep())
+	found = onlyFinding('time step')
+	assert 'O.dt is 0.5 s' in found.seen and 'PWaveTimeStep is for spheres' in found.seen
+
+
+@pytest.mark.parametrize('dt', [0, math.nan])
+def testTimeStepThatIsNone(dt):
+	scene()
+	ownTimeStep(dt)
+	assert 'above 0' in onlyFinding('time step').advice
+
+
+def testGlobalStiffnessTimeStepperWithoutItsDefault():
+	scene()
+	O.engines = O.engines[:-1] + [GlobalStiffnessTimeStepper()]
+	assert 'no defaultDt' in onlyFinding('time step').seen
+	O.engines[-1].defaultDt = 1e-4
+	assert not polytope.check(O)
+	O.engines = O.engines + [PolytopeTimeStepper()]
+	assert 'both set O.dt' in onlyFinding('time step').seen
+
+
+def testBodyThatMovesFartherThanItsSizeInAStep():
+	"""With a stable step such a speed is more than the stiffness can stop, too."""
+	scene(material=rock(normalStiffness=1e12))
+	ownTimeStep(1e-5)
+	O.bodies[1].state.vel = (0, 0, 3e4)
+	assert [one.what for one in polytope.check(O)] == ['stiffness']
+	O.bodies[1].state.vel = (0, 0, 5e4)
+	found = polytope.check(O)
+	assert [one.what for one in found] == ['stiffness', 'speed'] and 'body 1: 5e+04 m/s' in found['speed'].seen
+
+
+@pytest.mark.parametrize('shape', ['box', 'facet'])
+def testBladeThatTurnsInPlace(shape):
+	facet = [(-1, 0, 3), (1, 0, 3), (0, 0, 4)]
+	scene(lambda: [utils.box((0, 0, 3), (0.3, 0.01, 0.05), fixed=True) if shape == 'box' else utils.facet(facet)])
+	assert not polytope.check(O)
+	O.engines = O.engines[:3] + [RotationEngine(ids=[2], angularVelocity=1.5, rotationAxis=(0, 0, 1))] + O.engines[3:]
+	assert 'body 2' in onlyFinding('turning bodies').seen
+	O.engines[1].verletDist = 0
+	assert not polytope.check(O)
+	O.engines[1].verletDist = 0.02
+	O.engines = O.engines[:3] + O.engines[4:]
+	O.bodies[2].state.angVel = (0, 0, 1)
+	assert 'verletDist=0' in onlyFinding('turning bodies').advice
+
+
+# ------------------------------------------------------------------------------------------------ itself
+
+
+def testItChangesNothing():
+	scene(otherShapes)
+	for _ in range(20):
+		O.step()
+	before = O.saveTmp('before', quiet=True), [(*body.state.pos, *body.state.vel) for body in O.bodies], O.iter, O.dt
+	polytope.check(O)
+	assert before[1:] == ([(*body.state.pos, *body.state.vel) for body in O.bodies], O.iter, O.dt)
+
+
+def testEmptyScene():
+	O.reset()
+	assert not polytope.check(O)
+
+
+def testRefusals():
+	for wrong in (None, 1, 'O'):
+		with pytest.raises(ValueError, match='O: must be yade.O'):
+			polytope.check(wrong)
+	scene()
+	with pytest.raises(KeyError, match='nothing of the sort'):
+		polytope.check(O)['nothing of the sort']
+	O.run(10**6)
+	try:
+		with pytest.raises(ValueError, match='is running'):
+			polytope.check(O)
+	finally:
+		O.pause()

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.engines: the usual loop for whatever the scene has, each part replaceable, and what is wrong is warned of."""
+
+import warnings
+
+import pytest
+from yade import (
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	FrictMat,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InsertionSortCollider,
+	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	NewtonIntegrator,
+	O,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	RockJointMat,
+	polytope,
+	utils,
+)
+
+rock = {'density': 2600, 'normalStiffness': 1e8, 'shearStiffness': 1e8, 'frictionAngle': 0.6}
+
+
+@pytest.fixture(autouse=True)
+def warningsAreErrors():
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		yield
+
+
+def blockOnFloor(others=list, material=None):
+	O.materials.append(material or RockJointMat(**rock))
+	O.bodies.append([polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True), polytope.cuboid((0, 0, 0.51), (0.5, 0.4, 0.5))])
+	O.bodies.append(others())
+
+
+def names(functors):
+	return sorted(type(functor).__name__ for functor in functors)
+
+
+def settle(seconds):
+	while O.time < seconds:
+		O.step()
+
+
+def testBlockComesToRest():
+	blockOnFloor()
+	O.engines = polytope.engines()
+	settle(1)
+	contact = O.interactions[0, 1]
+	assert contact.phys.normalForce.norm() == pytest.approx(9.81 * O.bodies[1].state.mass, rel=1e-6)
+	assert names(O.engines[2].geomDispatcher.functors) == ['Ig2_Polytope_Polytope_PolytopeGeom'], 'what the scene has, and no more'
+	assert O.engines[1].verletDist == pytest.approx(0.04)
+
+
+def testEveryShapeIsMet():
+	"""Blocks and spheres on a wall, a box, facets and each other: nothing falls through."""
+	blockOnFloor()
+	O.bodies.append([utils.wall((0, 0, -3), axis=2), utils.box((8, 0, -0.5), (2, 2, 0.5), fixed=True)])
+	O.bodies.append([utils.facet([(-12, -6, 0), (-4, -6, 0), (-8, 6, 0)])])
+	places = [(8, 0), (-8, -2), (0, 5)]
+	O.bodies.append([polytope.cuboid((x, y, 0.51 if y < 5 else -2.49), (0.5, 0.4, 0.5)) for x, y in places])
+	O.bodies.append([utils.sphere((x + 1.2, y, 0.41 if y < 5 else -2.59), 0.4) for x, y in places])
+	O.bodies.append([utils.sphere((0, 0, 1.42), 0.4), utils.sphere((9.2, 0, 1.22), 0.4)])
+	O.engines = polytope.engines(integrator=NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.6))
+	assert not polytope.check(O)
+	settle(0.5)
+	for body in (one for one in O.bodies if one.dynamic):
+		assert body.state.pos[2] > (-3 if body.state.pos[1] > 4 else -0.51), body.id
+	assert {type(one.geom).__name__ for one in O.interactions if one.isReal} == {'PolytopeGeom', 'ScGeom'}
+
+
+def testFunctorsFollowMaterials():
+	blockOnFloor(material=FrictMat(density=2600, young=1e8))
+	loop = polytope.engines()[2]
+	assert names(loop.physDispatcher.functors) == ['Ip2_FrictMat_FrictMat_FrictPhys']
+	assert not loop.lawDispatcher.functors[0].sphericalBodies
+	O.bodies[1].material = RockJointMat(**rock)
+	O.engines = polytope.engines()
+	assert names(O.engines[2].physDispatcher.functors) == ['Ip2_FrictMat_FrictMat_FrictPhys', 'Ip2_RockJointMat_RockJointMat_RockJointPhys']
+	settle(0.2)
+	assert O.bodies[1].state.pos[2] > 0.48, 'a block of one material rests on a floor of the other'
+
+
+def testPolygonsFallAlongY():
+	O.materials.append(RockJointMat(**rock))
+	O.bodies.append(polytope.polygon([(0, 0.1), (1, 0.1), (0, 1)]))
+	assert list(polytope.engines()[3].gravity) == [0, -9.81, 0]
+	assert list(polytope.engines(gravity=(1, 2, 0))[3].gravity) == [1, 2, 0]
+
+
+def testSceneWithoutBodiesGetsAllPairs():
+	loop = polytope.engines()[2]
+	assert len(loop.geomDispatcher.functors) == 9 and len(loop.lawDispatcher.functors) == 2
+
+
+def testEveryPartIsReplaceable():
+	blockOnFloor()
+	physics, law = (
+		Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False),
+		Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.7),
+	)
+	collider, integrator = InsertionSortCollider([Bo1_Polytope_Aabb()]), NewtonIntegrator(damping=0.1)
+	stepper = PolytopeTimeStepper(maxDt=1e-4)
+	made = polytope.engines(physics=physics, law=law, collider=collider, integrator=integrator, timeStepper=stepper)
+	assert [type(one) for one in made] == [ForceResetter, InsertionSortCollider, InteractionLoop, NewtonIntegrator, PolytopeTimeStepper]
+	assert not made[2].physDispatcher.functors[0].stiffnessPerArea and made[2].lawDispatcher.functors[0].normalDamping == 0.7
+	assert made[3].damping == 0.1 and made[4].maxDt == 1e-4
+	assert isinstance(polytope.engines()[1], PolytopeCollider)
+	assert len(polytope.engines(timeStepper=False)) == 4
+
+
+def testSettingsGoToAllPairs():
+	blockOnFloor(lambda: [utils.wall((0, 0, -3), axis=2), utils.sphere((0, 0, 2), 0.3)])
+	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative', barrier=0.01)
+	made = polytope.engines(geometry=geometry, physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+	mixed = [one for one in made[2].geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)]
+	assert len(mixed) == 3 and all(one.contactModel == 'conservative' and one.barrier == 0.01 for one in mixed)
+	O.bodies.erase(3)
+	wall = next(one for one in mixed if 'Wall' in type(one).__name__)
+	ofAList = polytope.engines(geometry=[geometry, wall], physics=made[2].physDispatcher.functors[0])
+	assert len(ofAList[2].geomDispatcher.functors) == 2
+
+
+def testALawForPolytopesLeavesSpheresTheirs():
+	blockOnFloor(lambda: [utils.sphere((0, 0, 2), 0.3), utils.sphere((0, 0, 3), 0.3)])
+	laws = polytope.engines(law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.1))[2].lawDispatcher.functors
+	assert names(laws) == ['Law2_PolytopeGeom_RockJointPhys_MohrCoulomb', 'Law2_ScGeom_FrictPhys_CundallStrack']
+	assert laws[0].normalDamping == 0.1
+
+
+def testWhatIsWrongIsWarnedOf():
+	blockOnFloor()
+	O.bodies[1].state.mass = 0
+	with pytest.warns(UserWarning, match='mass: body 1 can move and has mass 0'):
+		polytope.engines()
+	O.reset()
+	blockOnFloor()
+	with pytest.warns(UserWarning, match='conservative contact with stiffnesses per area'):
+		polytope.engines(geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative'))
+
+
+@pytest.mark.parametrize('name', ['geometry', 'physics', 'law', 'collider', 'integrator', 'timeStepper', 'gravity'])
+def testRefusals(name):
+	blockOnFloor()
+	with pytest.raises(ValueError, match=f'{name}: must be'):
+		polytope.engines(**{name: ForceResetter()})
+
+
+def testGravityBelongsToOneOfThem():
+	with pytest.raises(ValueError, match='gravity: belongs to the integrator'):
+		polytope.engines(gravity=(0, 0, -1), integrator=NewtonIntegrator())

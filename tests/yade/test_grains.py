@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Random grains have the extents asked for, a sample meets its sieve curve, and bodies of a cloud are inside the box and apart."""
+
+import math
+import sys
+import time
+
+import numpy as np
+import pytest
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
+
+grainsModule = sys.modules['yade.polytope.grains']  # the package has a function of this name
+
+
+@pytest.fixture(autouse=True)
+def material():
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6))
+
+
+def corners(body):
+	return np.array([body.state.pos + body.state.ori * corner for corner in body.shape.vertices], float)
+
+
+@pytest.mark.parametrize('vertices', [4, 8, 14, 60])
+@pytest.mark.parametrize('elongation, flatness', [(1, 1), (0.5, 0.3)])
+def testExtentsOfAGrain(vertices, elongation, flatness):
+	for seed in range(5):
+		grain = polytope.randomGrain(0.02, elongation, flatness, vertices, seed)
+		assert np.ptp(corners(grain), axis=0) == pytest.approx([0.02 / elongation, 0.02, 0.02 * flatness], rel=1e-12)
+		assert len(grain.shape.vertices) == vertices, 'all lie on an ellipsoid'
+
+
+def testSeedDecides():
+	one, same, other = (polytope.randomGrain(1, seed=seed).shape for seed in (1, 1, 2))
+	assert list(one.vertices) == list(same.vertices) != list(other.vertices)
+	assert polytope.randomGrain(1).shape.volume != polytope.randomGrain(1).shape.volume
+
+
+def testGrainIsABodyLikeOthers():
+	grain = polytope.randomGrain(0.1, fixed=True, center=(1, 2, 3), color=(1, 0, 0))
+	assert list(grain.state.pos) == [1, 2, 3] and not grain.dynamic and list(grain.shape.color) == [1, 0, 0]
+
+
+curve = [(0.002, 0), (0.004, 0.15), (0.008, 0.5), (0.016, 1)]
+
+
+def sieved(monkeypatch, *arguments, **named):
+	"""(sizes that grains were made with, masses): extents along y when a grain is made, before it is turned."""
+	sizes, make = [], grainsModule.fromVertices
+	monkeypatch.setattr(
+		grainsModule, 'fromVertices', lambda points, **body: sizes.append(np.ptp(points, axis=0)[1]) or make(points, **body)
+	)
+	sample = polytope.grains(*arguments, **named)
+	return np.array(sizes), np.array([float(body.state.mass) for body in sample]), sample
+
+
+@pytest.mark.parametrize('mass, shape', [(0.05, {}), (0.3, {'elongation': (0.6, 1), 'flatness': (0.4, 0.8)}), (0.3, {'vertices': 8})])
+def testSampleMeetsItsSieveCurve(mass, shape, monkeypatch):
+	sizes, masses, sample = sieved(monkeypatch, curve, mass, seed=1, **shape)
+	assert len(sample) > 100 and masses.sum() == pytest.approx(mass, rel=0.01)
+	for opening, passing in curve:
+		assert masses[sizes <= opening * (1 + 1e-9)].sum() / mass == pytest.approx(passing, abs=0.01)
+	between = math.sqrt(0.004 * 0.008)
+	assert masses[sizes < between].sum() / mass == pytest.approx(0.325, abs=0.04), 'a straight line over the logarithm of the size'
+
+
+def testOrientationsAreRandom():
+	sample = polytope.grains([(0.01, 0), (0.012, 1)], 2, elongation=0.5, flatness=0.5, seed=1)
+	longest = []
+	for body in sample:
+		points = corners(body)
+		longest.append(np.linalg.eigh(np.cov(points.T))[1][:, 2] ** 2)
+	assert len(sample) > 300 and np.mean(longest, axis=0) == pytest.approx([1 / 3] * 3, abs=0.05)
+
+
+def testNumbersFollowTheMasses():
+	sample = polytope.grains([(0.01, 0), (0.02, 1)], 5, seed=2)
+	masses = sorted(float(body.state.mass) for body in sample)
+	half = np.searchsorted(np.cumsum(masses), sum(masses) / 2)
+	assert len(masses) > 300 and half > 0.7 * len(masses), 'half of the mass is in few large grains'
+
+
+def testTooFewGrainsForTheCurveAreRefused():
+	with pytest.raises(ValueError, match='mass: .* too few grains'):
+		polytope.grains(curve, 0.001, seed=1)
+
+
+def testHundredThousandGrainsAMinute():
+	"""Time of a processor for 300, three of a thousand."""
+	began = time.process_time()
+	sample = polytope.grains([(0.009, 0), (0.01, 1)], 0.36, seed=1)
+	assert len(sample) > 250
+	assert (time.process_time() - began) / len(sample) < 60 / 1e5
+
+
+# ------------------------------------------------------------------------------------------------ cloud
+
+
+def testCloudIsInsideAndApart():
+	bodies = polytope.cloud((0, 0, 0), (0.1, 0.1, 0.15), polytope.grains([(0.004, 0), (0.03, 1)], 0.8, elongation=(0.5, 1), seed=1), seed=1)
+	everywhere = np.concatenate([corners(body) for body in bodies])
+	assert (everywhere >= 0).all() and (everywhere <= (0.1, 0.1, 0.15)).all()
+	places = np.array([body.state.pos for body in bodies], float)
+	reach = np.array([np.linalg.norm(np.array(body.shape.vertices, float), axis=1).max() for body in bodies])
+	near = 0
+	for k, body in enumerate(bodies):
+		for j in np.nonzero(np.linalg.norm(places[:k] - places[k], axis=1) < reach[:k] + reach[k])[0]:
+			near += 1
+			assert not polytope.contact(body, bodies[j]).inContact
+	assert near > 100, 'bodies are nearer than their balls'
+	assert all(body.state.refPos == body.state.pos for body in bodies)
+
+
+def testCloudThatIsTooDense():
+	sample = polytope.grains([(0.009, 0), (0.01, 1)], 0.36, seed=1)
+	with pytest.raises(ValueError, match=f'upper: .* of {len(sample)} bodies'):
+		polytope.cloud((0, 0, 0), (0.06, 0.06, 0.06), sample, seed=1)
+	with pytest.raises(ValueError, match='upper: the box is smaller'):
+		polytope.cloud((0, 0, 0), (0.06, 0.06, 0.001), sample)
+
+
+def testCloudFallsAndComesToRest():
+	O.bodies.append(polytope.plates((0, 0, 0), (0.06, 0.06, 0.2), without='+z'))
+	O.bodies.append(polytope.cloud((0, 0, 0), (0.06, 0.06, 0.15), polytope.grains([(0.012, 0), (0.02, 1)], 0.1, seed=3), seed=3))
+	O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+	O.materials[0].normalStiffness = O.materials[0].shearStiffness = 1e5
+	while O.time < 0.4:
+		O.step()
+	grains = [body for body in O.bodies if body.dynamic]
+	assert all(0 < body.state.pos[2] < 0.1 for body in grains) and max(body.state.vel.norm() for body in grains) < 0.1
+
+
+@pytest.mark.parametrize(
+	'build, name',
+	[
+		(lambda: polytope.randomGrain(0), 'size'),
+		(lambda: polytope.randomGrain(1, elongation=1.1), 'elongation'),
+		(lambda: polytope.randomGrain(1, flatness=0), 'flatness'),
+		(lambda: polytope.randomGrain(1, vertices=3), 'vertices'),
+		(lambda: polytope.grains([(1, 0)], 1), 'curve'),
+		(lambda: polytope.grains([(2, 0), (1, 1)], 1), 'curve'),
+		(lambda: polytope.grains([(1, 0.1), (2, 1)], 1), 'curve'),
+		(lambda: polytope.grains([(1, 0), (2, 100)], 1), 'curve'),
+		(lambda: polytope.grains(7, 1), 'curve'),
+		(lambda: polytope.grains(curve, -1), 'mass'),
+		(lambda: polytope.grains(curve, 1, elongation=(1, 0.5)), 'elongation'),
+		(lambda: polytope.cloud((0, 0, 0), (1, 1, 1), [1]), 'bodies'),
+		(lambda: polytope.cloud((0, 0, 0), (1, 1), []), 'upper'),
+	],
+)
+def testRefusals(build, name):
+	with pytest.raises(ValueError, match=f'^{name}: '):
+		build()
+
+
+def testUnknownArgument():
+	with pytest.raises(TypeError, match="^grains: there is no argument 'colour'"):
+		polytope.grains(curve, 1, colour=1)
