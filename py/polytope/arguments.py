@@ -35,6 +35,17 @@ def vectors(rows, name, length):
 	return _polytope.vectors(rows, name, length, real)
 
 
+def rows(values, name, length):
+	"""The same as lists of numbers, to compute with."""
+	try:
+		found = [[real(x) for x in row] for row in values]
+	except (TypeError, ValueError):
+		raise ValueError(f'{name}: must be a sequence of {length}-vectors') from None
+	if any(len(row) != length for row in found):
+		raise ValueError(f'{name}: every row must have {length} components')
+	return found
+
+
 def vector(value, name):
 	try:
 		x, y, z = value

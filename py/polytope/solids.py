@@ -11,7 +11,7 @@ import os
 import numpy as np
 from yade import Quaternion, Vector3
 
-from .arguments import number, rotation, vector, vectors
+from .arguments import number, rotation, rows, vector
 from .bodies import builder, cuboid, fromVertices, readMesh
 
 __all__ = ['frustum', 'plates', 'prism', 'terrain', 'tube']
@@ -31,7 +31,7 @@ def prism(points2d, height, **body):
 	:param float height: [m]
 	:raises ValueError: naming *points2d* or *height*
 	"""
-	height, outline = _positive(height, 'height'), vectors(points2d, 'points2d', 2)
+	height, outline = _positive(height, 'height'), rows(points2d, 'points2d', 2)
 	try:
 		return fromVertices([(x, y, z) for x, y in outline for z in (0, height)], **body)
 	except ValueError as error:
@@ -130,7 +130,7 @@ def terrain(heights, spacing=None, depth=None, origin=(0, 0), **body):
 	if isinstance(heights, (str, os.PathLike)):
 		points, triangles = (np.array(part) for part in readMesh(heights, 'heights'))
 	else:
-		points, triangles = _ofHeights(heights, _positive(spacing, 'spacing'), vectors([origin], 'origin', 2)[0])
+		points, triangles = _ofHeights(heights, _positive(spacing, 'spacing'), rows([origin], 'origin', 2)[0])
 	extent = float(np.ptp(points[:, :2], axis=0).max())
 	base = points[:, 2].min() - (thicknessFraction * extent if depth is None else _positive(depth, 'depth'))
 	made = []

@@ -12,9 +12,9 @@ import numbers
 
 import numpy as np
 import scipy.spatial
-from yade import Vector3, _polytope
+from yade import _polytope
 
-from .arguments import flag, numbersOf, vectors
+from .arguments import flag, numbersOf, rows, vectors
 
 __all__ = ['VoronoiCells', 'voronoi']
 
@@ -73,7 +73,7 @@ def voronoi(region, cells=None, periodic=False, relaxed=0, seeds=None, seed=None
 
 
 def _volume(normals, offsets):
-	return float(_polytope.polyhedron([Vector3(*row) for row in normals.tolist()], offsets.tolist())['volume'])
+	return float(_polytope.polyhedron(vectors(normals, 'normals', 3), offsets.tolist())['volume'])
 
 
 def _region(region):
@@ -88,8 +88,8 @@ def _region(region):
 			raise ValueError(f'region: upper must be above lower, and both finite, got {region!r}')
 		return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([second, -first]), first, second
 	try:
-		rows, numbers_ = vectors(first.tolist(), 'region', 3), numbersOf(second.tolist(), 'region')
-		corners = np.array(_polytope.polyhedron(rows, numbers_)['vertices'], float)
+		given = vectors(first, 'region', 3), numbersOf(second.tolist(), 'region')
+		corners = np.array(_polytope.polyhedron(*given)['vertices'], float)
 	except (ValueError, TypeError) as error:
 		raise ValueError(f'region: makes no convex body ({error})') from None
 	lengths = np.linalg.norm(first, axis=1)
@@ -109,7 +109,7 @@ def _random(cells, normals, offsets, lower, upper, seed):
 
 
 def _own(seeds, normals, offsets, extent):
-	points = np.array([[float(x) for x in row] for row in vectors(seeds, 'seeds', 3)])
+	points = np.array([[float(x) for x in row] for row in rows(seeds, 'seeds', 3)])
 	if not len(points) or not np.isfinite(points).all() or not (points @ normals.T < offsets).all():
 		raise ValueError('seeds: must be finite points inside the region')
 	if len(points) > 1 and scipy.spatial.cKDTree(points).query(points, k=2)[0][:, 1].min() <= atOnce * extent.max():
@@ -134,7 +134,7 @@ def _cells(points, normals, offsets, corners, box):
 		unit = between / distances[:, None]
 		middles = np.einsum('ij,ij->i', unit, (point + images[neighbours[k]]) / 2)
 		planes, ends = np.vstack([unit, outer[0]]), np.concatenate([middles, outer[1]])
-		made = _polytope.polyhedron([Vector3(*row) for row in planes.tolist()], ends.tolist())
+		made = _polytope.polyhedron(vectors(planes, 'normals', 3), ends.tolist())
 		blocks.append(([tuple(normal) for normal in made['normals']], list(made['offsets'])))
 		volumes[k], centroids[k] = float(made['volume']), np.array(made['centroid'], float)
 	return blocks, volumes, centroids
