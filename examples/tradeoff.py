@@ -54,8 +54,12 @@ settings = {
 }
 
 if __name__ == '__main__':  # true no more after `from yade import *`, which brings a __name__ of its own: see polytope.tradeoff
-	weight = 9.81 * 2600 * 0.2**3
-	atRest = 0.5 - (3 + 2 + 1) * weight / 1e7  # each contact is compressed by the weight it carries
+	weight, stiffness = 9.81 * 2600 * 0.2**3, 1e7
+	atRest = 0.5
+	for blocks, middle, width in ((3, 0, 0.2), (2, 0.01, 0.18), (1, 0.03, 0.18)):
+		load = blocks * weight  # on this contact; it acts where the blocks above have their centre, and an elastic foundation yields and tilts
+		arm = (0.02 * 2 + 0.02 * (3 - blocks)) / 2 - middle
+		atRest -= load / stiffness + load * arm / (stiffness * width**2 / 12) * (0.04 - middle)
 	table = polytope.tradeoff(build, settings, measure, reference=atRest)
 	table.show()
 	table.csv('tradeoff.csv')

@@ -174,7 +174,8 @@ class MotionRecord:
 
 		Springs: against `elasticEnergy`. Dampers and friction: against forces times the motion at the contact point, taken as the law
 		takes them, with the mean of the forces at both ends of a step, turned to the present normal, and the present lever arm (`normalLoss`
-		and `shearLoss` have each end's own; where the contact point jumps that differs). Sum: what all of the law's terms leave over.
+		and `shearLoss` have each end's own; where the contact point jumps that differs), without the steps in which the contact ends: the
+		record has no contact point there, and the law does. Sum: what all of the law's terms leave over.
 		"""
 		outward, force = self._outward(), self.contactForce
 		along = np.sum(force * outward, axis=1)
@@ -187,10 +188,14 @@ class MotionRecord:
 		touching = self.spring[1:] > 0
 		normal = -0.5 * np.cumsum(touching * (before + damper[1:]) * closer)
 		shear = -0.5 * np.cumsum(touching * np.sum((across[:-1] + across[1:]) * sideways, axis=1))
+
+		def taken(total):
+			return np.cumsum(touching * np.diff(total))
+
 		pairs = {
 			'springs': (self.elastPotential, self.elasticEnergy()),
-			'normal damper': (self.normDampDissip[1:], normal),
-			'friction and shear damper': (self.plastDissip[1:] + self.shearDampDissip[1:] + self.shearStored[1:], shear),
+			'normal damper': (taken(self.normDampDissip), normal),
+			'friction and shear damper': (taken(self.plastDissip + self.shearDampDissip + self.shearStored), shear),
 			'sum': (self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative, -self._work(force)),
 		}
 		return {name: float(np.abs(law - own).max()) for name, (law, own) in pairs.items()}

@@ -28,4 +28,4 @@ else:
 		:raises TypeError, ValueError: for what is no number
 		"""
 		mpmath.mp.dps = max(mpmath.mp.dps, buildInfo()['digits'] + 4)  # it starts with 15; YADE sets the same with its first number
-		return mpmath.mpf(value)
+		return mpmath.mpf(mpmath.mp.convert(value))  # NumPy's, too

@@ -50,12 +50,27 @@ template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const Footprint<R>&
 	return 1 / (1 + thick * thick * thick * thick);
 }
 
+/// From the smaller body, unless it has many faces, most of them far from the contact. x: a point inside.
+template <class R, int D>
+POLYTOPE_INLINE Overlap<R, D> overlapOfPair(
+        const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* x, ContactWorkspace& workspace)
+{
+	if constexpr (D == 3) {
+		const Polyhedron& surface = in.shape[f.home]->polyhedron();
+		if (surface.vertices.size() <= std::size_t(tolerance::fewVertices)) {
+			const auto place = [&](R* p, const Vector3& own) POLYTOPE_INLINE_LAMBDA { fromBody<R, 3>(f, f.home, own, p); };
+			return Overlap<R, 3>(planes, f.home, surface, place, x, f.size, workspace);
+		}
+	}
+	return Overlap<R, D>(planes, x, 2 * f.size, workspace);
+}
+
 /// Point, depth and area of a touching pair with normal n; x: a point inside. False, with nothing changed, if the overlap has no measurable volume.
 template <class R, int D, int W>
 POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
         const PairPlanes<R, D>& planes, const R* n, const R* x, ContactWorkspace& workspace, ContactResult& out)
 {
-	const Overlap<R, D> overlap(planes, x, 2 * f.size, workspace);
+	const Overlap<R, D> overlap = overlapOfPair<R, D>(in, f, planes, x, workspace);
 	OverlapMass<R, D>   mass;
 	if (!overlap.mass(x, mass)) return false;
 	const Footprint<R> seen = overlap.footprint(mass.centroid, n);

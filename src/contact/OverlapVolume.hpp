@@ -5,15 +5,16 @@
 #include "numbers/Rotation.hpp"
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
+#include "shape/ShapeConstruction.hpp"
 
 #include <algorithm>
 
 /// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
 ///
-/// A box (a square) is cut by one plane after the other, the nearest first. Each face is a loop of vertices, counter-clockwise seen from
-/// outside; what a cut leaves open is closed by a face of its own, whose loop is chained from the edges that the cut made in the other faces. Most
-/// planes cut nothing: they cost one product with each vertex, or nothing if they are farther than any vertex. With an inner point x, and over the
-/// faces i with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
+/// A polyhedron that holds it, one of the bodies or a box (2-D: a square), is cut by one plane after the other, the nearest first. Each face is a
+/// loop of vertices, counter-clockwise seen from outside, which neighbouring faces share; what a cut leaves open is closed by a face of its own, from
+/// the vertices that the cut made. Most planes cut nothing: they cost one product with each vertex, or nothing if they are farther than any vertex.
+/// With an inner point x, and over the faces i with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
 ///
 ///     V = Σ A_i σ_i / D,      centroid = x + Σ A_i σ_i (c_i − x) / ((D + 1) V).
 ///
@@ -39,52 +40,47 @@ template <class R> struct Footprint {
 
 template <class R, int D> class Overlap;
 
-/// The vertices of each face, in places of equal length; a face that was cut away has none.
+/// A closed surface: vertices, and faces as loops of them.
 template <class R> struct FaceLoops {
-	R*   at[3]; ///< components of the vertices: face f's begin at f × room
-	int* count;
-	int* plane; ///< of each face; −1: of the box that is cut
-	int  room  = 0;
+	R*   at[3];        ///< components of the vertices; a free place holds a point inside
+	int  vertices = 0; ///< places in use or free
+	int* corner;       ///< vertices of each face, in places of equal length: face f's begin at f × room
+	int* count;        ///< of a face's vertices; 0: it was cut away
+	int* plane;        ///< of each face; −1: of the box that is cut
 	int  faces = 0;
+	int  room  = 0;
 
-	void get(int face, int vertex, R* p) const
+	void get(int vertex, R* p) const
 	{
 		for (int k = 0; k < 3; ++k)
-			p[k] = at[k][face * room + vertex];
+			p[k] = at[k][vertex];
 	}
-	void set(int face, int vertex, const R* p)
+	void set(int vertex, const R* p)
 	{
 		for (int k = 0; k < 3; ++k)
-			at[k][face * room + vertex] = p[k];
+			at[k][vertex] = p[k];
 	}
 };
 
 template <class R> class Overlap<R, 3> {
 public:
-	/// x: a point inside. `halfWidth`: the overlap lies within this distance of the frame's origin, along each axis.
+	/// Of the planes' inside, within `halfWidth` of the frame's origin along each axis. x: a point inside.
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, const R* x, R halfWidth, ContactWorkspace& workspace)
-	        : planes_(planes), tolerance_(R(tolerance::violation) * halfWidth),
-	          room_(planes.total + 7 < tolerance::overlapFaces ? planes.total + 7 : tolerance::overlapFaces)
+	        : Overlap(planes, halfWidth, x, workspace)
 	{
-		// a face of a polyhedron with so many faces has less vertices, one on each edge to another face
-		R* numbers = workspace.polygons(3 * room_ * room_ + 10 * room_ + planes.total);
-		for (R*& component : loops_.at) {
-			component = numbers;
-			numbers += room_ * room_;
-		}
-		value_       = numbers;
-		left_        = value_ + room_;
-		edge_        = left_ + 3 * room_;
-		R* slack     = edge_ + 6 * room_;
-		loops_.count = workspace.indices(2 * room_ + planes.total);
-		loops_.plane = loops_.count + room_;
-		int* nearest = loops_.plane + room_;
-		loops_.room  = room_;
 		box(halfWidth);
-		const int count = sortBySlack(x, slack, nearest);
-		R         reach = reachFrom(x);
-		for (int k = 0; k < count && whole_ && slack[nearest[k]] < reach; ++k) // from there on planes are farther than any vertex
-			if (cut(nearest[k])) reach = reachFrom(x);
+		cutByNearest(0, planes.total);
+	}
+
+	/// The same of two bodies, begun with `body`, 0 or 1, whose surface is known. `place(p, own)` writes a point of its own axes in the planes' frame;
+	/// `extent`: the body's.
+	template <class Place>
+	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, int body, const Polyhedron& surface, const Place& place, const R* x, R extent,
+	        ContactWorkspace& workspace)
+	        : Overlap(planes, extent, x, workspace)
+	{
+		begin(surface, planes.begin(body), place);
+		cutByNearest(planes.begin(1 - body), planes.end(1 - body));
 	}
 
 	/// x: a point inside. False if there is no measurable volume.
@@ -99,11 +95,12 @@ public:
 			R a[3], d;
 			planes_.plane(loops_.plane[face], a, d);
 			const R height = d - dot<R, 3>(a, x);
-			R       first[3], last[3], arm[3] = {}, area = 0;
-			loops_.get(face, 0, first);
+			const int* corner = loops_.corner + face * room_;
+			R          first[3], last[3], arm[3] = {}, area = 0;
+			loops_.get(corner[0], first);
 			for (int v = 1; v < count; ++v) {
 				R next[3];
-				loops_.get(face, v, next);
+				loops_.get(corner[v], next);
 				for (int k = 0; k < 3; ++k)
 					next[k] -= first[k];
 				if (v > 1) {
@@ -135,12 +132,13 @@ public:
 			R a[3], d;
 			planes_.plane(loops_.plane[face], a, d);
 			if (!(dot<R, 3>(a, n) > 0)) continue;
-			R first[2], last[2];
-			project(face, 0, p, axes, first);
-			project(face, 1, p, axes, last);
+			const int* corner = loops_.corner + face * room_;
+			R          first[2], last[2];
+			project(corner[0], p, axes, first);
+			project(corner[1], p, axes, last);
 			for (int v = 2; v < loops_.count[face]; ++v) {
 				R next[2];
-				project(face, v, p, axes, next);
+				project(corner[v], p, axes, next);
 				const R twice  = (last[0] - first[0]) * (next[1] - first[1]) - (last[1] - first[1]) * (next[0] - first[0]);
 				const R sum[2] = { first[0] + last[0] + next[0], first[1] + last[1] + next[1] };
 				result.area += twice / 2;
@@ -157,43 +155,122 @@ public:
 	}
 
 private:
-	/// The planes from the nearest to the farthest, without those of padding: near ones leave little for the others to cut. `slack`: of plane i.
-	/// Returns how many.
-	POLYTOPE_INLINE int sortBySlack(const R* x, R* slack, int* plane) const
+	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, R extent, const R* x, ContactWorkspace& workspace)
+	        : planes_(planes), x_ { x[0], x[1], x[2] }, tolerance_(R(tolerance::violation) * extent),
+	          room_(planes.total + 7 < tolerance::overlapFaces ? planes.total + 7 : tolerance::overlapFaces), vertexRoom_(4 * room_ + 8)
+	{
+		// as many vertices as a polyhedron of so many faces has, and as many again that are made before others are given up; a face has less
+		// vertices than there are other faces
+		R* numbers = workspace.polygons(4 * vertexRoom_ + planes.total);
+		for (R*& component : loops_.at) {
+			component = numbers;
+			numbers += vertexRoom_;
+		}
+		value_       = numbers;
+		slack_       = value_ + vertexRoom_;
+		loops_.room  = room_;
+		loops_.count = workspace.indices(room_ * room_ + 6 * room_ + 2 * vertexRoom_ + planes.total);
+		loops_.plane = loops_.count + room_;
+		left_        = loops_.plane + room_;
+		inner_       = left_ + room_;
+		outer_       = inner_ + room_;
+		made_        = outer_ + room_;
+		next_        = made_ + room_;
+		free_        = next_ + vertexRoom_;
+		nearest_     = free_ + vertexRoom_;
+		loops_.corner = nearest_ + planes.total;
+	}
+
+	template <class Place> POLYTOPE_INLINE void begin(const Polyhedron& surface, int firstPlane, const Place& place)
+	{
+		loops_.vertices = int(surface.vertices.size());
+		loops_.faces    = int(surface.faces.size());
+		if (loops_.vertices > vertexRoom_ || loops_.faces > room_) {
+			whole_ = false;
+			return;
+		}
+		for (int v = 0; v < loops_.vertices; ++v) {
+			R p[3];
+			place(p, surface.vertices[v]);
+			loops_.set(v, p);
+		}
+		for (int face = 0; face < loops_.faces; ++face) {
+			const std::vector<int>& loop = surface.faces[face];
+			loops_.plane[face]           = firstPlane + surface.planeOfFace[face];
+			loops_.count[face]           = int(loop.size());
+			if (loops_.count[face] > room_) {
+				whole_ = false;
+				return;
+			}
+			for (int v = 0; v < loops_.count[face]; ++v)
+				loops_.corner[face * room_ + v] = loop[v];
+		}
+	}
+
+	/// Vertex k has the sign of bit i of k along axis i.
+	POLYTOPE_INLINE void box(R halfWidth)
+	{
+		loops_.vertices = 8;
+		for (int v = 0; v < 8; ++v)
+			for (int k = 0; k < 3; ++k)
+				loops_.at[k][v] = (v >> k & 1) ? halfWidth : -halfWidth;
+		for (int axis = 0; axis < 3; ++axis)
+			for (int side = 0; side < 2; ++side) {
+				const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, here = side << axis;
+				int*      corner = loops_.corner + loops_.faces * room_;
+				corner[0]        = here;
+				corner[1]        = here + (side == 1 ? u : v);
+				corner[2]        = here + u + v;
+				corner[3]        = here + (side == 1 ? v : u);
+				loops_.count[loops_.faces]   = 4;
+				loops_.plane[loops_.faces++] = -1;
+			}
+	}
+
+	/// Planes begin … end − 1, from the nearest to the farthest: near ones leave little for the others to cut, and what is farther than any vertex
+	/// cuts nothing.
+	POLYTOPE_INLINE void cutByNearest(int begin, int end)
+	{
+		R         reach = reachFromInside();
+		const int count = sortBySlack(begin, end, reach);
+		for (int k = 0; k < count && whole_ && slack_[nearest_[k]] < reach; ++k)
+			if (cut(nearest_[k])) reach = reachFromInside();
+	}
+
+	/// Writes those nearer than `reach` to nearest_, without those of padding. Returns how many.
+	POLYTOPE_INLINE int sortBySlack(int begin, int end, R reach)
 	{
 		int count = 0;
-		for (int i = 0; i < planes_.total; ++i) {
+		for (int i = begin; i < end; ++i) {
 			R a[3], d;
 			planes_.plane(i, a, d);
-			if (d >= R(padOffset) / 2) continue;
-			slack[i]       = d - dot<R, 3>(a, x);
-			plane[count++] = i;
+			slack_[i] = d - dot<R, 3>(a, x_);
+			if (d < R(padOffset) / 2 && slack_[i] < reach) nearest_[count++] = i;
 		}
+		const R*   slack  = slack_;
 		const auto nearer = [slack](int i, int j) { return slack[i] < slack[j] || (slack[i] == slack[j] && i < j); };
-		if (count > tolerance::fewPlanes) std::sort(plane, plane + count, nearer);
+		if (count > tolerance::fewPlanes) std::sort(nearest_, nearest_ + count, nearer);
 		else
 			for (int next = 1; next < count; ++next) {
-				const int own = plane[next];
+				const int own = nearest_[next];
 				int       k   = next;
-				for (; k > 0 && nearer(own, plane[k - 1]); --k)
-					plane[k] = plane[k - 1];
-				plane[k] = own;
+				for (; k > 0 && nearer(own, nearest_[k - 1]); --k)
+					nearest_[k] = nearest_[k - 1];
+				nearest_[k] = own;
 			}
 		return count;
 	}
 
 	/// Distance of the farthest vertex.
-	POLYTOPE_INLINE R reachFrom(const R* x) const
+	POLYTOPE_INLINE R reachFromInside() const
 	{
 		R farthest = 0;
-		for (int face = 0; face < loops_.faces; ++face)
-			for (int v = 0; v < loops_.count[face]; ++v) {
-				R from[3], square = 0;
-				loops_.get(face, v, from);
-				for (int k = 0; k < 3; ++k)
-					square += (from[k] - x[k]) * (from[k] - x[k]);
-				farthest = maxOf<R>(farthest, square);
-			}
+		for (int v = 0; v < loops_.vertices; ++v) {
+			R square = 0;
+			for (int k = 0; k < 3; ++k)
+				square += (loops_.at[k][v] - x_[k]) * (loops_.at[k][v] - x_[k]);
+			farthest = maxOf<R>(farthest, square);
+		}
 		return sqrt(farthest);
 	}
 
@@ -204,150 +281,134 @@ private:
 	}
 
 	/// A vertex in the plane through p of both axes.
-	POLYTOPE_INLINE void project(int face, int vertex, const R* p, const Rotation<R, 3>& axes, R* uv) const
+	POLYTOPE_INLINE void project(int vertex, const R* p, const Rotation<R, 3>& axes, R* uv) const
 	{
 		R from[3];
-		loops_.get(face, vertex, from);
+		loops_.get(vertex, from);
 		for (int k = 0; k < 3; ++k)
 			from[k] -= p[k];
 		for (int k = 0; k < 2; ++k)
 			uv[k] = dot<R, 3>(axes.m[k], from);
 	}
 
-	POLYTOPE_INLINE void box(R halfWidth)
-	{
-		for (int axis = 0; axis < 3; ++axis)
-			for (int side = 0; side < 2; ++side) {
-				const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-				for (int corner = 0; corner < 4; ++corner) {
-					R       p[3];
-					const R along  = corner == 1 || corner == 2 ? halfWidth : -halfWidth,
-					        across = corner < 2 ? -halfWidth : halfWidth;
-					p[axis]        = side == 1 ? halfWidth : -halfWidth;
-					p[u]           = side == 1 ? along : across;
-					p[v]           = side == 1 ? across : along;
-					loops_.set(loops_.faces, corner, p);
-				}
-				loops_.count[loops_.faces]   = 4;
-				loops_.plane[loops_.faces++] = -1;
-			}
-	}
+	POLYTOPE_INLINE bool beyond(int vertex) const { return value_[vertex] > tolerance_; }
 
 	/// Removes what lies beyond plane i; false if nothing does.
 	POLYTOPE_INLINE bool cut(int i)
 	{
-		R a[3], d;
+		R a[3], d, farthest = 0;
 		planes_.plane(i, a, d);
-		int  edges   = 0;
-		bool changed = false;
-		for (int face = 0; face < loops_.faces && whole_; ++face) {
-			const int count = loops_.count[face];
-			const R * px = loops_.at[0] + face * room_, *py = loops_.at[1] + face * room_, *pz = loops_.at[2] + face * room_;
-			int       outside = 0;
-			for (int v = 0; v < count; ++v) {
-				value_[v] = a[0] * px[v] + a[1] * py[v] + a[2] * pz[v] - d;
-				outside += value_[v] > tolerance_;
-			}
-			if (outside == 0) continue;
-			changed = true;
-			if (outside == count) loops_.count[face] = 0;
-			else cutFace(face, edges);
+		const int before = loops_.vertices;
+		for (int v = 0; v < before; ++v) {
+			value_[v] = a[0] * loops_.at[0][v] + a[1] * loops_.at[1][v] + a[2] * loops_.at[2][v] - d;
+			farthest  = maxOf<R>(farthest, value_[v]);
 		}
-		if (changed && whole_) closeCut(i, edges);
-		return changed;
+		if (!(farthest > tolerance_)) return false;
+		cutVertices_ = 0;
+		for (int face = 0; face < loops_.faces && whole_; ++face)
+			cutFace(face);
+		if (whole_) closeCut(i);
+		for (int v = 0; v < before && whole_; ++v)
+			if (beyond(v)) {
+				loops_.set(v, x_);
+				free_[freePlaces_++] = v;
+			}
+		return true;
 	}
 
-	/// Where the edge from the inner to the outer vertex meets the plane.
-	POLYTOPE_INLINE void meeting(int face, int inner, int outer, R* p) const
+	/// The vertex where the edge from the inner to the outer one meets the plane: of both faces that share it.
+	POLYTOPE_INLINE int meeting(int inner, int outer)
 	{
-		const R t = maxOf<R>(0, value_[inner] / (value_[inner] - value_[outer])); // the inner one may lie beyond it by rounding
-		R       from[3], to[3];
-		loops_.get(face, inner, from);
-		loops_.get(face, outer, to);
+		for (int k = 0; k < cutVertices_; ++k)
+			if (inner_[k] == inner && outer_[k] == outer) return made_[k];
+		if (cutVertices_ == room_ || (freePlaces_ == 0 && loops_.vertices == vertexRoom_)) {
+			whole_ = false;
+			return inner;
+		}
+		const int vertex = freePlaces_ > 0 ? free_[--freePlaces_] : loops_.vertices++;
+		const R   t      = maxOf<R>(0, value_[inner] / (value_[inner] - value_[outer])); // the inner one may lie beyond it by rounding
 		for (int k = 0; k < 3; ++k)
-			p[k] = from[k] + t * (to[k] - from[k]);
+			loops_.at[k][vertex] = loops_.at[k][inner] + t * (loops_.at[k][outer] - loops_.at[k][inner]);
+		inner_[cutVertices_]  = inner;
+		outer_[cutVertices_]  = outer;
+		made_[cutVertices_++] = vertex;
+		next_[vertex]         = -1;
+		return vertex;
 	}
 
-	/// Leaves what is inside, and stores the edge that closes it.
-	POLYTOPE_INLINE void cutFace(int face, int& edges)
+	/// Leaves what is inside, and notes the edges along which it was cut: where a loop comes in again, the new face runs back to where it had left.
+	POLYTOPE_INLINE void cutFace(int face)
 	{
 		const int count = loops_.count[face];
-		R         exit[3], entry[3];
-		int       exits = 0, entries = 0, kept = 0;
-		for (int v = 0, last = count - 1; v < count; last = v++) {
-			const bool inside = !(value_[v] > tolerance_), wasInside = !(value_[last] > tolerance_);
-			if (kept + 2 > room_) {
+		int*      loop  = loops_.corner + face * room_;
+		int       outside = 0;
+		for (int v = 0; v < count; ++v)
+			outside += beyond(loop[v]);
+		if (outside == 0) return;
+		if (outside == count) {
+			loops_.count[face] = 0;
+			return;
+		}
+		int  kept = 0, exit = -1, firstEntry = -1, last = loop[count - 1];
+		for (int k = 0; k < count && whole_; last = loop[k++]) {
+			const int v = loop[k];
+			if (kept + 2 > room_) whole_ = false;
+			else if (!beyond(last) && beyond(v)) left_[kept++] = exit = meeting(last, v);
+			else if (beyond(last) && !beyond(v)) {
+				const int entry = left_[kept++] = meeting(v, last);
+				if (exit < 0) firstEntry = entry;
+				else next_[entry] = exit;
+			}
+			if (whole_ && !beyond(v)) left_[kept++] = v;
+		}
+		if (!whole_) return;
+		if (firstEntry >= 0) next_[firstEntry] = exit;
+		for (int k = 0; k < kept; ++k)
+			loop[k] = left_[k];
+		loops_.count[face] = kept;
+	}
+
+	/// Chains the vertices of the cut into the face in plane i; by rounding there may be more than one. Two vertices make none: their faces meet at an
+	/// edge.
+	POLYTOPE_INLINE void closeCut(int i)
+	{
+		for (int k = 0; k < cutVertices_; ++k) {
+			if (next_[made_[k]] < 0) continue;
+			if (loops_.faces == room_) {
 				whole_ = false;
 				return;
 			}
-			if (inside != wasInside) {
-				R* point = inside ? entry : exit;
-				meeting(face, inside ? v : last, inside ? last : v, point);
-				for (int k = 0; k < 3; ++k)
-					left_[3 * kept + k] = point[k];
-				++kept;
-				(inside ? entries : exits) += 1;
+			int* loop  = loops_.corner + loops_.faces * room_;
+			int  count = 0;
+			for (int v = made_[k]; next_[v] >= 0;) {
+				const int after = next_[v];
+				next_[v]        = -1;
+				loop[count++]   = v;
+				v               = after;
 			}
-			if (inside) loops_.get(face, v, left_ + 3 * kept++);
+			if (count < 3) continue;
+			loops_.count[loops_.faces]   = count;
+			loops_.plane[loops_.faces++] = i;
 		}
-		loops_.count[face] = kept;
-		for (int v = 0; v < kept; ++v)
-			loops_.set(face, v, left_ + 3 * v);
-		if (exits != 1 || entries != 1) return; // rounding: no edge
-		if (edges == room_) {
-			whole_ = false;
-			return;
-		}
-		for (int k = 0; k < 3; ++k) { // the new face runs along the edge the other way round
-			edge_[6 * edges + k]     = entry[k];
-			edge_[6 * edges + 3 + k] = exit[k];
-		}
-		++edges;
 	}
-
-	/// Chains the stored edges into the face in plane i. Neighbouring faces have computed a common vertex each for itself: the nearest is it.
-	POLYTOPE_INLINE void closeCut(int i, int edges)
-	{
-		if (edges < 3) return; // cut along an edge or at a vertex
-		if (loops_.faces == room_) {
-			whole_ = false;
-			return;
-		}
-		const int face = loops_.faces++;
-		for (int done = 0; done < edges; ++done) {
-			if (done > 0) {
-				const R* end     = edge_ + 6 * (done - 1) + 3;
-				int      nearest = done;
-				R        least   = distance(edge_ + 6 * done, end);
-				for (int other = done + 1; other < edges && least > 0; ++other) {
-					const R off = distance(edge_ + 6 * other, end);
-					if (!(off < least)) continue;
-					least   = off;
-					nearest = other;
-				}
-				if (nearest != done)
-					for (int k = 0; k < 6; ++k) {
-						const R swap           = edge_[6 * done + k];
-						edge_[6 * done + k]    = edge_[6 * nearest + k];
-						edge_[6 * nearest + k] = swap;
-					}
-			}
-			loops_.set(face, done, edge_ + 6 * done);
-		}
-		loops_.count[face] = edges;
-		loops_.plane[face] = i;
-	}
-
-	static POLYTOPE_INLINE R distance(const R* p, const R* q) { return abs(p[0] - q[0]) + abs(p[1] - q[1]) + abs(p[2] - q[2]); }
 
 	const PairPlanes<R, 3>& planes_;
+	R                       x_[3];      ///< a point inside
 	R                       tolerance_; ///< a vertex less far beyond a plane is on it [m]
-	int                     room_;      ///< for faces, for vertices of a face, and for edges of a cut
+	int                     room_;      ///< for faces, for vertices of a face, and for those of a cut
+	int                     vertexRoom_;
 	bool                    whole_ = true;
 	FaceLoops<R>            loops_;
-	R*                      value_; ///< of a face's vertices: beyond the cutting plane [m]
-	R*                      left_;  ///< vertices of a face after a cut
-	R*                      edge_;  ///< of the new face, six numbers each
+	R*                      value_;            ///< of each vertex: beyond the cutting plane [m]
+	R*                      slack_;            ///< of each plane, at x [m]
+	int*                    nearest_;          ///< planes to cut by
+	int*                    left_;             ///< vertices of a face after a cut
+	int *                   inner_, *outer_;   ///< ends of the edges that a cut meets,
+	int*                    made_;             ///< and the vertices there
+	int                     cutVertices_ = 0;  ///< how many
+	int*                    next_;             ///< of a vertex that the cut made: the one after it in the new face
+	int*                    free_;             ///< places of vertices that were cut away
+	int                     freePlaces_ = 0;
 };
 
 /// The loop of corners alone, cut by one line after the other.

@@ -3,6 +3,7 @@
 // Inputs on which Newton does not converge to the analytic centre, and a search for more.
 #include "ExactLp.hpp"
 #include "PrecisePair.hpp"
+#include "centre/IpoptCentre.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,7 +92,9 @@ TEST(NewtonGivesUp, NotWhereRoundingLeavesNoInside)
 				EXPECT_LT(result.depth, 300 * rounding) << trial;
 				EXPECT_NEAR(result.normal.norm(), 1, 1e-14) << trial;
 				EXPECT_LT(exact.violation(precise(result.point)), 16 * rounding) << trial;
-				EXPECT_TRUE(answered(result.status)) << trial << ": " << statusName(result.status);
+				const bool without = solver == CentreSolver::Ipopt && !ipoptVersion();
+				EXPECT_TRUE(answered(result.status) || (without && result.status == ContactStatus::IpoptNotAvailable))
+				        << trial << ": " << statusName(result.status);
 				limited += result.status == ContactStatus::RoundingLimited;
 				flat += result.depth == 0;
 				if (point != ContactPoint::AnalyticCentre) break;

@@ -152,7 +152,7 @@ def held(support, functor, bound):
 	O.dt = 1e-6
 	O.step()
 	(contact,) = O.interactions
-	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	assert float(contact.geom.penetrationDepth) == pytest.approx(1e-4, rel=1e-9)
 	return contact
 
 
@@ -164,7 +164,7 @@ def testBoxThatGrowsInARun():
 	assert contact.geom.penetrationDepth == pytest.approx(6e-4, rel=1e-9)
 	O.bodies[0].shape.extents = (1, 1, .1)
 	O.step()
-	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	assert float(contact.geom.penetrationDepth) == pytest.approx(1e-4, rel=1e-9)
 	assert functor.stats()['failures'] == 0
 
 
@@ -191,7 +191,7 @@ def testFacetWhoseCornersMoveInARun(flip):
 	assert contact.geom.penetrationDepth == pytest.approx(6e-4, rel=1e-9)
 	shape.vertices = before
 	O.step()
-	assert contact.geom.penetrationDepth == pytest.approx(1e-4, rel=1e-9)
+	assert float(contact.geom.penetrationDepth) == pytest.approx(1e-4, rel=1e-9)
 	assert functor.stats()['failures'] == 0
 
 
