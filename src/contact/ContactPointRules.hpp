@@ -95,7 +95,7 @@ POLYTOPE_INLINE ContactStatus contactPoint(const ContactSettings& settings, Pair
 	}
 	if (settings.contactPoint == ContactPoint::Centroid) {
 		OverlapMass<R, D> overlap;
-		if (Overlap<R, D>(planes, x, 2 * f.size, workspace).mass(x, overlap))
+		if (Overlap<R, D, W>(planes, x, 2 * f.size, workspace).mass(x, overlap))
 			for (int k = 0; k < D; ++k)
 				x[k] = overlap.centroid[k];
 	}

@@ -51,18 +51,18 @@ template <class R, int D> POLYTOPE_INLINE R onFaces(R chord, const Footprint<R>&
 }
 
 /// From the smaller body, unless it has many faces, most of them far from the contact. x: a point inside.
-template <class R, int D>
-POLYTOPE_INLINE Overlap<R, D> overlapOfPair(
+template <class R, int D, int W>
+POLYTOPE_INLINE Overlap<R, D, W> overlapOfPair(
         const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* x, ContactWorkspace& workspace)
 {
 	if constexpr (D == 3) {
 		const Polyhedron& surface = in.shape[f.home]->polyhedron();
-		if (surface.vertices.size() <= std::size_t(tolerance::fewVertices)) {
+		if (surface.faces.size() <= std::size_t(tolerance::wholeBodyFaces)) {
 			const auto place = [&](R* p, const Vector3& own) POLYTOPE_INLINE_LAMBDA { fromBody<R, 3>(f, f.home, own, p); };
-			return Overlap<R, 3>(planes, f.home, surface, place, x, f.size, workspace);
+			return Overlap<R, 3, W>(planes, f.home, surface, place, x, f.size, workspace);
 		}
 	}
-	return Overlap<R, D>(planes, x, 2 * f.size, workspace);
+	return Overlap<R, D, W>(planes, x, 2 * f.size, workspace);
 }
 
 /// Point, depth and area of a touching pair with normal n; x: a point inside. False, with nothing changed, if the overlap has no measurable volume.
@@ -70,20 +70,20 @@ template <class R, int D, int W>
 POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
         const PairPlanes<R, D>& planes, const R* n, const R* x, ContactWorkspace& workspace, ContactResult& out)
 {
-	const Overlap<R, D> overlap = overlapOfPair<R, D>(in, f, planes, x, workspace);
-	OverlapMass<R, D>   mass;
+	const Overlap<R, D, W> overlap = overlapOfPair<R, D, W>(in, f, planes, x, workspace);
+	OverlapMass<R, D>      mass;
 	if (!overlap.mass(x, mass)) return false;
-	const Footprint<R> seen = overlap.footprint(mass.centroid, n);
-	if (!(seen.area > 0)) return false;
-	const R mean   = mass.volume / seen.area;
+	const R area = overlap.areaAlong(n);
+	if (!(area > 0)) return false;
+	const R mean   = mass.volume / area;
 	const R energy = mean * distanceFromFace<R, D>(planes, mass.centroid, n);
-	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, seen);
+	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, overlap.footprint(mass.centroid, n));
 	R       point[D];
 	for (int k = 0; k < D; ++k)
 		point[k] = x[k] + share * (mass.centroid[k] - x[k]);
 	out.energy = out.depth * out.depth / 2 + share * (energy - out.depth * out.depth / 2);
 	out.depth += share * (mean - out.depth);
-	out.area            = D == 2 ? seen.area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : seen.area;
+	out.area            = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
 	out.point           = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, point));
 	out.sectionCentroid = out.point;
 	return true;

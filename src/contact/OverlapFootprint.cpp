@@ -26,7 +26,7 @@ namespace {
 		Real       n[D];
 		for (int k = 0; k < D; ++k)
 			n[k] = direction[k];
-		const Footprint<Real>   seen = Overlap<Real, D>(planes, origin, halfWidth, workspace).footprint(origin, n);
+		const Footprint<Real>   seen = Overlap<Real, D, 1>(planes, origin, halfWidth, workspace).footprint(origin, n);
 		const Rotation<Real, D> axes = axesAround<Real, D>(n);
 		Vector3                 u = Vector3::Zero(), v = Vector3::Zero();
 		for (int k = 0; k < D; ++k) {

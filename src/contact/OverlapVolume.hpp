@@ -38,7 +38,7 @@ template <class R> struct Footprint {
 	}
 };
 
-template <class R, int D> class Overlap;
+template <class R, int D, int W> class Overlap;
 
 /// A closed surface: vertices, and faces as loops of them.
 template <class R> struct FaceLoops {
@@ -62,25 +62,40 @@ template <class R> struct FaceLoops {
 	}
 };
 
-template <class R> class Overlap<R, 3> {
+template <class R, int W> class Overlap<R, 3, W> {
 public:
 	/// Of the planes' inside, within `halfWidth` of the frame's origin along each axis. x: a point inside.
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, const R* x, R halfWidth, ContactWorkspace& workspace)
 	        : Overlap(planes, halfWidth, x, workspace)
 	{
 		box(halfWidth);
-		cutByNearest(0, planes.total);
+		const int count = findPlanes(0, planes.total);
+		if (count > 0) cut(nearest_[0]);
+		cutByOthers(count);
 	}
 
-	/// The same of two bodies, begun with `body`, 0 or 1, whose surface is known. `place(p, own)` writes a point of its own axes in the planes' frame;
-	/// `extent`: the body's.
+	/// The same of two bodies, begun with `body`, 0 or 1, of at most tolerance::wholeBodyFaces faces. `place(p, own)` writes a point of its own axes in the
+	/// planes' frame; `extent`: the body's.
 	template <class Place>
-	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, int body, const Polyhedron& surface, const Place& place, const R* x, R extent,
-	        ContactWorkspace& workspace)
+	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, int body, const Polyhedron& surface, const Place& place, const R* x,
+	        R extent, ContactWorkspace& workspace)
 	        : Overlap(planes, extent, x, workspace)
 	{
-		begin(surface, planes.begin(body), place);
-		cutByNearest(planes.begin(1 - body), planes.end(1 - body));
+		for (const Vector3& own : surface.vertices) {
+			R p[3];
+			place(p, own);
+			loops_.set(newPlace(), p);
+		}
+		const int  count    = findPlanes(planes.begin(1 - body), planes.end(1 - body));
+		const int  vertices = loops_.vertices;
+		const bool cuts     = count > 0 && measureBeyond(nearest_[0]);
+		loops_.faces        = int(surface.faces.size());
+		for (int face = 0; face < loops_.faces && whole_; ++face) { // many a face is not even copied
+			loops_.plane[face] = planes.begin(body) + surface.planeOfFace[face];
+			takeFace(face, surface.faces[face].data(), int(surface.faces[face].size()), cuts);
+		}
+		if (cuts) close(nearest_[0], vertices);
+		cutByOthers(count);
 	}
 
 	/// x: a point inside. False if there is no measurable volume.
@@ -94,7 +109,7 @@ public:
 				continue; // a face of the box: of an overlap that reaches to it, or of no area
 			R a[3], d;
 			planes_.plane(loops_.plane[face], a, d);
-			const R height = d - dot<R, 3>(a, x);
+			const R    height = d - dot<R, 3>(a, x);
 			const int* corner = loops_.corner + face * room_;
 			R          first[3], last[3], arm[3] = {}, area = 0;
 			loops_.get(corner[0], first);
@@ -112,6 +127,7 @@ public:
 				for (int k = 0; k < 3; ++k)
 					last[k] = next[k];
 			}
+			area_[face] = area;
 			result.volume += area * height / 3;
 			for (int k = 0; k < 3; ++k)
 				moment[k] += height / 4 * (area * (first[k] - x[k]) + arm[k]);
@@ -122,7 +138,20 @@ public:
 		return true;
 	}
 
-	/// Over the faces that are turned to n.
+	/// Area seen along n, after mass(): of the faces that are turned to n.
+	POLYTOPE_INLINE R areaAlong(const R* n) const
+	{
+		R sum = 0;
+		for (int face = 0; face < loops_.faces; ++face) {
+			if (loops_.count[face] < 3 || loops_.plane[face] < 0) continue;
+			R a[3], d;
+			planes_.plane(loops_.plane[face], a, d);
+			sum += area_[face] * maxOf<R>(0, dot<R, 3>(a, n));
+		}
+		return sum;
+	}
+
+	/// Over the same faces.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);
@@ -155,98 +184,96 @@ public:
 	}
 
 private:
+	using V = typename Lanes<R, W>::Type;
+
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, R extent, const R* x, ContactWorkspace& workspace)
 	        : planes_(planes), x_ { x[0], x[1], x[2] }, tolerance_(R(tolerance::violation) * extent),
 	          room_(planes.total + 7 < tolerance::overlapFaces ? planes.total + 7 : tolerance::overlapFaces), vertexRoom_(4 * room_ + 8)
 	{
 		// as many vertices as a polyhedron of so many faces has, and as many again that are made before others are given up; a face has less
 		// vertices than there are other faces
-		R* numbers = workspace.polygons(4 * vertexRoom_ + planes.total);
+		R* numbers = workspace.polygons(4 * vertexRoom_ + planes.total + room_);
 		for (R*& component : loops_.at) {
 			component = numbers;
 			numbers += vertexRoom_;
 		}
-		value_       = numbers;
-		slack_       = value_ + vertexRoom_;
-		loops_.room  = room_;
-		loops_.count = workspace.indices(room_ * room_ + 6 * room_ + 2 * vertexRoom_ + planes.total);
-		loops_.plane = loops_.count + room_;
-		left_        = loops_.plane + room_;
-		inner_       = left_ + room_;
-		outer_       = inner_ + room_;
-		made_        = outer_ + room_;
-		next_        = made_ + room_;
-		free_        = next_ + vertexRoom_;
-		nearest_     = free_ + vertexRoom_;
+		value_        = numbers;
+		slack_        = value_ + vertexRoom_;
+		area_         = slack_ + planes.total;
+		loops_.room   = room_;
+		loops_.count  = workspace.indices(room_ * room_ + 6 * room_ + 2 * vertexRoom_ + planes.total);
+		loops_.plane  = loops_.count + room_;
+		left_         = loops_.plane + room_;
+		inner_        = left_ + room_;
+		outer_        = inner_ + room_;
+		made_         = outer_ + room_;
+		next_         = made_ + room_;
+		free_         = next_ + vertexRoom_;
+		nearest_      = free_ + vertexRoom_;
 		loops_.corner = nearest_ + planes.total;
-	}
-
-	template <class Place> POLYTOPE_INLINE void begin(const Polyhedron& surface, int firstPlane, const Place& place)
-	{
-		loops_.vertices = int(surface.vertices.size());
-		loops_.faces    = int(surface.faces.size());
-		if (loops_.vertices > vertexRoom_ || loops_.faces > room_) {
-			whole_ = false;
-			return;
-		}
-		for (int v = 0; v < loops_.vertices; ++v) {
-			R p[3];
-			place(p, surface.vertices[v]);
-			loops_.set(v, p);
-		}
-		for (int face = 0; face < loops_.faces; ++face) {
-			const std::vector<int>& loop = surface.faces[face];
-			loops_.plane[face]           = firstPlane + surface.planeOfFace[face];
-			loops_.count[face]           = int(loop.size());
-			if (loops_.count[face] > room_) {
-				whole_ = false;
-				return;
-			}
-			for (int v = 0; v < loops_.count[face]; ++v)
-				loops_.corner[face * room_ + v] = loop[v];
-		}
 	}
 
 	/// Vertex k has the sign of bit i of k along axis i.
 	POLYTOPE_INLINE void box(R halfWidth)
 	{
-		loops_.vertices = 8;
-		for (int v = 0; v < 8; ++v)
-			for (int k = 0; k < 3; ++k)
-				loops_.at[k][v] = (v >> k & 1) ? halfWidth : -halfWidth;
+		for (int v = 0; v < 8; ++v) {
+			const R p[3] = { v & 1 ? halfWidth : -halfWidth, v & 2 ? halfWidth : -halfWidth, v & 4 ? halfWidth : -halfWidth };
+			loops_.set(newPlace(), p);
+		}
 		for (int axis = 0; axis < 3; ++axis)
 			for (int side = 0; side < 2; ++side) {
 				const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, here = side << axis;
-				int*      corner = loops_.corner + loops_.faces * room_;
-				corner[0]        = here;
-				corner[1]        = here + (side == 1 ? u : v);
-				corner[2]        = here + u + v;
-				corner[3]        = here + (side == 1 ? v : u);
+				const int loop[4] = { here, here + (side == 1 ? u : v), here + u + v, here + (side == 1 ? v : u) };
+				for (int k = 0; k < 4; ++k)
+					loops_.corner[loops_.faces * room_ + k] = loop[k];
 				loops_.count[loops_.faces]   = 4;
 				loops_.plane[loops_.faces++] = -1;
 			}
 	}
 
-	/// Planes begin … end − 1, from the nearest to the farthest: near ones leave little for the others to cut, and what is farther than any vertex
-	/// cuts nothing.
-	POLYTOPE_INLINE void cutByNearest(int begin, int end)
+	/// A place for a vertex; those up to whole lanes hold the inner point.
+	POLYTOPE_INLINE int newPlace()
 	{
-		R         reach = reachFromInside();
-		const int count = sortBySlack(begin, end, reach);
-		for (int k = 0; k < count && whole_ && slack_[nearest_[k]] < reach; ++k)
-			if (cut(nearest_[k])) reach = reachFromInside();
+		if (loops_.vertices % W == 0)
+			for (int v = loops_.vertices; v < loops_.vertices + W; ++v)
+				loops_.set(v, x_);
+		return loops_.vertices++;
 	}
 
-	/// Writes those nearer than `reach` to nearest_, without those of padding. Returns how many.
-	POLYTOPE_INLINE int sortBySlack(int begin, int end, R reach)
+	/// Writes planes begin … end − 1 to nearest_, without those of padding, the nearest first. Returns how many.
+	POLYTOPE_INLINE int findPlanes(int begin, int end)
 	{
 		int count = 0;
 		for (int i = begin; i < end; ++i) {
 			R a[3], d;
 			planes_.plane(i, a, d);
-			slack_[i] = d - dot<R, 3>(a, x_);
-			if (d < R(padOffset) / 2 && slack_[i] < reach) nearest_[count++] = i;
+			if (d >= R(padOffset) / 2) continue;
+			slack_[i]         = d - dot<R, 3>(a, x_);
+			nearest_[count++] = i;
+			if (slack_[i] < slack_[nearest_[0]]) {
+				nearest_[count - 1] = nearest_[0];
+				nearest_[0]         = i;
+			}
 		}
+		return count;
+	}
+
+	/// Those but the first, which has cut, from the nearest to the farthest: near ones leave little for the others to cut, and what is farther than any
+	/// vertex cuts nothing.
+	POLYTOPE_INLINE void cutByOthers(int count)
+	{
+		R reach = reachFromInside();
+		count   = sortBySlack(count, reach);
+		for (int k = 0; k < count && whole_ && slack_[nearest_[k]] < reach; ++k)
+			if (cut(nearest_[k])) reach = reachFromInside();
+	}
+
+	/// Leaves those nearer than `reach`, without the first. Returns how many.
+	POLYTOPE_INLINE int sortBySlack(int found, R reach)
+	{
+		int count = 0;
+		for (int k = 1; k < found; ++k)
+			if (slack_[nearest_[k]] < reach) nearest_[count++] = nearest_[k];
 		const R*   slack  = slack_;
 		const auto nearer = [slack](int i, int j) { return slack[i] < slack[j] || (slack[i] == slack[j] && i < j); };
 		if (count > tolerance::fewPlanes) std::sort(nearest_, nearest_ + count, nearer);
@@ -264,14 +291,16 @@ private:
 	/// Distance of the farthest vertex.
 	POLYTOPE_INLINE R reachFromInside() const
 	{
-		R farthest = 0;
-		for (int v = 0; v < loops_.vertices; ++v) {
-			R square = 0;
-			for (int k = 0; k < 3; ++k)
-				square += (loops_.at[k][v] - x_[k]) * (loops_.at[k][v] - x_[k]);
-			farthest = maxOf<R>(farthest, square);
+		V farthest = broadcast<R, W>(0);
+		for (int v = 0; v < loops_.vertices; v += W) {
+			V square = broadcast<R, W>(0);
+			for (int k = 0; k < 3; ++k) {
+				const V from = load<R, W>(loops_.at[k] + v) - broadcast<R, W>(x_[k]);
+				square += from * from;
+			}
+			farthest = maxOf(farthest, square);
 		}
-		return sqrt(farthest);
+		return sqrt(-horizontalMin<R, W>(V(-farthest)));
 	}
 
 	/// a·(u × v)
@@ -293,26 +322,28 @@ private:
 
 	POLYTOPE_INLINE bool beyond(int vertex) const { return value_[vertex] > tolerance_; }
 
+	/// Writes to value_ how far the vertices lie beyond plane i; whether any does.
+	POLYTOPE_INLINE bool measureBeyond(int i)
+	{
+		V farthest = broadcast<R, W>(0);
+		for (int v = 0; v < loops_.vertices; v += W) {
+			V value = broadcast<R, W>(-planes_.offset[i]);
+			for (int k = 0; k < 3; ++k)
+				value += broadcast<R, W>(planes_.normal[k][i]) * load<R, W>(loops_.at[k] + v);
+			store<R, W>(value_ + v, value);
+			farthest = maxOf(farthest, value);
+		}
+		return -horizontalMin<R, W>(V(-farthest)) > tolerance_;
+	}
+
 	/// Removes what lies beyond plane i; false if nothing does.
 	POLYTOPE_INLINE bool cut(int i)
 	{
-		R a[3], d, farthest = 0;
-		planes_.plane(i, a, d);
-		const int before = loops_.vertices;
-		for (int v = 0; v < before; ++v) {
-			value_[v] = a[0] * loops_.at[0][v] + a[1] * loops_.at[1][v] + a[2] * loops_.at[2][v] - d;
-			farthest  = maxOf<R>(farthest, value_[v]);
-		}
-		if (!(farthest > tolerance_)) return false;
-		cutVertices_ = 0;
+		if (!measureBeyond(i)) return false;
+		const int vertices = loops_.vertices;
 		for (int face = 0; face < loops_.faces && whole_; ++face)
-			cutFace(face);
-		if (whole_) closeCut(i);
-		for (int v = 0; v < before && whole_; ++v)
-			if (beyond(v)) {
-				loops_.set(v, x_);
-				free_[freePlaces_++] = v;
-			}
+			takeFace(face, loops_.corner + face * room_, loops_.count[face], true);
+		close(i, vertices);
 		return true;
 	}
 
@@ -325,8 +356,8 @@ private:
 			whole_ = false;
 			return inner;
 		}
-		const int vertex = freePlaces_ > 0 ? free_[--freePlaces_] : loops_.vertices++;
-		const R   t      = maxOf<R>(0, value_[inner] / (value_[inner] - value_[outer])); // the inner one may lie beyond it by rounding
+		const int vertex = freePlaces_ > 0 ? free_[--freePlaces_] : newPlace();
+		const R   t = maxOf<R>(0, value_[inner] / (value_[inner] - value_[outer])); // the inner one may lie beyond it by rounding
 		for (int k = 0; k < 3; ++k)
 			loops_.at[k][vertex] = loops_.at[k][inner] + t * (loops_.at[k][outer] - loops_.at[k][inner]);
 		inner_[cutVertices_]  = inner;
@@ -336,21 +367,17 @@ private:
 		return vertex;
 	}
 
-	/// Leaves what is inside, and notes the edges along which it was cut: where a loop comes in again, the new face runs back to where it had left.
-	POLYTOPE_INLINE void cutFace(int face)
+	/// Leaves of a loop what is inside, and notes the edges along which it was cut: where it comes in again, the new face runs back to where it had left.
+	POLYTOPE_INLINE void takeFace(int face, const int* loop, int count, bool cuts)
 	{
-		const int count = loops_.count[face];
-		int*      loop  = loops_.corner + face * room_;
-		int       outside = 0;
-		for (int v = 0; v < count; ++v)
-			outside += beyond(loop[v]);
-		if (outside == 0) return;
-		if (outside == count) {
-			loops_.count[face] = 0;
-			return;
-		}
-		int  kept = 0, exit = -1, firstEntry = -1, last = loop[count - 1];
-		for (int k = 0; k < count && whole_; last = loop[k++]) {
+		int* own     = loops_.corner + face * room_;
+		int  outside = 0;
+		for (int k = 0; k < count && cuts; ++k)
+			outside += beyond(loop[k]);
+		loops_.count[face] = outside < count ? count : 0;
+		if (outside == count || (outside == 0 && loop == own)) return;
+		int kept = 0, exit = -1, firstEntry = -1, last = loop[count - 1];
+		for (int k = 0; k < count && outside > 0 && whole_; last = loop[k++]) {
 			const int v = loop[k];
 			if (kept + 2 > room_) whole_ = false;
 			else if (!beyond(last) && beyond(v)) left_[kept++] = exit = meeting(last, v);
@@ -361,18 +388,17 @@ private:
 			}
 			if (whole_ && !beyond(v)) left_[kept++] = v;
 		}
-		if (!whole_) return;
 		if (firstEntry >= 0) next_[firstEntry] = exit;
-		for (int k = 0; k < kept; ++k)
-			loop[k] = left_[k];
-		loops_.count[face] = kept;
+		if (outside > 0) loops_.count[face] = kept;
+		for (int k = 0; k < loops_.count[face]; ++k)
+			own[k] = outside > 0 ? left_[k] : loop[k];
 	}
 
-	/// Chains the vertices of the cut into the face in plane i; by rounding there may be more than one. Two vertices make none: their faces meet at an
-	/// edge.
-	POLYTOPE_INLINE void closeCut(int i)
+	/// Chains the vertices of the cut into the face in plane i, and gives up those of `vertices` that were cut away. By rounding there may be more
+	/// than one such face. Two vertices make none: their faces meet at an edge.
+	POLYTOPE_INLINE void close(int i, int vertices)
 	{
-		for (int k = 0; k < cutVertices_; ++k) {
+		for (int k = 0; k < cutVertices_ && whole_; ++k) {
 			if (next_[made_[k]] < 0) continue;
 			if (loops_.faces == room_) {
 				whole_ = false;
@@ -390,6 +416,12 @@ private:
 			loops_.count[loops_.faces]   = count;
 			loops_.plane[loops_.faces++] = i;
 		}
+		cutVertices_ = 0;
+		for (int v = 0; v < vertices; ++v)
+			if (beyond(v)) {
+				loops_.set(v, x_);
+				free_[freePlaces_++] = v;
+			}
 	}
 
 	const PairPlanes<R, 3>& planes_;
@@ -399,20 +431,21 @@ private:
 	int                     vertexRoom_;
 	bool                    whole_ = true;
 	FaceLoops<R>            loops_;
-	R*                      value_;            ///< of each vertex: beyond the cutting plane [m]
-	R*                      slack_;            ///< of each plane, at x [m]
-	int*                    nearest_;          ///< planes to cut by
-	int*                    left_;             ///< vertices of a face after a cut
-	int *                   inner_, *outer_;   ///< ends of the edges that a cut meets,
-	int*                    made_;             ///< and the vertices there
-	int                     cutVertices_ = 0;  ///< how many
-	int*                    next_;             ///< of a vertex that the cut made: the one after it in the new face
-	int*                    free_;             ///< places of vertices that were cut away
+	R*                      value_;           ///< of each vertex: beyond the cutting plane [m]
+	R*                      slack_;           ///< of each plane, at x [m]
+	R*                      area_;            ///< of each face, by mass() [m²]
+	int*                    nearest_;         ///< planes to cut by
+	int*                    left_;            ///< vertices of a face after a cut
+	int *                   inner_, *outer_;  ///< ends of the edges that a cut meets,
+	int*                    made_;            ///< and the vertices there
+	int                     cutVertices_ = 0; ///< how many
+	int*                    next_;            ///< of a vertex that the cut made: the one after it in the new face
+	int*                    free_;            ///< places of vertices that were cut away
 	int                     freePlaces_ = 0;
 };
 
 /// The loop of corners alone, cut by one line after the other.
-template <class R> class Overlap<R, 2> {
+template <class R, int W> class Overlap<R, 2, W> {
 public:
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 2>& planes, const R*, R halfWidth, ContactWorkspace& workspace)
 	        : planes_(planes), here_(workspace.polygons(4 * (planes.total + 5))), there_(here_ + 2 * (planes.total + 5))
@@ -440,6 +473,13 @@ public:
 		for (int k = 0; k < 2; ++k)
 			result.centroid[k] = x[k] + moment[k] / result.volume;
 		return true;
+	}
+
+	/// Length seen along n.
+	POLYTOPE_INLINE R areaAlong(const R* n) const
+	{
+		const R origin[2] = {};
+		return footprint(origin, n).area;
 	}
 
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const

@@ -144,8 +144,9 @@ constexpr int overlapFaces = 512;
 /// Planes up to which sorting by insertion is faster than std::sort.
 constexpr int fewPlanes = 64;
 
-/// Vertices of a body up to which its overlap with another is cut out of the body itself, not out of a box by its planes.
-constexpr int fewVertices = 64;
+/// Faces of a body up to which its overlap with another is cut out of the body itself, not out of a box by its planes: half of overlapFaces, so that
+/// cuts have room.
+constexpr int wholeBodyFaces = overlapFaces / 2;
 
 /// Depth over width of an overlap, at which a contact with a stiffness per contact is half way between one of two faces and one of an edge:
 /// faces are a thousandth deep, the wedge between two faces as deep as its angle, edges and vertices about as deep as wide.

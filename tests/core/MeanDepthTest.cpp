@@ -46,6 +46,29 @@ Vector3 axis(int k)
 
 Matrix3 turned(const Vector3& about, Real angle) { return Eigen::AngleAxis<Real>(angle, about.normalized()).toRotationMatrix(); }
 
+TEST(MeanDepth, CutOutOfABodyOrOutOfABoxTheOverlapIsTheSame)
+{
+	std::mt19937_64                                 random(31);
+	std::vector<std::shared_ptr<const ConvexShape>> shapes { ConvexShape::shared(cuboid(1, 1, 1), Real(0.1)) };
+	for (int faces : { 8, 12, 20 }) // of an octahedron and an icosahedron more planes than three meet at a vertex
+		shapes.push_back(ConvexShape::shared(regularSolid(faces, 1), Real(0.1)));
+	for (int faces : { 5, 20, 100, 250, 400 })
+		shapes.push_back(ConvexShape::shared(randomPlanes(faces, random, 3), Real(0.1)));
+	for (int trial = 0; trial < 600; ++trial) {
+		Pair pair;
+		for (auto& shape : pair.shape)
+			shape = shapes[random() % shapes.size()];
+		for (Matrix3& rotation : pair.rotation)
+			rotation = trial % 3 > 0 ? randomRotation(random) : Matrix3::Identity();
+		moveTo(pair, trial % 2 > 0 ? randomDirection(random) : axis(trial % 3), -decades(random, -6, 0) * pair.inscribedRadius());
+		const ContactResult mean = meanQuery(pair);
+		ContactSettings     fromBox;
+		fromBox.contactPoint      = ContactPoint::Centroid;
+		const ContactResult other = query(pair, fromBox);
+		EXPECT_LE((mean.point - other.point).norm(), 1e-9 * pair.size()) << trial;
+	}
+}
+
 TEST(MeanDepth, OfTwoFacesIsTheirDistance)
 {
 	Pair pair;

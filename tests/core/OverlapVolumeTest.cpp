@@ -105,7 +105,7 @@ TEST(OverlapVolume, OverlapWithoutVolumeHasNone)
 	ContactWorkspace     workspace;
 	const Real           x[] = { Real(0.125), Real(0.25), 1 };
 	OverlapMass<Real, 3> mass;
-	EXPECT_FALSE((Overlap<Real, 3>(rows.planes, x, 4, workspace).mass(x, mass)));
+	EXPECT_FALSE((Overlap<Real, 3, 1>(rows.planes, x, 4, workspace).mass(x, mass)));
 }
 
 } // namespace
