@@ -6,12 +6,14 @@
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
 
+#include <algorithm>
+
 /// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
 ///
-/// A box (a square) is cut by one plane after the other, the nearest first. Each face is a loop of vertices, counter-clockwise seen from outside; what a cut
-/// leaves open is closed by a face of its own, whose loop is chained from the edges that the cut made in the other faces. Most planes cut
-/// nothing: they cost one product with each vertex, or nothing if they are farther than any vertex. With an inner point x, and over the faces i with area A_i, centroid c_i and slack
-/// σ_i = d_i − a_i·x, the cones from x give
+/// A box (a square) is cut by one plane after the other, the nearest first. Each face is a loop of vertices, counter-clockwise seen from
+/// outside; what a cut leaves open is closed by a face of its own, whose loop is chained from the edges that the cut made in the other faces. Most
+/// planes cut nothing: they cost one product with each vertex, or nothing if they are farther than any vertex. With an inner point x, and over the
+/// faces i with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
 ///
 ///     V = Σ A_i σ_i / D,      centroid = x + Σ A_i σ_i (c_i − x) / ((D + 1) V).
 ///
@@ -61,9 +63,10 @@ template <class R> class Overlap<R, 3> {
 public:
 	/// x: a point inside. `halfWidth`: the overlap lies within this distance of the frame's origin, along each axis.
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, const R* x, R halfWidth, ContactWorkspace& workspace)
-	        : planes_(planes), tolerance_(R(tolerance::violation) * halfWidth), room_(planes.total + 7)
+	        : planes_(planes), tolerance_(R(tolerance::violation) * halfWidth),
+	          room_(planes.total + 7 < tolerance::overlapFaces ? planes.total + 7 : tolerance::overlapFaces)
 	{
-		// of at most room_ faces each has less than room_ vertices, one on each of the other faces
+		// a face of a polyhedron with so many faces has less vertices, one on each edge to another face
 		R* numbers = workspace.polygons(3 * room_ * room_ + 10 * room_ + planes.total);
 		for (R*& component : loops_.at) {
 			component = numbers;
@@ -80,7 +83,7 @@ public:
 		box(halfWidth);
 		const int count = sortBySlack(x, slack, nearest);
 		R         reach = reachFrom(x);
-		for (int k = 0; k < count && whole_ && slack[k] < reach; ++k) // from there on planes are farther than any vertex
+		for (int k = 0; k < count && whole_ && slack[nearest[k]] < reach; ++k) // from there on planes are farther than any vertex
 			if (cut(nearest[k])) reach = reachFrom(x);
 	}
 
@@ -154,7 +157,8 @@ public:
 	}
 
 private:
-	/// The planes from the nearest to the farthest, without those of padding: near ones leave little for the others to cut. Returns how many.
+	/// The planes from the nearest to the farthest, without those of padding: near ones leave little for the others to cut. `slack`: of plane i.
+	/// Returns how many.
 	POLYTOPE_INLINE int sortBySlack(const R* x, R* slack, int* plane) const
 	{
 		int count = 0;
@@ -162,15 +166,19 @@ private:
 			R a[3], d;
 			planes_.plane(i, a, d);
 			if (d >= R(padOffset) / 2) continue;
-			const R own = d - dot<R, 3>(a, x);
-			int     k   = count++;
-			for (; k > 0 && slack[k - 1] > own; --k) {
-				slack[k] = slack[k - 1];
-				plane[k] = plane[k - 1];
-			}
-			slack[k] = own;
-			plane[k] = i;
+			slack[i]       = d - dot<R, 3>(a, x);
+			plane[count++] = i;
 		}
+		const auto nearer = [slack](int i, int j) { return slack[i] < slack[j] || (slack[i] == slack[j] && i < j); };
+		if (count > tolerance::fewPlanes) std::sort(plane, plane + count, nearer);
+		else
+			for (int next = 1; next < count; ++next) {
+				const int own = plane[next];
+				int       k   = next;
+				for (; k > 0 && nearer(own, plane[k - 1]); --k)
+					plane[k] = plane[k - 1];
+				plane[k] = own;
+			}
 		return count;
 	}
 

@@ -137,6 +137,13 @@ constexpr int    ipoptIterations = 15;
 constexpr Real ipoptMove   = 1e-9;
 constexpr int  ipoptRounds = 20;
 
+/// Faces, and vertices of one face, that an overlap may have (OverlapVolume.hpp): buffers are this large squared. The overlap of two smooth
+/// bodies of ten thousand faces has some hundred where they touch; one with more is taken as a contact at one point.
+constexpr int overlapFaces = 512;
+
+/// Planes up to which sorting by insertion is faster than std::sort.
+constexpr int fewPlanes = 64;
+
 /// Depth over width of an overlap, at which a contact with a stiffness per contact is half way between one of two faces and one of an edge:
 /// faces are a thousandth deep, the wedge between two faces as deep as its angle, edges and vertices about as deep as wide.
 constexpr Real faceContact = 0.01;
