@@ -159,7 +159,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
 		if ((turn || !geom.internalKnown || !wasReal)
-		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
+		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene))
 			settings.bounding = &bounding;
 		settings.internal = geom.internalFaces.empty() ? nullptr : &internal;
 	}
