@@ -3,7 +3,7 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*. One pair without a scene: *contact*. The usual engines: *engines*; what is
 wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*,
 *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. The scene as a
 PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
@@ -18,6 +18,7 @@ from yade._polytope import buildInfo, contact
 
 from . import _helpTexts
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .bonding import bond, bonds
 from .check import check
 from .energy import mechanicalEnergy
 from .engines import engines
@@ -48,6 +49,8 @@ __all__ = [
 	'VoronoiCells',
 	'aabbExtrema',
 	'bodyStress',
+	'bond',
+	'bonds',
 	'buildInfo',
 	'check',
 	'cloud',

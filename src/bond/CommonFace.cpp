@@ -29,8 +29,8 @@ namespace {
 			const int plane = solid.planeOfFace[i];
 			if (plane < 0) continue; // a polygon's caps
 			const Vector3 normal = body.rotation * body.shape.planes().normals[plane];
-			faces.push_back({ normal, body.shape.planes().offsets[plane] + normal.dot(body.centre - origin), solid.vertices.data(),
-			        solid.faces[i] });
+			faces.push_back({ normal, body.shape.planes().offsets[plane] + normal.dot(body.centre - origin),
+			        solid.vertices.data(), solid.faces[i] });
 		}
 		return faces;
 	}
@@ -85,7 +85,8 @@ namespace {
 		for (std::size_t k = 0; k < ring.size(); ++k) {
 			const Vector2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
 			sum += cross(a, b)
-			        * Vector3(a[0] * a[0] + a[0] * b[0] + b[0] * b[0], (a[0] * b[1] + 2 * a[0] * a[1] + 2 * b[0] * b[1] + b[0] * a[1]) / 2,
+			        * Vector3(a[0] * a[0] + a[0] * b[0] + b[0] * b[0],
+			                (a[0] * b[1] + 2 * a[0] * a[1] + 2 * b[0] * b[1] + b[0] * a[1]) / 2,
 			                a[1] * a[1] + a[1] * b[1] + b[1] * b[1]);
 		}
 		return sum / 12;
@@ -113,9 +114,10 @@ namespace {
 
 std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape& second, const Real& gap, const Real& angle)
 {
-	const Vector3     origin = first.centre; // small numbers wherever the bodies are
-	const auto        faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
-	const Real        opposite = cos(angle), deepest = tolerance::thinContact * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
+	const Vector3 origin = first.centre; // small numbers wherever the bodies are
+	const auto    faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
+	const Real    opposite = cos(angle),
+	           deepest     = tolerance::thinContact * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
 	std::vector<CommonFace> found;
 	for (const Face& face1 : faces1)
 		for (const Face& face2 : faces2) {

@@ -17,7 +17,10 @@ Vector3 randomVector(Real size)
 	return { number(random_), number(random_), number(random_) };
 }
 
-Quaternion turned(const Vector3& by) { return Quaternion(Eigen::AngleAxis<Real>(by.norm(), by.norm() > 0 ? by.normalized() : Vector3::UnitX())); }
+Quaternion turned(const Vector3& by)
+{
+	return Quaternion(Eigen::AngleAxis<Real>(by.norm(), by.norm() > 0 ? by.normalized() : Vector3::UnitX()));
+}
 
 /// Two bodies with centres, orientations; the bond's frame is the body's own, its point at the arm in body axes.
 struct Pair {
@@ -75,7 +78,8 @@ TEST(BondSprings, ForceAndMomentAreTheGradientOfTheEnergyAtLargeRotations)
 				const auto    energy = [&](const Pair& one) { return bondForce(one.motion(), linear, angular).energy; };
 				const Real    alongForce
 				        = (energy(pair.moved(body, way, no)) - energy(pair.moved(body, -way, no))) / (2 * step);
-				const Real aboutAxis = (energy(pair.moved(body, no, way)) - energy(pair.moved(body, no, -way))) / (2 * step);
+				const Real aboutAxis
+				        = (energy(pair.moved(body, no, way)) - energy(pair.moved(body, no, -way))) / (2 * step);
 				EXPECT_NEAR(alongForce, -sign * now.force[axis], 1e-7 * scale);
 				EXPECT_NEAR(aboutAxis, -torque[axis], 1e-7 * scale);
 			}

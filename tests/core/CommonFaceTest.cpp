@@ -20,7 +20,10 @@ HalfSpaces box(const Vector3& half)
 
 const ConvexShape plate(box({ 2, 1, 0.5 }), 0), brick(box({ 0.5, 0.4, 0.3 }), 0);
 
-PlacedShape at(const ConvexShape& shape, const Vector3& centre, const Matrix3& rotation = Matrix3::Identity()) { return { shape, centre, rotation }; }
+PlacedShape at(const ConvexShape& shape, const Vector3& centre, const Matrix3& rotation = Matrix3::Identity())
+{
+	return { shape, centre, rotation };
+}
 
 } // namespace
 

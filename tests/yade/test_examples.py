@@ -11,7 +11,7 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
+here = ('bondedCube', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock'}
 
 
@@ -48,6 +48,12 @@ def testEveryExampleIsRun():
 		assert f'{name}.py' in (pathlib.Path(__file__).parent / f'{test}.py').read_text()
 	tests = pathlib.Path(__file__).read_text()
 	assert all(f"runs('{name}'" in tests or f"run_path(str(folder / '{name}.py'))" in tests for name in here)
+
+
+def testBondedCubeBreaksInPart(runs, capsys):
+	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
+	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
+	assert made == intact + tension + shear and 0 < intact < made and isPicture('bondedCube.png') and noFailures()
 
 
 def testPebblesLieInTheTray(runs, capsys):
