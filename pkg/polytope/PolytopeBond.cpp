@@ -5,6 +5,29 @@ namespace yade {
 
 YADE_PLUGIN((PolytopeBond));
 
+namespace {
+
+	bool isStill(const boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies)
+	{
+		if (!bodies.exists(id)) return false;
+		return own.empty() || (!own.owner_before(bodies[id]) && !bodies[id].owner_before(own));
+	}
+
+	void adopt(boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies)
+	{
+		if (own.empty() && bodies.exists(id)) own = bodies[id];
+	}
+
+} // namespace
+
+bool PolytopeBond::hasItsBodies(const BodyContainer& bodies) const { return isStill(body1_, id1, bodies) && isStill(body2_, id2, bodies); }
+
+void PolytopeBond::adoptBodies(const BodyContainer& bodies)
+{
+	adopt(body1_, id1, bodies);
+	adopt(body2_, id2, bodies);
+}
+
 void PolytopeBond::setStresses(const Vector3r& displacement, const Vector3r& rotation)
 {
 	Real bending = -std::numeric_limits<Real>::infinity(), farthest = 0;
@@ -21,7 +44,7 @@ void PolytopeBond::setStresses(const Vector3r& displacement, const Vector3r& rot
 const char* PolytopeBond::exceeded() const
 {
 	if (edgeStress > tensileStrength) return "tension";
-	if (shearStress > math::max(cohesion - normalStress * math::tan(frictionAngle), Real(0))) return "shear";
+	if (shearStress > cohesion - normalStress * math::tan(frictionAngle)) return "shear"; // in tension above c/tan φ without any shear
 	return nullptr;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
 
 #include <src/bond/BondSprings.hpp>
+
+#include <boost/weak_ptr.hpp>
 
 namespace yade {
 
@@ -23,7 +25,19 @@ public:
 	void setStresses(const Vector3r& displacement, const Vector3r& rotation);
 	/// Strength that these stresses exceed: "tension", "shear", or none.
 	const char* exceeded() const;
-	bool        isFinite() const { return math::isfinite(force.squaredNorm() + moment.squaredNorm()); }
+	/// Whether its two bodies are those between which it was made, not others that have got their numbers. A bond from a file
+	/// has those of its numbers.
+	bool hasItsBodies(const BodyContainer& bodies) const;
+	/// Makes those of its numbers its own, where it has none yet.
+	void adoptBodies(const BodyContainer& bodies);
+	/// One of its bodies is gone.
+	void erase()
+	{
+		failure = "erased";
+		force = moment = Vector3r::Zero();
+		energy         = 0;
+	}
+	bool isFinite() const { return math::isfinite(force.squaredNorm() + moment.squaredNorm()); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PolytopeBond, Serializable,
@@ -61,6 +75,9 @@ public:
 		((Vector3r, arm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
 	);
 	// clang-format on
+
+private:
+	boost::weak_ptr<Body> body1_, body2_;
 };
 REGISTER_SERIALIZABLE(PolytopeBond);
 

@@ -155,7 +155,8 @@ long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Rea
 {
 	checkPattern(pattern, angle);
 	Scene&                                where = *Omega::instance().getScene();
-	auto                                  all   = bondablesOf(ids, where);
+	endErased(where);
+	auto                                  all = bondablesOf(ids, where);
 	std::vector<shared_ptr<PolytopeBond>> found;
 	forNeighbours(all, where, math::max(gap, Real(0)), [&](const Bondable& a, const Bondable& b, const Vector3i& cells) {
 		// fixed bodies are moved by a script, if at all: they are bonded if it names them
@@ -177,6 +178,7 @@ long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Rea
 	std::stable_sort(found.begin(), found.end(),
 	        [](const auto& a, const auto& b) { return std::make_pair(a->id1, a->id2) < std::make_pair(b->id1, b->id2); });
 	for (const auto& bond : found) {
+		bond->adoptBodies(*where.bodies);
 		bonds.push_back(bond);
 		enter(int(bonds.size()) - 1);
 		where.interactions->requestErase(bond->id1, bond->id2); // its contact

@@ -60,12 +60,11 @@ void PolytopeBonds::action()
 /// Force of this step on both bodies, and whether the bond fails in it: then it has acted for the last time.
 void PolytopeBonds::act(PolytopeBond& bond) const
 {
-	if (!scene->bodies->exists(bond.id1) || !scene->bodies->exists(bond.id2)) {
-		bond.failure = "erased";
-		bond.force = bond.moment = Vector3r::Zero();
-		bond.energy              = 0;
+	if (!bond.hasItsBodies(*scene->bodies)) {
+		bond.erase();
 		return;
 	}
+	bond.adoptBodies(*scene->bodies);
 	const State &              state1 = *(*scene->bodies)[bond.id1]->state, &state2 = *(*scene->bodies)[bond.id2]->state;
 	const Vector3r             shift = shiftOf(bond, *scene), to1 = state1.ori * bond.point1, to2 = state2.ori * bond.point2;
 	const Vector3r             between = (state2.pos - state1.pos + shift) + (to2 - to1);
@@ -100,15 +99,32 @@ void PolytopeBonds::settle()
 		if (!bond.intact) continue;
 		stored += bond.energy;
 		if (bond.failure.empty()) continue;
-		bond.intact    = false;
-		bond.failedAt  = scene->iter;
-		const Key pair = key(bond.id1, bond.id2);
-		if (--intactPairs_[pair] <= 0) intactPairs_.erase(pair);
-		if (bond.failure == "erased") continue;
-		failedPairs_[pair] = k;
-		failed_.push_back(k);
+		end(k, scene->iter);
+		if (bond.failure != "erased") failed_.push_back(k);
 	}
 	if (scene->trackEnergy) scene->energy->add(stored, "elastPotential", elasticId_, /*reset in each step*/ true);
+}
+
+/// A bond acts no more after this step.
+void PolytopeBonds::end(int index, long step)
+{
+	PolytopeBond& bond = *bonds[index];
+	bond.intact        = false;
+	bond.failedAt      = step;
+	const Key pair     = key(bond.id1, bond.id2);
+	if (--intactPairs_[pair] <= 0) intactPairs_.erase(pair);
+	if (bond.failure == "erased") failedPairs_.erase(pair);
+	else failedPairs_[pair] = index;
+}
+
+/// Bonds of bodies that are not there any more end.
+void PolytopeBonds::endErased(const Scene& where)
+{
+	for (int k = 0; k < int(bonds.size()); ++k) {
+		if (!bonds[k]->intact || bonds[k]->hasItsBodies(*where.bodies)) continue;
+		bonds[k]->erase();
+		end(k, where.iter);
+	}
 }
 
 /// Of the bonds that acted for the last time in the step before: what they had stored and have not given to the bodies. Where a joint has taken
@@ -117,7 +133,7 @@ void PolytopeBonds::bookFailed()
 {
 	for (int k : failed_) {
 		PolytopeBond& bond = *bonds[k];
-		if (scene->trackEnergy && scene->bodies->exists(bond.id1) && scene->bodies->exists(bond.id2)) {
+		if (scene->trackEnergy && bond.hasItsBodies(*scene->bodies)) {
 			const bool     followed = jointHasTakenOver(bond, *scene);
 			const Vector3r force    = followed ? Vector3r(Vector3r::Zero()) : bond.force;
 			const Real     lost     = (followed ? Real(0) : bond.energy) - workOfLastHalf(bond, force, *scene);
@@ -177,6 +193,7 @@ bool PolytopeBonds::left(Body::id_t id1, Body::id_t id2, BondRemains& remains) c
 	const auto found = failedPairs_.find(key(id1, id2));
 	if (found == failedPairs_.end()) return false;
 	const PolytopeBond& bond = *bonds[found->second];
+	if (!bond.hasItsBodies(*scene->bodies)) return false;
 	remains.overlap          = bond.overlap;
 	remains.inLastStep       = bond.failedAt + 1 == scene->iter;
 	if (!remains.inLastStep) return true;

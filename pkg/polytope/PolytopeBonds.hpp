@@ -49,6 +49,8 @@ private:
 
 	void act(PolytopeBond& bond) const;
 	void settle();
+	void end(int index, long step);
+	void endErased(const Scene& where);
 	void bookFailed();
 	void enter(int index);
 	void rebuild();

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/ConvexShape.hpp"
+#include "shape/PlacedShape.hpp"
 
 #include <vector>
 
 /// The area that faces of two bodies have in common, seen along their normal: what a bond between the bodies is made of.
 namespace polytope {
-
-/// A body's shape with its centre there, turned so.
-struct PlacedShape {
-	const ConvexShape& shape;
-	Vector3            centre;
-	Matrix3            rotation;
-};
 
 /// World axes.
 struct CommonFace {

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bonds while they hold, against closed forms: springs, beams, aggregates at rest and in flight, time step, what is refused."""
+"""Bonds while they hold, against closed forms: springs, aggregates at rest and in flight, time step, what is refused."""
 
 import math
 
 import numpy as np
 import pytest
-from yade import ForceResetter, NewtonIntegrator, O, PolytopeBond, Quaternion, Sphere, Vector3, polytope, utils
+from yade import ForceResetter, NewtonIntegrator, O, Quaternion, Sphere, Vector3, polytope, utils
 
-from scenes import density, gravity, joint, loop, stepper, stepUntil
+from scenes import joint, loop, stepper
 
 kn, ks = 1e9, 4e8
 
@@ -21,23 +21,6 @@ def bondedPair(gap=0., half=(0.5, 0.4, 0.3)):
 	O.dt = 1e-12
 	assert polytope.bond(gap=max(gap, 0) * 1.5) == 1
 	return polytope.bonds().bonds[0], O.bodies[1].state
-
-
-def chain(number, length=1., half=0.5):
-	"""Blocks in a row along x, the first one fixed, bonded so that they are the beam of modulus E = kn × length of a block."""
-	joint(normalStiffness=kn, shearStiffness=ks)
-	O.bodies.append([polytope.cuboid((k * length, 0, 0), (length / 2, half, half), fixed=k == 0) for k in range(number + 1)])
-	loop(True, damping=0.4)
-	assert polytope.bond() == number
-	stepper()
-	return O.bodies[number]
-
-
-def deflectionOfChain(number, force, length=1., half=0.5):
-	"""Of the last block's centre: rotation of each bond times its distance, and slip."""
-	area, inertia = 4 * half**2, (2 * half) ** 4 / 12
-	arms = length * (np.arange(number) + 0.5)
-	return force * (arms**2).sum() / (kn * inertia) + number * force / (ks * area)
 
 
 @pytest.mark.parametrize('gap', [-1e-3, 0, 1e-2])
@@ -74,61 +57,6 @@ def testPullShearBendingAndTwistAreHookes(gap):
 	state.pos, state.ori = middle + turn * (start - middle), turn
 	O.step()
 	assert edge.edgeStress == pytest.approx(kn * 1e-6 * high / 2, rel=1e-6) and abs(edge.normalStress) < 1e-6 * edge.edgeStress
-
-
-@pytest.mark.parametrize('number', [1, 2, 4])
-def testACantileverBendsAsTheChainDoes(number):
-	tip, force = chain(number), 1e4
-	O.forces.setPermF(tip.id, (0, 0, -force))
-	O.run(12000, wait=True)
-	expected = deflectionOfChain(number, force)
-	assert -tip.state.pos[2] == pytest.approx(expected, rel=1e-4)
-	root = next(bond for bond in polytope.bonds().bonds if bond.id1 == 0)
-	assert root.force[2] == pytest.approx(-force, rel=1e-4) or root.force[2] == pytest.approx(force, rel=1e-4)
-	assert abs(root.moment[1]) == pytest.approx(force * (number - 0.5), rel=1e-4)
-
-
-def testTheChainBecomesTimoshenkosBeam():
-	"""Same beam of more and more blocks: the closed form of the chain misses Euler-Bernoulli's with shear by 1/(4 n²)."""
-	length, force = 8., 1e4
-	for number in (2, 4, 8):
-		h = length / number
-		beam = force * length**3 / (3 * kn * h / 12) + force * length / (ks * h)
-		chained = deflectionOfChain(number, force, h)
-		assert chained / beam == pytest.approx(1, abs=1.01 / (4 * number**2))
-
-
-def frequencyOfChain(number, mass, inertia):
-	"""Lowest angular frequency of blocks that move along z and turn about y, from their stiffness matrix, assembled here."""
-	stiffness = np.zeros((2 * number + 2, 2 * number + 2))
-	for k in range(number):
-		# opening of bond k in w and φ of both blocks: slip w2 − w1 + h/2 (φ1 + φ2) and turn φ2 − φ1 (w' = −φ)
-		for row, k0 in (((-1, 0.5, 1, 0.5), ks), ((0, -1, 0, 1), kn / 12)):
-			row = np.array(row)
-			at = [2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 3]
-			stiffness[np.ix_(at, at)] += k0 * np.outer(row, row)
-	inverse = 1 / np.sqrt(np.tile([mass, inertia], number))
-	return math.sqrt(np.linalg.eigvalsh(inverse[:, None] * stiffness[2:, 2:] * inverse)[0])
-
-
-@pytest.mark.parametrize('number', [2, 4])
-def testTheFirstNaturalFrequencyIsTheChains(number):
-	tip = chain(number)
-	O.forces.setPermF(tip.id, (0, 0, -1e4))
-	O.run(12000, wait=True)
-	O.forces.setPermF(tip.id, (0, 0, 0))
-	next(one for one in O.engines if isinstance(one, NewtonIntegrator)).damping = 0
-	omega = frequencyOfChain(number, tip.state.mass, tip.state.inertia[1])
-	crossings, last, lastTime = [], tip.state.pos[2], O.time
-	while len(crossings) < 7:
-		O.step()
-		now = tip.state.pos[2]
-		if last * now < 0:
-			crossings.append(lastTime + (O.time - lastTime) * last / (last - now))
-		last, lastTime = now, O.time
-		assert O.time < 100
-	period = 2 * (crossings[-1] - crossings[0]) / 6
-	assert 2 * math.pi / period == pytest.approx(omega, rel=1e-2)
 
 
 def aggregate(cells=30, **bond):
