@@ -11,7 +11,7 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('bondedCube', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
+here = ('bondedCube', 'crushedCube', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock'}
 
 
@@ -54,6 +54,13 @@ def testBondedCubeBreaksInPart(runs, capsys):
 	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
 	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
 	assert made == intact + tension + shear and 0 < intact < made and isPicture('bondedCube.png') and noFailures()
+
+
+def testCrushedCubeBalancesItsEnergy(runs, capsys):
+	names = runs('crushedCube')
+	missing = float(re.search(r'missing: (\S+) %', capsys.readouterr().out)[1])
+	assert abs(missing) < 1 and names['parts']['broken'] > 0.02 * names['work'] and isPicture('crushedCube.png') and noFailures()
+	assert 2 * polytope.bonds().intactCount < names['made'] and 1e6 < names['strength'] < 1e8
 
 
 def testPebblesLieInTheTray(runs, capsys):
