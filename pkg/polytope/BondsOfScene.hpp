@@ -32,7 +32,7 @@ class KnowsBonds {
 public:
 	KnowsBonds() { ++changes(); }
 	virtual ~KnowsBonds() { ++changes(); }
-	KnowsBonds(const KnowsBonds&) = delete;
+	KnowsBonds(const KnowsBonds&)            = delete;
 	KnowsBonds& operator=(const KnowsBonds&) = delete;
 	/// Such engines made and destroyed so far, in all scenes.
 	static std::atomic<long>& changes()

@@ -154,7 +154,7 @@ namespace {
 long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern)
 {
 	checkPattern(pattern, angle);
-	Scene&                                where = *Omega::instance().getScene();
+	Scene& where = *Omega::instance().getScene();
 	endErased(where);
 	auto                                  all = bondablesOf(ids, where);
 	std::vector<shared_ptr<PolytopeBond>> found;

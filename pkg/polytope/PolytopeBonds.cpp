@@ -194,8 +194,8 @@ bool PolytopeBonds::left(Body::id_t id1, Body::id_t id2, BondRemains& remains) c
 	if (found == failedPairs_.end()) return false;
 	const PolytopeBond& bond = *bonds[found->second];
 	if (!bond.hasItsBodies(*scene->bodies)) return false;
-	remains.overlap          = bond.overlap;
-	remains.inLastStep       = bond.failedAt + 1 == scene->iter;
+	remains.overlap    = bond.overlap;
+	remains.inLastStep = bond.failedAt + 1 == scene->iter;
 	if (!remains.inLastStep) return true;
 	const bool same = bond.id1 == id1;
 	remains.force   = same ? bond.force : Vector3r(-bond.force);

@@ -3,6 +3,7 @@
 
 import math
 import numbers
+import warnings
 
 from yade import Clump, InteractionLoop, NewtonIntegrator, O, Polytope, PolytopeBond, PolytopeBonds
 
@@ -44,7 +45,7 @@ def bond(
 	:param float cohesion: [Pa]; default infinite, no failure in shear
 	:param float frictionAngle: of the shear strength [rad]; default the joint's of the bodies' RockJointMat
 	:param float bendingShare: part of the stresses by bending and twisting that counts against the strengths, 0 to 1
-	:returns: number of bonds made
+	:returns: number of bonds made; where the scene has none then, a warning says so
 	:raises ValueError: naming the argument and the remedy
 	"""
 	pattern = PolytopeBond(
@@ -69,6 +70,9 @@ def bond(
 	if new:
 		place, engine = _place(), PolytopeBonds()
 	made = engine.make(bodies, -1 if gap is None else real(gap), real(angle), pattern)
+	if made == 0 and engine.intactCount == 0:
+		within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
+		warnings.warn(f'no bond was made: no two faces {within} and face each other within {float(angle):g} rad; give a larger gap or angle', stacklevel=2)
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
 	return made
