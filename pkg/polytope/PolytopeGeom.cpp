@@ -135,6 +135,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
         const shared_ptr<Interaction>& c)
 {
 	prefetchAfter(*c, *scene);
+	const KnowsBonds* const bonds = bonds_.in(*scene);
+	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
 	// a thread's own buffers; they grow to the largest pair it has computed
 	static thread_local polytope::ContactWorkspace workspace;
 	auto&                                          geom    = geometry(c);

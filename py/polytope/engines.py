@@ -32,6 +32,7 @@ from yade import (
 )
 
 from .arguments import vector
+from .bonding import bonds
 from .check import checkOf
 from .check.scene import SceneToCheck
 
@@ -51,7 +52,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
+	and laws for its materials; the bonds that there are (polytope.bond); NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
@@ -76,6 +77,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 		ForceResetter(),
 		_one(collider, Collider, 'collider') or _collider(scene),
 		loop,
+		*([bonds()] if bonds() else []),
 		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=usualDamping),
 	]
 	if timeStepper is not False:

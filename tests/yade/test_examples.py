@@ -11,7 +11,7 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock'}
 
 
@@ -48,6 +48,28 @@ def testEveryExampleIsRun():
 		assert f'{name}.py' in (pathlib.Path(__file__).parent / f'{test}.py').read_text()
 	tests = pathlib.Path(__file__).read_text()
 	assert all(f"runs('{name}'" in tests or f"run_path(str(folder / '{name}.py'))" in tests for name in here)
+
+
+def testBondedCubeBreaksInPart(runs, capsys):
+	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
+	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
+	assert made == intact + tension + shear and 0 < intact < made and isPicture('bondedCube.png') and noFailures()
+
+
+def testCrushedCubeBalancesItsEnergy(runs, capsys):
+	names = runs('crushedCube')
+	missing = float(re.search(r'missing: (\S+) %', capsys.readouterr().out)[1])
+	assert abs(missing) < 1 and names['parts']['broken'] > 0.02 * names['work'] and isPicture('crushedCube.png') and noFailures()
+	assert 2 * polytope.bonds().intactCount < names['made'] and 1e6 < names['strength'] < 1e8
+
+
+def testCrushedGrainBreaksWhereItsStressSays(runs):
+	"""Force times height over volume is the mean stress; of a stress along one direction q is √2/3 of it. Halves are stronger."""
+	names = runs('crushedGrain')
+	height, first = -2 * names['low'], names['forces'][0]
+	assert first == pytest.approx(1e6 * 3 / 2**0.5 * names['volume'] / height, rel=2e-2) and names['forces'][1] > first
+	assert sum(piece.shape.volume for piece in names['pieces']) == pytest.approx(names['volume'], rel=1e-12)
+	assert len(names['pieces']) == len(names['forces']) + 1 and isPicture('crushedGrain.png') and noFailures()
 
 
 def testPebblesLieInTheTray(runs, capsys):
