@@ -78,7 +78,7 @@ def testPebblesLieInTheTray(runs, capsys):
 	assert f'{hull.volume} m³, with {len(hull.normals)} planes' in capsys.readouterr().out
 	assert len(hull.normals) > 20 and O.bodies[24].shape.volume / hull.volume == pytest.approx(((0.007 + 0.0002 * 19) / 0.007) ** 3, rel=1e-5)
 	pebbles = [body.state for body in O.bodies if body.dynamic]
-	assert len(pebbles) == 20 and isPicture('pebbles.png') and noFailures()
+	assert len(pebbles) == 20 and isPicture('output/pebbles.png') and noFailures()
 	assert all(state.pos[2] > 0 and abs(state.pos[0]) < 0.14 and abs(state.pos[1]) < 0.14 for state in pebbles)
 	assert min(state.pos[2] for state in pebbles) < 0.05 and names['pebble'].endswith('pebble.obj')
 
@@ -86,7 +86,7 @@ def testPebblesLieInTheTray(runs, capsys):
 def testPolygonsSlideOutOfTheHopper(runs):
 	runs('polygons', shorter={'O.time < 2': 'O.time < 1'})
 	free = [body.state for body in O.bodies if body.dynamic]
-	assert len(free) == 72 and isPicture('polygons.png') and noFailures()
+	assert len(free) == 72 and isPicture('output/polygons.png') and noFailures()
 	assert all(state.pos[2] == 0 and state.angVel[0] == state.angVel[1] == 0 for state in free)
 	through = sum(state.pos[1] < 0.4 for state in free)
 	assert 5 < through < 72 and min(state.pos[1] for state in free) > -1.3
@@ -123,8 +123,8 @@ def testConservativeGasKeepsItsEnergy(runs, capsys):
 
 def testTradeoffFindsTheHeightAtRest(runs, capsys):
 	names = runs('tradeoff')
-	assert isPicture('tradeoff.png') and 'On the Pareto front:' in capsys.readouterr().out
-	with open('tradeoff.csv') as file:
+	assert isPicture('output/tradeoff.png') and 'On the Pareto front:' in capsys.readouterr().out
+	with open('output/tradeoff.csv') as file:
 		rows = list(csv.DictReader(file))
 	assert [next(iter(row.values())) for row in rows] == list(names['settings'])
 	errors = {row['setting']: float(row['error']) for row in rows}
