@@ -440,6 +440,13 @@ def testFrictionAngleInDegrees():
 		rock(frictionAngle=35)
 
 
+def testTensileStrengthOfAJointIsNoGlue():
+	scene(material=rock(tensileStrength=1e5))
+	found = onlyFinding('tension')
+	assert '1e+05 Pa' in found.seen and 'polytope.bond(' in found.advice
+
+
+
 # ------------------------------------------------------------------------------------------------ time step and motion
 
 

@@ -19,7 +19,7 @@ some thousandths are usual, and forces are computed for small ones."""
 
 
 def bodyFindings(scene):
-	for one in (coincidence, density, mass, size, frictionAngle, stiffness, elasticConstants):
+	for one in (coincidence, density, mass, size, frictionAngle, tension, stiffness, elasticConstants):
 		yield from one(scene)
 
 
@@ -107,6 +107,14 @@ def frictionAngle(scene):
 		if not angle < math.pi / 2:
 			seen = f'frictionAngle of {type(material).__name__} {material.label!r} is {angle:g} rad, above π/2'
 			yield 'friction angle', seen, f'angles are in radians: frictionAngle=radians({angle:g}), before bodies are made of it'
+			return
+
+
+def tension(scene):
+	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
+		if material.tensileStrength > 0:
+			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint pulls at one point and does not resist bending'
+			yield 'tension', seen, 'polytope.bond(tensileStrength=…, cohesion=…) where faces are to hold as if glued'
 			return
 
 
