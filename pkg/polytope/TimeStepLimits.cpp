@@ -100,7 +100,7 @@ namespace {
 	}
 
 	/// Planes of a body whose centre is there, as seen from the contact point.
-	void addPlanes(
+	void appendPlanes(
 	        std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
 	{
 		const polytope::HalfSpaces& own = shape.planes();
@@ -141,8 +141,8 @@ namespace {
 		const Vector3r centre1 = state1.pos - geom.contactPoint, centre2 = state2.pos + pair.shift2 - geom.contactPoint;
 		if (geom.energyPerStiffness >= 0) { // a pressure
 			std::vector<polytope::Plane> planes;
-			addPlanes(planes, *shape1, rotation1, centre1);
-			addPlanes(planes, *shape2, rotation2, centre2);
+			appendPlanes(planes, *shape1, rotation1, centre1);
+			appendPlanes(planes, *shape2, rotation2, centre2);
 			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
 		return force
