@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeCheckpoint.hpp"
 
+#include <lib/serialization/ObjectIO.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
@@ -8,6 +9,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <fstream>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -39,6 +41,21 @@ namespace {
 		const bool done = fsync(file) == 0;
 		close(file);
 		return done;
+	}
+
+	/// As Omega::saveSimulation, which does not notice when the end of a file cannot be written, and changes what O.reload() loads.
+	/// \returns whether the system has taken all of it
+	bool writeScene(const string& name)
+	{
+		std::ofstream file(name, std::ios::binary | std::ios::trunc);
+		if (!file) return false;
+		try {
+			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(file, "scene", Omega::instance().getScene());
+		} catch (const boost::archive::archive_exception&) {
+			return false;
+		}
+		file.close();
+		return !file.fail();
 	}
 
 	/// The scene's counters as they will be at the end of this step, for as long as the object lives.
@@ -142,11 +159,8 @@ void PolytopeCheckpoint::save()
 	const string writing = nameOf(".writing"), last = nameOf(""), previous = nameOf(".previous");
 	notePermanentLoads();
 	++written;
-	Omega&       omega     = Omega::instance();
-	const string sceneFile = omega.sceneFile; // what O.reload() loads is not for a checkpoint to change
-	omega.saveSimulation(writing, true);
-	omega.sceneFile = sceneFile;
-	if (!onDisk(writing)) throw std::runtime_error("PolytopeCheckpoint.fileName: cannot write " + writing);
+	if (!writeScene(writing) || !onDisk(writing))
+		throw std::runtime_error("PolytopeCheckpoint.fileName: cannot write " + writing + "; is the disk full?");
 	if (boost::filesystem::exists(last)) boost::filesystem::rename(last, previous);
 	boost::filesystem::rename(writing, last);
 	onDisk(folder.string()); // the names; a folder that cannot be synchronised has them all the same

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All bodies and contacts of the scene as NumPy arrays at once: `polytope.arrays()`."""
 
+import threading
 from typing import NamedTuple
 
 import numpy as np
-from yade import _polytope
+from yade import O, _polytope
 
 __all__ = ['Arrays', 'BodyArrays', 'ContactArrays', 'arrays']
 
@@ -89,7 +90,10 @@ def arrays():
 	wider precisions rounded to it) and int32. ``numpy.savez(file, **arrays().bodies._asdict())`` writes them.
 
 	:returns: Arrays with *bodies* (BodyArrays) and *contacts* (ContactArrays), whose help texts say what each field is
+	:raises RuntimeError: while a run in the background changes the scene; a PyRunner may call it at any time
 	"""
+	if O.running and threading.current_thread() is threading.main_thread():
+		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first, or call this from a PyRunner')
 	bodies, shapeNames = _polytope.bodyColumns()
 	contacts, statusNames = _polytope.contactColumns()
 	return Arrays(

@@ -142,12 +142,32 @@ def _withCollider(parallelCollide):
 	def collide():
 		mpy.collider = _typedEngine('InsertionSortCollider')
 		divided = mpy.rank > 0 and not O.splitted  # this worker still has the whole scene
-		contacts = _polytope.WorkerContacts() if divided else None
+		contacts = _polytope.WorkerContacts.ofBorders() if divided else None
 		parallelCollide()
 		if contacts:
 			contacts.put()
 
 	return collide
+
+
+def _withContacts(reallocate):
+	"""A body that changes ranks takes its contacts with it; its new rank gets the bodies near it at once, not when it next looks for pairs."""
+
+	@functools.wraps(reallocate)
+	def handOver(*arguments, **options):
+		before = set(O.subD.ids) if mpy.rank > 0 else set()
+		reallocate(*arguments, **options)
+		gone = before.difference(O.subD.ids)
+		to = [[k for k in gone if O.bodies[k].subdomain == number] for number in range(size())]
+		received = mpy.comm.alltoall([_polytope.WorkerContacts.ofBodies(ids).bytes() if ids else None for ids in to])
+		if mpy.comm.allreduce(len(gone), op=mpy.MPI.SUM) == 0:
+			return
+		mpy.parallelCollide()
+		for contacts in received:
+			if contacts:
+				_polytope.WorkerContacts.fromBytes(contacts).put()
+
+	return handOver
 
 
 def _endAll(kind, fault, trace):
@@ -162,6 +182,7 @@ def _set():
 	mpy.typedEngine = _typedEngine
 	mpy.splitScene = _prepared(mpy.splitScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
+	mpy.reallocateBodiesToSubdomains = _withContacts(mpy.reallocateBodiesToSubdomains)
 	mpy.bodiesAreOurs = True
 	if size() > 1:
 		sys.excepthook = _endAll

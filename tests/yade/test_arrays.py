@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """polytope.arrays() against the scene's own attributes, one by one."""
 
+import builtins
+import time
+
 import numpy as np
 import pytest
 from yade import (
@@ -10,6 +13,7 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	PolytopeGeom,
+	PyRunner,
 	Quaternion,
 	RockJointMat,
 	ScGeom,
@@ -168,3 +172,19 @@ def testAfterLoading(tmp_path):
 	bodies, contacts = polytope.arrays()
 	assert (bodies.positions == before.bodies.positions).all() and not bodies.forces[bodies.ids != 3].any()
 	assert len(contacts.ids) == len(before.contacts.ids) and np.isnan(contacts.depths).all() and np.isfinite(contacts.points).all()
+
+
+def testARunInTheBackgroundIsRefused():
+	"""Its contacts would come and go while they are read; from an engine of the run it works."""
+	mixed()
+	found = []
+	builtins.found = found
+	command = 'import time; from yade import polytope; found.append(len(polytope.arrays().bodies.ids)); time.sleep(0.05)'
+	O.engines = O.engines + [PyRunner(iterPeriod=10, command=command)]
+	O.run(100)
+	while not found:
+		time.sleep(0.001)
+	with pytest.raises(RuntimeError, match='O.pause'):
+		polytope.arrays()
+	O.wait()
+	assert len(found) == 10 and set(found) == {len(polytope.arrays().bodies.ids)}

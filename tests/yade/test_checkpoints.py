@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import threading
 import time
 
 import pytest
-from yade import ForceResetter, NewtonIntegrator, O, PolytopeCheckpoint, polytope
+from yade import ForceResetter, NewtonIntegrator, O, PolytopeCheckpoint, RockJointMat, polytope
 
 program = r'''
 import os, signal, sys, time
@@ -186,14 +187,8 @@ def testKilledInTheMiddleOfWriting(tmp_path):
 
 def scene(engine):
 	O.engines = [ForceResetter(), NewtonIntegrator(), engine]
-	O.bodies.append(polytope.regular(6, 1, material=polytopeMaterial()))
+	O.bodies.append(polytope.regular(6, 1, material=RockJointMat(density=2600)))
 	O.dt = 1e-3
-
-
-def polytopeMaterial():
-	from yade import RockJointMat
-
-	return RockJointMat(density=2600)
 
 
 def testTheLastTwoAreKept(tmp_path):
@@ -233,18 +228,26 @@ def testTruncatedFileGivesWayToTheOneBefore(tmp_path):
 		polytope.continueFrom(tmp_path / 'run')
 
 
-def testFullDiskKeepsTheLastState(tmp_path):
+@pytest.mark.parametrize('missing', [1, 500, 5000])
+def testFullDiskKeepsTheLastState(tmp_path, missing):
+	"""Where the system takes no more bytes, at the end of the file or before: in a process that may not write larger files."""
 	scene(polytope.checkpoint(tmp_path / 'run', iterPeriod=1, onSignal=False))
 	for _ in range(3):
 		O.step()
 	good = (tmp_path / 'run.yade').read_bytes()
-	(tmp_path / 'run.writing.yade').symlink_to('/dev/full')
-	with pytest.raises(RuntimeError):
-		O.engines[2].write()
+	before = resource.getrlimit(resource.RLIMIT_FSIZE)
+	resource.setrlimit(resource.RLIMIT_FSIZE, (len(good) - missing, before[1]))
+	try:
+		with pytest.raises(RuntimeError, match='fileName: cannot write .*run.writing.yade; is the disk full'):
+			O.engines[2].write()
+	finally:
+		resource.setrlimit(resource.RLIMIT_FSIZE, before)
 	assert (tmp_path / 'run.yade').read_bytes() == good and (tmp_path / 'run.previous.yade').exists()
+	O.engines[2].write()
+	assert polytope.continueFrom(tmp_path / 'run') == f'{tmp_path}/run.yade' and O.iter == 3
 
 
-def testNothingToContueFromLeavesTheScene(tmp_path):
+def testNothingToContinueFromLeavesTheScene(tmp_path):
 	scene(PolytopeCheckpoint())
 	assert polytope.continueFrom(tmp_path / 'run') is None and len(O.bodies) == 1
 
