@@ -19,15 +19,17 @@ YADE_PLUGIN((PolytopeCheckpoint));
 
 namespace {
 
-	/// What a signal's handler may write to: an atomic without a lock.
-	std::atomic<int> noted { 0 };
+	/// What a signal's handler may write to: atomics without a lock.
+	std::atomic<int>  noted { 0 };
+	std::atomic<int>  postponed { 0 };
+	std::atomic<bool> sentAgain { false };
 	struct sigaction former[2];
 	constexpr int    watched[2] = { SIGTERM, SIGINT };
 	static_assert(std::atomic<int>::is_always_lock_free, "a signal's handler must not wait for a lock");
 
 	void note(int number)
 	{
-		noted = number;
+		if (!sentAgain.exchange(false)) noted = number;
 		for (int k = 0; k < 2; ++k)
 			if (watched[k] == number && former[k].sa_handler != SIG_DFL && former[k].sa_handler != SIG_IGN)
 				former[k].sa_handler(number);
@@ -51,7 +53,7 @@ namespace {
 		if (!file) return false;
 		try {
 			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(file, "scene", Omega::instance().getScene());
-		} catch (const boost::archive::archive_exception&) {
+		} catch (const std::exception&) { // of the archive or the stream: its bytes were not taken
 			return false;
 		}
 		file.close();
@@ -108,6 +110,8 @@ void PolytopeCheckpoint::watchSignals()
 
 int PolytopeCheckpoint::notedSignal() { return noted; }
 
+void PolytopeCheckpoint::postpone(int number) { postponed = number; }
+
 bool PolytopeCheckpoint::isActivated()
 {
 	const bool due = PeriodicEngine::isActivated(); // counts
@@ -124,6 +128,10 @@ void PolytopeCheckpoint::action()
 	if (signal == 0) return;
 	noted             = 0;
 	scene->stopAtIter = scene->iter + 1;
+	const int later   = postponed.exchange(0);
+	if (later == 0) return;
+	sentAgain = true;
+	std::raise(later);
 }
 
 void PolytopeCheckpoint::write()

@@ -17,6 +17,8 @@ public:
 	static void watchSignals();
 	/// The signal that was noted and for which nothing has been saved yet; 0: none.
 	static int notedSignal();
+	/// This signal is sent once more when the step under way has been saved, and not noted then.
+	static void postpone(int number);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeCheckpoint, PeriodicEngine,
@@ -31,6 +33,7 @@ public:
 		, /*py*/
 		.def("write", &PolytopeCheckpoint::write, "Save the scene now, between two steps.")
 		.def("notedSignal", &PolytopeCheckpoint::notedSignal, "Number of the signal that came and for which nothing has been saved yet; 0: none.").staticmethod("notedSignal")
+		.def("postpone", &PolytopeCheckpoint::postpone, "Send this signal once more when the step under way has been saved; the handler that polytope.checkpoint sets calls it.").staticmethod("postpone")
 		.def("watchSignals", &PolytopeCheckpoint::watchSignals, "Note SIGTERM and SIGINT from now on, before the handlers there are; polytope.checkpoint calls it.").staticmethod("watchSignals")
 	);
 	// clang-format on

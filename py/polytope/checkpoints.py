@@ -3,7 +3,8 @@
 
 The engine PolytopeCheckpoint writes. O.run(…, wait=True) keeps Python's main thread waiting in C++, so the engine itself looks for the
 signal, at the end of each step. Python's handler runs as soon as the main thread is free again: it writes if no step was under way, and
-then lets the signal do what it does without checkpoints.
+then lets the signal do what it does without checkpoints. In a step of O.step(), which the main thread itself computes, it waits for the
+engine.
 """
 
 import os
@@ -108,8 +109,12 @@ def _told(number, frame):
 	"""Python's handler, in the main thread."""
 	while O.running:  # in the background: the engine writes and ends it
 		time.sleep(lookAgain)
-	for engine in _engines():
-		if PolytopeCheckpoint.notedSignal() and engine.onSignal and not engine.dead:
+	watching = [engine for engine in _engines() if engine.onSignal and not engine.dead]
+	if O.subStep != -1 and watching and not O.subStepping:  # a PyRunner of O.step(): the scene is between two states
+		PolytopeCheckpoint.postpone(number)
+		return
+	for engine in watching:
+		if PolytopeCheckpoint.notedSignal() and O.subStep == -1:
 			engine.write()
 	former = _former.get(number) or signal.SIG_DFL
 	if callable(former):

@@ -92,8 +92,8 @@ def until(condition):
 
 @pytest.fixture(scope='module')
 def uninterrupted(tmp_path_factory):
-	lines = result(tmp_path_factory.mktemp('whole'), steps=6000, how='wait')
-	assert lines[0] == 'from None 0' and lines[-1].startswith('end 6000')
+	lines = result(tmp_path_factory.mktemp('whole'), steps=1500, how='wait')
+	assert lines[0] == 'from None 0' and lines[-1].startswith('end 1500')
 	return lines[1:]
 
 
@@ -110,18 +110,18 @@ def testASignalSavesTheRunAndEndsIt(tmp_path, uninterrupted, how, number):
 	assert [path.name for path in tmp_path.iterdir()] == ['run.yade']
 	O.load(f'{tmp_path}/run.yade')
 	assert 0 < O.iter < many and O.time == pytest.approx(O.iter * O.dt, rel=1e-9)
-	if O.iter < 6000:  # else the process was so fast that there is nothing to compare with
-		lines = result(tmp_path, steps=6000)
+	if O.iter < 1500:  # else the process was so fast that there is nothing to compare with
+		lines = result(tmp_path, steps=1500)
 		assert lines[0] == f'from {tmp_path}/run.yade {O.iter}' and lines[1:] == uninterrupted
 
 
 @pytest.mark.parametrize('how', ['wait', 'step', 'background'])
 def testASignalInAStepSavesAtItsEnd(tmp_path, uninterrupted, how):
 	"""The process signals itself in the middle of step 300, so that what is saved is known."""
-	process = start(tmp_path, 6000, how, signalAt=f'300,{int(signal.SIGTERM)}')
+	process = start(tmp_path, 1500, how, signalAt=f'300,{int(signal.SIGTERM)}')
 	process.communicate(timeout=60)
 	assert process.returncode == -signal.SIGTERM
-	lines = result(tmp_path, steps=6000)
+	lines = result(tmp_path, steps=1500)
 	assert lines[0] == f'from {tmp_path}/run.yade 301' and lines[1:] == uninterrupted
 
 
@@ -131,7 +131,7 @@ def testASignalBetweenTwoRunsSavesAtOnce(tmp_path, uninterrupted):
 	process.terminate()
 	process.communicate(timeout=60)
 	assert process.returncode == -signal.SIGTERM
-	lines = result(tmp_path, steps=6000)
+	lines = result(tmp_path, steps=1500)
 	assert lines[0] == f'from {tmp_path}/run.yade 50' and lines[1:] == uninterrupted
 
 
@@ -150,8 +150,8 @@ def testKilledWhileItRuns(tmp_path, uninterrupted):
 			saved[name] = O.iter
 	assert saved['run.previous'] > 0 and saved['run.previous'] % 20 == 1  # PeriodicEngine counts from the first step
 	assert 'run' not in saved or saved['run'] == saved['run.previous'] + 20
-	if max(saved.values()) < 6000:
-		lines = result(tmp_path, steps=6000)
+	if max(saved.values()) < 1500:
+		lines = result(tmp_path, steps=1500)
 		assert lines[0].endswith(f' {max(saved.values())}') and lines[1:] == uninterrupted
 
 
