@@ -8,11 +8,12 @@ yade.mpy, which starts MPI: `from yade.polytope import mpi`.
 """
 
 import functools
+import math
 import sys
 import traceback
 
 import yade
-from yade import O, PolytopeCheckpoint, PyRunner, TimeStepper, _polytope, mpy
+from yade import O, PolytopeCheckpoint, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
 
 __all__ = ['divide', 'merge', 'rank', 'run', 'size', 'sumOfRanks']
 
@@ -76,9 +77,17 @@ def sumOfRanks(number):
 
 
 def shareTimeStep():
-	"""Every rank takes the smallest of the time steps that the ranks have found."""
+	"""Every rank takes the smallest of the time steps that the ranks have found; where none has found a limit, each keeps its own."""
 	if size() > 1 and O.splitted:
-		O.dt = mpy.comm.allreduce(O.dt, op=mpy.MPI.MIN)
+		least = mpy.comm.allreduce(O.dt if _limitsTheStep() else math.inf, op=mpy.MPI.MIN)
+		if least < math.inf:
+			O.dt = least
+
+
+def _limitsTheStep():
+	"""Whether this rank's time stepper has found a limit. Rank 0 has fixed bodies alone, and the time step that O.reset has left."""
+	stepper = next(engine for engine in O.engines if isinstance(engine, TimeStepper))
+	return bool(stepper.limitedBy) if isinstance(stepper, PolytopeTimeStepper) else mpy.rank > 0
 
 
 def _typedEngine(name):

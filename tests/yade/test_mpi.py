@@ -110,7 +110,7 @@ def testContactsKeepWhatTheyRemember(settled, ranks):
 	one, several = (
 		{tuple(sorted(contact[:2])): contact for contact in ended(settled, number)['contacts']} for number in (0, ranks)
 	)
-	assert one.keys() == several.keys() and len(one) > 40
+	assert one.keys() == several.keys() and len(one) > 24
 	largest = max(abs(float.fromhex(x)) for contact in one.values() for x in contact[3])
 	for ids, contact in one.items():
 		assert contact[:2] == several[ids][:2] and contact[7] == several[ids][7]
