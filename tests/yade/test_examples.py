@@ -12,7 +12,7 @@ from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
 here = ('energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
-elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock', 'mpi': 'test_mpi'}
+elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock'}
 
 
 @pytest.fixture
