@@ -49,8 +49,8 @@ def measure(quick):
 	found = {'bodies': len(O.bodies), 'contacts': len(polytope.arrays().contacts.ids), 'arrays': median(polytope.arrays, 10)}
 	with tempfile.TemporaryDirectory() as folder:
 		engine = polytope.checkpoint(f'{folder}/run', iterPeriod=1, onSignal=False)
-		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 3)
-		found['checkpoint'] = median(engine.write, 3)
+		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 1)
+		found['checkpoint'] = median(engine.write, 1)
 		found['bytes'] = os.path.getsize(f'{folder}/scene.yade')
 		found['load'] = median(lambda: O.load(f'{folder}/scene.yade', quiet=True), 1)
 	return found
