@@ -5,6 +5,7 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
+#include "Arrays.hpp"
 #include "Construction.hpp"
 #include "PolytopeGeom.hpp"
 #include "PotentialContacts.hpp"
@@ -188,6 +189,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "a dictionary; None where nothing limits.");
 	yade::defineVectors();
 	yade::defineConstruction();
+	yade::defineArrays();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>,

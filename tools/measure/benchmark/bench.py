@@ -20,13 +20,14 @@ import sys
 
 import kernels
 import plots
+import results
 import scenes
 import shapes
 import targets
 from tabulate import tabulate
 
 here = pathlib.Path(__file__).resolve().parent
-groups = ('kernels', 'shapes', 'scenes', 'growth', 'threads')
+groups = ('kernels', 'shapes', 'results', 'scenes', 'growth', 'threads')
 outputs = (
         'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
         'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
@@ -143,7 +144,14 @@ def shapeGroup(run):
 	return targets.shapeRows(found)
 
 
-def describe(run, results):
+def resultGroup(run):
+	found = results.run(run.core, run.quick)
+	run.results['results'] = found
+	run.say(f"{found['bodies']} bodies, {found['contacts']} contacts, saved in {found['bytes'] / 1e6:.0f} MB; O.load takes {found['load']:.2f} s\n")
+	return targets.resultRows(found)
+
+
+def describe(run, heaps):
 	"""Table of heaps: pairs, contacts, µs."""
 
 	def row(name, one):
@@ -155,7 +163,7 @@ def describe(run, results):
 		]
 
 	head = ['', 'method', 'bodies', 'threads', 'pairs', 'contacts', 'µs/pair', 'range', 'µs/contact', 'µs/body and step']
-	run.say(tabulate([row(name, one) for name, one in results if one], head, floatfmt='.3f') + '\n')
+	run.say(tabulate([row(name, one) for name, one in heaps if one], head, floatfmt='.3f') + '\n')
 
 
 def sceneGroup(run):
@@ -230,7 +238,7 @@ def main():
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
 	rows, interrupted = [], False
-	for name, group in zip(groups, (kernelGroup, shapeGroup, sceneGroup, growthGroup, threadGroup), strict=True):
+	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:

@@ -34,8 +34,8 @@ def reported(measure, against, ours, peer, form='{:.3f} µs'):
 	return Row(measure, f'reported, × {against}', form.format(ours), form.format(peer), ours / peer, None)
 
 
-def below(measure, bound, ours):
-	return Row(measure, f'< {bound} µs here', f'{ours:.3f} µs', '', math.nan, ours < bound)
+def below(measure, bound, ours, unit='µs'):
+	return Row(measure, f'< {bound} {unit} here', f'{ours:.3f} {unit}', '', math.nan, ours < bound)
 
 
 def kernelRows(kernels):
@@ -100,6 +100,15 @@ def shapeRows(found):
 		below('body of a new hull of 20 points', 200, cost['new hulls of 20 points']),
 		below(f'jointedRock, {more} blocks, per block', 200, cost[many]),
 		atMost(f'jointedRock, per block, {more} blocks', 1.2, f'that of {fewer}', cost[many], cost[few], '{:.1f} µs'),
+	]
+
+
+def resultRows(found):
+	size = f"{found['bodies']} bodies, {found['contacts']} contacts"
+	return [
+		below(f'polytope.arrays(), {size}', 50, 1e3 * found['arrays'], 'ms'),
+		below(f'O.save, {size}', 5, found['save'], 's'),
+		below(f'checkpoint on the disk, {size}', 5, found['checkpoint'], 's'),
 	]
 
 

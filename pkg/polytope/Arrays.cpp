@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Arrays.hpp"
+
+#include "PolytopeGeom.hpp"
+#include "Prefetch.hpp"
+
+#include <core/Body.hpp>
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+#include <pkg/dem/FrictPhys.hpp>
+
+#include <boost/python.hpp>
+
+#include <limits>
+#include <map>
+
+namespace py = boost::python;
+
+namespace yade {
+namespace {
+
+	constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+	/// Entries between the one that is written and the one whose memory is called into the cache: each of both steps (the interaction,
+	/// then what it refers to) has the time of as many entries.
+	constexpr std::size_t ahead = 12;
+
+	/// Columns of one length, each the memory of a later NumPy array (a bytearray: no header of NumPy is needed to build).
+	class Table {
+	public:
+		explicit Table(std::size_t rows) : rows_(rows) { }
+
+		/// Memory of rows × `width` numbers of the type, which the dictionary owns.
+		template <class Number> Number* column(const char* name, int width = 1)
+		{
+			PyObject* const memory
+			        = PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(rows_ * std::size_t(width) * sizeof(Number)));
+			const py::object owner { py::handle<>(memory) }; // throws if there is no memory
+			columns_[name] = py::make_tuple(owner, std::is_same<Number, double>::value ? "float64" : "int32", width);
+			return reinterpret_cast<Number*>(PyByteArray_AS_STRING(memory));
+		}
+
+		py::dict columns() const { return columns_; }
+
+	private:
+		std::size_t rows_;
+		py::dict    columns_;
+	};
+
+	void put(double* column, std::size_t row, const Vector3r& vector)
+	{
+		for (int k = 0; k < 3; ++k)
+			column[3 * row + std::size_t(k)] = double(vector[k]);
+	}
+
+	/// Number of each class of shapes in the order in which they are met.
+	class ShapeCodes {
+	public:
+		int codeOf(const Shape* shape)
+		{
+			if (!shape) return -1;
+			const auto found = codes_.find(shape->getClassIndex());
+			if (found != codes_.end()) return found->second;
+			names_.append(shape->getClassName());
+			return codes_[shape->getClassIndex()] = int(codes_.size());
+		}
+		py::tuple names() const { return py::tuple(names_); }
+
+	private:
+		std::map<int, int> codes_;
+		py::list           names_;
+	};
+
+	/// \returns (columns, names of the shapes' classes)
+	py::tuple bodyColumns()
+	{
+		Scene* const             scene = Omega::instance().getScene().get();
+		std::vector<const Body*> bodies;
+		bodies.reserve(scene->bodies->size());
+		for (const auto& body : *scene->bodies)
+			if (body) bodies.push_back(body.get());
+		scene->forces.sync();
+
+		Table       table(bodies.size());
+		auto* const ids               = table.column<int>("ids");
+		auto* const shapes            = table.column<int>("shapes");
+		auto* const clumpIds          = table.column<int>("clumpIds");
+		auto* const masks             = table.column<int>("masks");
+		auto* const masses            = table.column<double>("masses");
+		auto* const positions         = table.column<double>("positions", 3);
+		auto* const orientations      = table.column<double>("orientations", 4);
+		auto* const velocities        = table.column<double>("velocities", 3);
+		auto* const angularVelocities = table.column<double>("angularVelocities", 3);
+		auto* const forces            = table.column<double>("forces", 3);
+		auto* const torques           = table.column<double>("torques", 3);
+		ShapeCodes  codes;
+		for (std::size_t row = 0; row < bodies.size(); ++row) {
+			if (row + 2 * ahead < bodies.size()) prefetch::fetch(bodies[row + 2 * ahead], sizeof(Body));
+			if (row + ahead < bodies.size()) {
+				prefetch::fetch(bodies[row + ahead]->state.get(), sizeof(State));
+				prefetch::fetch(bodies[row + ahead]->shape.get(), sizeof(void*)); // its class
+			}
+			const Body&  body  = *bodies[row];
+			const State& state = *body.state;
+			ids[row]           = body.getId();
+			shapes[row]        = codes.codeOf(body.shape.get());
+			clumpIds[row]      = body.clumpId;
+			masks[row]         = int(body.groupMask);
+			masses[row]        = double(state.mass);
+			put(positions, row, state.pos);
+			for (int k = 0; k < 4; ++k)
+				orientations[4 * row + std::size_t(k)] = double(state.ori.coeffs()[k]);
+			put(velocities, row, state.vel);
+			put(angularVelocities, row, state.angVel);
+			put(forces, row, scene->forces.getForce(body.getId()));
+			put(torques, row, scene->forces.getTorque(body.getId()));
+		}
+		return py::make_tuple(table.columns(), codes.names());
+	}
+
+	/// What a row of contacts has from the geometry, by its class: all of PolytopeGeom, less of YADE's own, NaN for the rest.
+	struct Meeting {
+		Vector3r point = Vector3r::Constant(Real(notANumber)), normal = point;
+		double   area = notANumber, depth = notANumber, infeasibility = notANumber;
+		int      status = -1;
+
+		explicit Meeting(const IGeom* geom)
+		{
+			const auto* const spheres = dynamic_cast<const GenericSpheresContact*>(geom);
+			if (!spheres) return;
+			point  = spheres->contactPoint;
+			normal = spheres->normal;
+			if (const auto* const scGeom = dynamic_cast<const ScGeom*>(spheres)) depth = double(scGeom->penetrationDepth);
+			if (const auto* const own = dynamic_cast<const PolytopeGeom*>(spheres)) {
+				area          = double(own->contactArea);
+				infeasibility = double(own->infeasibility);
+				status        = own->statusCode;
+			}
+		}
+	};
+
+	std::vector<const Interaction*> realContacts(const Scene& scene)
+	{
+		std::vector<const Interaction*> contacts;
+		const std::size_t               size = scene.interactions->size();
+		contacts.reserve(size);
+		for (std::size_t k = 0; k < size; ++k) {
+			if (k + ahead < size) prefetch::fetch((*scene.interactions)[k + ahead].get(), sizeof(Interaction));
+			const auto& one = (*scene.interactions)[k];
+			if (one && one->isReal()) contacts.push_back(one.get());
+		}
+		return contacts;
+	}
+
+	/// \returns (columns, names of the statuses)
+	py::tuple contactColumns()
+	{
+		const Scene& scene    = *Omega::instance().getScene();
+		const auto   contacts = realContacts(scene);
+		Table        table(contacts.size());
+		auto* const  ids             = table.column<int>("ids", 2);
+		auto* const  images          = table.column<int>("images", 3);
+		auto* const  statuses        = table.column<int>("statuses");
+		auto* const  points          = table.column<double>("points", 3);
+		auto* const  normals         = table.column<double>("normals", 3);
+		auto* const  forces          = table.column<double>("forces", 3);
+		auto* const  normalForces    = table.column<double>("normalForces", 3);
+		auto* const  shearForces     = table.column<double>("shearForces", 3);
+		auto* const  areas           = table.column<double>("areas");
+		auto* const  depths          = table.column<double>("depths");
+		auto* const  infeasibilities = table.column<double>("infeasibilities");
+		for (std::size_t row = 0; row < contacts.size(); ++row) {
+			if (row + ahead < contacts.size()) {
+				prefetch::fetch(contacts[row + ahead]->geom.get(), sizeof(PolytopeGeom));
+				prefetch::fetch(contacts[row + ahead]->phys.get(), sizeof(NormShearPhys));
+			}
+			const Interaction& one         = *contacts[row];
+			const auto* const  phys        = dynamic_cast<const NormShearPhys*>(one.phys.get());
+			const auto* const  push        = phys ? phys : dynamic_cast<const NormPhys*>(one.phys.get());
+			const Vector3r     none        = Vector3r::Constant(Real(notANumber));
+			const Vector3r     normalForce = push ? push->normalForce : none;
+			const Vector3r     shearForce  = phys ? phys->shearForce : push ? Vector3r(Vector3r::Zero()) : none;
+			const Meeting      meeting(one.geom.get());
+			ids[2 * row]     = one.getId1();
+			ids[2 * row + 1] = one.getId2();
+			for (int k = 0; k < 3; ++k)
+				images[3 * row + std::size_t(k)] = one.cellDist[k];
+			statuses[row] = meeting.status;
+			put(points, row, meeting.point);
+			put(normals, row, meeting.normal);
+			put(forces, row, normalForce + shearForce);
+			put(normalForces, row, normalForce);
+			put(shearForces, row, shearForce);
+			areas[row]           = meeting.area;
+			depths[row]          = meeting.depth;
+			infeasibilities[row] = meeting.infeasibility;
+		}
+		py::list names;
+		for (int code = 0; code < polytope::contactStatusCount; ++code)
+			names.append(polytope::statusName(polytope::ContactStatus(code)));
+		return py::make_tuple(table.columns(), py::tuple(names));
+	}
+
+} // namespace
+
+void defineArrays()
+{
+	py::def("bodyColumns", &bodyColumns,
+	        "Columns of all bodies that are there, name → (bytes, type, numbers per row), and the names of their shapes' classes.");
+	py::def("contactColumns", &contactColumns, "The same of all real interactions, and the names of the statuses.");
+}
+
+} // namespace yade
