@@ -66,6 +66,19 @@ py::dict polyhedron(const yade::Vectors& normals, const std::vector<yade::Real>&
 	return result;
 }
 
+/// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
+boost::shared_ptr<yade::Body> bodyOf(const py::object& given, const char* name)
+{
+	const py::extract<boost::shared_ptr<yade::Body>> body(given);
+	if (!body.check()) {
+		const std::string type = py::extract<std::string>(given.attr("__class__").attr("__name__"));
+		throw std::invalid_argument(std::string(name)
+		        + ": must be a body with a Polytope shape, as polytope.cuboid(…) makes it or O.bodies[…] has it, not of type "
+		        + type);
+	}
+	return body();
+}
+
 const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body, const char* name)
 {
 	const auto* shape = body ? dynamic_cast<const yade::Polytope*>(body->shape.get()) : nullptr;
@@ -96,10 +109,11 @@ polytope::DepthRule depthRuleOf(const std::string& depth)
 	throw std::invalid_argument("depth: must be 'chord', 'mean' or 'meanOnFaces', not '" + depth + "'");
 }
 
-Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
-        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
+Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
+        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
         const std::string& normal, const std::string& depth)
 {
+	const auto  body1 = bodyOf(b1, "b1"), body2 = bodyOf(b2, "b2");
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
 	if (convex1.dimension() != convex2.dimension())
