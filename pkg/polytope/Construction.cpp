@@ -105,8 +105,8 @@ namespace {
 	}
 
 	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
-	py::dict jointedBlocks(
-	        const Vectors& normals, const py::object& offsets, const Vectors& jointNormals, const py::object& offsetsOfJoints, Real smallest)
+	py::dict jointedBlocks(const Vectors& normals, const py::object& offsets, const Vectors& jointNormals,
+	        const py::object& offsetsOfJoints, Real smallest)
 	{
 		const std::vector<Real>      jointOffsets = numbers(offsetsOfJoints);
 		std::vector<polytope::Plane> joints;
