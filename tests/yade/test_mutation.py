@@ -98,3 +98,35 @@ def testMutantsThatDoNotCompileAreNamedByTheMessages():
 /t/src/a.hpp:30:1: error: no match'''
 	found = namedIn(messages, pathlib.Path('/t'), [mutant(1, 7), mutant(2, 8), mutant(3, 20), mutant(4, 21), mutant(5, 32)])
 	assert [entry.id for entry in found] == [1, 3, 5]
+
+
+pretended = '''#!{python}
+import os, sys, time
+if '--gtest_list_tests' in sys.argv:
+	sys.exit(print('Sum.\\n  Quick\\n  Slow'))
+mutant = int(os.environ['POLYTOPE_MUTANT'])
+for name in sys.argv[-1].split('=')[1].split(':'):
+	print('[ RUN      ]', name, flush=True)
+	if name == 'Sum.Slow': time.sleep(.3)
+	if mutant == 1 and name == 'Sum.Slow': sys.exit(print('[  FAILED  ]', name, '(3 ms)') or 1)
+	if mutant == 2: os.abort()
+	if mutant == 3: time.sleep(600)
+	if mutant == 4: bytearray(1 << 40)
+	if 'POLYTOPE_MUTANTS_REACHED' in os.environ: open(os.environ['POLYTOPE_MUTANTS_REACHED'], 'w').write('1 2 3 4 5' if name == 'Sum.Slow' else '2 3 4')
+'''
+"""Program with two tests. Mutants: 1 fails the slow one, 2 crashes, 3 does not end, 4 wants too much memory, 5 is noticed by none, 6 is not reached."""
+
+
+def testVerdicts(tmp_path, monkeypatch):
+	import killers
+
+	program, said = tmp_path / 'tests', []
+	program.write_text(pretended.replace('{python}', sys.executable))
+	program.chmod(0o755)
+	monkeypatch.setattr(killers, 'patience', 0)
+	tests = killers.CoreTests(program)
+	tests.measure(said.append)
+	assert list(tests.times) == ['Sum.Quick', 'Sum.Slow'] and tests.times['Sum.Slow'] > 0.3
+	assert tests.reaching == {1: ['Sum.Slow'], 5: ['Sum.Slow'], **{k: ['Sum.Quick', 'Sum.Slow'] for k in (2, 3, 4)}}
+	found = [tests.verdict(mutant) for mutant in range(1, 7)]
+	assert found == ['Sum.Slow', 'Sum.Quick (ends with -6)', 'Sum.Quick (no end)', 'Sum.Quick (ends with 1)', None, None]

@@ -44,7 +44,7 @@ class CoreTests:
 
 	def __init__(self, program):
 		self.program = str(program)
-		self.times, self.reaching = {}, {}
+		self.times, self.reaching, self.leftOut = {}, {}, []
 
 	def names(self):
 		suite, names = '', []
@@ -54,18 +54,24 @@ class CoreTests:
 				suite = line.strip()
 			elif line.startswith('  '):
 				names.append(suite + line.strip())
+		if not names:
+			raise RuntimeError(f'{self.program} has no tests')
 		return names
 
 	def measure(self, say):
-		"""Runs each test without a mutant; RuntimeError if one fails."""
+		"""Runs each test without a mutant. One that fails is left out: it asks for the last bits of another build. RuntimeError if there are many."""
 		for name in self.names():
 			with tempfile.NamedTemporaryFile('r') as file:
 				run = Run([self.program, f'--gtest_filter={name}'], 0, 600, {'POLYTOPE_MUTANTS_REACHED': file.name})
 				if run.code:
-					raise RuntimeError(f'{name} fails without a mutant:\n{run.output[-2000:]}')
+					self.leftOut.append(name)
+					say(f'{name} fails without a mutant:\n{run.output[-800:]}')
+					continue
 				self.times[name] = run.seconds
 				for number in file.read().split():
 					self.reaching.setdefault(int(number), []).append(name)
+		if len(self.leftOut) > 0.02 * len(self.times):
+			raise RuntimeError(f'{len(self.leftOut)} tests fail without a mutant')
 		say(f'{len(self.times)} tests of the core, {sum(self.times.values()):.0f} s')
 
 	def verdict(self, mutant):
@@ -97,7 +103,7 @@ class PluginTests:
 	def __init__(self, tree, files):
 		self.tree, self.files = tree, list(files)
 		self.environment = {'YADE_PREFIX': str(tree / 'build/overlay')}
-		self.seconds = 0.0
+		self.seconds, self.reaching, self.leftOut = 0.0, {}, []
 
 	def run(self, mutant, seconds):
 		import sys

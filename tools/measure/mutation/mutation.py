@@ -89,6 +89,7 @@ def judged(mutants, tests, row, results, path, end, say):
 			continue
 		entry = done.setdefault(mutant.id, {**mutant.row(), 'ran': []})
 		entry['killedBy'] = tests.verdict(mutant.id)
+		entry['reachedBy'] = len(tests.reaching.get(mutant.id, []))
 		entry['ran'].append(row)
 		results['mutants'] = [done[number] for number in sorted(done)]
 		write(path, results)
@@ -103,6 +104,8 @@ def parsed():
 	parser.add_argument('--minutes', type=float, default=1e9, help='ends after so long; the same call goes on where it ended')
 	parser.add_argument('--only', choices=['core', 'plugin'], help="only mutants of src/ with the core's tests, or only the tests of the plug-in")
 	parser.add_argument('--file', action='append', help='only mutants of files whose names contain this; may be repeated')
+	parser.add_argument('--unit', action='append', metavar='src/FOLDER/FILE.cpp', help="compiles these files alone and links them with the project's own "
+	        'build of the tests: quick, but a test that instantiates a template by itself has no mutant in it; may be repeated')
 	parser.add_argument('--again', action='store_true', help='with the same sources and other tests: those that survived are judged anew')
 	parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='of the compiler')
 	parser.add_argument('--output', type=pathlib.Path, default=project / 'output/mutation')
@@ -133,20 +136,25 @@ def main():
 	inCore = lambda mutant: mutant.file.startswith('src/')
 	order = random.Random(arguments.seed)
 
-	def judge(target, tests, row, takes):
-		schemata.make(target, arguments.jobs)
+	def judge(tests, row, takes):
 		results['doNotCompile'] += [mutant.id for mutant in schemata.dropped if mutant.id not in results['doNotCompile']]
 		tests.measure(say)
+		results['leftOut'] = tests.leftOut
 		named = [mutant for mutant in schemata.mutants if not arguments.file or any(part in mutant.file for part in arguments.file)]
 		some = [mutant for mutant in named if takes(mutant)]
 		judged(order.sample(some, len(some)), tests, row, results, path, end, say)
 
-	if arguments.only != 'plugin':
-		judge('polytope_core_tests', CoreTests(schemata.build / 'tests/core/polytope_core_tests'), 'core', inCore)
-	if arguments.only != 'core':
+	if arguments.unit:
+		tests = CoreTests(schemata.link(arguments.jobs, arguments.unit))
+		judge(tests, 'units', lambda mutant: mutant.id in tests.reaching)
+	elif arguments.only != 'plugin':
+		schemata.make(arguments.jobs, 'polytope_core_tests')
+		judge(CoreTests(schemata.build / 'tests/core/polytope_core_tests'), 'core', inCore)
+	if arguments.only != 'core' and not arguments.unit:
+		schemata.make(arguments.jobs, 'overlay')
 		survivors = {entry['id'] for entry in results['mutants'] if not entry['killedBy']}
 		tests = PluginTests(schemata.tree, pluginTests)
-		judge('overlay', tests, 'plug-in', lambda mutant: not inCore(mutant) or mutant.id in survivors)
+		judge(tests, 'plug-in', lambda mutant: not inCore(mutant) or mutant.id in survivors)
 	killed = sum(bool(entry['killedBy']) for entry in results['mutants'])
 	say(f'{killed} of {len(results["mutants"])} killed; {len(results["doNotCompile"])} did not compile; {path}')
 

@@ -86,16 +86,30 @@ class Schemata:
 			if commands and not count:
 				raise RuntimeError('no mutant is to blame:\n' + '\n'.join(texts)[:3000])
 
-	def make(self, target, jobs):
+	def make(self, jobs, *targets):
 		while True:
 			self.write()
-			done = subprocess.run(['ninja', '-C', self.build, '-k', '0', '-j', str(jobs), target], capture_output=True, text=True)
+			done = subprocess.run(['ninja', '-C', self.build, '-k', '0', '-j', str(jobs), *targets], capture_output=True, text=True)
 			if not done.returncode:
 				return
 			count = self.drop(done.stdout)
-			self.say(f'{target}: {count} mutants taken out')
+			self.say(f'{targets[0]}: {count} mutants taken out')
 			if not count:
 				raise RuntimeError('no mutant is to blame:\n' + done.stdout[-3000:])
+
+	def link(self, jobs, units):
+		"""The core's tests of the project's own build with these files of src/, with mutants, in the place of its own; the path of the program."""
+		objects = [f'src/CMakeFiles/polytope_core.dir/{unit.removeprefix("src/")}.o' for unit in units]
+		self.make(jobs, *objects)
+		program, own = self.build / 'testsOfUnits', project / 'build'
+		subprocess.run(['ninja', '-C', own, '-j', str(jobs), 'polytope_core_tests'], check=True, stdout=subprocess.DEVNULL)
+		found = subprocess.run(['ninja', '-C', own, '-t', 'commands', 'tests/core/polytope_core_tests'], capture_output=True, text=True, check=True)
+		command = found.stdout.splitlines()[-1].split(' && ')[1]
+		# first come the objects with mutants: of functions that several files hold the linker takes the first
+		first = ' '.join(str(self.build / name) for name in objects)
+		command = re.sub(r' -Wl,--dependency-file=\S+', f' {first}', command).replace(' -o tests/core/polytope_core_tests', f' -o {program}')
+		subprocess.run(command, shell=True, cwd=own, check=True)
+		return program
 
 
 def namedIn(messages, tree, mutants):
