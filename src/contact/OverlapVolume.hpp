@@ -86,15 +86,9 @@ public:
 			place(p, own);
 			loops_.set(newPlace(), p);
 		}
-		const int  count    = findPlanes(planes.begin(1 - body), planes.end(1 - body));
-		const int  vertices = loops_.vertices;
-		const bool cuts     = count > 0 && measureBeyond(nearest_[0]);
-		loops_.faces        = int(surface.faces.size());
-		for (int face = 0; face < loops_.faces && whole_; ++face) { // many a face is not even copied
-			loops_.plane[face] = planes.begin(body) + surface.planeOfFace[face];
-			takeFace(face, surface.faces[face].data(), int(surface.faces[face].size()), cuts);
-		}
-		if (cuts) close(nearest_[0], vertices);
+		const int  count = findPlanes(planes.begin(1 - body), planes.end(1 - body));
+		const bool cuts  = count > 0 && measureBeyond(nearest_[0]);
+		takeBody(surface, planes.begin(body), cuts);
 		cutByOthers(count);
 	}
 
@@ -214,7 +208,7 @@ private:
 	}
 
 	/// Vertex k has the sign of bit i of k along axis i.
-	POLYTOPE_INLINE void box(R halfWidth)
+	POLYTOPE_APART void box(R halfWidth)
 	{
 		for (int v = 0; v < 8; ++v) {
 			const R p[3] = { v & 1 ? halfWidth : -halfWidth, v & 2 ? halfWidth : -halfWidth, v & 4 ? halfWidth : -halfWidth };
@@ -269,7 +263,7 @@ private:
 	}
 
 	/// Leaves those nearer than `reach`, without the first. Returns how many.
-	POLYTOPE_INLINE int sortBySlack(int found, R reach)
+	POLYTOPE_APART int sortBySlack(int found, R reach)
 	{
 		int count = 0;
 		for (int k = 1; k < found; ++k)
@@ -340,11 +334,29 @@ private:
 	POLYTOPE_INLINE bool cut(int i)
 	{
 		if (!measureBeyond(i)) return false;
+		cutFaces(i);
+		return true;
+	}
+
+	/// The body's faces, those that plane nearest_[0] leaves if it cuts: many a face is not even copied.
+	POLYTOPE_APART void takeBody(const Polyhedron& surface, int firstPlane, bool cuts)
+	{
+		const int vertices = loops_.vertices;
+		loops_.faces       = int(surface.faces.size());
+		for (int face = 0; face < loops_.faces && whole_; ++face) {
+			loops_.plane[face] = firstPlane + surface.planeOfFace[face];
+			takeFace(face, surface.faces[face].data(), int(surface.faces[face].size()), cuts);
+		}
+		if (cuts) close(nearest_[0], vertices);
+	}
+
+	/// Takes off each face what lies beyond plane i, as measured.
+	POLYTOPE_APART void cutFaces(int i)
+	{
 		const int vertices = loops_.vertices;
 		for (int face = 0; face < loops_.faces && whole_; ++face)
 			takeFace(face, loops_.corner + face * room_, loops_.count[face], true);
 		close(i, vertices);
-		return true;
 	}
 
 	/// The vertex where the edge from the inner to the outer one meets the plane: of both faces that share it.

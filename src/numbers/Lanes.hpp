@@ -15,6 +15,8 @@ namespace polytope {
 
 #define POLYTOPE_INLINE inline __attribute__((always_inline))
 #define POLYTOPE_INLINE_LAMBDA __attribute__((always_inline))
+/// One copy for all instruction sets: what only some pairs need, and follows indices, does not make the code of the others longer.
+#define POLYTOPE_APART __attribute__((noinline))
 
 /// Plane arrays are padded to a multiple of this with neutral planes (see padOffset), so every loop runs on whole vectors.
 constexpr int padWidth = 4;

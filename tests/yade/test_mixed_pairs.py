@@ -210,7 +210,7 @@ def stepWith(functor, contact, extents=None, vertices=None):
 	if vertices: shape.vertices = vertices
 	O.step()
 	geom = contact.geom  # None where a thin solid has let go
-	answers.append((geom.status, geom.penetrationDepth if contact.isReal else 0) if geom else ('none', 0))
+	answers.append((geom.status, float(geom.penetrationDepth) if contact.isReal else 0) if geom else ('none', 0))
 
 box = Ig2_Box_Polytope_PolytopeGeom()
 contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), box, Bo1_Box_Aabb())

@@ -119,8 +119,9 @@ def timeStep(findings, quick):
 	# central differences: a free swing's amplitude is larger by 1/√(1 − (Δt/Δt crit)²)
 	below = worst(r.growth * math.sqrt(1 - r.timeStep**2) - 1 for _, f, r in results if f <= 0.9)
 	findings.row(f'{title}: up to 0.9 of polytope.stableTimeStep(2), swing over the scheme’s own, worst difference', below, accept=(0, 0.05))
-	above = min(r.growth for _, f, r in results if f >= 1.1)
-	findings.row(f'{title}: from 1.1 of it on, least growth of the swing: it shows', above, accept=(10, math.inf))
+	# beyond it the block may rock instead, until it lifts off: height need not show it, energy does
+	above = min(r.energyGrowth for _, f, r in results if f >= 1.1)
+	findings.row(f'{title}: from 1.1 of it on, least growth of the kinetic energy: it shows', above, accept=(10, math.inf))
 	findings.text(
 		f'{title}. A block swings on a floor about its rest for 2000 steps, undamped. polytope.stableTimeStep(2) is the limit of one body from all '
 		'stiffnesses, rocking of both contact models included (docs/time-step.md), here where the overlap of the swing is deepest. Below it the swing is the scheme’s own; past it the block turns, is thrown off, and gains energy each time it '
