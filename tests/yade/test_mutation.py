@@ -94,7 +94,7 @@ def testMutantsThatDoNotCompileAreNamedByTheMessages():
 /t/src/a.hpp:7:3:   required from here
 /t/src/other.hpp:1:2: error: no match
 /t/src/a.hpp:8:1: warning: unused
-/t/src/a.hpp:20:1: error: no match
+../src/a.hpp:20:1: error: no match
 /t/src/a.hpp:30:1: error: no match'''
 	found = namedIn(messages, pathlib.Path('/t'), [mutant(1, 7), mutant(2, 8), mutant(3, 20), mutant(4, 21), mutant(5, 32)])
 	assert [entry.id for entry in found] == [1, 3, 5]

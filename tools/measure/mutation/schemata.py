@@ -98,28 +98,37 @@ class Schemata:
 				raise RuntimeError('no mutant is to blame:\n' + done.stdout[-3000:])
 
 	def link(self, jobs, units):
-		"""The core's tests of the project's own build with these files of src/, with mutants, in the place of its own; the path of the program."""
-		objects = [f'src/CMakeFiles/polytope_core.dir/{unit.removeprefix("src/")}.o' for unit in units]
-		self.make(jobs, *objects)
+		"""The core's tests of the project's own build with these files of src/ and tests/core/, with mutants, in the place of its own; the program's path."""
+		objects = {unit: objectOf(unit) for unit in units}
+		self.make(jobs, *objects.values())
 		program, own = self.build / 'testsOfUnits', project / 'build'
 		subprocess.run(['ninja', '-C', own, '-j', str(jobs), 'polytope_core_tests'], check=True, stdout=subprocess.DEVNULL)
 		found = subprocess.run(['ninja', '-C', own, '-t', 'commands', 'tests/core/polytope_core_tests'], capture_output=True, text=True, check=True)
-		command = found.stdout.splitlines()[-1].split(' && ')[1]
+		command = re.sub(r' -Wl,--dependency-file=\S+', ' FIRST', found.stdout.splitlines()[-1].split(' && ')[1])
+		for unit, name in objects.items():
+			if not unit.startswith('src/'):
+				command = command.replace(f' {name} ', ' ')
 		# first come the objects with mutants: of functions that several files hold the linker takes the first
-		first = ' '.join(str(self.build / name) for name in objects)
-		command = re.sub(r' -Wl,--dependency-file=\S+', f' {first}', command).replace(' -o tests/core/polytope_core_tests', f' -o {program}')
-		subprocess.run(command, shell=True, cwd=own, check=True)
+		command = command.replace('FIRST', ' '.join(str(self.build / name) for name in objects.values()))
+		subprocess.run(command.replace(' -o tests/core/polytope_core_tests', f' -o {program}'), shell=True, cwd=own, check=True)
 		return program
+
+
+def objectOf(unit):
+	"""Of a file of src/ or tests/core/, in the build folder."""
+	if unit.startswith('src/'):
+		return f'src/CMakeFiles/polytope_core.dir/{unit.removeprefix("src/")}.o'
+	return f'tests/core/CMakeFiles/polytope_core_tests.dir/{unit.removeprefix("tests/core/")}.o'
 
 
 def namedIn(messages, tree, mutants):
 	"""Mutants on the line of an error; where that has none on the lines beside it, of the same statement; or else on the lines that required it."""
-	byLine = {}
+	byLine = {}  # ccache may write paths from the build folder
 	for mutant in mutants:
 		byLine.setdefault((mutant.file, mutant.line), []).append(mutant)
 	bad, required = [], []
 	for line in messages.splitlines():
-		place = re.search(rf'{re.escape(str(tree))}/([\w/.]+):(\d+):', line)
+		place = re.search(rf'(?:{re.escape(str(tree))}|\.\.)/([\w/.]+):(\d+):', line)
 		steps = range(12) if 'declared here' in line else (0, 1, 2, -1, -2)  # a function in a constant expression: all its lines
 		near = [byLine.get((place.group(1), int(place.group(2)) + k), []) for k in steps] if place else [[]]
 		if ' error: ' in line:

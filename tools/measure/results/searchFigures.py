@@ -1,16 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The figures of the documentation, each a function of the folder with the results that gives Markdown. A target missed is said in bold."""
+"""Figures of `./run search`, from its log."""
 
 import re
-import textwrap
 
-results = {'search': 'search.txt'}
-"""Name of the results → file in docs/results. Each says revision, seed, date and what it was run on."""
-width = 140
+from text import paragraph, thousands
 
-
-def thousands(number):
-	return f'{number:,}'.replace(',', ' ')
+file = 'search.txt'
 
 
 class Search:
@@ -19,7 +14,7 @@ class Search:
 	columns = 'pairs overlap apart border exact queries error pivots iterations defects'.split()
 
 	def __init__(self, folder):
-		text = (folder / results['search']).read_text()
+		text = (folder / file).read_text()
 		self.date = re.search(r'predicate, (\S+)', text).group(1)
 		self.revision, self.machine = re.search(r'^revision (\w+)\S*; (.*)$', text, re.MULTILINE).groups()
 		self.seed = re.search(r'--seed (\d+)', text).group(1)
@@ -30,28 +25,28 @@ class Search:
 		self.defects = {name: int(count) for name, count in re.findall(r'(\S[^,]*?) (\d+)(?:, |$)', line)}
 
 
-def searchPairs(folder):
+def pairs(folder):
 	return f'{Search(folder).all["pairs"] / 1e6:.0f} million'
 
 
-def searchVerdict(folder):
+def verdict(folder):
 	defects = {name: count for name, count in Search(folder).defects.items() if count}
 	if defects:
 		return '**' + ', '.join(f'{name}: {count}' for name, count in defects.items()) + '**'
 	return 'no contact missed, none invented'
 
 
-def searchSummary(folder):
+def summary(folder):
 	search = Search(folder)
-	text = f"""In {search.all['pairs'] / 1e6:.0f} million pairs of {len(search.rows)} kinds, {search.all['queries'] / 1e6:.0f} million queries, of which
-		{thousands(int(search.all['exact']))} needed rational arithmetic to be judged: {searchVerdict(folder)}; s* within {search.all['error']} of the
+	return paragraph(f"""In {search.all['pairs'] / 1e6:.0f} million pairs of {len(search.rows)} kinds, {search.all['queries'] / 1e6:.0f} million queries, of which
+		{thousands(int(search.all['exact']))} needed rational arithmetic to be judged: {verdict(folder)}; s* within {search.all['error']} of the
 		8 roundings of the pair's reach that are stated, after at most {search.all['pivots']:.0f} pivots and {search.all['iterations']:.0f} iterations
-		({search.date}, revision {search.revision[:7]}, seed {search.seed}; {search.machine}; `docs/results/search.txt`)."""
-	return textwrap.fill(' '.join(text.split()), width, break_long_words=False, break_on_hyphens=False)
+		({search.date}, revision {search.revision[:7]}, seed {search.seed}; {search.machine}; `docs/results/search.txt`).""")
 
 
-figures = {
-        'search.pairs': searchPairs,
-        'search.verdict': searchVerdict,
-        'search.summary': searchSummary,
-}
+figures = {'search.pairs': pairs, 'search.verdict': verdict, 'search.summary': summary}
+
+
+def taken(source):
+	"""What is kept of a log: all of it."""
+	return source.read_text()
