@@ -79,7 +79,7 @@ def write(path, results):
 	path.write_text(rest[:-2] + ',\n "mutants": [\n' + rows + '\n ]\n}\n')
 
 
-def judged(mutants, tests, row, results, path, end, say):
+def judged(mutants, verdict, tests, row, results, path, end, say):
 	"""Runs the tests for each mutant until the time is over; a row for each in the file."""
 	done = {entry['id']: entry for entry in results['mutants']}
 	for mutant in mutants:
@@ -88,7 +88,7 @@ def judged(mutants, tests, row, results, path, end, say):
 		if mutant.id in done and (done[mutant.id]['killedBy'] or row in done[mutant.id]['ran']):
 			continue
 		entry = done.setdefault(mutant.id, {**mutant.row(), 'ran': []})
-		entry['killedBy'] = tests.verdict(mutant.id)
+		entry['killedBy'] = verdict(mutant.id)
 		entry['reachedBy'] = len(tests.reaching.get(mutant.id, []))
 		entry['ran'].append(row)
 		results['mutants'] = [done[number] for number in sorted(done)]
@@ -142,7 +142,13 @@ def main():
 		results['leftOut'] = tests.leftOut
 		named = [mutant for mutant in schemata.mutants if not arguments.file or any(part in mutant.file for part in arguments.file)]
 		some = [mutant for mutant in named if takes(mutant)]
-		judged(order.sample(some, len(some)), tests, row, results, path, end, say)
+		some = order.sample(some, len(some))
+		if isinstance(tests, CoreTests):
+			judged(some, lambda mutant: tests.verdict(mutant, True), tests, f'{row}, quick', results, path, end, lambda text: None)
+			say(f'{row}, quick tests: {sum(not entry["killedBy"] for entry in results["mutants"])} of {len(results["mutants"])} left')
+			judged(some, lambda mutant: tests.verdict(mutant, False), tests, row, results, path, end, say)
+		else:
+			judged(some, tests.verdict, tests, row, results, path, end, say)
 
 	if arguments.unit:
 		tests = CoreTests(schemata.link(arguments.jobs, arguments.unit))

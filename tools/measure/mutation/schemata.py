@@ -69,6 +69,9 @@ class Schemata:
 
 	def checkSyntax(self, jobs):
 		"""The files that have the contact kernel, without code: cheaper than to build until nothing fails, since all tests include its headers."""
+		self.write()
+		if (self.build / 'checked').exists() and (self.build / 'checked').read_text() == str([mutant.id for mutant in self.mutants]):
+			return
 		commands = json.loads((self.build / 'compile_commands.json').read_text())
 		commands = [entry for entry in commands if '/tree/src/contact/' in entry['file']]
 
@@ -85,6 +88,7 @@ class Schemata:
 			self.say(f'{len(commands)} files do not compile; {count} mutants taken out')
 			if commands and not count:
 				raise RuntimeError('no mutant is to blame:\n' + '\n'.join(texts)[:3000])
+		put(self.build / 'checked', str([mutant.id for mutant in self.mutants]))
 
 	def make(self, jobs, *targets):
 		while True:
