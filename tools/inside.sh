@@ -137,22 +137,6 @@ tradeoff() {
 	exec python3 "$script" "$@"
 }
 
-# Figures of README and docs, from results that are there or are measured first: a target that is missed, exit code 1, is a result.
-figures() {
-	local writer=$project/tools/measure/results/results.py name=${2:-} into=$project/output/figures/${2:-} code=0 option=--output
-	[ "${1:-}" = --measure ] || exec python3 "$writer" "$@"
-	case $name in
-		bench | tradeoff | accuracy | paper) ;;
-		search) into=$into.txt option=--log ;;
-		*) fail "figures: --measure needs bench, tradeoff, accuracy, paper or search." "./run figures --help says more." ;;
-	esac
-	mkdir -p "$project/output/figures"
-	# a process of its own: with `||`, bash would go on after a command of a function that fails
-	bash "$project/tools/inside.sh" "$name" "${@:3}" $option "$into" || code=$?
-	[ $code -lt 2 ] || fail "./run $name ended with $code: nothing is taken over."
-	python3 "$writer" --take "$name" "$into"
-}
-
 format() {
 	local check=() files
 	[ "${1:-}" = --check ] && check=(--dry-run --Werror)
@@ -176,7 +160,7 @@ case $command in
 	search) buildPrecision double polytope_search && search "$@" ;;
 	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;
 	paper) build && exec python3 "$project/examples/paper/report.py" "$@" ;;
-	figures) figures "$@" ;;
+	figures) . "$project/tools/figures.sh" && figures "$@" ;;
 	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;
