@@ -169,6 +169,18 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 	}
 }
 
+TEST(InternalPlanes, NoneMeansOfNeitherBody)
+{
+	InternalPlanes internal;
+	EXPECT_TRUE(internal.none());
+	internal.count[0] = 1;
+	EXPECT_FALSE(internal.none());
+	internal.count[1] = 1;
+	EXPECT_FALSE(internal.none());
+	internal.count[0] = 0;
+	EXPECT_FALSE(internal.none());
+}
+
 TEST(BoundingPlanes, OfManyTheFaceThatTheBodyLiesOnIsAmongThem)
 {
 	std::mt19937_64 random(7004);

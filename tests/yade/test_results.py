@@ -139,7 +139,7 @@ def testTheTradeOffIsWritten(root, tmp_path):
 
 def testMutantsThatSurviveAreListed(root, tmp_path):
 	"""One that is killed, one that is not and that nobody has judged."""
-	row = {'id': 1, 'file': 'src/a/b.hpp', 'line': 3, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'source': 'x | y + z', 'ran': ['core'], 'reachedBy': 4}
+	row = {'id': 1, 'file': 'src/a/b.hpp', 'line': 3, 'column': 5, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'source': 'x | y + z', 'ran': ['core'], 'reachedBy': 4}
 	mutants = [{**row, 'killedBy': 'Sum.Quick'}, {**row, 'id': 2, 'line': 7, 'killedBy': None}]
 	(tmp_path / 'results.json').write_text(json.dumps({'revision': '0123456789', 'seed': 5, 'mutants': mutants}))
 	assert results('--take', 'mutation', tmp_path / 'results.json', '--root', root)[0] == 0

@@ -104,6 +104,7 @@ def parsed():
 	parser.add_argument('--minutes', type=float, default=1e9, help='ends after so long; the same call goes on where it ended')
 	parser.add_argument('--only', choices=['core', 'plugin'], help="only mutants of src/ with the core's tests, or only the tests of the plug-in")
 	parser.add_argument('--file', action='append', help='only mutants of files whose names contain this; may be repeated')
+	parser.add_argument('--id', type=int, action='append', help='only these mutants, anew; may be repeated')
 	parser.add_argument('--unit', action='append', metavar='src/FOLDER/FILE.cpp', help="compiles these files alone and links them with the project's own "
 	        'build of the tests: quick, but a test that instantiates a template by itself has no mutant in it; may be repeated')
 	parser.add_argument('--again', action='store_true', help='with the same sources and other tests: those that survived are judged anew')
@@ -128,6 +129,8 @@ def main():
 	results['mutants'], results['doNotCompile'] = before(path, results)
 	if arguments.again:
 		results['mutants'] = [entry for entry in results['mutants'] if entry['killedBy']]
+	if arguments.id:
+		results['mutants'] = [entry for entry in results['mutants'] if entry['id'] not in arguments.id]
 	some = [mutant for mutant in chosen(arguments.mutants, arguments.seed) if mutant.id not in results['doNotCompile']]
 	schemata = Schemata(arguments.output, some, say)
 	schemata.write()
@@ -141,7 +144,7 @@ def main():
 		tests.measure(say)
 		results['leftOut'] = tests.leftOut
 		named = [mutant for mutant in schemata.mutants if not arguments.file or any(part in mutant.file for part in arguments.file)]
-		some = [mutant for mutant in named if takes(mutant)]
+		some = [mutant for mutant in named if takes(mutant) and (not arguments.id or mutant.id in arguments.id)]
 		some = order.sample(some, len(some))
 		if isinstance(tests, CoreTests):
 			judged(some, lambda mutant: tests.verdict(mutant, True), tests, f'{row}, quick', results, path, end, lambda text: None)
@@ -151,11 +154,11 @@ def main():
 			judged(some, tests.verdict, tests, row, results, path, end, say)
 
 	if arguments.unit:
-		tests = CoreTests(schemata.link(arguments.jobs, arguments.unit))
+		tests = CoreTests(schemata.link(arguments.jobs, arguments.unit), schemata.key(results['sources']))
 		judge(tests, 'units', lambda mutant: mutant.id in tests.reaching)
 	elif arguments.only != 'plugin':
 		schemata.make(arguments.jobs, 'polytope_core_tests')
-		judge(CoreTests(schemata.build / 'tests/core/polytope_core_tests'), 'core', inCore)
+		judge(CoreTests(schemata.build / 'tests/core/polytope_core_tests', schemata.key(results['sources'])), 'core', inCore)
 	if arguments.only != 'core' and not arguments.unit:
 		schemata.make(arguments.jobs, 'overlay')
 		survivors = {entry['id'] for entry in results['mutants'] if not entry['killedBy']}

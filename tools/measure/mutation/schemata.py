@@ -2,6 +2,7 @@
 """A copy of the project in which all mutants stand, built once (mutant schemata); what does not compile is taken out."""
 
 import concurrent.futures
+import hashlib
 import json
 import pathlib
 import re
@@ -89,6 +90,10 @@ class Schemata:
 			if commands and not count:
 				raise RuntimeError('no mutant is to blame:\n' + '\n'.join(texts)[:3000])
 		put(self.build / 'checked', str([mutant.id for mutant in self.mutants]))
+
+	def key(self, sources):
+		"""Names the mutants that are in the build."""
+		return hashlib.sha256(f'{sources} {[mutant.id for mutant in self.mutants]}'.encode()).hexdigest()[:16]
 
 	def make(self, jobs, *targets):
 		while True:
