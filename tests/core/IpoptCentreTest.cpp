@@ -119,6 +119,7 @@ TEST(IpoptCentre, NormalAndDepthFollow)
 		const ContactResult newton = query(pair), ipopt = query(pair, byIpopt());
 		EXPECT_EQ(ipopt.status, newton.status);
 		EXPECT_EQ(ipopt.newtonIterations, 0);
+		EXPECT_GT(ipopt.ipoptIterations, 0);
 		EXPECT_LE((ipopt.normal - newton.normal).norm(), 1e-8);
 		EXPECT_NEAR(ipopt.depth, newton.depth, 1e-8);
 	}

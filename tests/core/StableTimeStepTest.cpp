@@ -155,8 +155,8 @@ TEST(RockingStiffness, OfLeaningSides)
 	Quaternion        turn(0.4, 0.6, -0.2, 0.5);
 	turn.normalize();
 	const Matrix3 rotation = turn.toRotationMatrix();
-	const Vector3 centre(0.05, -0.1, 0.15), above(0, 0, 0.1);
-	for (const Vector3& up : { Vector3(0, 0, 1), Vector3(Real(0.8), 0, Real(0.6)) }) {
+	const Vector3 centre(0.05, -0.1, 0.15), above(0.1, 0, 0.1);
+	for (const Vector3& up : { Vector3(0, 0, 1), Vector3(Real(0.8), 0, Real(0.6)), Vector3(1, 0, 0) }) {
 		const auto    floor   = ConvexShape::halfSpace(up, 3);
 		const Vector3 surface = up * up.dot(above);
 		Matrix3       hessian = up * up.transpose() / surface.squaredNorm();

@@ -145,7 +145,7 @@ def testMutantsThatSurviveAreListed(root, tmp_path):
 	assert results('--take', 'mutation', tmp_path / 'results.json', '--root', root)[0] == 0
 	text = (root / 'docs/mutation.md').read_text()
 	assert '| src/a | 2 | 1 | 0 | **1** |' in text and '**50.0 %**' in text and 'seed 5' in text
-	assert '| src/a/b.hpp:7 | `x &#124; y + z` | `+` → `-` |  |' in text
+	assert '| src/a/b.hpp:7 | `x \\| y + z` | `+` → `-` |  |' in text
 
 
 def testEveryResultIsShown():

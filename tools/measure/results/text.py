@@ -16,9 +16,9 @@ def paragraph(text):
 
 
 def table(titles, rows):
-	"""A table of Markdown. Cells are texts; what would end a cell is written as a character's number."""
+	"""A table of Markdown. Cells are texts; what would end a cell is escaped."""
 	lines = [titles, ['---'] * len(titles), *rows]
-	return '\n'.join('| ' + ' | '.join(str(cell).replace('|', '&#124;').replace('\n', ' ') for cell in line) + ' |' for line in lines)
+	return '\n'.join('| ' + ' | '.join(str(cell).replace('|', '\\|').replace('\n', ' ') for cell in line) + ' |' for line in lines)
 
 
 def bold(text):
