@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/ClosestPoint.hpp"
-#include "numbers/NumberText.hpp"
 #include "PairSamples.hpp"
+#include "numbers/NumberText.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "timestep/StableTimeStep.hpp"
+#include "PairSamples.hpp"
 #include "shape/RegularSolids.hpp"
 #include "timestep/RockingStiffness.hpp"
 
@@ -135,9 +136,8 @@ TEST(RockingStiffness, OfASquareFace)
 	const auto    floor = ConvexShape::halfSpace(up, 3);
 	const Vector3 above = up * (side / 2 - depth / 2);
 
-	const Matrix3 onHalfSpace
-	        = depth * rockingArms({ *floor, up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
-	const Matrix3 expected = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
+	const Matrix3 onHalfSpace = depth * rockingArms({ *floor, up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
+	const Matrix3 expected    = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
 	EXPECT_LT(double((onHalfSpace - expected).norm()), 1e-3 * double(expected.norm()));
 
 	const Vector3 below    = -up * (10 * side / 2 - depth / 2);
@@ -170,5 +170,23 @@ TEST(RockingStiffness, OfLeaningSides)
 		const Matrix3 expected = pull.norm() * crossMatrix(up) * hessian.inverse() * crossMatrix(up).transpose();
 		const Matrix3 found    = rockingArms({ *floor, surface, Matrix3::Identity() }, { solid, centre, rotation }, up, 1e-3);
 		EXPECT_LT(double((found - expected).norm()), 1e-12 * double(expected.norm())) << found << "\n\n" << expected;
+	}
+}
+
+/// A plate that stands on its edge, however it is turned: across it the section has no width to rounding, and the arms stay those of a line.
+TEST(RockingStiffness, OfAnEdge)
+{
+	const ConvexShape plate(samples::cuboid(1, 1e-9, 0.5), 0);
+	const Vector3     up(0, 0, 1), centre(0, 0, 0.4);
+	const auto        floor = ConvexShape::halfSpace(up, 3);
+	for (Real turn = Real(0.05); turn < 3; turn += Real(0.1)) {
+		const Matrix3 rotation = Eigen::AngleAxis<Real>(turn, up).toRotationMatrix();
+		const Matrix3 arms     = rockingArms({ *floor, up * 1e-3, Matrix3::Identity() }, { plate, centre, rotation }, up, 1e-3);
+		const Real    pull     = 1 / 0.1 - 1 / 0.9; // of its lower and upper faces
+		ASSERT_TRUE(arms.allFinite()) << turn;
+		const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(arms, Eigen::EigenvaluesOnly).eigenvalues();
+		const Real    most   = pull * plate.boundingRadius() * plate.boundingRadius();
+		EXPECT_GT(values[0], -1e-6 * most) << turn;
+		EXPECT_LT(values[2], 4 * most) << turn;
 	}
 }

@@ -124,6 +124,7 @@ def main():
 	arguments = parsed()
 	say = lambda text: print(f'{datetime.datetime.now():%H:%M:%S} {text}', flush=True)
 	end = time.monotonic() + 60 * arguments.minutes
+	arguments.output = arguments.output.resolve()
 	arguments.output.mkdir(parents=True, exist_ok=True)
 	path, results = arguments.output / 'results.json', head(arguments)
 	results['mutants'], results['doNotCompile'] = before(path, results)
