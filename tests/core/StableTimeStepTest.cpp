@@ -181,7 +181,7 @@ TEST(RockingStiffness, OfAnEdge)
 	const auto        floor = ConvexShape::halfSpace(up, 3);
 	for (Real turn = Real(0.05); turn < 3; turn += Real(0.1)) {
 		const Matrix3 rotation = Eigen::AngleAxis<Real>(turn, up).toRotationMatrix();
-		const Matrix3 arms     = rockingArms({ *floor, up * 1e-3, Matrix3::Identity() }, { plate, centre, rotation }, up, 1e-3);
+		const Matrix3 arms     = rockingArms({ *floor, up * 1e-3, Matrix3::Identity() }, { plate, centre, rotation }, up, 1e-12);
 		const Real    pull     = 1 / 0.1 - 1 / 0.9; // of its lower and upper faces
 		ASSERT_TRUE(arms.allFinite()) << turn;
 		const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(arms, Eigen::EigenvaluesOnly).eigenvalues();

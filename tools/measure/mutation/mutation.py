@@ -108,6 +108,7 @@ def parsed():
 	parser.add_argument('--unit', action='append', metavar='src/FOLDER/FILE.cpp', help="compiles these files alone and links them with the project's own "
 	        'build of the tests: quick, but a test that instantiates a template by itself has no mutant in it; may be repeated')
 	parser.add_argument('--again', action='store_true', help='with the same sources and other tests: those that survived are judged anew')
+	parser.add_argument('--tests', nargs='+', metavar='test_NAME.py', default=pluginTests, help='of the plug-in (those about forces)')
 	parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='of the compiler')
 	parser.add_argument('--output', type=pathlib.Path, default=project / 'output/mutation')
 	return parser.parse_args()
@@ -156,15 +157,15 @@ def main():
 
 	if arguments.unit:
 		tests = CoreTests(schemata.link(arguments.jobs, arguments.unit), schemata.key(results['sources']))
-		judge(tests, 'units', lambda mutant: mutant.id in tests.reaching)
+		judge(tests, 'units', inCore)
 	elif arguments.only != 'plugin':
 		schemata.make(arguments.jobs, 'polytope_core_tests')
 		judge(CoreTests(schemata.build / 'tests/core/polytope_core_tests', schemata.key(results['sources'])), 'core', inCore)
 	if arguments.only != 'core' and not arguments.unit:
 		schemata.make(arguments.jobs, 'overlay')
 		survivors = {entry['id'] for entry in results['mutants'] if not entry['killedBy']}
-		tests = PluginTests(schemata.tree, pluginTests)
-		judge(tests, 'plug-in', lambda mutant: not inCore(mutant) or mutant.id in survivors)
+		tests = PluginTests(schemata.tree, arguments.tests)
+		judge(tests, 'plug-in' if arguments.tests == pluginTests else ' '.join(arguments.tests), lambda mutant: not inCore(mutant) or mutant.id in survivors)
 	killed = sum(bool(entry['killedBy']) for entry in results['mutants'])
 	say(f'{killed} of {len(results["mutants"])} killed; {len(results["doNotCompile"])} did not compile; {path}')
 
