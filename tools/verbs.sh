@@ -7,7 +7,8 @@ purposesOf() { # VERB ARGUMENTS…
 	case $1 in
 		test) echo base test fuzz revision ;; # fuzz: tests/yade/test_verbs.py configures it
 		shell) echo base test ;; # for pytest
-		search) echo base revision ;;
+		search | accuracy | tradeoff | paper) echo base revision ;;
+		figures) if [ "${2:-}" = --measure ]; then echo base peers revision; else echo base; fi ;;
 		bench) echo base peers revision ;;
 		fuzz) echo base fuzz ;;
 		sanitize) echo base test fuzz ;;

@@ -49,10 +49,10 @@ py::dict tolerances()
 }
 
 /// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
-py::dict polyhedron(const yade::Vectors& normals, const std::vector<yade::Real>& offsets)
+py::dict polyhedron(const yade::Vectors& normals, const py::object& offsets)
 {
 	const polytope::HalfSpaces set
-	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals.rows, offsets })));
+	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals.rows, yade::numbers(offsets) })));
 	const auto hull    = polytope::polyhedron(set);
 	const auto mass    = polytope::massProperties(hull);
 	const auto central = polytope::moved(set, yade::Matrix3r::Identity(), -mass.centroid);

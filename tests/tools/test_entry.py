@@ -189,6 +189,9 @@ def testArchivesOfTheRoot(clone, tmp_path):
         ('build testPrograms', {'yade', 'libgtest-dev'}, {'libfcl-dev'}),
         ('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth'}, {'libfcl-dev'}),
         ('bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
+        ('paper', {'git', 'yade'}, {'libfcl-dev', 'clang'}),
+        ('figures --check', {'yade'}, {'libfcl-dev', 'git'}),
+        ('figures --measure bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
         ('fuzz', {'clang', 'libclang-rt-dev'}, {'libfcl-dev'}),
         ('format', {'clang-format'}, {'libfcl-dev'}),
 ])
