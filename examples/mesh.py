@@ -21,6 +21,6 @@ for k in range(20):
 
 O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 while O.time < 1.5:
-	O.run(100, wait=True)
+	O.run(1000, wait=True)
 print('volume of the smallest pebble:', O.bodies[5].shape.volume, 'm³, with', len(O.bodies[5].shape.normals), 'planes')
 picture('output/pebbles.png', view=(-0.5, -1, 1.1))

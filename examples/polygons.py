@@ -23,5 +23,5 @@ for k in range(72):
 
 O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 while O.time < 2:
-	O.run(100, wait=True)
+	O.run(1000, wait=True)
 picture('output/polygons.png', colorBy='speed', legend='speed [m/s]')
