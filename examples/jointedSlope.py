@@ -74,9 +74,8 @@ def moved(friction, seconds):
 	"""Largest way of a block [m] after so much time with a friction angle, and the number of blocks that have moved by 5 cm."""
 	setFrictionAngle(friction)
 	start = [body.state.pos for body in O.bodies]
-	end = O.time + seconds
-	while O.time < end:
-		O.run(50, wait=True)
+	O.stopAtTime = O.time + seconds
+	O.run(wait=True)
 	ways = [(body.state.pos - origin).norm() for body, origin in zip(O.bodies, start, strict=True)]
 	return max(ways), sum(way > 0.05 for way in ways)
 

@@ -19,7 +19,8 @@ runTests() {
 	return $result
 }
 
-# In as many processes as there are cores, unless the arguments say how many or ask for a debugger.
+# In one process more than there are cores, since tests wait for processes that they start and for O.run, which YADE looks at every 40 ms; unless
+# the arguments say how many or ask for a debugger.
 runPytest() {
 	local options=() folders=(tests/yade) argument parallel=yes
 	[ "$precision" != double ] || folders+=(tests/tools)
@@ -27,7 +28,7 @@ runPytest() {
 		case $argument in -n | -n[0-9]* | --numprocesses* | --dist* | --pdb | --trace | no:xdist) parallel='' ;; esac
 	done
 	# worksteal: tests of one file stay in one process, which makes their scenes once, until the other process has nothing left
-	[ -z "$parallel" ] || options=(-n "$cores" --dist worksteal)
+	[ -z "$parallel" ] || options=(-n "$((cores + 1))" --dist worksteal)
 	[ -z "$fast" ] || options+=(-m "not slow")
 	rm -f "$results/$precision.xml"
 	# `pytest` as a program: `python3 -m pytest` would put the project's folder first, and its py/ hides the module `py`
