@@ -10,7 +10,7 @@ from yade import (
 )
 from yade import polytope
 
-from scenes import blockOnFloor, contact, density, driven, gravity, joint, law, loop, period
+from scenes import blockOnFloor, contact, density, driven, gravity, joint, law, loop, period, rowInAPeriodicCell
 
 stiffness = 1e8
 
@@ -50,6 +50,14 @@ def testStatisticsAreTheSumsOverAllQueries():
 	assert stats['simplexPivots'] == 4 * sum(query.simplexPivots for query in queries) > 0
 	assert stats['newtonIterations'] == 4 * sum(query.newtonIterations for query in queries if query.inContact) > 0
 	assert stats['lpSeconds'] > 0 and stats['centreSeconds'] > 0
+
+
+def testArmsAcrossThePeriodEndAtTheImage():
+	rowInAPeriodicCell()
+	contacts = [one for one in O.interactions if one.isReal]
+	assert len(contacts) == 3 and sum(tuple(one.cellDist) != (0, 0, 0) for one in contacts) == 1
+	for one in contacts:
+		assert (one.geom.refR1, one.geom.refR2) == pytest.approx((.5, .5), rel=1e-3)
 
 
 def testStackCarriesItsWeight():
