@@ -6,7 +6,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
-*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
+*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
 *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …)
 are YADE's like any other.
 
@@ -33,6 +33,7 @@ from .jointedRock import JointedRock, JointSet, jointedRock
 from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
 from .pictures import picture
 from .requirements import requirements
+from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
 from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
@@ -63,10 +64,12 @@ __all__ = [
 	'cloud',
 	'contact',
 	'contactFabric',
+	'contactRose',
 	'continueFrom',
 	'coordinationNumber',
 	'cuboid',
 	'engines',
+	'forceHistogram',
 	'fromHalfSpaces',
 	'fromMesh',
 	'fromVertices',
@@ -75,6 +78,7 @@ __all__ = [
 	'jointedRock',
 	'mechanicalEnergy',
 	'particleFabric',
+	'particleRose',
 	'picture',
 	'plates',
 	'polygon',
