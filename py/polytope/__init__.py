@@ -3,7 +3,8 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*. One
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
+broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
@@ -27,6 +28,7 @@ from .check import check
 from .checkpoints import checkpoint, continueFrom
 from .energy import mechanicalEnergy
 from .engines import engines
+from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
@@ -57,6 +59,7 @@ __all__ = [
 	'bodyStress',
 	'bond',
 	'bonds',
+	'breakGrains',
 	'buildInfo',
 	'check',
 	'checkpoint',
