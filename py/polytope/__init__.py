@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*prism*, *frustum*, *readShapes* (and *writeShapes*); random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
@@ -36,6 +36,7 @@ from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, si
 from .pictures import picture
 from .requirements import requirements
 from .settings import settings
+from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
@@ -84,6 +85,7 @@ __all__ = [
 	'porosity',
 	'prism',
 	'randomGrain',
+	'readShapes',
 	'regular',
 	'requirements',
 	'settings',
@@ -94,4 +96,5 @@ __all__ = [
 	'tradeoff',
 	'tube',
 	'voronoi',
+	'writeShapes',
 ]
