@@ -2,8 +2,9 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*. One
+*prism*, *frustum*, *readShapes* (and *writeShapes*); random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
+broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
@@ -28,6 +29,7 @@ from .check import check
 from .checkpoints import checkpoint, continueFrom
 from .energy import mechanicalEnergy
 from .engines import engines
+from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
@@ -41,6 +43,7 @@ from .pictures import picture
 from .requirements import requirements
 from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
+from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
@@ -64,6 +67,7 @@ __all__ = [
 	'bodyStress',
 	'bond',
 	'bonds',
+	'breakGrains',
 	'buildInfo',
 	'check',
 	'checkpoint',
@@ -93,6 +97,7 @@ __all__ = [
 	'porosity',
 	'prism',
 	'randomGrain',
+	'readShapes',
 	'regular',
 	'requirements',
 	'sample',
@@ -107,4 +112,5 @@ __all__ = [
 	'triaxial',
 	'tube',
 	'voronoi',
+	'writeShapes',
 ]

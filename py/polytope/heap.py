@@ -6,8 +6,7 @@ import itertools
 import numbers
 
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, HalfspaceIntersection
+import scipy  # loads its packages at their first use: half a second
 from yade import O, Polytope, _polytope
 
 from .arguments import numbersOf, vectors
@@ -124,11 +123,11 @@ def volumeInside(body, normals, offsets):
 	normals = np.vstack([normals, planes[0]])
 	offsets = np.concatenate([offsets, planes[1] - planes[0] @ position]) / size
 	# the largest ball inside: its centre is interior
-	found = linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
+	found = scipy.optimize.linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
 	if found.status != 0 or found.x[3] < thin:
 		return 0.0
-	part = HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
-	return float(ConvexHull(part.intersections).volume) * size**3
+	part = scipy.spatial.HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
+	return float(scipy.spatial.ConvexHull(part.intersections).volume) * size**3
 
 
 @dataclasses.dataclass

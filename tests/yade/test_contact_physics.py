@@ -32,6 +32,21 @@ def testBlockCarriesItsWeight(perArea, half):
 	assert block.state.vel.norm() < 1e-12 and block.state.angVel.norm() < 1e-12
 
 
+def testStatisticsCountPairsAndWhichOfThemTouch():
+	"""Two blocks in the floor, and one so little above it that their boxes overlap."""
+	joint(normalStiffness=stiffness)
+	loop()
+	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
+	O.bodies.append([polytope.cuboid((x, 0, .499), (.5, .5, .5)) for x in (-2, 2)])
+	O.bodies.append(polytope.cuboid((0, 0, .51), (.5, .5, .5)))
+	O.engines[1].verletDist = .05
+	O.dt = 1e-9
+	for _ in range(4):
+		O.step()
+	stats = O.engines[2].geomDispatcher.functors[0].stats()
+	assert stats['contacts'] == 2 * 4 and stats['pairs'] == 3 * 4
+
+
 def testStackCarriesItsWeight():
 	"""Five blocks: every contact carries what lies on it."""
 	joint(normalStiffness=stiffness)

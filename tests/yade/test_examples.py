@@ -11,8 +11,8 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
-elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock'}
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
+elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs'}
 
 
 @pytest.fixture
@@ -70,6 +70,13 @@ def testCrushedGrainBreaksWhereItsStressSays(runs):
 	assert first == pytest.approx(1e6 * 3 / 2**0.5 * names['volume'] / height, rel=2e-2) and names['forces'][1] > first
 	assert sum(piece.shape.volume for piece in names['pieces']) == pytest.approx(names['volume'], rel=1e-12)
 	assert len(names['pieces']) == len(names['forces']) + 1 and isPicture('crushedGrain.png') and noFailures()
+
+
+def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
+	"""Four metres of it along the face."""
+	with pytest.raises(SystemExit) as end:
+		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
+	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
 
 
 def testPebblesLieInTheTray(runs, capsys):
