@@ -25,6 +25,15 @@ def stack(number, gap, perAreaStiffness=True):
 	return spacing * number
 
 
+def periodicStack(gap):
+	"""27 cubes in a periodic cell."""
+	O.periodic = True
+	extents = np.array([3 * (edge + gap)] * 2 + [3 * edge])
+	O.cell.setBox(*extents.tolist())
+	stack((3, 3, 3), gap)
+	return extents
+
+
 def grains(mass=0.008, seed=1, stiffness=1e11):
 	material(stiffness)
 	return polytope.grains([(0.005, 0), (0.006, 1)], mass=mass, elongation=(0.8, 1), flatness=(0.8, 1), vertices=10, seed=seed)
@@ -83,6 +92,35 @@ def testOedometerOfAStackOfCubesIsTheirSpringsInARow(perAreaStiffness):
 		[0, 0, 0]
 	)
 	assert test.sample.porosity == pytest.approx(1 - 12 * edge**3 / (extents[0] * extents[1] * lengths[2]), rel=1e-9)
+
+
+def testOedometerInAPeriodicCellIsTheSpringsOfItsLayers():
+	"""Three layers are three contacts in a row, the last one with the image of the first."""
+	extents = periodicStack(0.02)
+	test = polytope.oedometer(polytope.sample())
+	lengths = []
+	for stress in (1e4, 2e4):
+		test.load(stress)
+		lengths.append(test.sample.extents[2])
+	force = 1e4 * extents[0] * extents[1] / 9
+	assert lengths[0] - lengths[1] == pytest.approx(3 * force / (perArea * edge**2), rel=2e-3)
+	assert test.columns['lateralStress'] == pytest.approx([0, 0, 0], abs=1)
+
+
+def testSimpleShearOfAPeriodicLatticeHasItsShearModulus():
+	"""All cubes turn by half of the shear strain γ: contacts on all faces slip by aγ/2, so τ = kₛ a γ / 2."""
+	periodicStack(0)
+	sample = polytope.sample()
+	sample.control(stresses={0: 1e4, 1: 1e4, 2: 1e4})
+	sample.settle()
+	test = polytope.simpleShear(sample, stress=1e4, rate=0.005)
+	test.run(1e-4)
+	test.sample.settle()
+	test.note()
+	columns = test.columns
+	assert columns['shearStress'][-1] == pytest.approx(perArea / 2 * edge * columns['shearStrain'][-1] / 2, rel=1e-2)
+	turn = O.bodies[0].state.ori.toRotationMatrix()
+	assert turn[0, 2] == pytest.approx(columns['shearStrain'][-1] / 2, rel=2e-2)
 
 
 def testTriaxialOfAStackOfCubesHasItsModulusAndNoPoissonsRatio():
