@@ -11,7 +11,7 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs'}
 
 
@@ -105,6 +105,14 @@ def testParaviewsFilesAreThere(runs):
 		series = pathlib.Path(f'output/paraview/{recorder}.pvd').read_text()
 		files = re.findall(r'file="([^"]+)"', series)
 		assert len(files) == 5 and all((pathlib.Path('output/paraview') / file).stat().st_size > 500 for file in files)
+
+
+def testTriaxialTestHoldsItsStress(runs, capsys):
+	names = runs('triaxial', shorter={'mass=0.155': 'mass=0.014', '(0.07, 0.07, 0.07)': '(0.032, 0.032, 0.032)', 'run(0.2)': 'run(0.02)'})
+	columns = names['columns']
+	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'].max() > 4e4
+	assert columns['axialStrain'][-1] == pytest.approx(0.02, abs=1e-4) and columns['volumetricStrain'][-1] > 0
+	assert isPicture('triaxial.png') and isPicture('triaxialSample.png') and f'{len(names["sample"].ids)} grains' in capsys.readouterr().out and noFailures()
 
 
 def testTimeStepsColumnStands(runs, capsys):
