@@ -5,6 +5,7 @@ import ast
 import csv
 import io
 import pathlib
+import re
 import sys
 import tokenize
 
@@ -89,7 +90,7 @@ def testScriptIsNotLongerThanItsOriginal(row):
 
 def testEveryScriptIsInTheTableAndRun():
 	assert {row['script'] for row in table()} == {path.name for path in folder.glob('*.py')}
-	tests = pathlib.Path(__file__).read_text()
+	tests = re.sub(r'\(\s+', '(', pathlib.Path(__file__).read_text())
 	assert all(f"runs('{path.stem}'" in tests for path in folder.glob('*.py'))
 	page = (project / 'docs/from-other-codes.md').read_text()
 	for row in table():
@@ -152,13 +153,13 @@ def testPieceOfTheTowerIsPutOnTop(runs):
 def testCutFreesTheRock(runs, capsys):
 	names = runs(
 		'WedgeYADE',
-		{'O.time < 1': 'O.time < 0.02', 'O.time < 3': 'O.time < 0.2', 'O.run(100, wait=True)\nleft': 'O.run(20, wait=True)\nleft'},
+		{'O.time < 1': 'O.time < 0.02', 'spacing=10,': 'spacing=20,', 'O.time < 3': 'O.time < 0.1', 'O.run(100, wait=True)\nleft': 'O.run(20, wait=True)\nleft'},
 	)
 	blocks = names['blocks']
-	assert len(blocks) > 50 and sum(body.shape.volume for body in O.bodies if body.dynamic) == pytest.approx(40**3 / 2, rel=0.02)
+	assert len(blocks) > 20 and sum(body.shape.volume for body in O.bodies if body.dynamic) == pytest.approx(40**3 / 2, rel=0.02)
 	assert all(state.refPos[1] >= state.refPos[0] for state in names['left']) and failures() == 0
 	assert f'{len(names["left"])} blocks behind the cut' in capsys.readouterr().out
-	assert 1e-4 < max((state.pos - state.refPos).norm() for state in names['left']) < 1
+	assert 1e-5 < max((state.pos - state.refPos).norm() for state in names['left']) < 1
 
 
 def testCubesFallThroughTheOpenedFloor(runs):
@@ -203,9 +204,9 @@ def testGrainsFallOnThePlate(runs):
 
 @pytest.mark.skipif(not originals.is_dir(), reason="YADE's examples, with the horse, are not installed")
 def testHorseFallsOnAHorse(runs):
-	runs('horse', {'O.time < 0.01': 'O.iter < 20', 'O.run(50': 'O.run(10', 'dtype=int)': 'dtype=int)[::16]'})
+	runs('horse', {'O.time < 0.01': 'O.iter < 20', 'O.run(50': 'O.run(10'})
 	tetrahedra = [body.shape.volume for body in O.bodies if isinstance(body.shape, yade.Polytope)]
-	assert len(tetrahedra) == 125 and min(tetrahedra) > 0
+	assert len(tetrahedra) == 1988 and min(tetrahedra) > 0
 	spheres = free()
 	assert len(spheres) > 100 and np.mean([state.vel[2] for state in spheres]) < 0
 	assert O.energy['kinetic'] > 0 and failures() == 0
