@@ -110,7 +110,7 @@ TEST(DualWeights, ACornerOnAFaceHasTheFacesNormalWhereSlacksAreAllRounding)
 					const PlaneRows<Real, 2> rows(corner, ground);
 					const Real               x[] = { 0, 0 };
 					Real                     n[2];
-					const Real weight = dualWeightsNormal<Real, 2, 1>(rows.planes, x, Real(0.5), n);
+					const Real               weight = dualWeightsNormal<Real, 2, 1>(rows.planes, x, Real(0.5), n);
 					EXPECT_GT(std::hypot(n[0], n[1]), tolerance::direction * weight);
 					EXPECT_LE(lean(vectorOf(n, 2).normalized(), -Vector3::UnitY()), 1e-12)
 					        << degrees << "°, slacks " << first << ", " << second << ", " << floor;
