@@ -141,11 +141,25 @@ def testMutantsThatSurviveAreListed(root, tmp_path):
 	"""One that is killed, one that is not and that nobody has judged."""
 	row = {'id': 1, 'file': 'src/a/b.hpp', 'line': 3, 'column': 5, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'source': 'x | y + z', 'ran': ['core'], 'reachedBy': 4}
 	mutants = [{**row, 'killedBy': 'Sum.Quick'}, {**row, 'id': 2, 'line': 7, 'killedBy': None}]
+	(root / 'docs/results/mutation.csv').unlink()
 	(tmp_path / 'results.json').write_text(json.dumps({'revision': '0123456789', 'seed': 5, 'mutants': mutants}))
 	assert results('--take', 'mutation', tmp_path / 'results.json', '--root', root)[0] == 0
 	text = (root / 'docs/mutation.md').read_text()
 	assert '| src/a | 2 | 1 | 0 | **1** |' in text and '**50.0 %**' in text and 'seed 5' in text
 	assert '| src/a/b.hpp:7 | `x \\| y + z` | `+` → `-` |  |' in text
+
+
+def testMutantsOfAnotherRunStay(root, tmp_path):
+	"""Those that the new run does not have, with their revision."""
+	row = {'file': 'src/a/b.hpp', 'column': 5, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'ran': ['core'], 'reachedBy': 4}
+	(root / 'docs/results/mutation.csv').unlink()
+	for revision, mutants in (('1111111', [('x = y + z', None), ('u = v + w', None)]), ('2222222', [('x = y + z', 'Sum.Quick')])):
+		found = [{**row, 'id': k, 'line': k, 'source': source, 'killedBy': by} for k, (source, by) in enumerate(mutants, 1)]
+		(tmp_path / 'results.json').write_text(json.dumps({'revision': revision, 'seed': 5, 'mutants': found}))
+		assert results('--take', 'mutation', tmp_path / 'results.json', '--root', root)[0] == 0
+	text = (root / 'docs/mutation.md').read_text()
+	assert 'src: revision 1111111, seed 5; src: revision 2222222, seed 5' in ' '.join(text.split())
+	assert '| src/a | 2 | 1 | 0 | **1** |' in text and '`u = v + w`' in text and '`x = y + z`' not in text
 
 
 def testEveryResultIsShown():

@@ -113,7 +113,8 @@ template <int mutant, class B> [[gnu::always_inline]] inline auto operator->*(Si
 template <int mutant> struct Increment {
 	template <class B> [[gnu::always_inline]] auto operator%=(B&& b) const
 	{
-		using Value = typename ValueOf<std::decay_t<B>>::Type;
+		using Given = typename ValueOf<std::decay_t<B>>::Type;
+		using Value = std::conditional_t<std::is_same_v<Given, bool>, int, Given>; // a bool would stay true
 		if (on(mutant)) return Value(-b);
 		return Value(b);
 	}

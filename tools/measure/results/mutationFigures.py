@@ -30,16 +30,16 @@ def taken(source):
 
 
 def withKept(text, path):
-	"""New results with those of the files that they are not about, as *path* has them: kernel and law may be run apart."""
+	"""New results with those of other mutants, as *path* has them: kernel and law may be run apart, and a mutant that survived stays."""
 	if not path.exists():
 		return text
 	new = list(csv.DictReader(io.StringIO(text)))
-	files = {row['file'] for row in new}
-	found = [row for row in rows(path) if row['file'] not in files] + new
+	again = {tuple(row[key] for key in ofMutant) for row in new}
+	found = [row for row in rows(path) if tuple(row[key] for key in ofMutant) not in again] + new
 	out = io.StringIO()
 	writer = csv.DictWriter(out, columns, lineterminator='\n')
 	writer.writeheader()
-	writer.writerows(sorted(found, key=lambda row: (row['file'], int(row['line']), int(row['column']))))
+	writer.writerows(sorted(found, key=lambda row: (row['file'], int(row['line']), int(row['column']), row['mutant'])))
 	return out.getvalue()
 
 
