@@ -7,9 +7,10 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
-*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
-*continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …)
-are YADE's like any other.
+*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
+tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
+Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
+Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
@@ -33,9 +34,15 @@ from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
+from .loading.oedometer import oedometer
+from .loading.shearBox import shearBox
+from .loading.simpleShear import simpleShear
+from .loading.triaxial import triaxial
 from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
+from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements
+from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
 from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
@@ -69,10 +76,12 @@ __all__ = [
 	'clump',
 	'contact',
 	'contactFabric',
+	'contactRose',
 	'continueFrom',
 	'coordinationNumber',
 	'cuboid',
 	'engines',
+	'forceHistogram',
 	'fromHalfSpaces',
 	'fromMesh',
 	'fromVertices',
@@ -80,7 +89,10 @@ __all__ = [
 	'grains',
 	'jointedRock',
 	'mechanicalEnergy',
+	'oedometer',
+	'pack',
 	'particleFabric',
+	'particleRose',
 	'picture',
 	'plates',
 	'polygon',
@@ -90,12 +102,16 @@ __all__ = [
 	'readShapes',
 	'regular',
 	'requirements',
+	'sample',
 	'settings',
+	'shearBox',
+	'simpleShear',
 	'sizeDistribution',
 	'split',
 	'stableTimeStep',
 	'terrain',
 	'tradeoff',
+	'triaxial',
 	'tube',
 	'voronoi',
 	'writeShapes',
