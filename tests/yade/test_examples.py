@@ -72,6 +72,13 @@ def testCrushedGrainBreaksWhereItsStressSays(runs):
 	assert len(names['pieces']) == len(names['forces']) + 1 and isPicture('crushedGrain.png') and noFailures()
 
 
+def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
+	"""Four metres of it along the face."""
+	with pytest.raises(SystemExit) as end:
+		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
+	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
+
+
 def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
 	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.45': 'O.time < 0.35'})
 	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
@@ -82,13 +89,6 @@ def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
 		# inside the funnel's radius at that height, or below its spout; above the floor
 		radius = 0.08 if z > 0.22 else 0.02 + 0.6 * (z - 0.12) if z > 0.12 else 0.02
 		assert z > 0 and (z < 0.09 or (x**2 + y**2) ** 0.5 < radius)
-
-
-def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
-	"""Four metres of it along the face."""
-	with pytest.raises(SystemExit) as end:
-		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
-	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
 
 
 def testPebblesLieInTheTray(runs, capsys):
