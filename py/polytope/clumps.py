@@ -106,7 +106,7 @@ def _piece(planes, part):
 		shape = _polytope.ofHalfSpaces(vectors(normals, 'normals', 3), about, 3, 1, False, None, defaultCornerFraction)
 	except ValueError:
 		return None
-	state = _polytope.body(shape, part.material, origin, Quaternion.Identity, False, isotropyTolerance).state
+	state = _polytope.body(shape, part.material, origin + shape.position, Quaternion.Identity, False, isotropyTolerance, None).state
 	density = part.state.mass / part.shape.volume / part.material.density  # of the body, which need not be the material's
 	state.mass, state.inertia = density * state.mass, density * state.inertia
 	return state

@@ -153,7 +153,12 @@ def testPieceOfTheTowerIsPutOnTop(runs):
 def testCutFreesTheRock(runs, capsys):
 	names = runs(
 		'WedgeYADE',
-		{'O.time < 1': 'O.time < 0.02', 'spacing=10,': 'spacing=20,', 'O.time < 3': 'O.time < 0.1', 'O.run(100, wait=True)\nleft': 'O.run(20, wait=True)\nleft'},
+		{
+			'O.time < 1': 'O.time < 0.02',
+			'spacing=10,': 'spacing=20,',
+			'O.time < 3': 'O.time < 0.1',
+			'O.run(100, wait=True)\nleft': 'O.run(20, wait=True)\nleft',
+		},
 	)
 	blocks = names['blocks']
 	assert len(blocks) > 20 and sum(body.shape.volume for body in O.bodies if body.dynamic) == pytest.approx(40**3 / 2, rel=0.02)
