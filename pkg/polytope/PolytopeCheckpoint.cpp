@@ -53,10 +53,10 @@ namespace {
 		if (!file) return false;
 		try {
 			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(file, "scene", Omega::instance().getScene());
-		} catch (const std::exception&) { // of the archive or the stream: its bytes were not taken
+			file.close();
+		} catch (const std::exception&) { // of the archive or the stream, when the system does not take their bytes
 			return false;
 		}
-		file.close();
 		return !file.fail();
 	}
 

@@ -6,7 +6,8 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is
 wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*,
 *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all
-bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen:
+*picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """

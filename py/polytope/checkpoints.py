@@ -7,6 +7,7 @@ then lets the signal do what it does without checkpoints. In a step of O.step(),
 engine.
 """
 
+import numbers
 import os
 import signal
 import threading
@@ -41,14 +42,17 @@ def checkpoint(fileName='checkpoint', iterPeriod=0, realPeriod=0, onSignal=True)
 	"""
 	if not isinstance(fileName, (str, os.PathLike)) or not os.path.basename(fileName):
 		raise ValueError(f'fileName: must be the beginning of a file name, got {fileName!r}')
-	for name, period in (('iterPeriod', iterPeriod), ('realPeriod', realPeriod)):
-		if not period >= 0:
-			raise ValueError(f'{name}: must be at least 0, got {period!r}')
+	for name, period, kind, noun in (
+		('iterPeriod', iterPeriod, numbers.Integral, 'a whole number of steps'),
+		('realPeriod', realPeriod, numbers.Real, 'a number of seconds'),
+	):
+		if not isinstance(period, kind) or not period >= 0:
+			raise ValueError(f'{name}: must be {noun}, at least 0, got {period!r}')
 	if not (onSignal or iterPeriod or realPeriod):
 		raise ValueError('onSignal: nothing would ever be saved; give iterPeriod or realPeriod')
 	if onSignal:
 		_watch()
-	return PolytopeCheckpoint(fileName=os.fspath(fileName), iterPeriod=iterPeriod, realPeriod=realPeriod, onSignal=bool(onSignal))
+	return PolytopeCheckpoint(fileName=os.fspath(fileName), iterPeriod=int(iterPeriod), realPeriod=realPeriod, onSignal=bool(onSignal))
 
 
 def continueFrom(fileName='checkpoint'):
@@ -87,8 +91,10 @@ def _engines():
 
 
 def _goOn(fileName):
-	for engine in _engines():
-		engine.fileName = fileName
+	engines = _engines()
+	for engine in engines:
+		if len(engines) == 1:  # else each has a name of its own
+			engine.fileName = fileName
 		for k, force, torque in zip(engine.loaded, engine.permanentForces, engine.permanentTorques):
 			O.forces.setPermF(k, force)
 			O.forces.setPermT(k, torque)

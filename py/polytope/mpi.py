@@ -35,7 +35,7 @@ def divide(axis=0):
 	"""Gives each worker an equal number of the bodies that can move, in the order of their positions along an axis. On rank 0, before the
 	first run; on the others it does nothing.
 
-	Fixed bodies stay with rank 0, which lets all workers touch them. Members of a clump go where the clump goes.
+	Fixed bodies stay with rank 0, which lets all workers touch them.
 
 	:param int axis: 0, 1, 2: x, y, z
 	:raises ValueError: naming *axis*
@@ -44,13 +44,10 @@ def divide(axis=0):
 		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
 	if mpy.rank != 0 or size() == 1:
 		return
-	moving = [body for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember]
+	moving = [body for body in O.bodies if body is not None and body.dynamic]
 	moving.sort(key=lambda body: body.state.pos[axis])
 	for k, body in enumerate(moving):
 		body.subdomain = 1 + k * (size() - 1) // len(moving)
-		if body.isClump:
-			for member in body.shape.members:
-				O.bodies[member].subdomain = body.subdomain
 
 
 def run(steps, merged=True):
@@ -141,6 +138,12 @@ def _forgetDivision():
 def _check():
 	_typedEngine('InsertionSortCollider')
 	_typedEngine('NewtonIntegrator')
+	if O.periodic:
+		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
+	if mpy.REALLOCATE_FREQUENCY:
+		raise RuntimeError('mpy.REALLOCATE_FREQUENCY: must be 0; a body that changes ranks during a run would lose contacts')
+	if any(body is not None and body.isClump for body in O.bodies):
+		raise RuntimeError('O.bodies: clumps are not supported on several processes; run this scene on one')
 	moving = [body for body in O.bodies if body is not None and body.dynamic]
 	if not mpy.DOMAIN_DECOMPOSITION and all(body.subdomain == 0 for body in moving):
 		raise RuntimeError('Body.subdomain: all bodies are with rank 0; call polytope.mpi.divide() or set mpy.DOMAIN_DECOMPOSITION')
@@ -151,32 +154,12 @@ def _withCollider(parallelCollide):
 	def collide():
 		mpy.collider = _typedEngine('InsertionSortCollider')
 		divided = mpy.rank > 0 and not O.splitted  # this worker still has the whole scene
-		contacts = _polytope.WorkerContacts.ofBorders() if divided else None
+		contacts = _polytope.WorkerContacts() if divided else None
 		parallelCollide()
 		if contacts:
 			contacts.put()
 
 	return collide
-
-
-def _withContacts(reallocate):
-	"""A body that changes ranks takes its contacts with it; its new rank gets the bodies near it at once, not when it next looks for pairs."""
-
-	@functools.wraps(reallocate)
-	def handOver(*arguments, **options):
-		before = set(O.subD.ids) if mpy.rank > 0 else set()
-		reallocate(*arguments, **options)
-		gone = before.difference(O.subD.ids)
-		to = [[k for k in gone if O.bodies[k].subdomain == number] for number in range(size())]
-		received = mpy.comm.alltoall([_polytope.WorkerContacts.ofBodies(ids).bytes() if ids else None for ids in to])
-		if mpy.comm.allreduce(len(gone), op=mpy.MPI.SUM) == 0:
-			return
-		mpy.parallelCollide()
-		for contacts in received:
-			if contacts:
-				_polytope.WorkerContacts.fromBytes(contacts).put()
-
-	return handOver
 
 
 def _endAll(kind, fault, trace):
@@ -191,7 +174,6 @@ def _set():
 	mpy.typedEngine = _typedEngine
 	mpy.splitScene = _prepared(mpy.splitScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
-	mpy.reallocateBodiesToSubdomains = _withContacts(mpy.reallocateBodiesToSubdomains)
 	mpy.bodiesAreOurs = True
 	if size() > 1:
 		sys.excepthook = _endAll

@@ -57,6 +57,8 @@ print('end', O.iter, O.time.hex(), flush=True)
 here = os.path.dirname(os.path.abspath(__file__))
 many = 10**9
 """Steps of a run that ends by a signal."""
+hangs = 600
+"""Time after which a process is taken for one that hangs [s]; on a machine that does nothing else each ends after seconds."""
 
 
 def start(folder, steps=400, how='wait', **options):
@@ -71,7 +73,7 @@ def start(folder, steps=400, how='wait', **options):
 
 def result(folder, **options):
 	process = start(folder, **options)
-	said, errors = process.communicate(timeout=120)
+	said, errors = process.communicate(timeout=hangs)
 	assert process.returncode == 0, errors
 	return [line for line in said.splitlines() if line.startswith(('from', 'state', 'end'))]
 
@@ -84,9 +86,9 @@ def waitFor(process, text):
 
 
 def until(condition):
-	end = time.monotonic() + 60
+	end = time.monotonic() + hangs
 	while not condition():
-		assert time.monotonic() < end, 'nothing happened within a minute'
+		assert time.monotonic() < end, 'nothing happened'
 		time.sleep(0.005)
 
 
@@ -104,7 +106,7 @@ def testASignalSavesTheRunAndEndsIt(tmp_path, uninterrupted, how, number):
 	waitFor(process, 'from')
 	time.sleep(0.1)
 	process.send_signal(number)
-	_, errors = process.communicate(timeout=60)
+	_, errors = process.communicate(timeout=hangs)
 	assert process.returncode == -number  # Python ends itself so by ctrl-C, too
 	assert ('KeyboardInterrupt' in errors) == (number == signal.SIGINT)
 	assert [path.name for path in tmp_path.iterdir()] == ['run.yade']
@@ -119,7 +121,7 @@ def testASignalSavesTheRunAndEndsIt(tmp_path, uninterrupted, how, number):
 def testASignalInAStepSavesAtItsEnd(tmp_path, uninterrupted, how):
 	"""The process signals itself in the middle of step 300, so that what is saved is known."""
 	process = start(tmp_path, 1500, how, signalAt=f'300,{int(signal.SIGTERM)}')
-	process.communicate(timeout=60)
+	process.communicate(timeout=hangs)
 	assert process.returncode == -signal.SIGTERM
 	lines = result(tmp_path, steps=1500)
 	assert lines[0] == f'from {tmp_path}/run.yade 301' and lines[1:] == uninterrupted
@@ -129,7 +131,7 @@ def testASignalBetweenTwoRunsSavesAtOnce(tmp_path, uninterrupted):
 	process = start(tmp_path, 0, 'idle')
 	waitFor(process, 'idle')
 	process.terminate()
-	process.communicate(timeout=60)
+	process.communicate(timeout=hangs)
 	assert process.returncode == -signal.SIGTERM
 	lines = result(tmp_path, steps=1500)
 	assert lines[0] == f'from {tmp_path}/run.yade 50' and lines[1:] == uninterrupted
@@ -141,7 +143,7 @@ def testKilledWhileItRuns(tmp_path, uninterrupted):
 	until(lambda: (tmp_path / 'run.previous.yade').exists())
 	time.sleep(0.05)
 	process.kill()
-	process.communicate(timeout=60)
+	process.communicate(timeout=hangs)
 	saved = {}
 	for name in ('run.previous', 'run'):
 		path = tmp_path / f'{name}.yade'
@@ -177,7 +179,7 @@ def testKilledInTheMiddleOfWriting(tmp_path):
 		process.send_signal(signal.SIGCONT)
 	assert halfWritten()
 	process.kill()
-	process.communicate(timeout=60)
+	process.communicate(timeout=hangs)
 	assert 0 < writing.stat().st_size < 0.9 * whole
 	with pytest.raises(Exception, match='.'):
 		O.load(str(writing))
@@ -253,7 +255,7 @@ def testNothingToContinueFromLeavesTheScene(tmp_path):
 
 
 def testRefusals(tmp_path):
-	for options, name in (({'fileName': ''}, 'fileName'), ({'fileName': 3}, 'fileName'), ({'iterPeriod': -1}, 'iterPeriod'),
+	for options, name in (({'fileName': ''}, 'fileName'), ({'fileName': 3}, 'fileName'), ({'iterPeriod': -1}, 'iterPeriod'), ({'iterPeriod': 0.5}, 'iterPeriod'), ({'realPeriod': '9'}, 'realPeriod'),
 	                      ({'realPeriod': -1}, 'realPeriod'), ({'onSignal': False}, 'onSignal')):
 		with pytest.raises(ValueError, match=f'^{name}: '):
 			polytope.checkpoint(**{'fileName': str(tmp_path / 'x'), **options})

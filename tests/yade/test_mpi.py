@@ -164,3 +164,51 @@ def testExampleOnThreeRanks(tmp_path):
 		if 'mean height' in line
 	]
 	assert len(heights) == 2 and heights[0] == heights[1] > 0.2
+
+
+sliding = r'''
+import json, sys
+from yade import *
+from yade import O, Quaternion, polytope
+from yade.polytope import mpi
+pieces, steps, name = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
+if mpi.rank() == 0:
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3, dilationAngle=0.05))
+	half = 6 / pieces
+	O.bodies.append([polytope.cuboid((half * (2 * k + 1) - 4, 0, -0.5), (half, 1, 0.5), fixed=True) for k in range(pieces)])
+	for k in range(8):
+		O.bodies.append(polytope.cuboid((0.7 * k - 3, 0, 0.2), (0.2, 0.3, 0.2), Quaternion((0, 0, 1), 0.1 * k)))
+		O.bodies[-1].state.vel = (2.0 + 0.05 * k, 0.1, 0)
+	O.engines = polytope.engines(timeStepper=False)
+	O.dt = 3e-4
+mpi.divide(0)
+mpi.run(steps)
+if mpi.rank() == 0:
+	json.dump({'bodies': {b.id: [*b.state.pos] for b in O.bodies if b and b.dynamic and not b.isSubdomain},
+		'contacts': {f'{i.id1} {i.id2}': [*i.phys.shearForce, *i.phys.slip, i.phys.dilation] for i in O.interactions if i.isReal}}, open(name, 'w'))
+'''
+
+
+@pytest.mark.parametrize('pieces, steps', [(1, 400), (24, 80)])
+def testBlocksThatSlideFromOneRanksPartToTheOthers(tmp_path, pieces, steps):
+	for ranks in (0, 3):
+		under(ranks, sys.executable, '-c', sliding, str(pieces), str(steps), f'{tmp_path}/{ranks}.json')
+	one, several = (json.loads((tmp_path / f'{ranks}.json').read_text()) for ranks in (0, 3))
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
+	for kind, tolerance in (('bodies', 1e-12 * 0.4), ('contacts', 1e-9 * 2500)):
+		assert max(abs(x - y) for k in one[kind] for x, y in zip(one[kind][k], several[kind][k], strict=True)) < tolerance
+	assert min(position[0] - (0.7 * k - 3) for k, position in enumerate(one['bodies'].values())) > 3e-4 * steps
+	assert max(abs(contact[3]) for contact in one['contacts'].values()) > 1e-4  # slip
+
+
+@pytest.mark.parametrize('change, said', [
+	('O.periodic = True', 'O.periodic'),
+	('mpi.mpy.REALLOCATE_FREQUENCY = 1', 'mpy.REALLOCATE_FREQUENCY'),
+	('O.bodies.appendClumped([polytope.regular(6, 1, (3, 0, 0)), polytope.regular(6, 1, (4, 0, 0))])', 'clumps'),
+])
+def testWhatCannotBeHadIsRefused(tmp_path, change, said):
+	script = tmp_path / 'refused.py'
+	script.write_text('from yade import *\nfrom yade import O, polytope\nfrom yade.polytope import mpi\n'
+	                  'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
+	                  f'\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines()\n\t{change}\nmpi.divide()\nmpi.run(5)\n')
+	assert said in under(2, sys.executable, str(script), fails=True)

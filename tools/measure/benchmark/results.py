@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Time of polytope.arrays(), O.save, O.load and a checkpoint of a large scene.
 
-As a program (bench.py runs it in a process of its own) it prints what it measured as JSON. Cubes in contact with each other, made in random
-order, so that bodies and contacts lie in memory as in a heap.
+As a program (bench.py runs it in a process of its own) it prints what it measured as JSON. Walls of cubes, four contacts a cube as in a
+heap, made in random order, so that bodies and contacts lie in memory as in a heap, too.
 """
 import json
 import os
@@ -25,7 +25,7 @@ def scene(number):
 	side = round(number ** (1 / 3))
 	places = [(k % side, k // side % side, k // side**2) for k in range(number)]
 	random.Random(1).shuffle(places)
-	O.bodies.append([polytope.cuboid(tuple(0.999 * x for x in place), (0.5, 0.5, 0.5)) for place in places])
+	O.bodies.append([polytope.cuboid((0.999 * place[0], 1.01 * place[1], 0.999 * place[2]), (0.5, 0.5, 0.5)) for place in places])
 	O.engines = polytope.engines(timeStepper=False)
 	O.dt = 1e-6
 	for _ in range(2):
