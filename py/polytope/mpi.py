@@ -170,6 +170,15 @@ def _endAll(kind, fault, trace):
 	mpy.MPI.COMM_WORLD.Abort(1)
 
 
+def _exit(status=None):
+	"""As sys.exit, but one that says that something has failed ends all ranks: the program yade calls it after an exception."""
+	if status not in (None, 0):
+		sys.stdout.flush()
+		sys.stderr.flush()
+		mpy.MPI.COMM_WORLD.Abort(status if isinstance(status, int) else 1)
+	raise SystemExit(status)
+
+
 def _set():
 	mpy.typedEngine = _typedEngine
 	mpy.splitScene = _prepared(mpy.splitScene)
@@ -177,6 +186,7 @@ def _set():
 	mpy.bodiesAreOurs = True
 	if size() > 1:
 		sys.excepthook = _endAll
+		sys.exit = _exit
 
 
 if not hasattr(mpy, 'bodiesAreOurs'):  # once

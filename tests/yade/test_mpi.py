@@ -16,8 +16,8 @@ if shutil.which('mpirun') is None or 'MPI' not in polytope.buildInfo()['yadeFeat
 
 here = pathlib.Path(__file__).resolve().parent
 project = here.parents[1]
-hangs = 150
-"""Time after which a run is ended [s]; one takes some seconds."""
+hangs = 600
+"""Time after which a run is taken for one that hangs [s]; one takes some seconds."""
 
 heap = r'''
 import json, os, random, sys
