@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeCheckpoint.hpp"
 
-#include <lib/serialization/ObjectIO.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
+#include <lib/serialization/ObjectIO.hpp>
 
 #include <boost/filesystem.hpp>
 
 #include <atomic>
 #include <csignal>
-#include <fstream>
 #include <fcntl.h>
+#include <fstream>
 #include <unistd.h>
 
 namespace yade {
@@ -23,8 +23,8 @@ namespace {
 	std::atomic<int>  noted { 0 };
 	std::atomic<int>  postponed { 0 };
 	std::atomic<bool> sentAgain { false };
-	struct sigaction former[2];
-	constexpr int    watched[2] = { SIGTERM, SIGINT };
+	struct sigaction  former[2];
+	constexpr int     watched[2] = { SIGTERM, SIGINT };
 	static_assert(std::atomic<int>::is_always_lock_free, "a signal's handler must not wait for a lock");
 
 	void note(int number)
@@ -52,7 +52,8 @@ namespace {
 		std::ofstream file(name, std::ios::binary | std::ios::trunc);
 		if (!file) return false;
 		try {
-			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(file, "scene", Omega::instance().getScene());
+			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(
+			        file, "scene", Omega::instance().getScene());
 			file.close();
 		} catch (const std::exception&) { // of the archive or the stream, when the system does not take their bytes
 			return false;
