@@ -5,7 +5,7 @@ Bedding dips 35° out of the face; the other two sets are steep, with random dis
 friction, then friction is set to 37°, where it comes to a new equilibrium in two seconds and stands, and to 33°, where it slides (blocks
 stand up to 35°): prints how far blocks have moved meanwhile and draws the slide. Ends with 1 if it is not so.
 
-	./run python examples/jointedSlope.py          writes jointedSlope.png
+	./run python examples/jointedSlope.py          writes output/jointedSlope.png
 """
 
 import sys
@@ -74,9 +74,8 @@ def moved(friction, seconds):
 	"""Largest way of a block [m] after so much time with a friction angle, and the number of blocks that have moved by 5 cm."""
 	setFrictionAngle(friction)
 	start = [body.state.pos for body in O.bodies]
-	end = O.time + seconds
-	while O.time < end:
-		O.run(50, wait=True)
+	O.stopAtTime = O.time + seconds
+	O.run(wait=True)
 	ways = [(body.state.pos - origin).norm() for body, origin in zip(O.bodies, start, strict=True)]
 	return max(ways), sum(way > 0.05 for way in ways)
 
@@ -88,5 +87,5 @@ slides, number = moved(radians(33), 1.0)
 print(f'friction 37°: {1000 * settling:.1f} mm, then {1e6 * stands:.0f} µm in a second; 33°: {1000 * slides:.0f} mm, {number} blocks by 5 cm and more (bedding dips 35°)')
 print('queries without an answer:', O.engines[2].geomDispatcher.functors[0].stats()['failures'])
 moved(radians(20), 1.0)
-polytope.picture('jointedSlope.png', colorBy='displacement', legend='moved [m]', fixed='solid', view=(-1, -0.6, 0.42))
+polytope.picture('output/jointedSlope.png', colorBy='displacement', legend='moved [m]', fixed='solid', view=(-1, -0.6, 0.42))
 sys.exit(not (stands < 1e-4 and slides > 0.1 and number > 10))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A mesh file as particle: twenty pebbles of one OBJ file fall into a tray; draws them. (Particles are the meshes' convex hulls.)
 
-	./run python examples/mesh.py          writes pebbles.png
+	./run python examples/mesh.py          writes output/pebbles.png
 """
 import os
 from math import radians
@@ -21,6 +21,6 @@ for k in range(20):
 
 O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 while O.time < 1.5:
-	O.run(100, wait=True)
+	O.run(1000, wait=True)
 print('volume of the smallest pebble:', O.bodies[5].shape.volume, 'm³, with', len(O.bodies[5].shape.normals), 'planes')
-picture('pebbles.png', view=(-0.5, -1, 1.1))
+picture('output/pebbles.png', view=(-0.5, -1, 1.1))

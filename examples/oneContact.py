@@ -4,8 +4,9 @@
 The largest circle in the overlap is the linear program's answer, its radius -s*; the contact point is the analytic centre of all
 half-spaces of both bodies; the depth is the chord along the normal through it.
 
-	./run python examples/oneContact.py [FILE.png]          writes one-contact.png
+	./run python examples/oneContact.py [FILE.png]          writes output/one-contact.png
 """
+import os
 import sys
 
 import matplotlib
@@ -16,7 +17,8 @@ from matplotlib import pyplot
 from matplotlib.patches import Circle, Polygon
 from yade import O, RockJointMat, polytope
 
-path = sys.argv[1] if len(sys.argv) > 1 else 'one-contact.png'
+path = sys.argv[1] if len(sys.argv) > 1 else 'output/one-contact.png'
+os.makedirs(os.path.dirname(path) or '.', exist_ok=True)
 O.materials.append(RockJointMat())
 corners = [(0, 0), (4, 0), (4.4, 1.4), (2.6, 2.4), (0.4, 1.9)], [(1.2, 1.55), (3.3, 1.25), (4.6, 3), (3, 4.2), (1.1, 3.4)]
 bodies = [polytope.polygon(points) for points in corners]

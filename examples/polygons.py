@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Polygons (2-D): blocks slide out of a hopper; draws where they are after two seconds.
 
-	./run python examples/polygons.py          writes polygons.png
+	./run python examples/polygons.py          writes output/polygons.png
 """
 from math import cos, pi, radians, sin
 from random import Random
@@ -23,5 +23,5 @@ for k in range(72):
 
 O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 while O.time < 2:
-	O.run(100, wait=True)
-picture('polygons.png', colorBy='speed', legend='speed [m/s]')
+	O.run(1000, wait=True)
+picture('output/polygons.png', colorBy='speed', legend='speed [m/s]')

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cost and accuracy of settings in a scene of your own: three blocks dropped on each other, four settings, one table.
 
-	./run python examples/tradeoff.py          prints the table, writes tradeoff.png and tradeoff.csv
+	./run python examples/tradeoff.py          prints the table, writes output/tradeoff.png and output/tradeoff.csv
 """
+import os
 from math import radians
 
 from yade import (
@@ -62,6 +63,7 @@ if __name__ == '__main__':  # true no more after `from yade import *`, which bri
 		atRest -= load / stiffness + load * arm / (stiffness * width**2 / 12) * (0.04 - middle)
 	table = polytope.tradeoff(build, settings, measure, reference=atRest)
 	table.show()
-	table.csv('tradeoff.csv')
-	table.plot('tradeoff.png', title='height of the third block')
+	os.makedirs('output', exist_ok=True)
+	table.csv('output/tradeoff.csv')
+	table.plot('output/tradeoff.png', title='height of the third block')
 	print('On the Pareto front:', ', '.join(row.name for row in table.front()))

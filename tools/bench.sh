@@ -27,7 +27,7 @@ benchmark() {
 	build
 	coal=$(coalPrefix)
 	(
-		flock 9
+		takeLock 9 build
 		step "configuring the benchmark" "tools/packages.txt lists what is needed." \
 			cmake -S "$project" -B "$programs" -G Ninja -DPOLYTOPE_BENCHMARK=ON -DPOLYTOPE_TESTS=OFF -DPOLYTOPE_YADE=ON \
 			-DYADE_SOURCE_DIR="$yadeSource" -DPOLYTOPE_COAL_PREFIX="$coal"

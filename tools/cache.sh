@@ -45,17 +45,17 @@ claimCache() {
 # clean [--root|--all]
 clean() {
 	local what=${1:-} root result=0
+	[ $# -lt 2 ] || fail "clean: takes one option, got '$*'." "They are: --root, --all."
 	case $what in
 		'' | --root | --all) ;;
 		*) fail "clean: there is no option '$what'." "They are: --root, --all." ;;
 	esac
-	[ "$what" = --root ] || rm -rf "$project/build" "$project/build-without-ipopt"
-	[ -n "$what" ] || return 0
-	[ -d "$cache" ] || return 0
 	# an earlier version's folder becomes ours; any other is refused before a thing is removed
-	claimCache
+	if [ -n "$what" ] && [ -d "$cache" ]; then claimCache; fi
+	[ "$what" = --root ] || rm -rf "$project/build" "$project/build-without-ipopt"
+	{ [ -n "$what" ] && [ -d "$cache" ]; } || return 0
 	exec 8>"$cache/lock"
-	flock 8
+	takeLock 8 set-up
 	for root in "$cache"/debian13 "$cache"/debian13-* "$cache"/*.partial; do
 		case $root in *.lock | *.made | *.conf) continue ;; esac
 		[ ! -d "$root" ] || dropDebianRoot "$root" || result=1

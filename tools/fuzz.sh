@@ -66,7 +66,7 @@ checkedBuild() {
 	local folder=$1 sanitizers=$2
 	shift 2
 	(
-		flock 9
+		takeLock 9 build
 		configure "$build" double # makes the build folder anew where it is another YADE's
 		step "configuring for ${sanitizers//,/, }" "tools/packages.txt lists what is needed." \
 			cmake -S "$project" -B "$folder" -G Ninja -DPOLYTOPE_YADE=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \

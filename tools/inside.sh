@@ -89,7 +89,7 @@ buildPrecision() { # PRECISION TARGETS…
 	folder=$(buildFolder "$name")
 	[ "$name" = double ] || of=" for $name"
 	(
-		flock 9 # two calls at a time build one after the other
+		takeLock 9 build # two calls at a time build one after the other
 		configure "$folder" "$name"
 		case " $* " in *" overlay "*) rm -f "$folder/sources" ;; esac
 		step "building$of" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
@@ -103,7 +103,7 @@ buildPrecision() { # PRECISION TARGETS…
 # The plug-in of the precision in use, unless targets are named.
 build() { # [TARGETS…]
 	[ $# -gt 0 ] || set -- overlay
-	(flock 9 && dropStale) 9>"$cache/build.lock"
+	(takeLock 9 build && dropStale) 9>"$cache/build.lock"
 	buildPrecision "$precision" "$@"
 }
 
@@ -174,6 +174,8 @@ case $command in
 	tradeoff) tradeoff "$@" ;;
 	search) buildPrecision double polytope_search && search "$@" ;;
 	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;
+	paper) build && exec python3 "$project/examples/paper/report.py" "$@" ;;
+	figures) . "$project/tools/figures.sh" && figures "$@" ;;
 	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;

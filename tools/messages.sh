@@ -10,6 +10,11 @@ fail() { # TEXT…: ends the run
 	exit 1
 }
 
+# Takes the lock on this file descriptor; where another call has it, says what is waited for.
+takeLock() { # DESCRIPTOR WHAT
+	flock -n "$1" || { echo "  waiting for another ./run to end its $2 …" && flock "$1"; }
+}
+
 # step NAME REMEDY COMMAND ARGS…
 # Runs the command with its output in a log file. Shows the name and the time it takes; nothing if that is under 2 s.
 step() {

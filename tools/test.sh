@@ -19,7 +19,8 @@ runTests() {
 	return $result
 }
 
-# In as many processes as there are cores, unless the arguments say how many or ask for a debugger.
+# In one process more than there are cores, since tests wait for processes that they start and for O.run, which YADE looks at every 40 ms; unless
+# the arguments say how many or ask for a debugger.
 runPytest() {
 	local options=() folders=(tests/yade) argument parallel=yes
 	[ "$precision" != double ] || folders+=(tests/tools)
@@ -27,7 +28,7 @@ runPytest() {
 		case $argument in -n | -n[0-9]* | --numprocesses* | --dist* | --pdb | --trace | no:xdist) parallel='' ;; esac
 	done
 	# worksteal: tests of one file stay in one process, which makes their scenes once, until the other process has nothing left
-	[ -z "$parallel" ] || options=(-n "$cores" --dist worksteal)
+	[ -z "$parallel" ] || options=(-n "$((cores + 1))" --dist worksteal)
 	[ -z "$fast" ] || options+=(-m "not slow")
 	rm -f "$results/$precision.xml"
 	# `pytest` as a program: `python3 -m pytest` would put the project's folder first, and its py/ hides the module `py`
@@ -64,6 +65,8 @@ buildTests() {
 test_() {
 	local result=0 expected=()
 	if [ "${1:-}" = --fast ]; then fast=yes && shift; fi
+	# pytest looks at its options first: nothing is built for a wrong one
+	(cd "$project" && pytest --version "$@" >/dev/null) || return
 	mkdir -p "$results"
 	rm -f "$results"/*.xml
 	if [ -n "${YADE_POLYTOPE_PRECISION:-}" ]; then

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash
 #
-# Which packages a verb of `./run` needs: purposes of tools/packages.txt.
+# Which packages a verb of `./run` needs: purposes of tools/packages.txt. Which options it takes. Needs messages.sh.
 
 purposesOf() { # VERB ARGUMENTS…
 	case $1 in
 		test) echo base test fuzz revision ;; # fuzz: tests/yade/test_verbs.py configures it
 		shell) echo base test ;; # for pytest
-		search) echo base revision ;;
+		search | accuracy | tradeoff | paper) echo base revision ;;
+		figures) if [ "${2:-}" = --measure ]; then echo base peers revision; else echo base; fi ;;
 		bench) echo base peers revision ;;
 		fuzz) echo base fuzz ;;
 		sanitize) echo base test fuzz ;;
@@ -15,4 +16,73 @@ purposesOf() { # VERB ARGUMENTS…
 		build) if [ $# -gt 1 ] && [ "${*:2}" != overlay ]; then echo base test; else echo base; fi ;;
 		*) echo base ;;
 	esac
+}
+
+# Options of a verb besides --help. tests/yade/test_verbs.py compares them, and the names below, with what the programs themselves list.
+optionsOf() { # VERB
+	case $1 in
+		demo)
+			echo --quick --output --no-pictures --shape --number --steps --threads --seed --seeds --normal --contact-model --contact-point \
+				--size --density --normal-stiffness --stiffness-ratio --friction-angle --contact-damping --damping --gravity --corner-fraction \
+				--time-step-fraction --vtk-every --sample-every --ipopt-every
+			;;
+		paper | accuracy) echo --quick --only --fresh --output --jobs ;;
+		tradeoff | bench) echo --quick --only --output ;;
+		fuzz) echo --seconds --target --seed --dry-run ;;
+		sanitize) echo --only --dry-run ;;
+		search) echo --quick --pairs --seed --threads --family --trial --log ;;
+		format) echo --check ;;
+	esac
+}
+
+# What --only of a verb (--target of fuzz) names; those of paper are letters in one word.
+namesOf() { # VERB
+	case $1 in
+		accuracy) echo pairs scenes path surfaces collisions joints ;;
+		bench) echo kernels shapes scenes growth threads results ;;
+		fuzz) echo construction contact ;;
+		sanitize) echo core threads fuzz valgrind ;;
+		tradeoff) echo pair B C D F rest A ;;
+	esac
+}
+
+# Refuses what a verb does not take, before anything is installed or built. Other values than names are checked by the programs.
+checkArguments() { # VERB ARGUMENTS…
+	local verb=$1 argument options names of=''
+	shift
+	options=$(optionsOf "$verb") names=$(namesOf "$verb")
+	case $verb in
+		demo | paper | tradeoff | bench | fuzz | sanitize | accuracy | search) options+=" --help -h" ;;
+		test) checkTestArguments "$@" && return ;;
+		format | build) ;;
+		*) return 0 ;; # yade, python, shell: options of those programs
+	esac
+	for argument in "$@"; do
+		case $argument in
+			-[0-9]*) ;; # a value
+			-*)
+				of=${argument%%=*}
+				case " $options " in
+					*" $of "*) ;;
+					*) fail "$verb: there is no option '$of'." "${options:+They are: $options. }./run help lists all commands." ;;
+				esac
+				case $argument in *=*) argument=${argument#*=} ;; *) continue ;; esac
+				;;
+		esac
+		[ "$verb" != format ] || fail "format: takes no '$argument'." "It formats all files; --check only checks them."
+		case $verb$of in
+			*--only | fuzz--target) [ -z "$names" ] || case " $names " in *" $argument "*) ;; *) fail "$verb: $of '$argument' is unknown." "They are: $names." ;; esac ;;
+		esac
+	done
+}
+
+# All but --fast are pytest's, which checks them before anything is built (test.sh); here only what is meant for --fast and is not.
+checkTestArguments() { # ARGUMENTS…
+	local argument
+	for argument in "$@"; do
+		case $argument in
+			--fast | --ff | --failed-first | --fixtures* | --full-trace | --funcargs) ;;
+			--f*) fail "test: there is no option '$argument'." "Its own is --fast; all others are pytest's." ;;
+		esac
+	done
 }

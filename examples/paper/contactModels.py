@@ -94,10 +94,10 @@ def beam(given):
 
 def critical(scene, model, given):
 	"""Critical friction angle [°] of a wedge that stands ready."""
-	looks = round(100 * wedgeSteps['paper'] / wedgeSteps[model])
+	stepsBetween = round(100 * wedgeSteps['paper'] / wedgeSteps[model])
 	steps = (8, 1, 0.1, 0.02) if given.quick else (1, 0.1, 0.02, 0.005)
 	reduction = FrictionReduction(
-		[scene.wedgeId], math.radians(70), [math.radians(step) for step in steps], checkEvery=looks, mostSteps=2000 * looks
+		[scene.wedgeId], math.radians(70), [math.radians(step) for step in steps], checkEvery=stepsBetween, mostSteps=2000 * stepsBetween
 	)
 	result = reduction.run()
 	reduction.restore()

@@ -35,11 +35,11 @@ namespace {
 		return result;
 	}
 
-	CentralShape ofHalfSpaces(const Vectors& normals, const std::vector<Real>& offsets, int dimension, Real thickness,
-	        bool keepRedundant, const py::object& cornerRadius, Real cornerFraction)
+	CentralShape ofHalfSpaces(const Vectors& normals, const py::object& offsets, int dimension, Real thickness, bool keepRedundant,
+	        const py::object& cornerRadius, Real cornerFraction)
 	{
 		return polytope::centralShape(
-		        { normals.rows, offsets, dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
+		        { normals.rows, numbers(offsets), dimension }, options(thickness, keepRedundant, cornerRadius, cornerFraction));
 	}
 
 	CentralShape ofPoints(
@@ -105,13 +105,14 @@ namespace {
 	}
 
 	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
-	py::dict jointedBlocks(const Vectors& normals, const std::vector<Real>& offsets, const Vectors& jointNormals,
-	        const std::vector<Real>& jointOffsets, Real smallest)
+	py::dict jointedBlocks(const Vectors& normals, const py::object& offsets, const Vectors& jointNormals,
+	        const py::object& offsetsOfJoints, Real smallest)
 	{
+		const std::vector<Real>      jointOffsets = numbers(offsetsOfJoints);
 		std::vector<polytope::Plane> joints;
 		for (std::size_t j = 0; j < jointNormals.rows.size(); ++j)
 			joints.push_back({ jointNormals.rows[j], jointOffsets[j] });
-		const auto          rock = polytope::cutByJoints({ normals.rows, offsets, 3 }, joints, smallest);
+		const auto          rock = polytope::cutByJoints({ normals.rows, numbers(offsets), 3 }, joints, smallest);
 		std::vector<double> planes, volumes;
 		std::vector<int>    counts, cutting;
 		for (const polytope::Block& block : rock.blocks) {

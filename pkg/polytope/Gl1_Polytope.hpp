@@ -9,6 +9,9 @@
 
 namespace yade {
 
+/// Problem: show a polytope in YADE's window. The faces are drawn in the body's frame [m], which YADE has already moved and turned to
+/// the body's place; a polygon, which lies in the plane z = 0 of that frame, as a prism from −thickness/2 to thickness/2.
+/// Present only where YADE was built with OpenGL.
 class Gl1_Polytope : public GlShapeFunctor {
 public:
 	void go(const shared_ptr<Shape>& shape, const shared_ptr<State>&, bool wire, const GLViewInfo&) override;

@@ -10,6 +10,7 @@
 #include "Polytope.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace yade {
 
@@ -78,11 +79,19 @@ namespace {
 		return !planes.empty();
 	}
 
-	/// Whether two bodies move as one, or not at all: they never touch.
-	bool rigidTogether(const Body& one, const Body& other)
+	/// Whether it does not move: a body that is not dynamic, or a member of a clump that is not.
+	bool isFixed(const Body& body, Scene& scene)
 	{
-		if (one.isClumpMember() || other.isClumpMember()) return one.clumpId == other.clumpId;
-		return !one.isDynamic() && !other.isDynamic();
+		if (!body.isClumpMember()) return !body.isDynamic();
+		const shared_ptr<Body>& clump = Body::byId(body.clumpId, &scene);
+		return clump && !clump->isDynamic();
+	}
+
+	/// Whether two bodies move as one, or not at all: they never touch.
+	bool rigidTogether(const Body& one, const Body& other, Scene& scene)
+	{
+		if (one.isClumpMember() && other.isClumpMember() && one.clumpId == other.clumpId) return true;
+		return isFixed(one, scene) && isFixed(other, scene);
 	}
 
 	/// Fixed, or a member of a clump: it may be a piece of a larger solid.
@@ -98,7 +107,7 @@ namespace {
 		for (const auto& [id, contact] : body.intrs) {
 			if (id == own.id || !contact) continue;
 			const shared_ptr<Body>& piece = Body::byId(id, pair.scene);
-			if (!piece || !piece->shape || !piece->maskOk(body.groupMask) || !rigidTogether(*piece, own)) continue;
+			if (!piece || !piece->shape || !piece->maskOk(body.groupMask) || !rigidTogether(*piece, own, *pair.scene)) continue;
 			Vector3r way = piece->state->pos - body.state->pos;
 			if (pair.scene->isPeriodic) {
 				const Vector3r shift = pair.scene->cell->intrShiftPos(contact->cellDist);
@@ -108,18 +117,15 @@ namespace {
 		}
 	}
 
-	/// A plane that bounds the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
+	/// A plane near the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
 	struct Candidate {
 		int      plane;
 		Vector3r outside;      ///< from the contact point
 		int      facePlane;    ///< of the face that is slid on
 		Vector3r face;         ///< its normal
 		Real     faceOffset;   ///< from the contact point
-		int      slidingPlane; ///< of the other body's face that lies on it
-		Real     depth;        ///< of that face below this one
-		bool     covered, carried;
-
-		bool internal() const { return covered && carried; }
+		int      slidingPlane; ///< of the other body's plane below it
+		bool     internal;
 
 		/// Whether the neighbour's face continues the one that is slid on, to within `step`.
 		bool continuedBy(const Planes& neighbour, Real step) const
@@ -131,27 +137,6 @@ namespace {
 		}
 	};
 
-	/// Whether a ball of this radius was found inside all planes: from `start` to the nearest place inside the plane that is violated most,
-	/// and a little further, some times over. Where the result is false there may still be such a ball in a narrow space.
-	bool hasRoom(const Planes& one, const Planes& other, Vector3r start, Real radius)
-	{
-		for (int step = 0; step < polytope::tolerance::mostProjections; ++step) {
-			const polytope::Plane* worst     = nullptr;
-			Real                   violation = 0;
-			for (const Planes* planes : { &one, &other })
-				for (const polytope::Plane& plane : *planes) {
-					const Real out = plane.normal.dot(start) + radius - plane.offset;
-					if (out > violation) {
-						violation = out;
-						worst     = &plane;
-					}
-				}
-			if (!worst) return true;
-			start -= Real(polytope::tolerance::overProjection) * violation * worst->normal;
-		}
-		return false;
-	}
-
 	Vector3r boundingNormal(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int body, int k)
 	{
 		Vector3r own = Vector3r::Zero();
@@ -160,39 +145,47 @@ namespace {
 		return pair.rotation[body] * own;
 	}
 
-	/// The other body's face that lies on plane j of the piece, by far less than either body is thick: edges and vertices are not stopped by
-	/// seams. −1 if there is none.
-	int slidingPlane(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, int j, Real& depth)
+	/// The chord of the overlap through the contact point along a normal of the piece: how deep the other body is below that plane there.
+	struct Chord {
+		Real length;     ///< infinite if it ends in no plane of the other body
+		int  plane = -1; ///< of the other body where it ends
+	};
+
+	Chord chordBelow(const polytope::BoundingPlanes& bounding, int piece, int j, const std::vector<Vector3r> (&normals)[2])
+	{
+		const int other = 1 - piece;
+		Chord     chord;
+		chord.length = std::numeric_limits<Real>::infinity();
+		for (int k = 0; k < bounding.count[other]; ++k) {
+			const Real cosine = -normals[other][k].dot(normals[piece][j]);
+			if (!(cosine > 0)) continue;
+			const Real length = bounding.slack[piece][j] + bounding.slack[other][k] / cosine;
+			if (!(length < chord.length)) continue;
+			chord.length = length;
+			chord.plane  = bounding.plane[other][k];
+		}
+		return chord;
+	}
+
+	/// Pairs of a plane i near the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps the
+	/// contact point's height below it.
+	std::vector<Candidate> candidatesOf(
+	        const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece, const std::vector<Vector3r> (&normals)[2])
 	{
 		const Real thin = Real(polytope::tolerance::thinContact)
 		        * math::min(pair.convex[0]->inscribedRadius(), pair.convex[1]->inscribedRadius());
-		const Vector3r face = boundingNormal(pair, bounding, piece, j);
-		for (int k = 0; k < bounding.count[1 - piece]; ++k)
-			if (boundingNormal(pair, bounding, 1 - piece, k).dot(face) < Real(polytope::tolerance::parallel) - 1
-			        && (depth = bounding.slack[piece][j] + bounding.slack[1 - piece][k]) < thin)
-				return bounding.plane[1 - piece][k];
-		return -1;
-	}
-
-	/// Pairs of a plane i that bounds the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps
-	/// the contact point's height below it.
-	std::vector<Candidate> candidatesOf(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, int piece)
-	{
 		std::vector<Candidate> all;
 		for (int j = 0; j < bounding.count[piece]; ++j) {
-			Real      depth;
-			const int plane = slidingPlane(pair, bounding, piece, j, depth);
-			if (plane < 0) continue;
-			const Vector3r face = boundingNormal(pair, bounding, piece, j);
+			const Chord chord = chordBelow(bounding, piece, j, normals);
+			if (!(chord.length < thin)) continue;
+			const Vector3r& face = normals[piece][j];
 			for (int i = 0; i < bounding.count[piece]; ++i) {
-				if (i == j || !bounding.bounds(piece, i)) continue;
-				const Vector3r normal = boundingNormal(pair, bounding, piece, i);
-				const Vector3r along  = normal - normal.dot(face) * face; // along·normal = |along|²
-				if (along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
+				const Vector3r& normal = normals[piece][i];
+				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²
+				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
 				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
-				        bounding.slack[piece][j], plane, depth, false,
-				        pair.ball >= Real(polytope::tolerance::carriedBall) * depth });
+				        bounding.slack[piece][j], chord.plane, false });
 			}
 		}
 		return all;
@@ -200,48 +193,46 @@ namespace {
 
 } // namespace
 
-bool mayHaveInternalFaces(const Body& body1, const Body& body2)
+bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene)
 {
-	return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2);
+	return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2, scene);
 }
 
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {
 	std::vector<Candidate> candidates[2];
-	Planes                 planes, own;
+	Planes                 planes;
 	const Real             larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
 	const Real             step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
+	std::vector<Vector3r>  normals[2];
+	for (int body = 0; body < 2; ++body)
+		for (int k = 0; k < bounding.count[body]; ++k)
+			normals[body].push_back(boundingNormal(pair, bounding, body, k));
 	for (int piece = 0; piece < 2; ++piece) {
 		if (bounding.count[piece] < 2 || !isPiece(bodyOf(pair, piece))) continue;
-		candidates[piece] = candidatesOf(pair, bounding, piece);
+		candidates[piece] = candidatesOf(pair, bounding, piece, normals);
 		if (candidates[piece].empty()) continue;
 		Real near = 0;
 		for (const Candidate& one : candidates[piece])
 			near = math::max(near, one.outside.norm());
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
-		own.clear();
-		addPlanes(own, *pair.convex[1 - piece], pair.rotation[1 - piece], mover);
 		forOtherPieces(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre) {
 			planes.clear();
 			addBody(planes, neighbour, centre, mover, near);
-			for (Candidate& one : candidates[piece]) {
-				if (one.internal() || !one.continuedBy(planes, step)) continue;
-				one.covered = one.covered || contains(planes, one.outside);
-				one.carried = one.carried
-				        || hasRoom(planes, own, one.outside, Real(polytope::tolerance::carriedBall) * one.depth);
-			}
+			for (Candidate& one : candidates[piece])
+				one.internal = one.internal || (contains(planes, one.outside) && one.continuedBy(planes, step));
 		});
 	}
 	// neither of the two faces that slide is an internal face itself: of blocks that meet at a corner, or along an edge, no side is
 	const auto covered = [&](int piece, int plane) {
 		return std::any_of(candidates[piece].begin(), candidates[piece].end(),
-		        [&](const Candidate& one) { return one.internal() && one.plane == plane; });
+		        [&](const Candidate& one) { return one.internal && one.plane == plane; });
 	};
 	polytope::InternalPlanes result;
 	for (int piece = 0; piece < 2; ++piece) {
 		int& count = result.count[piece];
 		for (const Candidate& one : candidates[piece]) {
-			if (!one.internal() || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane)) continue;
+			if (!one.internal || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane)) continue;
 			int* const end = result.plane[piece] + count;
 			if (std::find(result.plane[piece], end, one.plane) == end) result.plane[piece][count++] = one.plane;
 		}

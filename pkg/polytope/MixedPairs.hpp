@@ -8,8 +8,12 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
-// YADE's own shapes against a Polytope. Walls, boxes and facets become half-spaces and are treated as two polytopes;
-// a sphere has a closed form.
+/// YADE's own shapes against a Polytope: the same PolytopeGeom as between two polytopes.
+///
+/// Problem: walls, boxes and facets have no half-spaces of their own. Each becomes some for the one query (a wall one, a box six, a facet the
+/// five of a prism behind it), and the two are treated as two polytopes; a sphere has a closed form. Body 1 is always YADE's shape, body 2 the
+/// polytope, so the normal points from the shape into the polytope. Lengths in m, areas in m²; the half-spaces are in their body's frame,
+/// point and normal of the contact in world coordinates.
 namespace yade {
 
 // The dispatcher calls with pairs in either order; body 1 is always YADE's shape, body 2 the polytope.

@@ -135,6 +135,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
         const shared_ptr<Interaction>& c)
 {
 	prefetchAfter(*c, *scene);
+	const KnowsBonds* const bonds = bonds_.in(*scene);
+	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
 	// a thread's own buffers; they grow to the largest pair it has computed
 	static thread_local polytope::ContactWorkspace workspace;
 	auto&                                          geom    = geometry(c);
@@ -159,7 +161,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
 		if ((turn || !geom.internalKnown || !wasReal)
-		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene)))
+		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene))
 			settings.bounding = &bounding;
 		settings.internal = geom.internalFaces.empty() ? nullptr : &internal;
 	}

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AreaUsers.hpp"
+#include "BondsOfScene.hpp"
 #include "Polytope.hpp"
 
 #include <core/Dispatching.hpp>
@@ -146,6 +147,7 @@ protected:
 private:
 	polytope::ContactSettings    settings_;
 	AreaUsers                    areaUsers_;
+	BondsInStep                  bonds_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
 	/// contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance, as they were last accepted.
 	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal,

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeTimeStepper.hpp"
 
+#include "BondsOfScene.hpp"
+
 #include <src/timestep/TimeStepTolerances.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((PolytopeTimeStepper));
 
+namespace {
+
+	std::size_t bondsMade(const Scene& scene)
+	{
+		const KnowsBonds* const bonds = bondsOf(scene);
+		return bonds ? bonds->made() : 0;
+	}
+
+} // namespace
+
 bool PolytopeTimeStepper::isActivated()
 {
 	if (!active) return false;
-	return !hasRun_ || bodies_ != scene->bodies->size() || isErased(limitingBody, *scene)
+	return !hasRun_ || bodies_ != scene->bodies->size() || bonds_ != bondsMade(*scene) || isErased(limitingBody, *scene)
 	        || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
 }
 
@@ -23,6 +35,7 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 	}
 	hasRun_ = true;
 	bodies_ = ofScene->bodies->size();
+	bonds_  = bondsMade(*ofScene);
 
 	TimeStepLimit chosen;
 	limitedBy.clear();

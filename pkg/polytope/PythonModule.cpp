@@ -50,10 +50,10 @@ py::dict tolerances()
 }
 
 /// Planes with a face, corners, volume, centroid and inscribed ball of a set of half-spaces where it is.
-py::dict polyhedron(const yade::Vectors& normals, const std::vector<yade::Real>& offsets)
+py::dict polyhedron(const yade::Vectors& normals, const py::object& offsets)
 {
 	const polytope::HalfSpaces set
-	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals.rows, offsets })));
+	        = polytope::withoutRedundant(polytope::withoutDuplicates(polytope::normalised({ normals.rows, yade::numbers(offsets) })));
 	const auto hull    = polytope::polyhedron(set);
 	const auto mass    = polytope::massProperties(hull);
 	const auto central = polytope::moved(set, yade::Matrix3r::Identity(), -mass.centroid);
@@ -65,6 +65,19 @@ py::dict polyhedron(const yade::Vectors& normals, const std::vector<yade::Real>&
 	result["centroid"]        = mass.centroid;
 	result["inscribedRadius"] = polytope::ConvexShape(central, 0).inscribedRadius();
 	return result;
+}
+
+/// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
+boost::shared_ptr<yade::Body> bodyOf(const py::object& given, const char* name)
+{
+	const py::extract<boost::shared_ptr<yade::Body>> body(given);
+	if (!body.check()) {
+		const std::string type = py::extract<std::string>(given.attr("__class__").attr("__name__"));
+		throw std::invalid_argument(std::string(name)
+		        + ": must be a body with a Polytope shape, as polytope.cuboid(…) makes it or O.bodies[…] has it, not of type "
+		        + type);
+	}
+	return body();
 }
 
 const polytope::ConvexShape& convexOf(const boost::shared_ptr<yade::Body>& body, const char* name)
@@ -97,10 +110,11 @@ polytope::DepthRule depthRuleOf(const std::string& depth)
 	throw std::invalid_argument("depth: must be 'chord', 'mean' or 'meanOnFaces', not '" + depth + "'");
 }
 
-Contact contact(const boost::shared_ptr<yade::Body>& body1, const boost::shared_ptr<yade::Body>& body2, const std::string& contactPoint,
-        yade::Real tolerance, yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
+Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
+        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
         const std::string& normal, const std::string& depth)
 {
+	const auto  body1 = bodyOf(b1, "b1"), body2 = bodyOf(b2, "b2");
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
 	if (convex1.dimension() != convex2.dimension())

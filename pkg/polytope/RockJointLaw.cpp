@@ -94,11 +94,12 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 	Vector3r    force, shearViscous, moment;
 	ShearSpring shear;
 	Real        normalViscous, elasticNormal, dilation;
+	bool        wasBond; ///< the forces were those of a bond, which has failed
 
 	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
 	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment),
 	          shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
-	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation)
+	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond)
 	{
 	}
 };
@@ -120,6 +121,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	turnWithContact(geom, elasticShear);
 	turnWithContact(geom, phys.slip);
 	const Last last(phys, elasticShear, geom.normal);
+	phys.followsBond = false;
 
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
@@ -138,6 +140,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
 	if (normal <= 0 && shear.squaredNorm() < shown * shown) shear = Vector3r::Zero();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
+	if (last.wasBond) phys.slip = Vector3r::Zero();
 	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
 
 	phys.normalViscous = viscous * geom.normal;
@@ -151,7 +154,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	else {
 		StepWork   work;
 		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
-		work.plastic        = last.shear.loss(phys.ks, trial, shear) - lifting;
+		work.fractured      = last.wasBond;
+		work.plastic        = last.wasBond ? Real(0) : last.shear.loss(phys.ks, trial, shear) - lifting;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = -(last.shearViscous + shearViscous).dot(geom.shearIncrement()) / 2;
@@ -237,9 +241,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial)
 {
 	StepWork work;
-	work.fractured = phys.intact;
+	work.fractured = phys.intact || last.wasBond;
 	if (phys.intact) phys.fail();
-	else work.plastic = last.shear.loss(phys.ks, trial, Vector3r::Zero());
+	else if (!last.wasBond) work.plastic = last.shear.loss(phys.ks, trial, Vector3r::Zero());
 	phys.slide(trial);
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding                                                                                   = false;

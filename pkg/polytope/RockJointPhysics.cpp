@@ -30,6 +30,24 @@ namespace {
 		return Mathr::PI * math::pow(math::min(r1, r2), 2);
 	}
 
+	/// A joint that goes on where a bond has failed: without peak strength, without force at the overlap where the bond had none, and with the
+	/// bond's shear force, as far as its own strength goes (the law takes the rest away).
+	void takeOver(RockJointPhys& phys, const BondRemains& bond, const Interaction& contact, const Scene& scene)
+	{
+		phys.fail();
+		phys.dilation = -bond.overlap;
+		if (!bond.inLastStep) return;
+		const Vector3r normal = static_cast<const PolytopeGeom&>(*contact.geom).normal;
+		phys.normalForce      = normal.dot(bond.force) * normal;
+		phys.shearForce       = bond.force - phys.normalForce;
+		phys.followsBond      = true;
+		if (!scene.trackEnergy) return;
+		phys.lastArm1 = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;
+		phys.lastArm2 = bond.point - (*scene.bodies)[contact.getId2()]->state->pos;
+		if (scene.isPeriodic) phys.lastArm2 -= scene.cell->intrShiftPos(contact.cellDist);
+		phys.lastStored = bond.energy;
+	}
+
 } // namespace
 
 StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const Material& material1, const Material& material2) const
@@ -72,6 +90,9 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
 		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
 		phys->setStiffnesses(geom->share);
+		const KnowsBonds* const bonds = bonds_.in(*scene);
+		BondRemains             remains;
+		if (bonds && bonds->left(contact->getId1(), contact->getId2(), remains)) takeOver(*phys, remains, *contact, *scene);
 	} else {
 		phys->contactArea = nominalArea(contact->geom.get());
 		phys->kn          = stiffnessPerArea ? normal * phys->contactArea : normal;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AreaUsers.hpp"
+#include "BondsOfScene.hpp"
 #include "RockJoint.hpp"
 
 #include <core/Dispatching.hpp>
@@ -26,6 +27,9 @@ public:
 		((shared_ptr<MatchMaker>, frictAngle, , , ":yref:`MatchMaker` for the friction angle [rad] instead of the smaller one."))
 	);
 	// clang-format on
+
+private:
+	BondsInStep bonds_;
 };
 REGISTER_SERIALIZABLE(Ip2_RockJointMat_RockJointMat_RockJointPhys);
 

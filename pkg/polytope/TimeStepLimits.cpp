@@ -11,6 +11,7 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
+#include "BondsOfScene.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"
 #include "RockJointLaw.hpp"
@@ -100,7 +101,7 @@ namespace {
 	}
 
 	/// Planes of a body whose centre is there, as seen from the contact point.
-	void appendPlanes(
+	void addPlanesOf(
 	        std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
 	{
 		const polytope::HalfSpaces& own = shape.planes();
@@ -141,8 +142,8 @@ namespace {
 		const Vector3r centre1 = state1.pos - geom.contactPoint, centre2 = state2.pos + pair.shift2 - geom.contactPoint;
 		if (geom.energyPerStiffness >= 0) { // a pressure
 			std::vector<polytope::Plane> planes;
-			appendPlanes(planes, *shape1, rotation1, centre1);
-			appendPlanes(planes, *shape2, rotation2, centre2);
+			addPlanesOf(planes, *shape1, rotation1, centre1);
+			addPlanesOf(planes, *shape2, rotation2, centre2);
 			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
 		return force
@@ -169,22 +170,37 @@ namespace {
 			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
 	}
 
-	bool hasContacts(const Body& body, const Scene& scene)
+	bool hasContacts(const Body& body, const Scene& scene, const KnowsBonds* bonds)
 	{
 		bool has = false;
 		forParts(body, scene, [&](const Body& part) {
+			has = has || (bonds && bonds->hasBonds(part.id));
 			for (const auto& known : part.intrs)
 				has = has || known.second->isReal();
 		});
 		return has;
 	}
 
-	/// All contacts of a body (or of a clump's members).
+	/// All bonds of a body, or a member of a clump, whose moving centre is there.
+	void addBonds(polytope::BodyStiffness& sum, const Body& part, const Vector3r& centre, const KnowsBonds& bonds)
+	{
+		bonds.forBondsOf(part, [&](const SpringsOfBond& bond) {
+			polytope::ContactSprings springs;
+			springs.normal           = bond.normal;
+			springs.normalStiffness  = bond.normalStiffness;
+			springs.shearStiffness   = bond.shearStiffness;
+			springs.rockingStiffness = bond.rotationStiffness;
+			sum.add(springs, bond.point - centre);
+		});
+	}
+
+	/// All contacts and bonds of a body (or of a clump's members).
 	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene, Real steps,
-	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law)
+	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law, const KnowsBonds* bonds)
 	{
 		polytope::BodyStiffness sum(mobility);
 		forParts(body, scene, [&](const Body& part) {
+			if (bonds) addBonds(sum, part, body.state->pos, *bonds);
 			for (const auto& known : part.intrs) {
 				const Interaction& contact = *known.second;
 				if (!contact.isReal() || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2()))
@@ -227,7 +243,8 @@ namespace {
 
 ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 {
-	const auto*  law = dampingLaw(scene);
+	const auto*  law   = dampingLaw(scene);
+	const auto*  bonds = bondsOf(scene);
 	ContactLimit limit;
 	const long   count = long(scene.bodies->size());
 #pragma omp parallel
@@ -236,10 +253,10 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < count; ++id) {
 			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
-			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene)) continue;
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, bonds)) continue;
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
-			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law);
+			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law, bonds);
 			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
 			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
 				continue;

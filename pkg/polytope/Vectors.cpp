@@ -65,6 +65,15 @@ namespace {
 
 } // namespace
 
+std::vector<Real> numbers(const py::object& sequence)
+{
+	const py::object  all = itemsOf(sequence);
+	std::vector<Real> result;
+	for (Py_ssize_t i = 0; i < PySequence_Fast_GET_SIZE(all.ptr()); ++i)
+		result.push_back(py::extract<Real>(borrowed(PySequence_Fast_GET_ITEM(all.ptr(), i))));
+	return result;
+}
+
 void defineVectors()
 {
 	py::class_<Vectors>("Vectors", "Rows of numbers, read and checked by vectors().", py::no_init)

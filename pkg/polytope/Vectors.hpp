@@ -3,6 +3,8 @@
 
 #include <lib/base/Math.hpp>
 
+#include <boost/python/object.hpp>
+
 #include <vector>
 
 namespace yade {
@@ -12,6 +14,9 @@ namespace yade {
 struct Vectors {
 	std::vector<Vector3r> rows; ///< rows of two components have z = 0
 };
+
+/// The numbers of a Python sequence of floats. YADE's own converter to std::vector keeps a reference to each item for ever: 32 bytes a number.
+std::vector<Real> numbers(const boost::python::object& sequence);
 
 /// Defines Vectors and `vectors` in yade._polytope (for PythonModule.cpp).
 void defineVectors();

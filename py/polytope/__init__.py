@@ -3,11 +3,12 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. One pair without a scene: *contact*. The usual engines: *engines*; what is
-wrong before the first step: *check*. Cost and accuracy of settings: *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*,
-*contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*, *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all
-bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen:
-*picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*. One
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
+*tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
+*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
+*continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …)
+are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
@@ -20,6 +21,8 @@ from yade._polytope import buildInfo, contact
 from . import _helpTexts
 from .arrays import arrays
 from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .bonding import bond, bonds
+from .breakage import split
 from .check import check
 from .checkpoints import checkpoint, continueFrom
 from .energy import mechanicalEnergy
@@ -52,6 +55,8 @@ __all__ = [
 	'aabbExtrema',
 	'arrays',
 	'bodyStress',
+	'bond',
+	'bonds',
 	'buildInfo',
 	'check',
 	'checkpoint',
@@ -80,6 +85,7 @@ __all__ = [
 	'requirements',
 	'settings',
 	'sizeDistribution',
+	'split',
 	'stableTimeStep',
 	'terrain',
 	'tradeoff',

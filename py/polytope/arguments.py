@@ -2,11 +2,11 @@
 """Arguments that scripts give, as YADE's numbers and vectors. What cannot be converted is a ValueError that names the argument."""
 
 import numpy as np
-from yade import Quaternion, Vector3, _polytope
+from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
+__all__ = ['flag', 'materialOf', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
 
 
 def number(value, name):
@@ -64,3 +64,38 @@ def rotation(orientation):
 	if not 0 < orientation.norm() < float('inf'):
 		raise ValueError('orientation: must be a finite quaternion other than zero')
 	return orientation.normalized()
+
+
+def materialOf(material):
+	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
+	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
+		O.materials.append(utils.defaultMaterial())
+	if isinstance(material, (int, str)):
+		return _sound(_listed(material))
+	made = material() if callable(material) else material
+	if not isinstance(made, Material):
+		raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
+	return _sound(made)
+
+
+def _listed(material):
+	"""By its label or index in O.materials."""
+	try:
+		return O.materials[material]
+	except (IndexError, KeyError):
+		labels = [one.label for one in O.materials if one.label]
+	if isinstance(material, str):
+		there = f'there are {labels}' if labels else 'none has a label'
+		remedy = "O.materials.append(RockJointMat(label='…')) first"
+		raise ValueError(f'material: no material in O.materials has the label {material!r}, {there}; {remedy}')
+	seen = f'material: O.materials has no index {material}, it has {len(O.materials)} materials'
+	raise ValueError(f'{seen}; O.materials.append(RockJointMat(…)) first')
+
+
+def _sound(material):
+	"""The material, unless it has a number that YADE takes without a word and no body can be made of."""
+	for name in ('density', 'young'):
+		value = getattr(material, name, 1)
+		if not 0 < value < float('inf'):
+			raise ValueError(f'material: its {name} must be positive and finite, got {value}')
+	return material

@@ -24,12 +24,11 @@ import os
 import random
 import warnings
 
-from yade import Material, O, Quaternion, Vector3
-from yade import utils
+from yade import Quaternion, Vector3
 
 from yade import _polytope
 
-from .arguments import flag, number, numbersOf, rotation, vector, vectors
+from .arguments import flag, materialOf, number, numbersOf, rotation, vector, vectors
 from .precision import isNumber
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
@@ -273,24 +272,3 @@ def _place(state, center, orientation, flat):
 			raise ValueError(f'orientation: a polygon turns about z alone, got {orientation!r}')
 		state.ori = turn * state.ori
 	state.refPos, state.refOri = state.pos, state.ori
-
-
-def materialOf(material):
-	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
-	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
-		O.materials.append(utils.defaultMaterial())
-	if isinstance(material, (int, str)):
-		return _sound(O.materials[material])
-	made = material() if callable(material) else material
-	if not isinstance(made, Material):
-		raise TypeError('material: must be a Material, its index or label in O.materials, or a function that makes one')
-	return _sound(made)
-
-
-def _sound(material):
-	"""The material, unless it has a number that YADE takes without a word and no body can be made of."""
-	for name in ('density', 'young'):
-		value = getattr(material, name, 1)
-		if not 0 < value < float('inf'):
-			raise ValueError(f'material: its {name} must be positive and finite, got {value}')
-	return material

@@ -3,11 +3,13 @@
 
 from yade import O, NewtonIntegrator, Vector3
 
+from .bonding import bonds
+
 __all__ = ['mechanicalEnergy']
 
 
 def mechanicalEnergy():
-	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the contacts' springs.
+	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of contacts and bonds.
 
 	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
 	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
@@ -25,7 +27,12 @@ def mechanicalEnergy():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
 	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
 	O.step()
-	return sum(_energy(*one, integrators[0].gravity) for one in moving) + sum(_stored(contact) for contact in O.interactions if contact.isReal)
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal) + sum(bond.energy for bond in _bonds())
+	return sum(_energy(*one, integrators[0].gravity) for one in moving) + stored
+
+
+def _bonds():
+	return bonds().bonds if bonds() else ()
 
 
 def _motion(state):

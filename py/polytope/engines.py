@@ -31,7 +31,8 @@ from yade import (
 	Vector3,
 )
 
-from .arguments import vector
+from .arguments import number, vector
+from .bonding import bonds
 from .check import checkOf
 from .check.scene import SceneToCheck
 
@@ -47,11 +48,11 @@ allShapes = ('Box', 'Facet', 'Polytope', 'Sphere', 'Wall')
 gravityOnEarth = 9.81
 
 
-def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, integrator=None, timeStepper=None):
+def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, integrator=None, timeStepper=None, damping=None):
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
+	and laws for its materials; the bonds that there are (polytope.bond); NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
@@ -62,21 +63,28 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	:param law: Law2 functor or a list of them; default Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3), and
 	    Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) where there is FrictMat, or spheres without a law of their own
 	:param collider: default PolytopeCollider with a verletDist of a tenth of the smallest moving body's inscribed radius
-	:param integrator: default NewtonIntegrator(gravity=gravity, damping=0.2)
+	:param integrator: default NewtonIntegrator(gravity=gravity, damping=damping)
 	:param timeStepper: default PolytopeTimeStepper(); False: none, O.dt is yours
+	:param float damping: YADE's numerical damping of the integrator, from 0 to below 1; default 0.2, with which scenes come to rest soon and
+	    whatever moves is slowed down: 0 for sliding, rolling and falling bodies whose motion is to be compared with theory
 	:returns: list of engines
-	:raises ValueError: naming an argument that is not of its kind, and *gravity* if *integrator* is given too
+	:raises ValueError: naming an argument that is not of its kind, and *gravity* or *damping* if *integrator* is given too
 	"""
 	scene = SceneToCheck(O, [])
-	if integrator is not None and gravity is not None:
-		raise ValueError('gravity: belongs to the integrator, which is given too; set it there')
+	for name, value in (('gravity', gravity), ('damping', damping)):
+		if integrator is not None and value is not None:
+			raise ValueError(f'{name}: belongs to the integrator, which is given too; set it there')
+	damping = usualDamping if damping is None else number(damping, 'damping')
+	if not 0 <= damping < 1:
+		raise ValueError(f'damping: must be from 0 to below 1, got {damping}')
 	gravity = _usualGravity(scene) if gravity is None else vector(gravity, 'gravity')
 	loop = InteractionLoop(_geometry(scene, geometry), _physics(scene, physics), _laws(scene, law))
 	made = [
 		ForceResetter(),
 		_one(collider, Collider, 'collider') or _collider(scene),
 		loop,
-		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=usualDamping),
+		*([bonds()] if bonds() else []),
+		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=damping),
 	]
 	if timeStepper is not False:
 		made.append(_one(timeStepper, TimeStepper, 'timeStepper') or PolytopeTimeStepper())

@@ -99,7 +99,7 @@ class FrictionReduction:
 	:raises ValueError: naming the argument that is out of range
 	"""
 
-	calmLooks = 3
+	calmChecks = 3
 	mark = 'frictionReduction'
 
 	def __init__(
@@ -200,7 +200,7 @@ class FrictionReduction:
 			if not stage.displacement <= self.failedDistance:  # not a number counts as failed
 				stage.outcome = 'failed'
 				break
-			if calm == self.calmLooks:
+			if calm == self.calmChecks:
 				stage.outcome = 'stable'
 				break
 		stage.measured = self.measure()

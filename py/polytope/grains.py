@@ -8,8 +8,8 @@ import numpy as np
 import scipy.spatial
 from yade import Body, Polytope, Quaternion, Vector3, _polytope
 
-from .arguments import number, vector
-from .bodies import builder, fromVertices, materialOf
+from .arguments import materialOf, number, vector
+from .bodies import builder, fromVertices
 
 __all__ = ['cloud', 'grains', 'randomGrain']
 

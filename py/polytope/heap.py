@@ -10,6 +10,8 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from yade import O, Polytope
 
+from .bonding import bonds
+
 __all__ = ['Coordination', 'coordinationNumber', 'porosity', 'volumeWithin']
 
 thin = 1e-9
@@ -99,8 +101,8 @@ class Coordination:
 
 
 def coordinationNumber(ids=None):
-	"""Contacts per body, of the contacts that bear a normal force. A pair of polytopes has one contact, be it face on face. A clump is one
-	body, with the contacts of all its members.
+	"""Contacts per body, of the contacts that bear a normal force and of bonded pairs. A pair of polytopes has one contact, be it face on face. A
+	clump is one body, with the contacts of all its members.
 
 	:param ids: of the heap's bodies; None: all free polytopes, and clumps of them
 	:returns: Coordination
@@ -109,11 +111,11 @@ def coordinationNumber(ids=None):
 	touching = dict.fromkeys(_free(ids), 0)
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
-	for contact in O.interactions:
-		if contact.isReal and contact.phys.normalForce.squaredNorm() > 0:
-			for k in map(_mover, (contact.id1, contact.id2)):
-				if k in touching:
-					touching[k] += 1
+	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
+	pairs += {(bond.id1, bond.id2) for bond in (bonds().bonds if bonds() else ()) if bond.intact}
+	for k in map(_mover, itertools.chain(*pairs)):
+		if k in touching:
+			touching[k] += 1
 	bearing = [count for count in touching.values() if count > 1]
 	mechanical = sum(bearing) / len(bearing) if bearing else float('nan')
 	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))

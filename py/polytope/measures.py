@@ -10,13 +10,15 @@ import numpy as np
 from yade import O, Polytope, Sphere
 
 from ._faces import worldVertices
+from .bonding import bonds
 from .heap import _free as _named
 
 __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'sizeDistribution']
 
 
 def bodyStress(ids=None):
-	"""Mean stress of each body, from its contact forces and their arms: σ = 1/V Σ f ⊗ (x − c), with its own volume V and centre c.
+	"""Mean stress of each body, from its contact forces and their arms: σ = 1/V Σ f ⊗ (x − c), with its own volume V and centre c. Bonds count with
+	their force and with the first moments of the stresses of bending and twisting over their area.
 
 	The mean of a body in equilibrium; gravity has no part in it about the centroid. Not symmetric where the body is not in equilibrium of
 	moments. A clump is one body, its volume that of its members, overlaps counted for each.
@@ -34,7 +36,22 @@ def bodyStress(ids=None):
 			whole = _whole(k)
 			if whole in stress:
 				stress[whole] += np.outer(sign * force, place - np.array(O.bodies[whole].state.pos, float))
+	for bond in _intactBonds():
+		_addBond(stress, bond)
 	return {k: total / _volume(k) for k, total in stress.items()}
+
+
+def _addBond(stress, bond):
+	force, moment, point = (np.array(vector, float) for vector in (bond.force, bond.moment, bond.point))
+	axes = np.array((O.bodies[bond.id1].state.ori * bond.frame1).toRotationMatrix(), float).reshape(3, 3)
+	normal, u, v = axes.T
+	# ∫ t ⊗ r over the area, r from its centroid: pressure σ = k(θ₁z − θ₂y), and the shear of a twist, whose mean is the part of a rotation
+	spread = np.outer(normal, np.cross(normal, moment)) + moment @ normal / 2 * (np.outer(v, u) - np.outer(u, v))
+	shift = np.array(O.cell.hSize * bond.cellDist, float) if O.periodic else 0
+	for k, sign, place in ((bond.id1, -1, point), (bond.id2, 1, point - shift)):
+		whole = _whole(k)
+		if whole in stress:
+			stress[whole] += sign * (np.outer(force, place - np.array(O.bodies[whole].state.pos, float)) + spread)
 
 
 def contactFabric(ids=None):
@@ -109,6 +126,10 @@ def sizeDistribution(sieves=None, ids=None):
 
 def _bearing():
 	return [contact for contact in O.interactions if contact.isReal and contact.phys.normalForce.squaredNorm() > 0]
+
+
+def _intactBonds():
+	return [bond for bond in bonds().bonds if bond.intact] if bonds() else []
 
 
 def _whole(k):

@@ -78,15 +78,10 @@ def picture(
 	:raises RuntimeError: with the drawing program's message, if there is no picture
 	"""
 	drawn = [b for b in (O.bodies if bodies is None else bodies) if b and b.shape]
-	flat = all(b.shape.dimension == 2 for b in drawn if isinstance(b.shape, Polytope)) and any(isinstance(b.shape, Polytope) for b in drawn)
-	up = _unit(up if up is not None else _against(flat))
-	view = _unit(view if view is not None else (0, 0, 1) if flat else _fromTheFront(up))
-	if np.linalg.norm(np.cross(up, view)) < alongUp:
-		up = np.eye(3)[(np.abs(view).argmax() + 1) % 3]  # seen from above
+	flat = {b.shape.dimension for b in drawn if isinstance(b.shape, Polytope)} == {2}
+	view, up = _axes(view, up, flat)
 	low, high, colorOf = _colors(drawn, colorBy, valueRange, up, fixedColor)
-	if flat and fixed == 'auto':
-		fixed = 'solid'
-	meshes = collect(drawn, colorOf, _styles(drawn, fixed, view, up))
+	meshes = collect(drawn, colorOf, _styles(drawn, 'solid' if flat and fixed == 'auto' else fixed, view, up))
 	if not meshes:
 		raise ValueError('bodies: there is nothing to draw (only Polytope, Box, Sphere and Facet are, and a Wall beside them)')
 	if frame is None:
@@ -103,6 +98,15 @@ def picture(
 	                'legend': legend and dict(text=legend, low=low, high=high, colors=colorMap),
 	        }
 	)
+
+
+def _axes(view, up, flat):
+	"""Unit vectors: towards the camera, and up in the picture."""
+	up = _unit(up if up is not None else _against(flat))
+	view = _unit(view if view is not None else (0, 0, 1) if flat else _fromTheFront(up))
+	if np.linalg.norm(np.cross(up, view)) < alongUp:
+		up = np.eye(3)[(np.abs(view).argmax() + 1) % 3]  # seen from above
+	return view, up
 
 
 _values = {

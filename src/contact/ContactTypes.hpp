@@ -49,8 +49,6 @@ struct BoundingPlanes {
 	int                  plane[2][most];
 	Real                 slack[2][most];
 	Real                 leverage[2][most];
-	/// Whether the body's k-th one cuts the overlap; else it is merely near.
-	bool bounds(int body, int k) const { return leverage[body][k] > Real(tolerance::leverage); }
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that

@@ -203,18 +203,9 @@ constexpr Real flush = 1e-9;
 /// One minus the cosine between normals of one body that count as one direction where an edge between two faces is searched for.
 constexpr Real parallel = 1e-4;
 
-/// × the smaller inscribed radius: an overlap of two faces that is thicker is no contact of these faces. Overlaps of DEM are a hundredth at the
+/// × the smaller inscribed radius: where the overlap is deeper below a face, the body does not slide on this face. Overlaps of DEM are a hundredth at the
 /// most.
 constexpr Real thinContact = 0.1;
-
-/// × depth of a face below the one it slides on: a body is carried there if it overlaps a piece by a ball of this radius (two faces that lie
-/// on each other: ½).
-constexpr Real carriedBall = 0.25;
-
-/// Projections onto one plane after the other that search for that ball, each longer by this factor than necessary: from beside a seam two to
-/// six are enough; near the tip of a corner, where planes meet at sharp angles, ones that are 1.2 as long do not in 50.
-constexpr int  mostProjections = 32;
-constexpr Real overProjection  = 1.5;
 
 /// Least part of a stiffness per contact that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/ConvexShape.hpp"
+#include "shape/PlacedShape.hpp"
 #include "timestep/StableTimeStep.hpp"
 
 /// Rocking stiffness of a contact at the analytic centre.
@@ -16,14 +16,7 @@
 /// kₙ L²/4, three times that of springs spread over the face. For any contact it is at most kₙ × depth × |g| × (half the section's width)².
 namespace polytope {
 
-/// A shape where it is: its centre as seen from the contact point, and the turn of its axes into the world's.
-struct PlacedShape {
-	const ConvexShape& shape;
-	Vector3            centre;
-	Matrix3            rotation;
-};
-
-/// Adds a body's planes to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, the least
+/// Adds the planes of a body, its centre as seen from the contact point, to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, the least
 /// distance of the centre from any plane: in a scene far from its origin small slacks are dominated by rounding.
 inline Real addPlanes(const PlacedShape& body, const Matrix3& axes, Real least, Matrix3& hessian)
 {

@@ -67,6 +67,17 @@ Cut cornersInOrder(const HalfSpaces& set1, const HalfSpaces& set2, const Vector3
 	return { Real(area), origin + centroid.cast<Real>() };
 }
 
+// Corners that have all become one: no area, and no division by it.
+TEST(ContactSection, OfAPointIsThePoint)
+{
+	const Real              corners[] = { 2, 3, 2, 3, 2, 3 }, origin[] = { 1, 1, 1 }, normal[] = { 0, 0, 1 };
+	const Rotation<Real, 3> axes    = axesAround<Real, 3>(normal);
+	const Section<Real, 3>  section = polygonSection<Real>(corners, 3, origin, axes);
+	EXPECT_EQ(section.area, 0);
+	for (int k = 0; k < 3; ++k)
+		EXPECT_NEAR(section.centroid[k], origin[k] + 2 * axes.m[0][k] + 3 * axes.m[1][k], 1e-15);
+}
+
 TEST(ContactSection, RectangleOfTwoOffsetCubes)
 {
 	Pair pair;

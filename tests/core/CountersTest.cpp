@@ -116,6 +116,22 @@ TEST(Counters, StackedCubes)
 	});
 }
 
+/// Times of the stages [ns], of a query of microseconds, where they are asked for.
+TEST(Counters, TimesOfStagesAreSmall)
+{
+	std::mt19937_64 random(5);
+	const Pair      pair = regularPair(6, 8, Real(0.02), random);
+	for (bool timed : { true, false }) {
+		ContactSettings settings;
+		settings.timed             = timed;
+		const ContactResult result = query(pair, settings);
+		for (long time : { result.lpNanoseconds, result.centreNanoseconds }) {
+			EXPECT_GE(time, 0);
+			EXPECT_LT(time, timed ? 1000000000 : 1);
+		}
+	}
+}
+
 /// Separated pairs: nearly all are dismissed by the last step's basis, without a pivot.
 TEST(Counters, SeparatedPairsAreDismissedAtOnce)
 {

@@ -2,9 +2,11 @@
 #include "contact/DualWeights.hpp"
 #include "PlaneRows.hpp"
 #include "PrecisePair.hpp"
+#include "contact/BoundingPlanes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -157,7 +159,6 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 			const int plane = bounding.plane[0][k];
 			if (pair.shape[0]->normalArray(0)[plane] < 0.5) continue;
 			internal.plane[0][internal.count[0]++] = plane;
-			EXPECT_TRUE(bounding.bounds(0, k));
 		}
 		ASSERT_EQ(internal.count[0], 1);
 		settings.bounding         = nullptr;
@@ -167,6 +168,61 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 		EXPECT_NEAR(found.depth, depth, 1e-12);
 		EXPECT_NEAR(found.area, width * Real(0.5), 1e-9);
 	}
+}
+
+// Beside a deep contact the internal face is what the body runs into: it is left out of thin contacts only, whatever the size.
+TEST(DualWeights, AnInternalFaceIsLeftOutOfThinContactsOnly)
+{
+	for (Real size : { 1e-3, 1., 1e3 }) {
+		const Real limit = 2 * tolerance::thinContact * Real(0.25) * size, width = limit / 20;
+		for (Real part : { 0.9, 1.1 }) {
+			const Real      depth = part * limit;
+			const Pair      pair  = boxes({ size, size, size / 4 }, { size / 4, size / 4, size / 4 },
+			              { Real(1.25) * size - width, 0, size / 2 - depth });
+			InternalPlanes  internal;
+			ContactSettings settings;
+			for (int i = 0; i < pair.shape[0]->planeCount(); ++i)
+				if (pair.shape[0]->normalArray(0)[i] > 0.5) internal.plane[0][internal.count[0]++] = i;
+			ASSERT_EQ(internal.count[0], 1);
+			settings.internal           = &internal;
+			const ContactResult found   = query(pair, settings);
+			const Vector3       outward = part < 1 ? Vector3::UnitZ() : Vector3::UnitX();
+			EXPECT_LE(lean(found.normal, outward), 0.1) << size << ' ' << part << ": " << found.normal.transpose();
+		}
+	}
+}
+
+TEST(InternalPlanes, NoneMeansOfNeitherBody)
+{
+	InternalPlanes internal;
+	EXPECT_TRUE(internal.none());
+	internal.count[0] = 1;
+	EXPECT_FALSE(internal.none());
+	internal.count[1] = 1;
+	EXPECT_FALSE(internal.none());
+	internal.count[0] = 0;
+	EXPECT_FALSE(internal.none());
+}
+
+TEST(BoundingPlanes, ThoseOfTheLargestLeverageAreKept)
+{
+	constexpr int  most = BoundingPlanes::most, all = 3 * most;
+	BoundingPlanes kept;
+	for (int i = 0; i < all; ++i) { // each number below `all` once, in no order
+		const int rank = i * 5 % all;
+		keepLargest(1, i, Real(0.5) * rank, rank, kept);
+	}
+	EXPECT_EQ(kept.count[0], 0);
+	ASSERT_EQ(kept.count[1], most);
+	std::vector<int> ranks;
+	for (int k = 0; k < most; ++k) {
+		ranks.push_back(int(kept.leverage[1][k]));
+		EXPECT_EQ(kept.plane[1][k] * 5 % all, ranks.back());
+		EXPECT_EQ(kept.slack[1][k], Real(0.5) * ranks.back());
+	}
+	std::sort(ranks.begin(), ranks.end());
+	for (int k = 0; k < most; ++k)
+		EXPECT_EQ(ranks[std::size_t(k)], all - most + k);
 }
 
 TEST(BoundingPlanes, OfManyTheFaceThatTheBodyLiesOnIsAmongThem)
@@ -191,7 +247,7 @@ TEST(BoundingPlanes, OfManyTheFaceThatTheBodyLiesOnIsAmongThem)
 	EXPECT_EQ(bounding.count[1], BoundingPlanes::most);
 	int faces = 0;
 	for (int k = 0; k < bounding.count[1]; ++k)
-		faces += pair.shape[1]->normalArray(2)[bounding.plane[1][k]] == -1 && bounding.bounds(1, k);
+		faces += pair.shape[1]->normalArray(2)[bounding.plane[1][k]] == -1;
 	EXPECT_EQ(faces, 1);
 }
 

@@ -67,6 +67,32 @@ TEST(GeometryAcrossGap, IsContinuousThroughTouchingAndBeyond)
 	EXPECT_EQ(smooth, 200);
 }
 
+TEST(GeometryAcrossGap, IsTheSameAtAnySize)
+{
+	for (int faces : { 4, 6, 20 })
+		for (Real apart : { 1e-3, 0.1, 2. }) {
+			const auto found = [&](Real size) {
+				std::mt19937_64 random(31);
+				Pair            pair;
+				for (int body = 0; body < 2; ++body) {
+					const Real radius   = body == 0 ? size : size / 2;
+					pair.shape[body]    = ConvexShape::shared(regularSolid(faces, radius), Real(0.1) * radius);
+					pair.rotation[body] = randomRotation(random, 3);
+				}
+				moveTo(pair, Vector3(Real(0.6), 0, Real(-0.8)), apart * size);
+				return query(pair, acrossGap());
+			};
+			const ContactResult one = found(1);
+			EXPECT_FALSE(one.inContact);
+			for (Real size : { 1. / 1024, 1024. }) {
+				const ContactResult other = found(size);
+				EXPECT_LT((other.point / size - one.point).norm(), 1e-9) << faces << ' ' << apart << ' ' << size;
+				EXPECT_LT((other.normal - one.normal).norm(), 1e-9);
+				EXPECT_NEAR(other.depth / size, one.depth, 1e-12);
+			}
+		}
+}
+
 TEST(GeometryAcrossGap, TheOverlapAtTheSkinHoldsTheTouchingPoint)
 {
 	// s* = 0⁻ and 0⁺: the point of the thin overlap lies in the skin's overlap, which lies in its Dikin ellipsoid times the

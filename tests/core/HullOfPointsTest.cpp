@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ShapeSamples.hpp"
 
+#include <algorithm>
 #include <limits>
 
 using namespace polytope;
@@ -259,3 +260,23 @@ TEST(HullOfPoints, lengthsNobodyHasAreRefused)
 }
 
 } // namespace
+
+// Every second corner of a cube a little further out, the others further in: the four of a face miss their plane by that, whichever of their
+// diagonals the hull has taken.
+TEST(HullOfPoints, fourCornersAreOneFacetUpToTheirMisfit)
+{
+	std::mt19937_64 random(36);
+	const Real      twist = 1e-4;
+	for (int turn = 0; turn < 20; ++turn) {
+		const Matrix3        rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
+		std::vector<Vector3> points   = boxCorners(Vector3::Ones());
+		std::shuffle(points.begin(), points.end(), random);
+		Real size = 0;
+		for (Vector3& p : points) {
+			p    = rotation * (p * (1 + twist * p.prod()));
+			size = std::max(size, p.norm());
+		}
+		EXPECT_EQ(hullOf(points, 3, Real(1.1) * twist / size).size(), 6u) << turn;
+		EXPECT_GT(hullOf(points, 3, Real(0.9) * twist / size).size(), 6u) << turn;
+	}
+}

@@ -53,6 +53,19 @@ void expectAsConstructed(const JointedBlocks& rock, const Block& block, Real len
 	}
 }
 
+// The mean of a corner's four vertices is 0.144 from its oblique face; the largest ball has 1/(3 + √3) = 0.211.
+TEST(Block, HoldsABallThatIsNotInItsMiddle)
+{
+	std::vector<Plane> planes { { Vector3::Ones().normalized(), 1 / std::sqrt(Real(3)) } };
+	for (int k = 0; k < 3; ++k)
+		planes.push_back({ -Vector3::Unit(k), 0 });
+	const Block block = blockOf(planes, { 0, 1, 2, 3 });
+	for (Real radius : { 0.1, 0.144, 0.15, 0.211 })
+		EXPECT_TRUE(block.holdsBall(planes, radius)) << radius;
+	for (Real radius : { 0.212, 0.3 })
+		EXPECT_FALSE(block.holdsBall(planes, radius)) << radius;
+}
+
 TEST(JointedBlocks, fillTheRegionOnceAtEverySize)
 {
 	std::mt19937_64 random(71);

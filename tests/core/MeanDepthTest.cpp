@@ -69,6 +69,20 @@ TEST(MeanDepth, CutOutOfABodyOrOutOfABoxTheOverlapIsTheSame)
 	}
 }
 
+// The nearest plane counts, not the last: the second one here is nearer along its own normal, and further along n.
+TEST(MeanDepth, DistanceFromFaceIsToTheNearestPlane)
+{
+	const Vector3 up = Vector3::UnitZ(), oblique(Real(0.8), 0, Real(0.6));
+	for (bool first : { true, false }) {
+		const HalfSpaces lower { first ? std::vector<Vector3> { up, oblique } : std::vector<Vector3> { oblique, up },
+			first ? std::vector<Real> { 0.1, 0.07 } : std::vector<Real> { 0.07, 0.1 }, 3 };
+		const HalfSpaces         upper { { -up, -oblique }, { 0.05, 0.02 }, 3 };
+		const PlaneRows<Real, 3> rows(lower, upper);
+		const Real               x[] = { 0, 0, 0 }, n[] = { 0, 0, 1 };
+		EXPECT_NEAR((distanceFromFace<Real, 3>(rows.planes, x, n)), 0.1, 1e-15);
+	}
+}
+
 TEST(MeanDepth, OfTwoFacesIsTheirDistance)
 {
 	Pair pair;
@@ -215,11 +229,11 @@ TEST(MeanDepth, PerContactIsTheChordAtAVertexAndTheMeanOnAFace)
 
 TEST(MeanDepth, OfPolygonsIsTheAreaOfTheirOverlap)
 {
-	const auto square = ConvexShape::shared(rectangle(1, 1), Real(0.1));
+	const auto square = ConvexShape::shared(rectangle(1, 1), Real(0.1), Real(0.25));
 	for (Real deep : { 1e-2, 1e-5 }) {
 		// on a corner turned by 45°: a triangle of height `deep` and width 2 `deep`, centroid a third of the height below the floor
 		const ContactResult corner = meanQuery(onFloor(square, turned(axis(2), Real(M_PI) / 4), deep));
-		const Real          thick  = square->thickness();
+		const Real          thick  = square->thickness(); // the floor's is 1
 		EXPECT_NEAR(volumeOf(corner) / (deep * deep * thick), 1, 1e-12 + 1e-15 / deep);
 		EXPECT_NEAR(corner.point[1], 1 - deep / 3, 1e-14);
 		EXPECT_NEAR(corner.area / (thick * deep * 2), 1, 1e-12 + 1e-15 / deep);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "timestep/StableTimeStep.hpp"
+#include "PairSamples.hpp"
 #include "shape/RegularSolids.hpp"
 #include "timestep/RockingStiffness.hpp"
 
@@ -102,6 +103,22 @@ TEST(StableTimeStep, ArmsMassesAndSprings)
 	EXPECT_FALSE(Mobility().moves());
 }
 
+/// About another point than the body's centre: the farthest point of the ball, straight on, is as far as the bound says.
+TEST(StableTimeStep, ReachOfABallBesideTheCentre)
+{
+	const Real     mass = 2, side = Real(0.5), inertia = mass * side * side / 6, radius = Real(0.3);
+	const Vector3  centre(Real(0.2), Real(-0.6), Real(0.9)), along = centre.normalized();
+	const Mobility mobility = cube(mass, side);
+	const Real     bound    = reachOfBall(mobility, centre, radius);
+	const Real     root     = sqrt(1 / mass + centre.squaredNorm() / inertia) + radius / sqrt(inertia);
+	EXPECT_NEAR(double(bound), double(root * root), 1e-11);
+	for (Real turn = 0; turn < 6; turn += Real(0.5)) {
+		const Vector3 aside = Eigen::AngleAxis<Real>(turn, Vector3::UnitX()) * along;
+		EXPECT_LE(double(reachOf(mobility, centre + radius * aside)), double(bound));
+	}
+	EXPECT_GT(double(reachOf(mobility, centre + radius * along)), double(bound) * 0.97);
+}
+
 /// A square face: kₙ L²/4, in any turn, on a half-space and on a larger block.
 TEST(RockingStiffness, OfASquareFace)
 {
@@ -119,9 +136,8 @@ TEST(RockingStiffness, OfASquareFace)
 	const auto    floor = ConvexShape::halfSpace(up, 3);
 	const Vector3 above = up * (side / 2 - depth / 2);
 
-	const Matrix3 onHalfSpace
-	        = depth * rockingArms({ *floor, -up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
-	const Matrix3 expected = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
+	const Matrix3 onHalfSpace = depth * rockingArms({ *floor, up * depth / 2, Matrix3::Identity() }, { block, above, axes }, up, depth);
+	const Matrix3 expected    = side * side / 4 * (Matrix3::Identity() - up * up.transpose());
 	EXPECT_LT(double((onHalfSpace - expected).norm()), 1e-3 * double(expected.norm()));
 
 	const Vector3 below    = -up * (10 * side / 2 - depth / 2);
@@ -130,4 +146,47 @@ TEST(RockingStiffness, OfASquareFace)
 	EXPECT_LT(double((onLarge - expected).norm()), 2e-2 * double(expected.norm())); // its sides weigh a hundredth
 	// |g| is that of either body at the analytic centre; the middle of the overlap is that but for depth/side
 	EXPECT_LT(double((onLarge - reversed).norm()), double(depth / side * expected.norm()));
+}
+
+/// Where sides lean and the point is beside the middle: |g| [n]× H⁻¹ [n]×ᵀ with H of all three directions, inverted as a whole.
+TEST(RockingStiffness, OfLeaningSides)
+{
+	const ConvexShape solid(regularSolid(4, 1), 0);
+	Quaternion        turn(0.4, 0.6, -0.2, 0.5);
+	turn.normalize();
+	const Matrix3 rotation = turn.toRotationMatrix();
+	const Vector3 centre(0.05, -0.1, 0.15), above(0.1, 0, 0.1);
+	for (const Vector3& up : { Vector3(0, 0, 1), Vector3(Real(0.8), 0, Real(0.6)), Vector3(1, 0, 0) }) {
+		const auto    floor   = ConvexShape::halfSpace(up, 3);
+		const Vector3 surface = up * up.dot(above);
+		Matrix3       hessian = up * up.transpose() / surface.squaredNorm();
+		Vector3       pull    = Vector3::Zero();
+		for (int i = 0; i < 4; ++i) {
+			const Vector3 normal = rotation * solid.planes().normals[std::size_t(i)];
+			const Vector3 scaled = normal / (solid.planes().offsets[std::size_t(i)] + normal.dot(centre));
+			hessian += scaled * scaled.transpose();
+			pull += scaled;
+		}
+		const Matrix3 expected = pull.norm() * crossMatrix(up) * hessian.inverse() * crossMatrix(up).transpose();
+		const Matrix3 found    = rockingArms({ *floor, surface, Matrix3::Identity() }, { solid, centre, rotation }, up, 1e-3);
+		EXPECT_LT(double((found - expected).norm()), 1e-12 * double(expected.norm())) << found << "\n\n" << expected;
+	}
+}
+
+/// A plate that stands on its edge, however it is turned: across it the section has no width to rounding, and the arms stay those of a line.
+TEST(RockingStiffness, OfAnEdge)
+{
+	const ConvexShape plate(samples::cuboid(1, 1e-9, 0.5), 0);
+	const Vector3     up(0, 0, 1), centre(0, 0, 0.4);
+	const auto        floor = ConvexShape::halfSpace(up, 3);
+	for (Real turn = Real(0.05); turn < 3; turn += Real(0.1)) {
+		const Matrix3 rotation = Eigen::AngleAxis<Real>(turn, up).toRotationMatrix();
+		const Matrix3 arms     = rockingArms({ *floor, up * 1e-3, Matrix3::Identity() }, { plate, centre, rotation }, up, 1e-12);
+		const Real    pull     = 1 / 0.1 - 1 / 0.9; // of its lower and upper faces
+		ASSERT_TRUE(arms.allFinite()) << turn;
+		const Vector3 values = Eigen::SelfAdjointEigenSolver<Matrix3>(arms, Eigen::EigenvaluesOnly).eigenvalues();
+		const Real    most   = pull * plate.boundingRadius() * plate.boundingRadius();
+		EXPECT_GT(values[0], -1e-6 * most) << turn;
+		EXPECT_LT(values[2], 4 * most) << turn;
+	}
 }

@@ -103,6 +103,17 @@ def testCleanRefusesWhatItDoesNotKnow(clone, tmp_path):
 	assert done.returncode == 1 and '--al' in done.stderr and (clone / 'build').exists()
 
 
+def testCleanRefusesAFolderOfOthersBeforeItRemovesAnything(clone, tmp_path):
+	cache = tmp_path / 'documents'
+	cache.mkdir()
+	(cache / 'letter.txt').write_text('mine')
+	(clone / 'build').mkdir()
+	for option in ('--all', '--root'):
+		done = call(clone, cache, 'clean', option)
+		assert done.returncode == 1 and 'letter.txt' in done.stderr
+		assert (clone / 'build').exists() and (cache / 'letter.txt').exists()
+
+
 def testARootInUseStays(clone, tmp_path):
 	"""By its lock, as long as a process holds it; then it is removed. The build folder stays with --root."""
 	cache = filled(tmp_path / 'cache')
@@ -178,6 +189,9 @@ def testArchivesOfTheRoot(clone, tmp_path):
         ('build testPrograms', {'yade', 'libgtest-dev'}, {'libfcl-dev'}),
         ('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth'}, {'libfcl-dev'}),
         ('bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
+        ('paper', {'git', 'yade'}, {'libfcl-dev', 'clang'}),
+        ('figures --check', {'yade'}, {'libfcl-dev', 'git'}),
+        ('figures --measure bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
         ('fuzz', {'clang', 'libclang-rt-dev'}, {'libfcl-dev'}),
         ('format', {'clang-format'}, {'libfcl-dev'}),
 ])

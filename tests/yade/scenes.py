@@ -81,3 +81,13 @@ def contact(body1, body2):
 def period(mass, stiffness):
 	"""1/ω of a mass on a spring."""
 	return sqrt(mass / stiffness)
+
+
+def rowInAPeriodicCell():
+	"""Three blocks in a row that press on each other, the last one on the image of the first; after two steps."""
+	O.periodic = True
+	O.cell.setBox(3, 5, 5)
+	O.bodies.append([polytope.cuboid((k + 0.5, 2, 2), (0.5001, 0.4, 0.5)) for k in range(3)])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	O.step()
+	O.step()

@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+from scenes import rowInAPeriodicCell
 from yade import (
 	FrictMat,
 	Ip2_FrictMat_FrictMat_FrictPhys,
@@ -110,12 +111,7 @@ def testForcesOfContactsAreThoseOfBodies():
 
 def testImagesInAPeriodicCell():
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=5e8, frictionAngle=0.8))
-	O.periodic = True
-	O.cell.setBox(3, 5, 5)
-	O.bodies.append([polytope.cuboid((k + 0.5, 2, 2), (0.5001, 0.4, 0.5)) for k in range(3)])
-	O.engines = polytope.engines(gravity=(0, 0, 0))
-	O.step()
-	O.step()
+	rowInAPeriodicCell()
 	contacts = polytope.arrays().contacts
 	assert len(contacts.ids) == 3 and np.abs(contacts.images).sum() == 1
 	for ids, image, normal in zip(contacts.ids.tolist(), contacts.images, contacts.normals, strict=True):

@@ -332,12 +332,31 @@ def testContactRefusesWhatIsNoPolytope():
 			polytope.contact(cube, astray)
 	with pytest.raises(ValueError, match='contactPoint'):
 		polytope.contact(cube, cube, contactPoint='middle')
+	for wrong, name in ((3, 'int'), ('floor', 'str'), (cube.shape, 'Polytope')):
+		with pytest.raises(ValueError, match=f'b2: must be a body with a Polytope shape.* not of type {name}$'):
+			polytope.contact(cube, wrong)
+	with pytest.raises(ValueError, match='b1: must be a body'):
+		polytope.contact(None, cube)
 
 
 @pytest.mark.parametrize('material', [None, 1.5, lambda: None], ids=['none', 'number', 'function'])
 def testWhatMakesNoMaterialIsRefused(material):
 	with pytest.raises(TypeError, match='material: must be a Material'):
 		polytope.cuboid((0, 0, 0), (1, 1, 1), material=material)
+
+
+def testAMaterialThatIsNotListedIsNamedWithTheRemedy():
+	O.materials.append(RockJointMat())
+	with pytest.raises(ValueError) as refusal:
+		polytope.cuboid((0, 0, 0), (1, 1, 1), material='marble')
+	assert str(refusal.value).startswith("material: no material in O.materials has the label 'marble', there are ['rock']; O.materials.append(")
+	for index in (7, -3):
+		with pytest.raises(ValueError, match=rf'^material: O.materials has no index {index}, it has 2 materials; O.materials.append'):
+			polytope.cuboid((0, 0, 0), (1, 1, 1), material=index)
+	assert polytope.cuboid((0, 0, 0), (1, 1, 1), material=-2).material.label == 'rock'
+	O.reset()
+	with pytest.raises(ValueError, match='none has a label'):
+		polytope.regular(8, 1, material='rock')
 
 
 @pytest.mark.parametrize('value', [-5, 0, float('nan'), float('inf')])

@@ -201,6 +201,32 @@ def testConservativeWithStiffnessPerArea():
 	assert not polytope.check(O)
 
 
+def testNoDampingAtAllWithYadesMaterial():
+	"""The chord's spring gains energy. Damping anywhere, a rock joint or the conservative contact is the remedy."""
+	frict = {'material': FrictMat(density=2600, young=1e8), 'laws': [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]}
+	scene(**frict, physics=[Ip2_FrictMat_FrictMat_FrictPhys()])
+	O.engines[3].damping = 0
+	found = onlyFinding('damping and energy')
+	assert 'Ip2_FrictMat_FrictMat_FrictPhys have no damping' in found.seen
+	assert 'RockJointMat' in found.advice and 'NewtonIntegrator.damping above 0' in found.advice
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')]
+	assert not polytope.check(O)
+	scene()
+	O.engines[3].damping = 0
+	assert not polytope.check(O), 'rock joints have an energy'
+	viscous = {'en': yade.MatchMaker(algo='val', val=0.5), 'es': yade.MatchMaker(algo='val', val=0.5)}
+	for physics, number in (({}, 1), (viscous, 0)):
+		scene(
+			material=FrictMat(density=2600, young=1e8), physics=[Ip2_FrictMat_FrictMat_MindlinPhys(**physics)], laws=[Law2_ScGeom_MindlinPhys_Mindlin()]
+		)
+		O.engines[3].damping = 0
+		assert len(polytope.check(O)) == number
+	scene(lambda: [utils.sphere((0, 0, 3), 0.3)], **frict, physics=[Ip2_FrictMat_FrictMat_FrictPhys()])
+	O.bodies.erase(1)
+	O.engines[3].damping = 0
+	assert not polytope.check(O), 'a sphere on a polytope is a spring'
+
+
 # ------------------------------------------------------------------------------------------------ pairs
 
 
@@ -340,7 +366,7 @@ def testMeshInMillimetres(tmp_path):
 	found = onlyFinding('size')
 	assert '100 m across and weighs 2.6e+09 kg' in found.seen and 'scale=0.001' in found.advice
 	scene()
-	O.bodies.append([polytope.fromMesh(path, scale=0.001), polytope.fromMesh(path, scale=0.001)])
+	O.bodies.append([polytope.fromMesh(path, scale=0.001), polytope.fromMesh(path, scale=0.001, center=(1, 0, 2))])
 	assert not polytope.check(O)
 	scene()
 	O.bodies.erase(1)
@@ -371,6 +397,54 @@ def testYoungThatNothingReads():
 	assert 'young of RockJointMat' in onlyFinding('elastic constants').seen
 	loop().physDispatcher.functors = [*loop().physDispatcher.functors, Ip2_FrictMat_FrictMat_FrictPhys()]
 	assert not polytope.check(O)
+
+
+@pytest.mark.parametrize('name', ['pos', 'ori', 'vel', 'angVel'])
+def testBodyThatIsNowhere(name):
+	scene()
+	wrong = yade.Quaternion(math.nan, 0, 0, 1) if name == 'ori' else (0, math.nan, 0)
+	setattr(O.bodies[1].state, name, wrong)
+	found = onlyFinding('not a number')
+	assert f'body 1: state.{name} is not a finite number' in found.seen and 'PolytopeTimeStepper()' in found.advice
+	setattr(O.bodies[1].state, name, yade.Quaternion(1, 0, 0, 0) if name == 'ori' else (0, math.inf, 0))
+	assert bool(polytope.check(O)) == (name != 'ori')
+
+
+def testBodiesInTheSamePlace():
+	scene()
+	O.bodies.append(polytope.cuboid((0, 0, 0.55), (0.5, 0.4, 0.5)))
+	found = onlyFinding('same place')
+	assert 'body 1 and body 2' in found.seen and 'O.bodies.erase()' in found.advice
+	while O.time < 0.05:
+		O.step()
+	assert O.bodies[1].state.vel.norm() > 10, 'they are shot apart'
+	scene(lambda: [polytope.cuboid((0, 0, 0.55), (0.5, 0.4, 0.5), mask=2)])
+	O.bodies[0].mask = 3
+	assert not polytope.check(O)
+	for other in ((0, 0, 0.56), (0.5, 0.4, 0.5)), ((0, 0, 0.55), (0.5, 0.4, 0.45)):
+		scene(lambda other=other: [polytope.cuboid(*other)])
+		assert not polytope.check(O)
+
+
+def testFrictionAngleInDegrees():
+	scene(
+		material=FrictMat(density=2600, young=1e8, frictionAngle=35, label='basalt'),
+		physics=[Ip2_FrictMat_FrictMat_FrictPhys()],
+		laws=[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+	)
+	found = onlyFinding('friction angle')
+	assert "FrictMat 'basalt' is 35 rad" in found.seen and 'frictionAngle=radians(35)' in found.advice
+	O.materials[0].frictionAngle = math.radians(35)
+	assert not polytope.check(O)
+	with pytest.raises(ValueError, match='frictionAngle'):
+		rock(frictionAngle=35)
+
+
+def testTensileStrengthOfAJointIsNoGlue():
+	scene(material=rock(tensileStrength=1e5))
+	found = onlyFinding('tension')
+	assert '1e+05 Pa' in found.seen and 'polytope.bond(' in found.advice
+
 
 
 # ------------------------------------------------------------------------------------------------ time step and motion

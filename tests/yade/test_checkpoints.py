@@ -36,7 +36,7 @@ start = polytope.continueFrom(name)
 if not start: build()
 if 'signalAt' in options and not start:
 	at, number = options['signalAt'].split(',')
-	command = f"import os; O.iter == {at} and os.kill(os.getpid(), {number})"
+	command = f"import signal; O.iter == {at} and signal.raise_signal({number})"  # os.kill may reach another thread, some steps later
 	O.engines = [PyRunner(iterPeriod=1, initRun=True, command=command)] + O.engines
 print('from', start, O.iter, flush=True)
 if how == 'wait':

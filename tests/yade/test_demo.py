@@ -65,7 +65,7 @@ def testHelloPrintsTheContact(tmp_path):
 	assert float(lines['area'].split()[0]) == pytest.approx(0.8, rel=1e-3)
 
 
-products = {'polygons.py': 'polygons.png', 'mesh.py': 'pebbles.png', 'paraview.py': 'output/paraview/bodies.pvd'}
+products = {'polygons.py': 'output/polygons.png', 'mesh.py': 'output/pebbles.png', 'paraview.py': 'output/paraview/bodies.pvd'}
 
 
 @pytest.mark.parametrize('script, product', products.items())

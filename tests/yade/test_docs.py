@@ -141,9 +141,16 @@ def testBlockOfTheFirstSceneRestsOnItsFace(name, tmp_path, monkeypatch):
 	scene = runs(project / name)
 	contact, weight = scene['contact'], 9.81 * yade.O.bodies[scene['block']].state.mass
 	assert contact.geom.status == 'contact'
-	assert contact.geom.normal.dot(yade.Vector3(0, 0, 1)) == pytest.approx(1, abs=1e-9)
+	assert (contact.geom.normal - yade.Vector3(0, 0, 1)).norm() < 1e-6, 'as README.md says'
 	assert contact.phys.normalForce.norm() == pytest.approx(weight, rel=1e-6)
 	assert yade.O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
+
+
+def testStrengthReductionFindsTheDip(capsys):
+	"""docs/strength-reduction.md: what its comments say."""
+	found = runs(project / 'docs/strength-reduction.md')['found']
+	assert math.degrees(found.stable) == pytest.approx(29) and math.degrees(found.failed) == pytest.approx(28)
+	assert capsys.readouterr().out.splitlines()[-1].startswith('factor of safety 1.54')
 
 
 def testExamplesThatTheFirstPagesNameRun(tmp_path, monkeypatch, capsys):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """polytope.engines: the usual loop for whatever the scene has, each part replaceable, and what is wrong is warned of."""
 
+import math
 import warnings
 
 import pytest
@@ -144,13 +145,37 @@ def testWhatIsWrongIsWarnedOf():
 		polytope.engines(geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative'))
 
 
-@pytest.mark.parametrize('name', ['geometry', 'physics', 'law', 'collider', 'integrator', 'timeStepper', 'gravity'])
+@pytest.mark.parametrize('damping, share', [(0, 1), (None, 0.8)])
+def testASlideIsThatOfTheoryWithoutDamping(damping, share):
+	"""A block on a floor of 30°, friction angle 10°. YADE's damping takes its part of the force along the slope: slower by it."""
+	O.materials.append(RockJointMat(**{**rock, 'frictionAngle': math.radians(10)}))
+	O.bodies.append([polytope.cuboid((0, 0, -0.5), (5, 2, 0.5), fixed=True), polytope.cuboid((-2, 0, 0.2), (0.5, 0.4, 0.2))])
+	slope, g = math.radians(30), 9.81
+	O.engines = polytope.engines(gravity=(g * math.sin(slope), 0, -g * math.cos(slope)), damping=damping)
+	assert O.engines[3].damping == (0.2 if damping is None else damping)
+	settle(0.3)
+	began, speed = O.time, float(O.bodies[1].state.vel[0])
+	settle(0.8)
+	acceleration = (float(O.bodies[1].state.vel[0]) - speed) / (O.time - began)
+	theory = g * (math.sin(slope) - math.tan(math.radians(10)) * math.cos(slope))
+	assert acceleration == pytest.approx(share * theory, rel=5e-3)
+
+
+@pytest.mark.parametrize('damping', [-0.1, 1, math.nan])
+def testDampingHasARange(damping):
+	with pytest.raises(ValueError, match='damping: must be from 0 to below 1'):
+		polytope.engines(damping=damping)
+
+
+@pytest.mark.parametrize('name', ['geometry', 'physics', 'law', 'collider', 'integrator', 'timeStepper', 'gravity', 'damping'])
 def testRefusals(name):
 	blockOnFloor()
 	with pytest.raises(ValueError, match=f'{name}: must be'):
 		polytope.engines(**{name: ForceResetter()})
 
 
-def testGravityBelongsToOneOfThem():
+def testGravityAndDampingBelongToOneOfThem():
 	with pytest.raises(ValueError, match='gravity: belongs to the integrator'):
 		polytope.engines(gravity=(0, 0, -1), integrator=NewtonIntegrator())
+	with pytest.raises(ValueError, match='damping: belongs to the integrator'):
+		polytope.engines(damping=0, integrator=NewtonIntegrator())

@@ -11,7 +11,7 @@ import pytest
 from yade import O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock', 'mpi': 'test_mpi'}
 
 
@@ -50,13 +50,35 @@ def testEveryExampleIsRun():
 	assert all(f"runs('{name}'" in tests or f"run_path(str(folder / '{name}.py'))" in tests for name in here)
 
 
+def testBondedCubeBreaksInPart(runs, capsys):
+	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
+	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
+	assert made == intact + tension + shear and 0 < intact < made and isPicture('bondedCube.png') and noFailures()
+
+
+def testCrushedCubeBalancesItsEnergy(runs, capsys):
+	names = runs('crushedCube')
+	missing = float(re.search(r'missing: (\S+) %', capsys.readouterr().out)[1])
+	assert abs(missing) < 1 and names['parts']['broken'] > 0.02 * names['work'] and isPicture('crushedCube.png') and noFailures()
+	assert 2 * polytope.bonds().intactCount < names['made'] and 1e6 < names['strength'] < 1e8
+
+
+def testCrushedGrainBreaksWhereItsStressSays(runs):
+	"""Force times height over volume is the mean stress; of a stress along one direction q is √2/3 of it. Halves are stronger."""
+	names = runs('crushedGrain')
+	height, first = -2 * names['low'], names['forces'][0]
+	assert first == pytest.approx(1e6 * 3 / 2**0.5 * names['volume'] / height, rel=2e-2) and names['forces'][1] > first
+	assert sum(piece.shape.volume for piece in names['pieces']) == pytest.approx(names['volume'], rel=1e-12)
+	assert len(names['pieces']) == len(names['forces']) + 1 and isPicture('crushedGrain.png') and noFailures()
+
+
 def testPebblesLieInTheTray(runs, capsys):
 	names = runs('mesh', shorter={'O.time < 1.5': 'O.time < 0.25'})
 	hull = O.bodies[5].shape
 	assert f'{hull.volume} m³, with {len(hull.normals)} planes' in capsys.readouterr().out
 	assert len(hull.normals) > 20 and O.bodies[24].shape.volume / hull.volume == pytest.approx(((0.007 + 0.0002 * 19) / 0.007) ** 3, rel=1e-5)
 	pebbles = [body.state for body in O.bodies if body.dynamic]
-	assert len(pebbles) == 20 and isPicture('pebbles.png') and noFailures()
+	assert len(pebbles) == 20 and isPicture('output/pebbles.png') and noFailures()
 	assert all(state.pos[2] > 0 and abs(state.pos[0]) < 0.14 and abs(state.pos[1]) < 0.14 for state in pebbles)
 	assert min(state.pos[2] for state in pebbles) < 0.05 and names['pebble'].endswith('pebble.obj')
 
@@ -64,7 +86,7 @@ def testPebblesLieInTheTray(runs, capsys):
 def testPolygonsSlideOutOfTheHopper(runs):
 	runs('polygons', shorter={'O.time < 2': 'O.time < 1'})
 	free = [body.state for body in O.bodies if body.dynamic]
-	assert len(free) == 72 and isPicture('polygons.png') and noFailures()
+	assert len(free) == 72 and isPicture('output/polygons.png') and noFailures()
 	assert all(state.pos[2] == 0 and state.angVel[0] == state.angVel[1] == 0 for state in free)
 	through = sum(state.pos[1] < 0.4 for state in free)
 	assert 5 < through < 72 and min(state.pos[1] for state in free) > -1.3
@@ -101,8 +123,8 @@ def testConservativeGasKeepsItsEnergy(runs, capsys):
 
 def testTradeoffFindsTheHeightAtRest(runs, capsys):
 	names = runs('tradeoff')
-	assert isPicture('tradeoff.png') and 'On the Pareto front:' in capsys.readouterr().out
-	with open('tradeoff.csv') as file:
+	assert isPicture('output/tradeoff.png') and 'On the Pareto front:' in capsys.readouterr().out
+	with open('output/tradeoff.csv') as file:
 		rows = list(csv.DictReader(file))
 	assert [next(iter(row.values())) for row in rows] == list(names['settings'])
 	errors = {row['setting']: float(row['error']) for row in rows}

@@ -168,4 +168,4 @@ def testSlopeSlidesBelowTheDipOfItsBeddingOnly(tmp_path):
 	done = run(tmp_path, 'jointedSlope.py')
 	assert done.returncode == 0, done.stdout + done.stderr
 	assert 'queries without an answer: 0' in done.stdout
-	assert (tmp_path / 'jointedSlope.png').stat().st_size > 50000
+	assert (tmp_path / 'output/jointedSlope.png').stat().st_size > 50000

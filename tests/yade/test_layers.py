@@ -69,7 +69,7 @@ def testTheCoreKnowsNothingAboveIt():
 				assert name in own, f'{path.name} includes {name} of pkg'
 
 
-folders = 'numbers', 'program', 'shape', 'centre', 'contact', 'timestep'
+folders = 'numbers', 'program', 'shape', 'centre', 'contact', 'timestep', 'bond'
 """Of src, in this order."""
 
 

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from scenes import rowInAPeriodicCell
 from yade import NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, polytope, utils
 
 g, density = 10, 2600
@@ -62,12 +63,7 @@ def testStressOfAClumpIsThatOfOneBody():
 
 def testStressInAPeriodicCell():
 	"""Three blocks in a row press on each other, the last one on the image of the first."""
-	O.periodic = True
-	O.cell.setBox(3, 5, 5)
-	O.bodies.append([polytope.cuboid((k + 0.5, 2, 2), (0.5001, 0.4, 0.5)) for k in range(3)])
-	O.engines = polytope.engines(gravity=(0, 0, 0))
-	O.step()
-	O.step()
+	rowInAPeriodicCell()
 	contacts = [contact for contact in O.interactions if contact.isReal]
 	assert len(contacts) == 3 and any(contact.cellDist[0] != 0 for contact in contacts)
 	force = contacts[0].phys.normalForce.norm()

@@ -10,7 +10,8 @@ import sys
 
 import numpy as np
 import pytest
-from yade import O, Quaternion, Vector3
+from scenes import gravity, joint, loop
+from yade import O, Quaternion, Vector3, polytope
 from surfaceStudy.flatBodies import bodyKinds, lyingBody
 from surfaceStudy.floors import Floor, floorKinds
 from surfaceStudy.surface import SurfaceScene
@@ -29,7 +30,7 @@ conservative = {'contactModel': 'conservative'}
 
 
 missed = {
-	'testBodiesSlideOverPlates[hull-perContact': 'spin 0.036 for 0.002: with a stiffness per contact a body lifts off by rocking more than it takes',
+	'testBodiesSlideOverPlates[hull-perContact': 'spin 0.016 for 0.002: with a stiffness per contact a body lifts off by rocking more than it takes',
 }
 """Limits that the default contact does not meet yet, and by how much."""
 
@@ -68,6 +69,24 @@ def testSlidesOverFlushPieces(floor, perArea):
 @pytest.mark.parametrize('body', ['box', 'tetrahedron', 'dodecahedron', 'icosahedron', 'hull'])
 def testBodiesSlideOverPlates(body, perArea):
 	keeps(cross('plates', body, perArea=perArea))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['plates', 'oblique', 'facets', 'rock'])
+@pytest.mark.parametrize('body, tilt', [('cube', 5), ('cube', 15), ('cube', 45), ('icosahedron', 20), ('hull', 10)])
+def testBodiesHeldOnAnEdgeOrAVertexSlideOverPieces(floor, body, tilt, perArea):
+	"""They lost speed at each joint when only faces were seen to slide."""
+	keeps(cross(floor, body, perArea=perArea, tilt=Quaternion(Vector3(0, 1, 0), math.radians(tilt)), held=True))
+
+
+@rules
+@pytest.mark.parametrize('floor', ['plates', 'facets'])
+def testFacesThatAreNotQuiteLevelSlideOverPieces(floor, perArea):
+	"""Held at 2°: a long wedge, whose normal leans before the end of a piece while the collider does not yet know the next one."""
+	crossing = cross(floor, 'cube', perArea=perArea, tilt=Quaternion(Vector3(0, 1, 0), math.radians(2)), held=True)
+	assert crossing.failures == 0
+	assert crossing.kept == pytest.approx(1, abs=2 * sliding)
+	assert abs(crossing.direction) < sliding
 
 
 @rules
@@ -146,7 +165,7 @@ def testStopsWhereFrictionSays(floor, body, perArea):
 	[
 		('slab', 'cube', True),
 		pytest.param('slab', 'cube', False),
-		*(pytest.param('slab', 'dodecahedron', r) for r in (False, True)),
+		*(pytest.param(f, 'dodecahedron', r) for f in ('slab', 'plates', 'facets') for r in (False, True)),
 		*(pytest.param(f, 'cube', r) for f in ('plates', 'facets') for r in (False, True)),
 	],
 )
@@ -320,3 +339,23 @@ def testOneCrossingInOneLine():
 		capture_output=True, text=True, timeout=300
 	)
 	assert done.returncode == 0 and 'per area: kept 0.999' in done.stdout, done.stderr
+
+
+@pytest.mark.parametrize('clumped', [(), (1, 3), (0, 1, 2, 3)], ids=['bodies', 'alternating', 'clumps'])
+def testFixedClumpsAndFixedBodiesAreOneSupport(clumped):
+	"""A body on four pieces, of which some are fixed clumps of two, sinks in as on one: W/k."""
+	O.reset()
+	joint(normalStiffness=1e8, frictionAngle=0)
+	loop(False, normalDamping=0.5, gravity=(0, 0, -gravity))
+	for k in range(4):
+		if k in clumped:
+			clump, _ = O.bodies.appendClumped([polytope.cuboid((0.25 * k, y, -0.15), (0.125, 0.5, 0.15)) for y in (-0.5, 0.5)])
+			O.bodies[clump].dynamic = False
+		else:
+			O.bodies.append(polytope.cuboid((0.25 * k, 0, -0.15), (0.125, 1, 0.15), fixed=True))
+	body = polytope.cuboid((0.3, 0.1, 0.1), (0.2, 0.15, 0.1))
+	O.bodies.append(body)
+	O.dt = 1e-4
+	for _ in range(6000):
+		O.step()
+	assert 0.1 - body.state.pos[2] == pytest.approx(body.state.mass * gravity / 1e8, rel=1e-6)

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`./run fuzz`, `./run sanitize` and `./run search`: that they start, and how they check their options. Their results are not tested here."""
+"""`./run fuzz`, `./run sanitize` and `./run search`: that they start, and how they check their options. Their results are not tested here.
+
+Options of all verbs: `run` refuses the ones that a program does not have before there is a program, from the lists in tools/verbs.sh.
+"""
 import os
+import re
 import subprocess
+import sys
 
 import pytest
 
@@ -29,6 +34,42 @@ def testHelpNamesTheOptions(verb, options):
 	done = inside(verb, '--help')
 	assert done.returncode == 0 and not done.stderr
 	assert f'./run {verb}' in done.stdout and all(option in done.stdout for option in options)
+
+
+programs = {
+	'accuracy': ['tools/measure/accuracy/report.py'],
+	'bench': ['tools/measure/benchmark/bench.py', '--programs', 'none'],
+	'demo': ['examples/paper/a_falling_polyhedra.py'],
+	'paper': ['examples/paper/report.py'],
+	'tradeoff': ['tools/measure/tradeoff/tradeoffPaper.py'],
+}
+"""Behind the verbs."""
+
+
+def listed(function, verb):
+	"""What tools/verbs.sh has."""
+	return set(subprocess.run(['bash', '-c', f'. {project}/tools/verbs.sh; {function} {verb}'], capture_output=True, text=True, check=True).stdout.split())
+
+
+@pytest.mark.parametrize('verb', [*programs, 'fuzz', 'sanitize', 'search'])
+def testOptionsOfAVerbAreThoseOfItsProgram(verb):
+	if verb in programs:
+		script, *more = programs[verb]
+		done = subprocess.run([sys.executable, os.path.join(project, script), *more, '--help'], capture_output=True, text=True)
+	else:
+		done = search('--help') if verb == 'search' else inside(verb, '--help')
+	assert done.returncode == 0, done.stderr
+	assert set(re.findall(r'^ +(?:-h, )?(--[a-z-]+)', done.stdout, re.MULTILINE)) == listed('optionsOf', verb) | {'--help'}
+	words = set(re.findall(r'\w+', done.stdout))
+	assert listed('namesOf', verb) <= words
+
+
+@pytest.mark.parametrize('verb', ['accuracy', 'bench', 'tradeoff'])
+def testNamesOfAVerbAreThoseOfItsProgram(verb):
+	"""A name that there is not is answered with all there are."""
+	script, *more = programs[verb]
+	done = subprocess.run([sys.executable, os.path.join(project, script), *more, '--only', 'nosuch'], capture_output=True, text=True)
+	assert done.returncode == 2 and set(re.findall(r"\w+", done.stderr.split('choose from')[1])) == listed('namesOf', verb)
 
 
 @pytest.mark.parametrize('arguments, named', [

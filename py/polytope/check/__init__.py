@@ -2,7 +2,7 @@
 """What is wrong with a scene before its first step, each with the remedy: `polytope.check(O)`."""
 
 from ..requirements import Finding
-from .bodies import bodyFindings
+from .bodies import bodyFindings, notNumbers
 from .engines import engineFindings
 from .pairs import pairFindings
 from .scene import SceneToCheck
@@ -33,10 +33,13 @@ def check(O):
 	"""Checks the present scene for what is wrong before the first step. Most of it YADE would not tell.
 
 	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
-	apply forces as for spheres, functors of one loop that disagree in contactModel, conservative contacts with stiffness per area, polygons
-	that meet what they cannot touch, density, mass and size of bodies, stiffnesses too low for the loads, attributes that nothing reads,
-	the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's collider
-	does not notice.
+	apply forces as for spheres, functors of one loop that disagree in contactModel, conservative contacts with stiffness per area, contacts of
+	YADE's materials without any damping, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes
+	in the same place, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, attributes that nothing
+	reads, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's
+	collider does not notice.
+
+	Where a position or velocity is not a number, what rests on it is not looked at.
 
 	It reads, and changes nothing. What a scene in motion needs, and what it pays for without using it, tells polytope.requirements(O). That
 	nothing was found does not mean that the scene is what you meant. What PyRunner does is not seen.
@@ -51,5 +54,8 @@ def check(O):
 def checkOf(O, engines):
 	"""The same of the scene with other engines; None: its own."""
 	scene = SceneToCheck(O, engines)
-	found = [*engineFindings(scene), *pairFindings(scene), *bodyFindings(scene), *stepFindings(scene)]
+	lost = list(notNumbers(scene))
+	found = [*lost, *engineFindings(scene), *pairFindings(scene)]
+	if not lost:
+		found += [*bodyFindings(scene), *stepFindings(scene)]
 	return Check(Finding(*one) for one in found)

@@ -4,9 +4,9 @@
 import math
 
 import numpy as np
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+from yade import FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
-__all__ = ['bodyFindings']
+__all__ = ['bodyFindings', 'notNumbers']
 
 largest = 50.0
 """Extent [m] above which a body that can move is taken for one in other units: a boulder of 50 m weighs 3e8 kg."""
@@ -19,8 +19,38 @@ some thousandths are usual, and forces are computed for small ones."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, stiffness, elasticConstants):
+	for one in (coincidence, density, mass, size, frictionAngle, tension, stiffness, elasticConstants):
 		yield from one(scene)
+
+
+def notNumbers(scene):
+	"""Also of clumps, whose members follow them."""
+	names = ('pos', 'ori', 'vel', 'angVel')
+	for body in scene.O.bodies:
+		lost = [name for name in names if body is not None and not _finite(getattr(body.state, name))]
+		if lost:
+			seen = f'body {body.id}: {" and ".join(f"state.{name}" for name in lost)} is not a finite number: no contact of it can be computed'
+			yield 'not a number', seen, 'give it finite values; in a run, go back to a saved state and take PolytopeTimeStepper()'
+			return
+
+
+def _finite(several):
+	return all(math.isfinite(several[k]) for k in range(len(several)))
+
+
+def coincidence(scene):
+	"""Polytopes of one shape in one place: the overlap is the whole body, and nothing says which way they are to part."""
+	there = {}
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope):
+			planes = sorted(float(offset) for offset in body.shape.offsets)
+			where = (*map(float, body.state.pos), float(body.shape.volume), *planes)
+			other = there.setdefault(where, body)
+			sameClump = body.isClumpMember and other.isClumpMember and body.clumpId == other.clumpId
+			if other is not body and other.mask & body.mask and not sameClump:
+				seen = f'body {other.id} and body {body.id} have the same shape in the same place: they are shot apart, in any direction'
+				yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
+				return
 
 
 def _number(several):
@@ -68,6 +98,24 @@ def size(scene):
 def _extent(body):
 	corners = np.array(body.shape.vertices, float).reshape(-1, 3)[:, : body.shape.dimension]
 	return float(np.ptp(corners, axis=0).max())
+
+
+def frictionAngle(scene):
+	"""RockJointMat refuses it itself."""
+	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, FrictMat)}.values():
+		angle = float(material.frictionAngle)
+		if not angle < math.pi / 2:
+			seen = f'frictionAngle of {type(material).__name__} {material.label!r} is {angle:g} rad, above π/2'
+			yield 'friction angle', seen, f'angles are in radians: frictionAngle=radians({angle:g}), before bodies are made of it'
+			return
+
+
+def tension(scene):
+	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
+		if material.tensileStrength > 0:
+			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint pulls at one point and does not resist bending'
+			yield 'tension', seen, 'polytope.bond(tensileStrength=…, cohesion=…) where faces are to hold as if glued'
+			return
 
 
 def stiffness(scene):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of O.engines and of the settings of functors, of polytope.check(). Each yields (what, seen, advice)."""
 
-from yade import ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom
+from yade import ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, PolytopeBonds
 
 from .._scene import notConservative, stiffnessesPerArea
 
@@ -9,7 +9,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, order, contactModels, conservativeWithArea):
+	for one in (missing, order, bonds, contactModels, conservativeWithArea):
 		yield from one(scene)
 
 
@@ -49,6 +49,20 @@ def order(scene):
 			f'ForceResetter is {where}',
 			'put ForceResetter first in O.engines, then collider, InteractionLoop, NewtonIntegrator',
 		)
+
+
+def bonds(scene):
+	"""Bonds whose forces are not there when bodies are moved, or of which others know nothing."""
+	those = scene.those(PolytopeBonds)
+	if len(those) > 1:
+		yield 'bonds', f'O.engines has {len(those)} PolytopeBonds: contacts know the bonds of the first one only', 'keep one, and make all bonds with polytope.bond'
+	resetters = scene.those(ForceResetter)
+	if not those or not resetters or not scene.integrators:
+		return
+	start = scene.engines.index(resetters[0])
+	after = scene.engines[start + 1 :] + scene.engines[:start]
+	if after.index(those[0]) > after.index(scene.integrators[0]):
+		yield 'bonds', 'PolytopeBonds is not before the NewtonIntegrator: forces of bonds are erased before they act', 'put it after the InteractionLoop'
 
 
 def contactModels(scene):

@@ -155,6 +155,24 @@ def forces(scene, loop, functor, one, other):
 				seen,
 				'take Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) or Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()',
 			)
+		elif undamped(scene, functor, maker, phys, one, other):
+			yield (
+				'damping and energy',
+				f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: one spring along the normal gains energy',
+				"take RockJointMat, or contactModel='conservative', or NewtonIntegrator.damping above 0 (usual: 0.2)",
+			)
+
+
+def undamped(scene, functor, maker, phys, one, other):
+	"""Contacts of YADE's physics on two flat-faced bodies, without loss: stiffness times chord is no gradient of an energy. A sphere has none
+	of it."""
+	if 'Sphere' in (one.shape, other.shape) or functor.contactModel == 'conservative' or isinstance(phys, yade.RockJointPhys):
+		return False
+	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
+		return False
+	if isinstance(phys, yade.MindlinPhys):
+		return not any(getattr(maker, name) for name in ('en', 'es', 'betan', 'betas'))
+	return type(phys) in (yade.FrictPhys, yade.ViscoFrictPhys)  # the creep of the latter acts on shear alone
 
 
 def _made(functor):

@@ -3,7 +3,7 @@
 
 import math
 
-from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
+from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeBonds, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
 
 from ..requirements.checks import safe, usual
 from ..timeStep import safeTimeStep
@@ -25,6 +25,8 @@ def steppers(scene):
 		if isinstance(engine, GlobalStiffnessTimeStepper) and not float(engine.defaultDt) > 0:
 			seen = 'GlobalStiffnessTimeStepper has no defaultDt: until the first contact O.dt is that of a wave in spheres, 1 s or so'
 			yield 'time step', seen, 'PolytopeTimeStepper() in its place, or defaultDt = 0.2 √(m/k) with the least mass'
+		if isinstance(engine, GlobalStiffnessTimeStepper) and any(bonds.intactCount for bonds in scene.those(PolytopeBonds)):
+			yield 'time step', 'GlobalStiffnessTimeStepper does not know bonds: its step may be unstable', 'PolytopeTimeStepper() in its place'
 
 
 def timeStep(scene):

@@ -136,7 +136,7 @@ def support(scene):
 			if contact.geom.share == 1 and scene.O.bodies[body].dynamic:
 				faces.setdefault(body, []).append(contact.geom)
 	several = sum(any(_oneFace(a, b, depth) for a, b in itertools.combinations(found, 2)) for found in faces.values() if (depth := _depth(found)) > 0)
-	seen = f'{shared} contacts with a fixed or clumped piece have their part of the stiffness; {several} bodies have a face on several free bodies'
+	seen = f'{shared} contacts with a fixed or clumped piece have their part of the stiffness; bodies with a face on several pieces of full stiffness: {several}'
 	if several:
 		return seen, 'stiffnessPerArea = True: per contact such a face is as stiff as it has pieces, and a piece acts in full at once'
 	return seen, ''

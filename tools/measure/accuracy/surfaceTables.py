@@ -6,7 +6,7 @@ import math
 
 from tabulate import tabulate
 from tqdm import tqdm
-from yade import Ig2_Polytope_Polytope_PolytopeGeom
+from yade import Ig2_Polytope_Polytope_PolytopeGeom, Quaternion, Vector3
 
 from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, roll
 from surfaceStudy.measures import cross, rest, slideDown, stop
@@ -21,6 +21,13 @@ evenDepth = 0.05
 """Depth at rest across a joint over that on one piece: largest difference to 1. A body on unequal pieces leans a little."""
 rolling = 0.05
 """Difference of ways of a rolling body on plates and on one slab, over the way: impacts on a joint are those on two springs."""
+
+tilts = [
+	*(('cube', 'y', angle) for angle in (0.5, 2, 5, 15, 30, 45)),
+	*(('cube', 'x', angle) for angle in (2, 15, 45)),
+	*(('icosahedron', 'y', 20), ('hull', 'y', 10)),
+]
+"""Body, axis and angle [°] by which it is turned from lying on a face."""
 
 rules = {'per contact': False, 'per area': True}
 
@@ -72,6 +79,7 @@ class SurfaceStudy:
 		"""All but the crossings."""
 		self.speeds()
 		self.joints()
+		self.tilted()
 		self.friction()
 		self.edges()
 		self.impacts()
@@ -186,6 +194,25 @@ class SurfaceStudy:
 		)
 		self._slides('joints at an angle', [(row[4], row[5], row[6]) for row in found if row[2] != 90])
 		self._slides('1 to 100 joints', [(row[4], row[5], row[6]) for row in found if row[2] == 90])
+
+	def tilted(self):
+		"""Bodies that are held from turning slide on an edge or a vertex, or on a face that is not level."""
+		floors = ('plates', 'facets') if self.quick else ('slab', 'plates', 'oblique', 'boxes', 'facets', 'mesh', 'rock')
+		found = []
+		for floor in tqdm(floors, desc='tilted', disable=None):
+			for name, rule in self.variants():
+				for body, axis, angle in tilts[::4] if self.quick else tilts:
+					turned = Quaternion(Vector3.UnitX if axis == 'x' else Vector3.UnitY, math.radians(angle))
+					crossing = cross(floor, body, self.contacts[name], rules[rule], tilt=turned, held=True)
+					found.append((floor, body, axis, angle, name, rule, crossing))
+		self.findings.table(
+			'tilted',
+			'Bodies that are turned about the direction of motion (x) or across it (y) and held so: they slide on a face that is not level, on an edge '
+			'or on a vertex, at 1 m/s over three joints.',
+			['floor', 'body', 'turned about', 'angle [°]', 'contact', 'stiffness', 'speed kept', 'direction [rad]', 'lift'],
+			[[*row[:6], *_numbers(row[6], 'kept direction lift')] for row in found],
+		)
+		self._slides('on an edge or a vertex', [row[4:] for row in found])
 
 	def friction(self):
 		floors = ('slab', 'plates', 'facets') if self.quick else ('slab', 'plates', 'oblique', 'boxes', 'facets', 'mesh', 'bricks')

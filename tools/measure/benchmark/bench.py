@@ -182,6 +182,7 @@ def showExtras(run):
 	found = run.scenes.extras()
 	costs = {name: 1e6 * scenes.meanStep(one) for name, one in found.items()}
 	without = costs['nothing']
+	run.results['features'] = {'bodies': found['nothing']['bodies'], 'microseconds': costs}
 	rows = [[name, found[name]['pairs'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()]
 	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'µs/step', 'more', '%']
 	run.say(tabulate(rows, head, floatfmt=('', '', '.0f', '+.0f', '+.1f')) + '\n')

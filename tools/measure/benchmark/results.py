@@ -4,15 +4,13 @@
 As a program (bench.py runs it in a process of its own) it prints what it measured as JSON. Walls of cubes, four contacts a cube as in a
 heap, made in random order, so that bodies and contacts lie in memory as in a heap, too.
 """
-import json
 import os
-import pathlib
 import random
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
+
+import oneProcess
 
 numbers = {'quick': 10000, 'full': 100000}
 """Bodies."""
@@ -49,8 +47,8 @@ def measure(quick):
 	found = {'bodies': len(O.bodies), 'contacts': len(polytope.arrays().contacts.ids), 'arrays': median(polytope.arrays, 10)}
 	with tempfile.TemporaryDirectory() as folder:
 		engine = polytope.checkpoint(f'{folder}/run', iterPeriod=1, onSignal=False)
-		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 3)
-		found['checkpoint'] = median(engine.write, 3)
+		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 1)
+		found['checkpoint'] = median(engine.write, 1)
 		found['bytes'] = os.path.getsize(f'{folder}/scene.yade')
 		found['load'] = median(lambda: O.load(f'{folder}/scene.yade', quiet=True), 1)
 	return found
@@ -58,14 +56,8 @@ def measure(quick):
 
 def run(core, quick):
 	"""measure() in a process of its own on one core."""
-	command = ['taskset', '-c', str(core), sys.executable, str(pathlib.Path(__file__).resolve()), 'quick' if quick else 'full']
-	output = subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS='1'), capture_output=True, text=True, timeout=3600)
-	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
-	if output.returncode or not lines:
-		raise RuntimeError('results.py: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-	return json.loads(lines[-1][len('RESULT '):])
+	return oneProcess.run(__file__, core, quick)
 
 
 if __name__ == '__main__':
-	print('RESULT', json.dumps(measure(sys.argv[1] == 'quick')), flush=True)
-	os._exit(0)  # YADE's own clean-up at exit is not measured
+	oneProcess.report(measure)

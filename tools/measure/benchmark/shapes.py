@@ -3,13 +3,10 @@
 
 As a program (bench.py runs it in a process of its own) it prints what it measured as JSON.
 """
-import json
-import os
-import pathlib
 import statistics
-import subprocess
-import sys
 import time
+
+import oneProcess
 
 rocks = {'quick': (2000, 16000), 'full': (12500, 100000)}
 """Blocks of the two rock masses: eight times as many in the second."""
@@ -74,14 +71,8 @@ def cut(wanted):
 
 def run(core, quick):
 	"""measure() in a process of its own on one core."""
-	command = ['taskset', '-c', str(core), sys.executable, str(pathlib.Path(__file__).resolve()), 'quick' if quick else 'full']
-	output = subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS='1'), capture_output=True, text=True, timeout=3600)
-	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
-	if output.returncode or not lines:
-		raise RuntimeError('shapes.py: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-	return json.loads(lines[-1][len('RESULT '):])
+	return oneProcess.run(__file__, core, quick)
 
 
 if __name__ == '__main__':
-	print('RESULT', json.dumps(measure(sys.argv[1] == 'quick')), flush=True)
-	os._exit(0)  # YADE's own clean-up at exit is not measured
+	oneProcess.report(measure)

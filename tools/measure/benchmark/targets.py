@@ -92,7 +92,8 @@ def kernelRows(kernels):
 
 def shapeRows(found):
 	cost = found['microseconds']
-	(few, fewer), (many, more) = ((name, blocks) for name, blocks in zip([name for name in cost if name.endswith(' blocks')], found['blocks'], strict=True))
+	cuts = [name for name in cost if name.split()[0].isdigit()]  # '100000 blocks'
+	(few, fewer), (many, more) = zip(cuts, found['blocks'], strict=True)
 	return [
 		below('body of a known shape, cube', 15, cost['equal cubes']),
 		below('body of a known shape, icosahedron', 15, cost['equal icosahedra']),

@@ -12,6 +12,7 @@ each scene, and one page, report.html. polytope.tradeoff() does the same for a s
 """
 
 import argparse
+import json
 import math
 import os
 import pathlib
@@ -48,6 +49,7 @@ if __name__ == '__main__':  # before YADE is loaded, or even built
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded, here and in the processes
 sys.path.append(str(here.parents[2] / 'examples/paper'))  # boon2012
 
+from boon2012.reporting.origin import origin
 from boon2012.reporting.report import endOnTerm
 from tradeoffAxes import allScenes, default, scatter
 from tradeoffReport import notRun, ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
@@ -84,7 +86,7 @@ def measured(scene, given):
 
 
 def main(given):
-	scenes = allScenes()
+	scenes, began = allScenes(), origin()
 	tables, parts, failed, interrupted = {}, [], False, False
 	for letter in given.only:
 		table, finest, interrupted = measured(scenes[letter], given)
@@ -101,6 +103,8 @@ def main(given):
 	if interrupted and not tables:
 		return 130
 	columns, rows = writeSummary(summary(tables, scenes), list(tables), given.output / 'summary.csv')
+	about = {**began, 'quick': given.quick, 'interrupted': interrupted, 'scenes': list(tables)}
+	(given.output / 'origin.json').write_text(json.dumps(about, indent='\t') + '\n')
 	print(f'\nAll scenes: cost over the default\'s, and error of the answer ({notRun}: not run there)')
 	show(columns, rows)
 	ranks = [[name, *(format(value, '.3g') for value in values)] for name, *values in ranking(tables, scenes)]

@@ -150,8 +150,8 @@ def _criticalAngle(scene, usual):
 	:param float usual: time step of the scene as it is [s]
 	"""
 	steps = [math.radians(step) for step in frictionSteps]
-	looks = max(1, round(100 * usual / float(O.dt)))  # equally far apart in time
-	reduction = FrictionReduction([scene.wedgeId], math.radians(70), steps, checkEvery=looks, mostSteps=400 * looks)
+	stepsBetween = max(1, round(100 * usual / float(O.dt)))  # of two checks, which are equally far apart in time
+	reduction = FrictionReduction([scene.wedgeId], math.radians(70), steps, checkEvery=stepsBetween, mostSteps=400 * stepsBetween)
 	found = reduction.run()
 	reduction.restore()
 	return math.degrees(found.critical)

@@ -11,6 +11,8 @@ import time
 
 from tqdm import tqdm
 
+from .origin import origin
+
 __all__ = ['Run', 'perform', 'sourceHash']
 
 sourceFolders = ('src', 'pkg', 'py', 'examples')
@@ -34,7 +36,7 @@ def sourceHash(project, without=(), folders=sourceFolders):
 
 @dataclasses.dataclass
 class Run:
-	"""One simulation's script, run or to be run, and its folder: findings.json from the script; run.json and log.txt from here."""
+	"""One simulation's script, run or to be run, and its folder: findings.json from the script; run.json (options, sources, revision, machine, date) and log.txt from here."""
 
 	letter: str
 	title: str
@@ -53,7 +55,7 @@ class Run:
 		self.forget()
 		(self.folder / 'findings.json').unlink(missing_ok=True)
 		self.folder.mkdir(parents=True, exist_ok=True)
-		self.began = time.monotonic()
+		self.began, self.origin = time.monotonic(), origin()
 		with open(self.folder / 'log.txt', 'w') as log:
 			command = [sys.executable, self.script, *self.options, '--output', self.folder]
 			self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
@@ -63,12 +65,12 @@ class Run:
 		(self.folder / 'run.json').unlink(missing_ok=True)
 
 	def ended(self):
-		"""True once the script has ended; its key (source, options), exit code and time are written to run.json."""
+		"""True once the script has ended; its key (source, options), origin, exit code and time are written to run.json."""
 		code = self.process.poll()
 		if code is None:
 			return False
 		seconds = time.monotonic() - self.began
-		(self.folder / 'run.json').write_text(json.dumps({**self.key, 'exitCode': code, 'seconds': seconds}, indent='\t') + '\n')
+		(self.folder / 'run.json').write_text(json.dumps({**self.key, **self.origin, 'exitCode': code, 'seconds': seconds}, indent='\t') + '\n')
 		return True
 
 	def stop(self):

@@ -138,7 +138,7 @@ class Failure:
 				if not moved <= collapse:
 					break
 				calm = calm + 1 if speed < given.stable_speed else 0
-				if calm == FrictionReduction.calmLooks:
+				if calm == FrictionReduction.calmChecks:
 					angle, calm = max(angle - arrestStep, 0.0), 0
 					setFrictionAngle(angle)
 		times, angles, motions, contacts = zip(*self._samples, strict=True)

@@ -76,6 +76,8 @@ class SurfaceScene:
 	"""Angle of the body about the vertical from the direction of motion [rad]."""
 	tilt: Quaternion = dataclasses.field(default_factory=lambda: Quaternion.Identity)
 	"""Turns the body last of all, about its centroid."""
+	held: bool = False
+	"""The body does not turn: tilted, it slides on an edge or a vertex."""
 	turn: Quaternion = dataclasses.field(default_factory=lambda: Quaternion.Identity)
 	"""Of the whole scene, gravity included: nothing is then along the axes. Not for walls; polygons about z alone."""
 	at: tuple = (0.0, 0.13)
@@ -110,6 +112,8 @@ class SurfaceScene:
 		self.moving = self.lying.body
 		self.moving.state.pos = Vector3(*self._start())
 		self._turned(self.moving)
+		if self.held:
+			self.moving.state.blockedDOFs = 'XYZ'
 		self.placed = Quaternion(self.moving.state.ori)
 		self.id = O.bodies.append(self.moving)
 		self._engines()

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "BondsOfScene.hpp"
+#include "PolytopeBond.hpp"
+
+#include <core/GlobalEngine.hpp>
+
+#include <unordered_map>
+
+namespace yade {
+
+class PolytopeBonds : public GlobalEngine, public KnowsBonds {
+public:
+	void action() override;
+	/// Rebuilds the tables from `bonds`.
+	void postLoad(PolytopeBonds&);
+
+	/// Bonds the faces of these bodies (all, if none are given) that face each other; returns how many bonds were made. Refuses values out of
+	/// range with std::invalid_argument naming them. `gap` below 0: as far as faces count as touching.
+	long make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern);
+	long intactCount() const;
+
+	boost::python::list bondList() const;
+
+	bool        joins(Body::id_t id1, Body::id_t id2) const override;
+	bool        left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const override;
+	bool        hasBonds(Body::id_t id) const override;
+	void        forBondsOf(const Body& body, const std::function<void(const SpringsOfBond&)>& visit) const override;
+	std::size_t made() const override { return bonds.size(); }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeBonds, GlobalEngine,
+	R"""(Forces and moments of all bonds between :yref:`Polytopes<Polytope>`, after the :yref:`InteractionLoop` and before :yref:`NewtonIntegrator` (*polytope.bond(…)* puts it there and makes the bonds; docs/bonds.md). While a bond is intact it acts in place of the contact of its two bodies; when it has failed their ordinary contact goes on. Force and moment follow from where the two bodies are and have an energy; both momenta are kept to rounding. Bonds fail where $\sigma+\beta\sigma_b>\sigma_t$ with the mean normal stress $\sigma$ (tension positive) and the largest one by bending $\sigma_b$, or $\tau+\beta\tau_t>c-\sigma\tan\phi$ with the mean shear stress and the largest one by twisting.
+
+With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One engine of this kind a scene.)""",
+		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
+		, /*ctor*/
+		, /*py*/
+		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
+		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
+		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a :yref:`PolytopeBond`; see *polytope.bond*, which calls it.")
+	);
+	// clang-format on
+
+private:
+	using Key = std::uint64_t;
+	static Key key(Body::id_t id1, Body::id_t id2);
+
+	void act(PolytopeBond& bond) const;
+	void settle();
+	void end(int index, long step);
+	void endErased(const Scene& where);
+	void bookFailed();
+	void enter(int index);
+	void rebuild();
+
+	int                           elasticId_ = -1, fractureId_ = -1;
+	std::vector<int>              failed_;      ///< in the last step
+	std::unordered_map<Key, int>  intactPairs_; ///< number of intact bonds
+	std::unordered_map<Key, int>  failedPairs_; ///< the last bond that failed
+	std::vector<std::vector<int>> ofBody_;
+};
+REGISTER_SERIALIZABLE(PolytopeBonds);
+
+} // namespace yade

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Tolerances.hpp"
+
+/// Thresholds of bonds: meaning, scale, reason.
+namespace polytope::tolerance {
+
+/// × the smaller of two faces' areas: what they have in common counts as an area that a bond can be made of. Less is what rounding leaves of
+/// neighbours that share an edge only.
+constexpr Real leastBondArea = 1e-6;
+
+/// Relative difference of an area's second moments, and of its product, below which it has no principal axes of its own (square, regular polygon).
+constexpr Real isotropicArea = 1e-9;
+
+/// × the smaller circumradius: default of the largest gap across which a bond is made. What rounding of poses and planes leaves between faces
+/// that are meant to touch.
+constexpr Real touchingFaces = 1e-6;
+
+} // namespace polytope::tolerance

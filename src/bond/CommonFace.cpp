@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "bond/CommonFace.hpp"
+
+#include "bond/BondTolerances.hpp"
+
+#include <algorithm>
+
+namespace polytope {
+namespace {
+
+	using std::atan2;
+	using std::cos;
+	using std::sin;
+	using Ring = std::vector<Vector2>;
+
+	/// One face of a body as it stands.
+	struct Face {
+		Vector3          normal;
+		Real             offset; ///< normal·x = offset, from the origin that both bodies share
+		const Vector3*   corners;
+		std::vector<int> ring;
+	};
+
+	std::vector<Face> facesOf(const PlacedShape& body, const Vector3& origin)
+	{
+		const Polyhedron& solid = body.shape.polyhedron();
+		std::vector<Face> faces;
+		for (std::size_t i = 0; i < solid.faces.size(); ++i) {
+			const int plane = solid.planeOfFace[i];
+			if (plane < 0) continue; // a polygon's caps
+			const Vector3 normal = body.rotation * body.shape.planes().normals[plane];
+			faces.push_back({ normal, body.shape.planes().offsets[plane] + normal.dot(body.centre - origin),
+			        solid.vertices.data(), solid.faces[i] });
+		}
+		return faces;
+	}
+
+	/// Corners of a face seen along u × v.
+	Ring seen(const Face& face, const PlacedShape& body, const Vector3& origin, const Vector3& u, const Vector3& v)
+	{
+		Ring ring;
+		for (int corner : face.ring) {
+			const Vector3 x = body.rotation * face.corners[corner] + (body.centre - origin);
+			ring.emplace_back(u.dot(x), v.dot(x));
+		}
+		return ring;
+	}
+
+	Real cross(const Vector2& a, const Vector2& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+	/// What of a convex ring lies left of the line from `from` to `to`.
+	Ring leftOf(const Ring& ring, const Vector2& from, const Vector2& to)
+	{
+		Ring       kept;
+		const auto side = [&](const Vector2& x) { return cross(to - from, x - from); };
+		for (std::size_t k = 0; k < ring.size(); ++k) {
+			const Vector2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+			const Real     atA = side(a), atB = side(b);
+			if (atA >= 0) kept.push_back(a);
+			if ((atA > 0 && atB < 0) || (atA < 0 && atB > 0)) kept.push_back(a + atA / (atA - atB) * (b - a));
+		}
+		return kept;
+	}
+
+	Real areaOf(const Ring& ring)
+	{
+		Real twice = 0;
+		for (std::size_t k = 2; k < ring.size(); ++k)
+			twice += cross(ring[k - 1] - ring[0], ring[k] - ring[0]);
+		return twice / 2;
+	}
+
+	Vector2 centroidOf(const Ring& ring, const Real& area)
+	{
+		Vector2 sum = Vector2::Zero();
+		for (std::size_t k = 2; k < ring.size(); ++k)
+			sum += cross(ring[k - 1] - ring[0], ring[k] - ring[0]) * (ring[k - 1] + ring[k] - 2 * ring[0]);
+		return ring[0] + sum / (6 * area);
+	}
+
+	/// ∫ y², ∫ y z and ∫ z² over a ring about the origin.
+	Vector3 secondMoments(const Ring& ring)
+	{
+		Vector3 sum = Vector3::Zero();
+		for (std::size_t k = 0; k < ring.size(); ++k) {
+			const Vector2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+			sum += cross(a, b)
+			        * Vector3(a[0] * a[0] + a[0] * b[0] + b[0] * b[0],
+			                (a[0] * b[1] + 2 * a[0] * a[1] + 2 * b[0] * b[1] + b[0] * a[1]) / 2,
+			                a[1] * a[1] + a[1] * b[1] + b[1] * b[1]);
+		}
+		return sum / 12;
+	}
+
+	/// Turns u, v and the ring to the principal axes of the ring's area.
+	void turnToPrincipalAxes(CommonFace& face, Ring& ring, Vector3& u, Vector3& v)
+	{
+		Vector3 moments = secondMoments(ring);
+		// of a square or circle all axes are principal: as they are
+		const Real difference = moments[0] - moments[2], mixed = 2 * moments[1], size = moments[0] + moments[2];
+		if (abs(mixed) > tolerance::isotropicArea * size || abs(difference) > tolerance::isotropicArea * size) {
+			const Real    angle = atan2(mixed, difference) / 2, c = cos(angle), s = sin(angle);
+			const Vector3 other = c * v - s * u;
+			u                   = c * u + s * v;
+			v                   = other;
+			for (Vector2& x : ring)
+				x = Vector2(c * x[0] + s * x[1], c * x[1] - s * x[0]);
+			moments = secondMoments(ring);
+		}
+		face.second = { moments[0], moments[2] };
+	}
+
+} // namespace
+
+std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape& second, const Real& gap, const Real& angle)
+{
+	const Vector3 origin = first.centre; // small numbers wherever the bodies are
+	const auto    faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
+	const Real    opposite = cos(angle),
+	           deepest     = tolerance::thinContact * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
+	std::vector<CommonFace> found;
+	for (const Face& face1 : faces1)
+		for (const Face& face2 : faces2) {
+			if (face1.normal.dot(face2.normal) > -opposite) continue;
+			CommonFace    common;
+			const Vector3 normal = (face1.normal - face2.normal).normalized();
+			Vector3       u = normal.unitOrthogonal(), v = normal.cross(u);
+			Ring          ring = seen(face1, first, origin, u, v);
+			Ring          clip = seen(face2, second, origin, u, v);
+			std::reverse(clip.begin(), clip.end());
+			const Real smaller = std::min(areaOf(ring), areaOf(clip));
+			for (std::size_t k = 0; k < clip.size() && ring.size() > 2; ++k)
+				ring = leftOf(ring, clip[k], clip[(k + 1) % clip.size()]);
+			common.area = ring.size() > 2 ? areaOf(ring) : Real(0);
+			if (!(common.area > tolerance::leastBondArea * smaller)) continue;
+
+			const Vector2 middle = centroidOf(ring, common.area);
+			const Vector3 point  = middle[0] * u + middle[1] * v; // to both faces along the normal
+			const Real    to1    = (face1.offset - face1.normal.dot(point)) / face1.normal.dot(normal),
+			           to2       = (face2.offset - face2.normal.dot(point)) / face2.normal.dot(normal);
+			common.gap           = to2 - to1;
+			if (!(common.gap <= gap && -common.gap <= deepest)) continue;
+			common.centroid = origin + point + (to1 + to2) / 2 * normal;
+			for (Vector2& x : ring)
+				x -= middle;
+			turnToPrincipalAxes(common, ring, u, v);
+			common.axes << normal, u, v;
+			common.corners = std::move(ring);
+			found.push_back(std::move(common));
+		}
+	return found;
+}
+
+} // namespace polytope

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/ContactNormal.hpp"
+#include "PlaneRows.hpp"
+#include "contact/DualWeights.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+// The gradients of both bodies are opposite but for rounding: what is left of their sum is no direction, and the linear program's counts.
+TEST(ContactNormal, GradientsThatCancelGiveNoDirection)
+{
+	const auto            shape    = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	const Matrix3         rotation = Matrix3::Identity();
+	const Vector3         centre   = Vector3::UnitZ();
+	const PairInput       in { { shape.get(), shape.get() }, { &rotation, &rotation }, &centre };
+	ContactFrame<Real, 3> frame {};
+	const ContactSettings settings;
+	const Real            x[] = { 0, 0, 0 }, dual[] = { 0, 1, 0 };
+	frame.size = 1;
+	for (const Real apart : { 1e-15, 1e-3 }) {
+		const HalfSpaces         lower { { Vector3::UnitZ() }, { 0.05 }, 3 }, upper { { Vector3(apart, 0, 1) }, { 0.05 }, 3 };
+		const PlaneRows<Real, 3> rows(lower, upper);
+		Real                     n[3];
+		const ContactStatus      status = averagedNormal<Real, 3, 1>(in, settings, rows.planes, frame, x, dual, n);
+		const bool               cancel = apart < 1e-9;
+		EXPECT_EQ(status, cancel ? ContactStatus::NormalFromDual : ContactStatus::Contact) << statusName(status);
+		EXPECT_NEAR(n[0], cancel ? 0 : -apart, 1e-9);
+		EXPECT_EQ(n[1], cancel ? 1 : 0);
+	}
+}
+
+// A point that rounding has put outside a plane is as near to it as one inside, and weighs as much.
+TEST(DualWeights, APlaneThatThePointIsBeyondWeighsAsOneBeforeIt)
+{
+	const HalfSpaces         set { { Vector3::UnitZ(), -Vector3::UnitX() }, { 0, 2 }, 3 };
+	const PlaneRows<Real, 3> rows(set, set);
+	for (const Real beyond : { 0.5, -0.5 }) {
+		const Real          x[] = { 0, 0, beyond };
+		WeightSums<Real, 3> sums;
+		weightSums<Real, 3, 1>(rows.planes, 0, x, 1, sums);
+		EXPECT_NEAR(sums.first[2], 8, 1e-12);
+		EXPECT_NEAR(sums.first[0], -0.125, 1e-12);
+		EXPECT_NEAR(sums.second[2][2], 8, 1e-12);
+	}
+}

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures of `./run bench`: all targets with what was measured, missed ones in bold, and what features cost."""
+
+import itertools
+import json
+import re
+
+from text import bold, origin, paragraph, short, table
+
+file = 'bench.json'
+ofScenes = ('InteractionLoop', 'time per body', 'memory')
+ofBodies = ('body of', 'jointedRock')
+
+
+def taken(source):
+	"""What is kept of the folder of a run: targets, medians, what features cost; not each repetition."""
+	found = json.loads((source / 'results.json').read_text())
+	machine = found['machine']
+	about = {
+	        'revision': machine['revision'] + '-dirty' * machine['changed'], 'date': machine['date'][:10], 'machine': machine['processor'],
+	        'cores': machine['cores'], 'load': round(machine['loadAverage'][0], 2), 'system': machine['system'], 'compiler': machine['compiler'],
+	        'instructionSet': machine.get('instructionSet'), 'quick': found['quick'], 'notes': found['notes'],
+	}
+	kept = ('method', 'set', 'median', 'spread', 'wrong', 'pairs', 'pivots', 'iterations', 'contacts')
+	kernels = [{key: one[key] for key in kept} for one in found.get('kernels', {}).get('measurements', [])]
+	parts = {'targets': found['targets'], 'kernels': kernels}
+	text = json.dumps({**about, 'features': found.get('features'), 'shapes': found.get('shapes')}, indent=' ', ensure_ascii=False)[:-2]
+	for name, rows in parts.items():
+		text += f',\n "{name}": [\n' + ',\n'.join('  ' + json.dumps(row, ensure_ascii=False) for row in rows) + '\n ]'
+	return text + '\n}\n'
+
+
+def read(folder):
+	return json.loads((folder / file).read_text())
+
+
+def named(row):
+	"""(what the rows of a group have in common, this row's own name): touching, warm, cube → (touching, warm; cube)."""
+	head, comma, tail = row['measure'].rpartition(', ')
+	return (head, tail) if comma else (row['measure'], '')
+
+
+def against(row):
+	"""The target without the count of a peer's wrong answers."""
+	return re.sub(r' \(\d+ wrong\)', '', row['target'])
+
+
+def wrong(row):
+	found = re.search(r'\((\d+) wrong\)', row['target'])
+	return f' ({found.group(1)} wrong)' if found else ''
+
+
+def joined(texts):
+	"""0.26 µs, 0.28 µs → 0.26, 0.28 µs."""
+	texts = [text for text in texts if text]
+	units = {text.partition(' ')[2] for text in texts}
+	if len(units) == 1 and (unit := units.pop()):
+		return ', '.join(text.partition(' ')[0] for text in texts) + ' ' + unit
+	return ', '.join(texts)
+
+
+def ratio(row):
+	text = '' if row['ratio'] is None else short(row['ratio'])
+	return bold(text or 'missed') if row['met'] is False else text
+
+
+def targets(chosen):
+	"""A table of the rows that are chosen: those of one measure and one target in one line, each ratio that misses in bold."""
+
+	def figure(folder):
+		found = read(folder)
+		rows = [row for row in found['targets'] if chosen(row['measure'])]
+		lines = []
+		for (head, target), group in itertools.groupby(rows, key=lambda row: (named(row)[0], against(row))):
+			group = list(group)
+			names = ', '.join(named(row)[1] + wrong(row) for row in group if named(row)[1])
+			judged = [row for row in group if row['met'] is not None]
+			met = f'{sum(row["met"] for row in judged)} of {len(judged)}' if judged else ''
+			if judged and not all(row['met'] for row in judged):
+				met = bold(met)
+			lines.append([f'{head}: {names}' if names else head, target, joined(row['ours'] for row in group), joined(row['peer'] for row in group), ', '.join(map(ratio, group)), met])
+		return table(['measure', 'target', 'ours', 'compared with', 'ratio', 'met'], lines)
+
+	return figure
+
+
+def isScene(measure):
+	return measure.startswith(ofScenes)
+
+
+def isBody(measure):
+	return measure.startswith(ofBodies)
+
+
+def verdict(folder):
+	"""How many targets are met, on what machine, and what the run itself notes."""
+	found = read(folder)
+	judged = [row for row in found['targets'] if row['met'] is not None]
+	notes = ''.join(f' {note}' for note in found['notes'])
+	return paragraph(f'{sum(row["met"] for row in judged)} of {len(judged)} targets met; ratios that miss are **bold** ({origin(found)}; {found["compiler"]}; {found["instructionSet"]}; `docs/results/bench.json`).{notes}')
+
+
+def faster(peer):
+	"""Times faster than YADE's shape, for each pair of 200 falling solids: least to most."""
+
+	def figure(folder):
+		rows = [row for row in read(folder)['targets'] if row['measure'].startswith('InteractionLoop per pair, 200 falling') and row['target'].endswith(peer)]
+		if not rows:
+			raise ValueError(f'{file}: no comparison with {peer}: run all groups of ./run bench')
+		return f'{min(row["ratio"] for row in rows):.0f} to {max(row["ratio"] for row in rows):.0f} times faster'
+
+	return figure
+
+
+def features(folder):
+	found = read(folder)['features']
+	if not found:
+		raise ValueError(f'{file}: no cost of features: run all groups of ./run bench')
+	costs, number = found['microseconds'], found['bodies']
+	lines = [[name, f'{100 * (cost / costs["nothing"] - 1):+.0f} %'] for name, cost in costs.items() if name != 'nothing']
+	return table([f'feature, on {number} settled cubes', 'adds to the time of a step'], lines)
+
+
+figures = {
+        'bench.verdict': verdict,
+        'bench.scenes': targets(isScene),
+        'bench.pairs': targets(lambda measure: not isScene(measure) and not isBody(measure)),
+        'bench.bodies': targets(isBody),
+        'bench.features': features,
+        'bench.polyhedra': faster('Polyhedra'),
+}

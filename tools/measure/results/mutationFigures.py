@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures of the mutation run: how many mutants the tests notice, and why the others are not noticed."""
+
+import collections
+import csv
+import io
+import json
+import pathlib
+
+from text import bold, paragraph, table
+
+file = 'mutation.csv'
+judgements = pathlib.Path(__file__).resolve().parents[1] / 'mutation/survivors.csv'
+"""By hand: of each survivor whether it is *equivalent* (no answer differs by more than rounding) or *open*, and why."""
+columns = 'revision seed id file line column kind original mutant source ran reachedBy killedBy'.split()
+ofMutant = ('file', 'column', 'original', 'mutant', 'source')
+"""What a survivor is known by, whatever line it is on."""
+
+
+def taken(source):
+	"""results.json of the mutation run as CSV."""
+	found = json.loads(source.read_text())
+	out = io.StringIO()
+	writer = csv.DictWriter(out, columns, extrasaction='ignore', lineterminator='\n')
+	writer.writeheader()
+	for row in found['mutants']:
+		same = {'revision': found['revision'], 'seed': found['seed'], 'ran': ' '.join(row['ran']), 'killedBy': row['killedBy'] or ''}
+		writer.writerow({**row, **same})
+	return out.getvalue()
+
+
+def rows(path):
+	with open(path, newline='') as found:
+		return list(csv.DictReader(found))
+
+
+def judged(folder):
+	"""(killed, equivalent, open, not judged): rows of the mutants; the last three with *why*."""
+	known = {tuple(row[key] for key in ofMutant): row for row in rows(judgements)}
+	found = {'killed': [], 'equivalent': [], 'open': [], 'not judged': []}
+	for row in rows(folder / file):
+		said = known.get(tuple(row[key] for key in ofMutant))
+		kind = 'killed' if row['killedBy'] else said['verdict'] if said else 'not judged'
+		found[kind].append({**row, 'why': said['why'] if said else ''})
+	return found
+
+
+def summary(folder):
+	found = judged(folder)
+	count = {kind: len(some) for kind, some in found.items()}
+	some = sum(count.values())
+	left = some - count['equivalent']
+	share = 100 * count['killed'] / left
+	first = next(iter(rows(folder / file)))
+	text = f'{share:.1f} %'
+	return paragraph(f"""{some} mutants were run (revision {first['revision'][:7]}, seed {first['seed']}): {count['killed']} are killed, {count['equivalent']} change
+		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.""")
+
+
+def byPlace(folder):
+	"""A line for each folder of the sources."""
+	found, counts = judged(folder), collections.defaultdict(collections.Counter)
+	for kind, some in found.items():
+		for row in some:
+			for name in (str(pathlib.PurePosixPath(row['file']).parent), 'all'):
+				counts[name][kind] += 1
+	lines = []
+	for name in sorted(counts, key=lambda name: (name == 'all', name)):
+		one = counts[name]
+		surviving = one['open'] + one['not judged']
+		lines.append([name, sum(one.values()), one['killed'], one['equivalent'], bold(surviving) if surviving else 0])
+	return table(['in', 'mutants', 'killed', 'equivalent', 'survive'], lines)
+
+
+def listed(kind):
+	def figure(folder):
+		some = sorted(judged(folder)[kind], key=lambda row: (row['file'], int(row['line'])))
+		lines = [[f'{row["file"]}:{row["line"]}', f'`{row["source"]}`', change(row), row['why']] for row in some]
+		return table(['place', 'source', 'mutant', 'why'], lines) if lines else 'None.'
+
+	return figure
+
+
+def change(row):
+	return f'`{row["original"]}` → `{row["mutant"]}`' if row['mutant'] else f'`{row["original"]}` left out'
+
+
+figures = {
+        'mutation.summary': summary,
+        'mutation.places': byPlace,
+        'mutation.open': lambda folder: '\n\n'.join(filter(lambda text: text != 'None.', [listed('open')(folder), listed('not judged')(folder)])) or 'None.',
+        'mutation.equivalent': listed('equivalent'),
+}

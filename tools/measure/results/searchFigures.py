@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures of `./run search`, from its log."""
+
+import re
+
+from text import paragraph, thousands
+
+file = 'search.txt'
+
+
+class Search:
+	"""A log of `./run search`."""
+
+	columns = 'pairs overlap apart border exact queries error pivots iterations defects'.split()
+
+	def __init__(self, folder):
+		text = (folder / file).read_text()
+		self.date = re.search(r'predicate, (\S+)', text).group(1)
+		self.revision, self.machine = re.search(r'^revision (\w+)\S*; (.*)$', text, re.MULTILINE).groups()
+		self.seed = re.search(r'--seed (\d+)', text).group(1)
+		rows = re.findall(r'^(\S+)' + r' +([\d.]+)' * len(self.columns) + '$', text, re.MULTILINE)
+		self.rows = {name: dict(zip(self.columns, map(float, numbers), strict=True)) for name, *numbers in rows}
+		self.all = self.rows.pop('all')
+		line = re.search(r'^defects: +(.*)$', text, re.MULTILINE).group(1)
+		self.defects = {name: int(count) for name, count in re.findall(r'(\S[^,]*?) (\d+)(?:, |$)', line)}
+
+
+def pairs(folder):
+	return f'{Search(folder).all["pairs"] / 1e6:.0f} million'
+
+
+def verdict(folder):
+	defects = {name: count for name, count in Search(folder).defects.items() if count}
+	if defects:
+		return '**' + ', '.join(f'{name}: {count}' for name, count in defects.items()) + '**'
+	return 'no contact missed, none invented'
+
+
+def summary(folder):
+	search = Search(folder)
+	return paragraph(f"""In {search.all['pairs'] / 1e6:.0f} million pairs of {len(search.rows)} kinds, {search.all['queries'] / 1e6:.0f} million queries, of which
+		{thousands(int(search.all['exact']))} needed rational arithmetic to be judged: {verdict(folder)}; s* within {search.all['error']} of the
+		8 roundings of the pair's reach that are stated, after at most {search.all['pivots']:.0f} pivots and {search.all['iterations']:.0f} iterations
+		({search.date}, revision {search.revision[:7]}, seed {search.seed}; {search.machine}; `docs/results/search.txt`).""")
+
+
+figures = {'search.pairs': pairs, 'search.verdict': verdict, 'search.summary': summary}
+
+
+def taken(source):
+	"""What is kept of a log: all of it."""
+	return source.read_text()
