@@ -14,6 +14,7 @@
 
 #include <limits>
 #include <map>
+#include <sys/mman.h>
 #include <typeinfo>
 
 namespace py = boost::python;
@@ -26,6 +27,15 @@ namespace {
 	/// then what it refers to) has the time of as many entries.
 	constexpr std::size_t ahead = 12;
 
+	/// Asks for large pages in memory that will be written from end to end: a fault for each 4 kB costs as much as what is written there.
+	void wantLargePages(char* memory, std::size_t bytes)
+	{
+		constexpr std::uintptr_t page  = 4096;
+		const auto               begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+		const auto               end   = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
+		if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE); // not to be had: small ones
+	}
+
 	/// Columns of one length, each the memory of a later NumPy array (a bytearray: no header of NumPy is needed to build).
 	class Table {
 	public:
@@ -34,9 +44,10 @@ namespace {
 		/// Memory of rows × `width` numbers of the type, which the dictionary owns.
 		template <class Number> Number* column(const char* name, int width = 1)
 		{
-			PyObject* const memory
-			        = PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(rows_ * std::size_t(width) * sizeof(Number)));
-			const py::object owner { py::handle<>(memory) }; // throws if there is no memory
+			const std::size_t bytes  = rows_ * std::size_t(width) * sizeof(Number);
+			PyObject* const   memory = PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(bytes));
+			const py::object  owner { py::handle<>(memory) }; // throws if there is no memory
+			wantLargePages(PyByteArray_AS_STRING(memory), bytes);
 			columns_[name] = py::make_tuple(owner, std::is_same<Number, double>::value ? "float64" : "int32", width);
 			return reinterpret_cast<Number*>(PyByteArray_AS_STRING(memory));
 		}
@@ -78,8 +89,11 @@ namespace {
 		Scene* const             scene = Omega::instance().getScene().get();
 		std::vector<const Body*> bodies;
 		bodies.reserve(scene->bodies->size());
-		for (const auto& body : *scene->bodies)
-			if (body) bodies.push_back(body.get());
+		for (std::size_t k = 0; k < scene->bodies->size(); ++k) {
+			if (k + ahead < scene->bodies->size()) prefetch::fetch((*scene->bodies)[Body::id_t(k + ahead)].get(), sizeof(Body));
+			const auto& body = (*scene->bodies)[Body::id_t(k)];
+			if (body && !body->getIsSubdomain()) bodies.push_back(body.get()); // those stand for ranks (docs/mpi.md)
+		}
 		scene->forces.sync();
 
 		Table       table(bodies.size());
@@ -155,6 +169,24 @@ namespace {
 		}
 	};
 
+	/// Bytes between a PolytopeGeom and its status.
+	std::size_t statusOffset()
+	{
+		static const PolytopeGeom geom;
+		static const auto         offset = std::size_t(reinterpret_cast<const char*>(&geom.statusCode) - reinterpret_cast<const char*>(&geom));
+		return offset;
+	}
+
+	/// What a row of contacts is made of, called into the cache; other geometries and physics are smaller.
+	void fetchParts(const Interaction& contact)
+	{
+		const char* const geom = reinterpret_cast<const char*>(contact.geom.get());
+		// both ends of PolytopeGeom's own attributes; what lies between them is the pair's memory
+		prefetch::fetch(geom, sizeof(ScGeom) + 2 * sizeof(Real));
+		prefetch::fetch(geom ? geom + statusOffset() : nullptr, sizeof(int));
+		prefetch::fetch(contact.phys.get(), sizeof(NormShearPhys));
+	}
+
 	std::vector<const Interaction*> realContacts(const Scene& scene)
 	{
 		std::vector<const Interaction*> contacts;
@@ -186,10 +218,7 @@ namespace {
 		auto* const  depths          = table.column<double>("depths");
 		auto* const  infeasibilities = table.column<double>("infeasibilities");
 		for (std::size_t row = 0; row < contacts.size(); ++row) {
-			if (row + ahead < contacts.size()) {
-				prefetch::fetch(contacts[row + ahead]->geom.get(), sizeof(PolytopeGeom));
-				prefetch::fetch(contacts[row + ahead]->phys.get(), sizeof(NormShearPhys));
-			}
+			if (row + ahead < contacts.size()) fetchParts(*contacts[row + ahead]);
 			const Interaction& one         = *contacts[row];
 			const auto* const  phys        = shearPhysOf(one.phys.get());
 			const NormPhys*    push        = phys ? phys : dynamic_cast<const NormPhys*>(one.phys.get());
