@@ -89,15 +89,6 @@ def decomposed():
 	return master and {**state(), 'ranks': sorted({body.subdomain for body in O.bodies if body.dynamic}), 'fixed': [b.subdomain for b in O.bodies if not b.dynamic and not b.isSubdomain]}
 
 
-def pickled():
-	"""States sent by mpi4py instead of YADE's own code."""
-	mpi.mpy.USE_CPP_MPI = False
-	load()
-	mpi.run(steps)
-	mpi.mpy.USE_CPP_MPI = True
-	return state()
-
-
 def recorded():
 	"""With a snapshot of ParaView and a saved state every 25 steps; a pull that YADE does not send with the scene; a step by rank 0 alone."""
 	load()
@@ -169,7 +160,7 @@ def refused():
 
 	saysNo('nothing')
 	mpy = mpi.mpy
-	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_FREQUENCY', 1), ('MERGE_W_INTERACTIONS', False)):
+	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_FREQUENCY', 1), ('MERGE_W_INTERACTIONS', False), ('USE_CPP_MPI', False)):
 		former = getattr(mpy, name)
 		setattr(mpy, name, value)
 		saysNo(f'mpy.{name}')

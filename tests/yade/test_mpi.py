@@ -26,7 +26,7 @@ hangs = 300
 """Time after which a run is taken for one that hangs [s]; one takes some seconds."""
 size = 0.22
 """Of the solids of the heap [m]."""
-sameAsHeap = ['parts', 'divided', 'decomposed', 'pickled']
+sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 environment = {
 	**os.environ,
@@ -142,6 +142,7 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	('mpy.ERASE_REMOTE', 'must be True'),
 	('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
 	('mpy.MERGE_W_INTERACTIONS', 'must be True'),
+	('mpy.USE_CPP_MPI', 'must be True'),
 	('mpy.REALLOCATE_FREQUENCY', 'call polytope.mpi.divide()'),
 	('O.trackEnergy', 'polytope.mpi.arrays()'),
 	('ForceRecorder', 'polytope.mpi.merge()'),

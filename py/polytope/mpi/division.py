@@ -157,6 +157,8 @@ def _checkSettings():
 	for name, wanted, why in (
 		('ERASE_REMOTE', True, 'ranks would keep dead copies of bodies'),
 		('COPY_MIRROR_BODIES_WHEN_COLLIDE', True, 'bodies that come near another rank would be missed there'),
+		('USE_CPP_MPI', True, 'its other way gives states of one rank to bodies of another where rank 0 has bodies that are touched'),
+		('OPTIMIZE_COM', True, 'it was not tested with polytopes'),
 		('MERGE_W_INTERACTIONS', True, 'merged contacts would begin anew'),
 		('REALLOCATE_FREQUENCY', 0, 'a body that changes ranks during a run would lose contacts; call polytope.mpi.divide() between two runs instead'),
 		('RESET_SUBDOMAINS_WHEN_COLLIDE', False, 'contacts would begin anew; call polytope.mpi.divide() between two runs instead'),
