@@ -3,11 +3,18 @@
 
 from yade import O
 
-__all__ = ['forgetDivision']
+__all__ = ['eraseRanks', 'forgetDivision']
 
 
 def forgetDivision():
-	"""Erases the bodies that stand for ranks, and the boxes they have. The scene is then as one that was never divided."""
+	"""The scene is then as one that was never divided: one process computes contacts of bodies of its own subdomain only."""
+	for body in O.bodies:
+		body.subdomain = 0
+	eraseRanks()
+
+
+def eraseRanks():
+	"""Erases the bodies that stand for ranks, and the boxes they have."""
 	for body in O.bodies:
 		if body.isSubdomain:
 			O.bodies.erase(body.id)

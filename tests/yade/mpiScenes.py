@@ -86,7 +86,7 @@ def decomposed():
 	load()
 	mpi.run(steps)
 	mpi.mpy.DOMAIN_DECOMPOSITION = False
-	return master and {**state(), 'ranks': sorted({body.subdomain for body in O.bodies if body.dynamic}), 'fixed': [b.subdomain for b in O.bodies if not b.dynamic and not b.isSubdomain]}
+	return master and {**state(), 'counts': [sum(len(b.shape.ids) for b in O.bodies if b.isSubdomain and b.subdomain == k) for k in (1, 2)]}
 
 
 def recorded():

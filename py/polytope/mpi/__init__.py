@@ -44,8 +44,7 @@ def divide(axis=0):
 	if rank() == 0:
 		moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
 		moving.sort(key=lambda body: body.state.pos[axis])
-		for k, body in enumerate(moving):
-			body.subdomain = 1 + k * (size() - 1) // len(moving)
+		division.assign({body.id: 1 + k * (size() - 1) // len(moving) for k, body in enumerate(moving)})
 
 
 def run(steps, merged=True):

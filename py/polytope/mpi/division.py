@@ -15,13 +15,17 @@ import traceback
 import yade
 from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polytope, mpy
 
-from .._ranks import forgetDivision
+from .._ranks import eraseRanks
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
 
 shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
 """What runs after a time stepper on each rank."""
+
+
+_ranksOfBodies = {}
+"""On rank 0 while the scene is merged: body's id → rank. The bodies themselves are rank 0's then, which can step alone."""
 
 
 def size():
@@ -32,6 +36,32 @@ def size():
 def handOut():
 	"""The next run hands the scene of rank 0 out to all ranks, as the first one does. On every rank; the scene must be merged."""
 	O.splittedOnce = False
+
+
+def assign(ranks):
+	"""Gives bodies to ranks, on rank 0.
+
+	:param dict ranks: id → rank; the others stay with rank 0
+	"""
+	_ranksOfBodies.clear()
+	for body in O.bodies:
+		body.subdomain = ranks.get(body.id, 0)
+
+
+def _own():
+	"""On rank 0, after a merge: YADE leaves out contacts of which no body is this rank's."""
+	for body in O.bodies:
+		if body.subdomain != 0 and not body.isSubdomain:
+			_ranksOfBodies[body.id] = body.subdomain
+			body.subdomain = 0
+
+
+def _disown():
+	"""Before the scene is divided again."""
+	for k, rank in _ranksOfBodies.items():
+		if O.bodies[k] is not None:
+			O.bodies[k].subdomain = rank
+	_ranksOfBodies.clear()
 
 
 def shareTimeStep():
@@ -62,6 +92,7 @@ def _prepared(splitScene):
 
 	@functools.wraps(splitScene)
 	def split():
+		_disown()
 		if O.splittedOnce:
 			splitScene()
 			return
@@ -70,7 +101,7 @@ def _prepared(splitScene):
 			_takePermanentLoads(None)
 			return
 		check()
-		forgetDivision()
+		eraseRanks()
 		if mpy.DOMAIN_DECOMPOSITION:
 			_keepFixedBodies()
 		loads = _permanentLoads()
@@ -100,6 +131,7 @@ def _permanentLoads():
 	"""YADE does not send them with the scene."""
 	if not O.forces.getPermForceUsed():
 		return []
+	O.forces.f(0, sync=True)  # else those set since the last step are not seen
 	return [(body.id, tuple(O.forces.permF(body.id)), tuple(O.forces.permT(body.id))) for body in O.bodies]
 
 
@@ -148,7 +180,7 @@ def check():
 	moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
 	if not mpy.DOMAIN_DECOMPOSITION and all(body.subdomain == 0 for body in moving):
 		raise RuntimeError('Body.subdomain: all bodies are with rank 0; call polytope.mpi.divide() or set mpy.DOMAIN_DECOMPOSITION')
-	if any(body.subdomain < 0 or body.subdomain >= size() for body in moving):
+	if not mpy.DOMAIN_DECOMPOSITION and not all(0 < body.subdomain < size() for body in moving):
 		raise RuntimeError(f'Body.subdomain: must be a rank, 1 to {size() - 1}; call polytope.mpi.divide()')
 
 
@@ -168,6 +200,17 @@ def _checkSettings():
 	):
 		if getattr(mpy, name) != wanted:
 			raise RuntimeError(f'mpy.{name}: must be {wanted!r}; {why}')
+
+
+def _withBodiesOfRankZero(mergeScene):
+	@functools.wraps(mergeScene)
+	def merge():
+		merges = O.splitted
+		mergeScene()
+		if merges and mpy.rank == 0:
+			_own()
+
+	return merge
 
 
 def _withCollider(parallelCollide):
@@ -206,6 +249,7 @@ def install():
 		return
 	mpy.typedEngine = _typedEngine
 	mpy.splitScene = _prepared(mpy.splitScene)
+	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
