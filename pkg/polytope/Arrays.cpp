@@ -164,7 +164,8 @@ namespace {
 			} else if (const auto* const spheres = dynamic_cast<const GenericSpheresContact*>(geom)) {
 				point  = spheres->contactPoint;
 				normal = spheres->normal;
-				if (const auto* const scGeom = dynamic_cast<const ScGeom*>(spheres)) depth = double(scGeom->penetrationDepth);
+				if (const auto* const scGeom = dynamic_cast<const ScGeom*>(spheres))
+					depth = double(scGeom->penetrationDepth);
 			}
 		}
 	};
@@ -173,7 +174,8 @@ namespace {
 	std::size_t statusOffset()
 	{
 		static const PolytopeGeom geom;
-		static const auto         offset = std::size_t(reinterpret_cast<const char*>(&geom.statusCode) - reinterpret_cast<const char*>(&geom));
+		static const auto         offset
+		        = std::size_t(reinterpret_cast<const char*>(&geom.statusCode) - reinterpret_cast<const char*>(&geom));
 		return offset;
 	}
 
