@@ -104,6 +104,7 @@ def otherSettings(given):
 		'half the time step': {'timeStep': step / 2},
 		'twice the stiffness': stiffer,
 		**{f'contact point {point}': {'contactPoint': point} for point in contactPoints if point != given.contact_point},
+		'stiffness of each contact, whatever its area': {'stiffnessPerArea': False},
 		'YADE damping 0.7': {'damping': 0.7},
 		'YADE damping 0, contact damping 0.3': {'damping': 0.0, 'contactDamping': 0.3},
 		'failure at a fifth of the distance': {'protocol': {'failedDistance': given.failed_distance / 5}},

@@ -77,6 +77,7 @@ def otherSettings(given, runs):
 	changes = [
 		{'timeStep': given.time_step / 2},
 		{'dampGravity': not given.damp_gravity},
+		{'shearDamping': 0.0},
 		*({'contactPoint': point} for point in contactPoints if point != given.contact_point),
 	]
 	return [*runs, *(CollisionRun(given, name, **change) for change in changes for name in given.names)]
@@ -121,6 +122,9 @@ def main():
 		report.budgets(undamped[-1], ', YADE damping 0')
 		report.jumps(run)
 		figures(findings, given, run)
+	if given.reference and 'edgeEdge' in given.names:
+		undamped.append(CollisionRun(given, 'edgeEdge', damping=0.0, shearDamping=0.0))
+		report.besideIndependent(undamped[-1])
 	report.failures(runs + undamped)
 	report.transitionTable(runs)
 	report.energyRises(runs)

@@ -7,6 +7,7 @@
 #include "Vectors.hpp"
 
 #include <core/Body.hpp>
+#include <core/Clump.hpp>
 #include <core/Material.hpp>
 #include <core/State.hpp>
 
@@ -55,6 +56,7 @@ namespace {
 
 	CentralShape ofCuboid(const Vector3r& half, const py::object& cornerRadius, Real cornerFraction)
 	{
+		if (!(half.minCoeff() > 0)) throw std::invalid_argument("extents: half-lengths must be positive");
 		HalfSpaces planes;
 		for (int k = 0; k < 3; ++k)
 			for (int sign = 1; sign >= -1; sign -= 2) {
@@ -64,9 +66,9 @@ namespace {
 		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
 	}
 
-	/// A body at the pose that the construction of its shape gave, or moved to `centre` and turned.
+	/// A body whose centroid is at `centre`, or None: where its planes or points are; turned about it. Without a colour (None) the shape keeps its own.
 	shared_ptr<Body> body(const CentralShape& central, const shared_ptr<Material>& material, const py::object& centre,
-	        const Quaternionr& orientation, bool fixed, Real isotropyTolerance)
+	        const Quaternionr& turn, bool fixed, Real isotropyTolerance, const py::object& color)
 	{
 		const auto shape = Polytope::of(central.shape);
 		auto       body  = shared_ptr<Body>(new Body);
@@ -78,20 +80,37 @@ namespace {
 		const Vector3r inertia = shape->inertia();
 		state.mass             = shape->volume() * material->density;
 		state.inertia          = inertia * material->density;
-		state.pos              = central.position;
-		state.ori              = Quaternionr(Matrix3r(central.rotation));
-		if (!centre.is_none()) {
-			state.pos = Vector3r(py::extract<Vector3r>(centre)) + orientation * state.pos;
-			state.ori = orientation * state.ori;
-		}
-		state.refPos = state.pos;
-		state.refOri = state.ori;
+		state.pos              = centre.is_none() ? central.position : Vector3r(py::extract<Vector3r>(centre));
+		state.ori              = turn * Quaternionr(Matrix3r(central.rotation));
+		state.refPos           = state.pos; // displacements count from there
+		state.refOri           = state.ori;
+		if (!color.is_none()) shape->color = py::extract<Vector3r>(color);
 		body->setBounded(true);
 		const bool flat   = shape->dimension == 2;
 		state.blockedDOFs = fixed ? State::DOF_ALL : flat ? State::DOF_Z | State::DOF_RX | State::DOF_RY : State::DOF_NONE;
 		// a polygon turns about z only, so its other moments never enter
 		body->setAspherical(!flat && inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
 		return body;
+	}
+
+	/// Gives a clump another mass, centre and principal axes than those that YADE sums over its members; the members stay where they are.
+	void setClump(const shared_ptr<Body>& body, const Real& mass, const Vector3r& inertia, const Vector3r& centre,
+	        const Quaternionr& axes, Real isotropyTolerance)
+	{
+		auto* const clump = dynamic_cast<Clump*>(body->shape.get());
+		if (!clump) throw std::invalid_argument("body: is no clump");
+		State& state  = *body->state;
+		state.mass    = mass;
+		state.inertia = inertia;
+		state.pos = state.refPos = centre;
+		state.ori = state.refOri = axes;
+		const Quaternionr back   = axes.conjugate();
+		for (auto& [id, relative] : clump->members) {
+			const State& member  = *Body::byId(id)->state;
+			relative.position    = back * (member.pos - centre);
+			relative.orientation = back * member.ori;
+		}
+		body->setAspherical(inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
 	}
 
 	py::object bytesOf(const void* data, std::size_t size)
@@ -147,7 +166,8 @@ void defineConstruction()
 	py::def("ofPoints", &ofPoints, "Shape of a hull: points, dimension, coplanar, thickness, cornerRadius or None, cornerFraction.");
 	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
-	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, orientation, fixed, isotropyTolerance.");
+	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, turn, fixed, isotropyTolerance, color or None.");
+	py::def("setClump", &setClump, "Mass and principal axes of a clump: body, mass, inertia, centre, axes, isotropyTolerance.");
 	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
 }
 

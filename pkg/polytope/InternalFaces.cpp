@@ -6,6 +6,7 @@
 #include <pkg/common/Wall.hpp>
 
 #include <src/contact/SectionArea.hpp>
+#include <src/shape/PlacedShape.hpp>
 
 #include "Polytope.hpp"
 
@@ -25,17 +26,6 @@ namespace {
 
 	void addPlane(Planes& planes, const Vector3r& normal, Real offset) { planes.push_back({ normal, offset }); }
 
-	void addPlanes(Planes& planes, const polytope::ConvexShape& convex, const Matrix3r& rotation, const Vector3r& centre)
-	{
-		for (int i = 0; i < convex.planeCount(); ++i) {
-			Vector3r own = Vector3r::Zero();
-			for (int k = 0; k < convex.dimension(); ++k)
-				own[k] = convex.normalArray(k)[i];
-			const Vector3r normal = rotation * own;
-			addPlane(planes, normal, convex.offsetArray()[i] + normal.dot(centre));
-		}
-	}
-
 	/// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
 	/// shapes without faces, and for bodies farther than `near` from the contact point.
 	void addBody(Planes& planes, const Body& body, const Vector3r& centre, const Vector3r& other, Real near)
@@ -44,7 +34,8 @@ namespace {
 		const Shape*   shape    = body.shape.get();
 		if (const auto* solid = dynamic_cast<const Polytope*>(shape)) {
 			const auto& convex = solid->convex();
-			if (convex && centre.norm() < convex->boundingRadius() + near) addPlanes(planes, *convex, rotation, centre);
+			if (convex && centre.norm() < convex->boundingRadius() + near)
+				polytope::addPlanesOf({ *convex, centre, rotation }, planes);
 		} else if (const auto* box = dynamic_cast<const Box*>(shape)) {
 			if (!(centre.norm() < box->extents.norm() + near)) return;
 			for (int k = 0; k < 3; ++k)
@@ -248,7 +239,7 @@ Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& in
 		const Vector3r               mover  = pair.centre[1 - piece] - pair.point;
 		const Real                   reach  = 2 * convex.boundingRadius();
 		Planes                       planes;
-		addPlanes(planes, convex, pair.rotation[1 - piece], mover);
+		polytope::addPlanesOf({ convex, mover, pair.rotation[1 - piece] }, planes);
 		const std::size_t covered = planes.size();
 		const auto        areaOn  = [&](const Body& body, const Vector3r& centre) {
                         planes.resize(covered);

@@ -10,6 +10,9 @@
 #include "PolytopeBonds.hpp"
 #include "RockJoint.hpp"
 
+#include <limits>
+#include <tuple>
+
 /// Where bonds are made: pairs of neighbours, their common faces, values from the materials.
 namespace yade {
 namespace {
@@ -77,6 +80,18 @@ namespace {
 
 	Real inSeries(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
 
+	/// Those of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
+	void takeStrengths(PolytopeBond& bond, const RockJointMat* m1, const RockJointMat* m2)
+	{
+		Real tension = std::numeric_limits<Real>::infinity(), cohesion = tension;
+		if (m1 && m2) {
+			const Real t = math::min(m1->tensileStrength, m2->tensileStrength), c = math::min(m1->cohesion, m2->cohesion);
+			if (t > 0 || c > 0) std::tie(tension, cohesion) = std::make_pair(t, c);
+		}
+		if (bond.tensileStrength < 0) bond.tensileStrength = tension;
+		if (bond.cohesion < 0) bond.cohesion = cohesion;
+	}
+
 	/// Values that the pattern leaves to the materials.
 	void takeFromMaterials(PolytopeBond& bond, const Body& body1, const Body& body2)
 	{
@@ -97,6 +112,7 @@ namespace {
 		        [](const Mat& a, const Mat& b) { return inSeries(a.shearStiffness, b.shearStiffness); });
 		take(bond.frictionAngle, "frictionAngle",
 		        [&](const Mat& a, const Mat& b) { return smaller(a.frictionAngle, b.frictionAngle); });
+		takeStrengths(bond, m1, m2);
 		if (bond.bendingStiffness < 0) bond.bendingStiffness = bond.normalStiffness;
 		if (bond.twistingStiffness < 0) bond.twistingStiffness = bond.shearStiffness;
 	}
@@ -119,8 +135,10 @@ namespace {
 		        = { { "bendingStiffness", pattern.bendingStiffness }, { "twistingStiffness", pattern.twistingStiffness } };
 		for (const auto& [name, value] : turning)
 			require(unset(value) || (value >= 0 && finite(value)), name, value, "at least 0 and finite [Pa/m]");
-		require(pattern.tensileStrength > 0, "tensileStrength", pattern.tensileStrength, "above 0 [Pa] (infinity: none)");
-		require(pattern.cohesion > 0, "cohesion", pattern.cohesion, "above 0 [Pa] (infinity: no failure in shear)");
+		require(unset(pattern.tensileStrength) || pattern.tensileStrength > 0, "tensileStrength", pattern.tensileStrength,
+		        "above 0 [Pa] (infinity: none)");
+		require(unset(pattern.cohesion) || pattern.cohesion > 0, "cohesion", pattern.cohesion,
+		        "above 0 [Pa] (infinity: no failure in shear)");
 		require(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < 1.5707), "frictionAngle",
 		        pattern.frictionAngle, "an angle in radians, at least 0 and below pi/2 (use radians(degrees))");
 		require(pattern.bendingShare >= 0 && pattern.bendingShare <= 1, "bendingShare", pattern.bendingShare, "from 0 to 1");

@@ -5,7 +5,6 @@
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/Sphere.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
 
 #include <src/contact/OverlapFootprint.hpp>
 #include <src/timestep/RockingStiffness.hpp>
@@ -100,17 +99,6 @@ namespace {
 		return shape ? shape->convex().get() : nullptr;
 	}
 
-	/// Planes of a body whose centre is there, as seen from the contact point.
-	void addPlanesOf(
-	        std::vector<polytope::Plane>& planes, const polytope::ConvexShape& shape, const Matrix3r& rotation, const Vector3r& centre)
-	{
-		const polytope::HalfSpaces& own = shape.planes();
-		for (std::size_t i = 0; i < own.size(); ++i) {
-			const Vector3r normal = rotation * own.normals[i];
-			planes.push_back({ normal, own.offsets[i] + normal.dot(centre) });
-		}
-	}
-
 	/// Moment per tilt of a pressure over the area seen along the normal, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
 	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
 	{
@@ -139,16 +127,16 @@ namespace {
 		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
 		const Matrix3r rotation1 = wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()),
 		               rotation2 = state2.ori.toRotationMatrix();
-		const Vector3r centre1 = state1.pos - geom.contactPoint, centre2 = state2.pos + pair.shift2 - geom.contactPoint;
+		// from the contact point
+		const polytope::PlacedShape body1 { *shape1, state1.pos - geom.contactPoint, rotation1 },
+		        body2 { *shape2, state2.pos + pair.shift2 - geom.contactPoint, rotation2 };
 		if (geom.energyPerStiffness >= 0) { // a pressure
 			std::vector<polytope::Plane> planes;
-			addPlanesOf(planes, *shape1, rotation1, centre1);
-			addPlanesOf(planes, *shape2, rotation2, centre2);
+			polytope::addPlanesOf(body1, planes);
+			polytope::addPlanesOf(body2, planes);
 			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
 		}
-		return force
-		        * polytope::rockingArms(
-		                { *shape1, centre1, rotation1 }, { *shape2, centre2, rotation2 }, geom.normal, geom.penetrationDepth);
+		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
 
 	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
@@ -229,16 +217,6 @@ namespace {
 		return sum;
 	}
 
-	/// Radius of the largest ball in a shape; infinite for one that has none.
-	Real inscribedRadius(const Shape& shape)
-	{
-		if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
-			if (polytope->convex()) return polytope->convex()->inscribedRadius();
-		if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
-		if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.minCoeff();
-		return std::numeric_limits<Real>::infinity();
-	}
-
 } // namespace
 
 ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
@@ -270,43 +248,6 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 #pragma omp critical(polytopeContactLimit)
 		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;
 	}
-	return limit;
-}
-
-TimeStepLimit motionLimit(const Scene& scene, Real fraction)
-{
-	Vector3r gravity = Vector3r::Zero();
-	for (const auto& engine : scene.engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) gravity = newton->gravity;
-
-	TimeStepLimit limit;
-	Real          smallest = std::numeric_limits<Real>::infinity(), told = 0;
-	Body::id_t    smallestBody = Body::ID_NONE;
-	for (const auto& body : *scene.bodies) {
-		if (!body || !body->state || body->isClumpMember()) continue;
-		const State& state    = *body->state;
-		Vector3r     velocity = state.vel;
-		if (scene.isPeriodic) velocity = scene.cell->bodyFluctuationVel(state.pos, state.vel, scene.cell->prevVelGrad);
-		Real radius = std::numeric_limits<Real>::infinity(), farthest = 0;
-		forParts(*body, scene, [&](const Body& part) {
-			if (!part.shape || !part.state) return;
-			radius   = math::min(radius, inscribedRadius(*part.shape));
-			farthest = math::max(farthest, Real((part.state->pos - state.pos).norm() + boundingRadius(*part.shape)));
-		});
-		const Real speed = velocity.norm() + state.angVel.norm() * farthest;
-		if (!math::isfinite(speed)) continue;
-		if (!isMovedByForces(*body) || state.blockedDOFs == State::DOF_ALL) {
-			told = math::max(told, speed);
-			continue;
-		}
-		limit.take(fraction * radius / speed, body->id);
-		if (radius < smallest) {
-			smallest     = radius;
-			smallestBody = body->id;
-		}
-	}
-	limit.take(fraction * smallest / told, smallestBody);
-	limit.take(math::sqrt(fraction * smallest / gravity.norm()), smallestBody);
 	return limit;
 }
 

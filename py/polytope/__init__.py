@@ -2,13 +2,15 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*. One
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
+broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
-*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*. Fields of all bodies and contacts as NumPy arrays: *arrays*. Saved states: *checkpoint*,
-*continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope, Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …)
-are YADE's like any other.
+*sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
+tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
+Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
+Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
 """
@@ -25,15 +27,24 @@ from .bonding import bond, bonds
 from .breakage import split
 from .check import check
 from .checkpoints import checkpoint, continueFrom
+from .clumps import clump
 from .energy import mechanicalEnergy
 from .engines import engines
+from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
 from .jointedRock import JointedRock, JointSet, jointedRock
+from .loading.oedometer import oedometer
+from .loading.shearBox import shearBox
+from .loading.simpleShear import simpleShear
+from .loading.triaxial import triaxial
 from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
+from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements
+from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
+from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
@@ -57,16 +68,20 @@ __all__ = [
 	'bodyStress',
 	'bond',
 	'bonds',
+	'breakGrains',
 	'buildInfo',
 	'check',
 	'checkpoint',
 	'cloud',
+	'clump',
 	'contact',
 	'contactFabric',
+	'contactRose',
 	'continueFrom',
 	'coordinationNumber',
 	'cuboid',
 	'engines',
+	'forceHistogram',
 	'fromHalfSpaces',
 	'fromMesh',
 	'fromVertices',
@@ -74,21 +89,30 @@ __all__ = [
 	'grains',
 	'jointedRock',
 	'mechanicalEnergy',
+	'oedometer',
+	'pack',
 	'particleFabric',
+	'particleRose',
 	'picture',
 	'plates',
 	'polygon',
 	'porosity',
 	'prism',
 	'randomGrain',
+	'readShapes',
 	'regular',
 	'requirements',
+	'sample',
 	'settings',
+	'shearBox',
+	'simpleShear',
 	'sizeDistribution',
 	'split',
 	'stableTimeStep',
 	'terrain',
 	'tradeoff',
+	'triaxial',
 	'tube',
 	'voronoi',
+	'writeShapes',
 ]

@@ -8,6 +8,8 @@ from .precision import isNumber, real
 
 __all__ = ['flag', 'materialOf', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
 
+infinite = float('inf')
+
 
 def number(value, name):
 	if not isNumber(value):
@@ -49,11 +51,11 @@ def rows(values, name, length):
 def vector(value, name):
 	try:
 		x, y, z = value
-		numbers = real(x), real(y), real(z)
-		vector = Vector3(*numbers)
+		x, y, z = real(x), real(y), real(z)
+		vector = Vector3(x, y, z)
 	except Exception:  # whatever is no sequence of three numbers
 		raise ValueError(f'{name}: must be three numbers, got {value!r}') from None
-	if not all(abs(x) < float('inf') for x in numbers):  # iterating a Vector3 ends by an exception
+	if not abs(x) + abs(y) + abs(z) < infinite:
 		raise ValueError(f'{name}: must be finite, got {tuple(vector)}')
 	return vector
 
@@ -96,6 +98,6 @@ def _sound(material):
 	"""The material, unless it has a number that YADE takes without a word and no body can be made of."""
 	for name in ('density', 'young'):
 		value = getattr(material, name, 1)
-		if not 0 < value < float('inf'):
+		if not 0 < value < infinite:
 			raise ValueError(f'material: its {name} must be positive and finite, got {value}')
 	return material

@@ -24,9 +24,7 @@ import os
 import random
 import warnings
 
-from yade import Quaternion, Vector3
-
-from yade import _polytope
+from yade import Quaternion, Vector3, _polytope
 
 from .arguments import flag, materialOf, number, numbersOf, rotation, vector, vectors
 from .precision import isNumber
@@ -67,9 +65,9 @@ def builder(make=None, *, lacks=()):
 
 	@functools.wraps(make)
 	def checked(*given, **named):
-		others = [name for name in ofAllBodies if name not in own and name not in lacks]
 		for name in named:
-			if name not in own and name not in others:
+			if name not in own and (name not in ofAllBodies or name in lacks):
+				others = [name for name in ofAllBodies if name not in own and name not in lacks]
 				takes = f'{", ".join(own)}, and as all bodies {", ".join(others)}'
 				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {takes}')
 		return make(*given, **named)
@@ -104,7 +102,7 @@ def fromVertices(points, **body):
 
 
 @builder
-def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identity, **body):
+def regular(faces, circumradius, center=(0, 0, 0), orientation=None, **body):
 	"""Regular polyhedron.
 
 	:param int faces: 4, 6, 8, 12 or 20
@@ -120,18 +118,15 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=Quaternion.Identi
 
 
 @builder
-def cuboid(center, extents, orientation=Quaternion.Identity, **body):
+def cuboid(center, extents, orientation=None, **body):
 	"""Rectangular block.
 
 	:param Vector3 center: centre [m]
-	:param Quaternion orientation: of the body
 	:param Vector3 extents: half-lengths along the body's axes [m], as for *yade.utils.box*
 	:param Quaternion orientation: of the body
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
-	if not all(0 < half[k] < float('inf') for k in range(3)):
-		raise ValueError(f'extents: half-lengths must be positive and finite, got {tuple(half)}')
 	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), center=center, orientation=orientation, **body)
 
 
@@ -155,13 +150,17 @@ def polygon(points2d, thickness=1.0, **body):
 
 
 @builder
-def fromMesh(path, scale=1.0, **body):
+def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
 
-	A mesh that is not closed, or not convex, is warned of.
+	A mesh that is not closed, or not convex, is warned of. With *parts* it becomes several convex bodies, for clump().
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
+	:param parts: number of convex parts at most, into which CoACD cuts the mesh, approximately; or 'objects': the separate objects of the file,
+	    each of them convex. The result is then a list: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``; *center* and *orientation*
+	    are of the whole. CoACD is optional: ``pip install coacd``.
+	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
@@ -169,6 +168,9 @@ def fromMesh(path, scale=1.0, **body):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
 	points, triangles = readMesh(path, 'path')
 	points = points * scale
+	if parts is not None:
+		from .meshParts import convexParts
+		return convexParts(path, points, triangles, parts, body)
 	corners = vectors(points, 'points', 3)
 
 	def shape(*corner):
@@ -192,7 +194,7 @@ def _tellWhatTheHullHides(path, points, triangles, hull):
 		warnings.warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices", stacklevel=4)
 	elif abs(mesh.volume) < (1 - notConvex) * hull:
 		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
-		warnings.warn(f'{seen}; cut it into convex meshes and clump their bodies (O.bodies.appendClumped)', stacklevel=4)
+		warnings.warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts', stacklevel=4)
 
 
 def readMesh(path, name):
@@ -235,24 +237,23 @@ def _body(
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
 	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
-	body = _polytope.body(placed, materialOf(material), None, Quaternion.Identity, flag(fixed, 'fixed'), isotropyTolerance)
-	look, state = body.shape, body.state
-	_place(state, center, orientation, flat)
 	given = None if color is None else vector(color, 'color')
-	look.color = Vector3(colours.random(), colours.random(), colours.random()) if given is None or tuple(given) == randomColor else given
+	if given is None or tuple(given) == randomColor:
+		given = Vector3(colours.random(), colours.random(), colours.random())
+	body = _polytope.body(placed, materialOf(material), *_pose(center, orientation, flat), flag(fixed, 'fixed'), isotropyTolerance, given)
 	if flag(wire, 'wire'):
-		look.wire = True
+		body.shape.wire = True
 	if flag(highlight, 'highlight'):
-		look.highlight = True
+		body.shape.highlight = True
 	if mask != 1:
 		body.mask = int(mask)
 	if velocity is not still:
-		state.vel = vector(velocity, 'velocity')
-		if flat and state.vel[2] != 0:
+		body.state.vel = given = vector(velocity, 'velocity')
+		if flat and given[2] != 0:
 			raise ValueError(f'velocity: a polygon stays in its plane; the third component must be 0, got {velocity!r}')
 	if angularVelocity is not still:
-		state.angVel = vector(angularVelocity, 'angularVelocity')
-		if flat and (state.angVel[0] != 0 or state.angVel[1] != 0):
+		body.state.angVel = given = vector(angularVelocity, 'angularVelocity')
+		if flat and (given[0] != 0 or given[1] != 0):
 			raise ValueError(f'angularVelocity: a polygon turns about z alone; the first two components must be 0, got {angularVelocity!r}')
 	return body
 
@@ -260,15 +261,13 @@ def _body(
 ofAllBodies = tuple(name for name, one in inspect.signature(_body).parameters.items() if one.kind is one.KEYWORD_ONLY)
 
 
-def _place(state, center, orientation, flat):
-	"""Moves the centroid to *center* and turns the body about it; displacements count from there."""
+def _pose(center, orientation, flat):
+	"""The place of the centroid or None, and the turn about it."""
+	turn = Quaternion.Identity if orientation is None else rotation(orientation)
 	if center is not None:
-		state.pos = vector(center, 'center')
-		if flat and state.pos[2] != 0:
+		center = vector(center, 'center')
+		if flat and center[2] != 0:
 			raise ValueError(f'center: a polygon lies in the plane z = 0; the third component must be 0, got {center!r}')
-	if orientation is not None:
-		turn = rotation(orientation)
-		if flat and (turn[0] != 0 or turn[1] != 0):
-			raise ValueError(f'orientation: a polygon turns about z alone, got {orientation!r}')
-		state.ori = turn * state.ori
-	state.refPos, state.refOri = state.pos, state.ori
+	if flat and (turn[0] != 0 or turn[1] != 0):
+		raise ValueError(f'orientation: a polygon turns about z alone, got {orientation!r}')
+	return center, turn

@@ -23,8 +23,8 @@ def bond(
 	shearStiffness=None,
 	bendingStiffness=None,
 	twistingStiffness=None,
-	tensileStrength=math.inf,
-	cohesion=math.inf,
+	tensileStrength=None,
+	cohesion=None,
 	frictionAngle=None,
 	bendingShare=1,
 ):
@@ -41,8 +41,9 @@ def bond(
 	:param float shearStiffness: per area [Pa/m]; default in the same way
 	:param float bendingStiffness: normal stiffness per area in bending [Pa/m]; default *normalStiffness*
 	:param float twistingStiffness: shear stiffness per area in twisting [Pa/m]; default *shearStiffness*
-	:param float tensileStrength: [Pa]; default infinite, no failure in tension
-	:param float cohesion: [Pa]; default infinite, no failure in shear
+	:param float tensileStrength: [Pa]; default the joint's of the bodies' RockJointMat, if that has tensileStrength or cohesion, else infinite: no
+	    failure in tension
+	:param float cohesion: [Pa]; default in the same way, else infinite: no failure in shear
 	:param float frictionAngle: of the shear strength [rad]; default the joint's of the bodies' RockJointMat
 	:param float bendingShare: part of the stresses by bending and twisting that counts against the strengths, 0 to 1
 	:returns: number of bonds made; where the scene has none then, a warning says so

@@ -68,7 +68,7 @@ def _piece(body, normals, offsets, least):
 		central = _polytope.ofHalfSpaces(vectors(normals, 'normals', 3), offsets, shape.dimension, shape.thickness, False, None, defaultCornerFraction)
 	except ValueError as error:
 		raise ValueError(f'point: the plane does not cut body {body.id} in two ({error}); choose a point inside it') from None
-	piece = _polytope.body(central, body.material, None, Quaternion.Identity, False, isotropyTolerance)
+	piece = _polytope.body(central, body.material, None, Quaternion.Identity, False, isotropyTolerance, shape.color)
 	if not piece.shape.inscribedRadius >= least:
 		raise ValueError(
 			f'point: the plane cuts off a piece of inscribed radius {piece.shape.inscribedRadius:.3g} m, below smallest = {least:.3g} m; move it inwards'
@@ -81,5 +81,5 @@ def _piece(body, normals, offsets, least):
 	spin = own.ori.conjugate() * state.angVel
 	own.angMom = own.ori * Vector3(*(moment * rate for moment, rate in zip(own.inertia, spin, strict=True)))
 	own.blockedDOFs = state.blockedDOFs
-	piece.shape.color, piece.shape.wire, piece.mask = shape.color, shape.wire, body.mask
+	piece.shape.wire, piece.mask = shape.wire, body.mask
 	return piece

@@ -5,7 +5,7 @@ import math
 import numbers
 
 import numpy as np
-import scipy.spatial
+import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion, Vector3, _polytope
 
 from .arguments import materialOf, number, vector

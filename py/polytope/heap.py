@@ -6,36 +6,68 @@ import itertools
 import numbers
 
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, HalfspaceIntersection
-from yade import O, Polytope
+import scipy  # loads its packages at their first use: half a second
+from yade import O, Polytope, _polytope
 
+from .arguments import numbersOf, vectors
 from .bonding import bonds
 
-__all__ = ['Coordination', 'coordinationNumber', 'porosity', 'volumeWithin']
+__all__ = ['Coordination', 'coordinationNumber', 'porosity', 'volumeInside', 'volumeWithin']
 
 thin = 1e-9
 """Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
 
 
-def porosity(lower, upper, ids=None):
-	"""Part of an axis-parallel box that is not filled: 1 − solid volume / box volume.
+def porosity(lower=None, upper=None, ids=None, region=None):
+	"""Part of a box, a convex region or the periodic cell that is not filled: 1 − solid volume / volume.
 
-	Bodies across the box's faces count with the part inside, cut exactly (the polyhedron of both sets of half-spaces). Where bodies in
+	Bodies across its faces count with the part inside, cut exactly (the polyhedron of both sets of half-spaces). Where bodies in
 	contact overlap, the overlap counts twice, and so does that of a clump's members. Choose a box inside the heap: near walls and free
 	surface there is less. In a periodic cell every image of a body counts with its part in the box.
 
-	:param lower, upper: opposite corners of the box [m], 3 numbers each
+	:param lower, upper: opposite corners of an axis-parallel box [m], 3 numbers each
 	:param ids: of the bodies that count, a clump's for all its members; None: all free polytopes
+	:param region: (normals, offsets), half-spaces a·x ≤ d [m] as for fromHalfSpaces, in place of a box. Without box and region, in a
+	    periodic scene: the whole cell, whatever its tilt
 	:returns: [-]
-	:raises ValueError: naming *upper* where the box has no volume, or *ids* for a body that is no polyhedron, not there or named twice
+	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
-	lower, upper = np.array(lower, float), np.array(upper, float)
+	solids = [O.bodies[part] for k in _free(ids) for part in _parts(k)]
+	if lower is None and upper is None and region is None:
+		if not O.periodic:
+			raise ValueError('lower: give the corners of a box, or a region; only a periodic cell has a volume of its own')
+		return 1 - sum(_whole(body) for body in solids) / abs(float(O.cell.volume))
+	(normals, offsets), volume, corners = _box(lower, upper) if region is None else _region(region, lower, upper)
+	low, high = corners.min(axis=0), corners.max(axis=0)
+	return 1 - sum(volumeInside(body, normals, offsets - normals @ shift) for body in solids for shift in _images(body, low, high)) / volume
+
+
+def _box(lower, upper):
+	"""(half-spaces, volume [m³], corners)"""
+	try:
+		lower, upper = np.array(lower, float), np.array(upper, float)
+	except (TypeError, ValueError):
+		lower = upper = np.empty(0)
 	if lower.shape != (3,) or upper.shape != (3,) or not (upper > lower).all() or not np.isfinite(upper - lower).all():
 		raise ValueError(f'upper: must be three finite numbers above those of lower, got lower {lower}, upper {upper}')
-	solids = [O.bodies[part] for k in _free(ids) for part in _parts(k)]
-	solid = sum(volumeWithin(body, lower - shift, upper - shift) for body in solids for shift in _images(body, lower, upper))
-	return 1 - solid / float(np.prod(upper - lower))
+	return boxPlanes(lower, upper), float(np.prod(upper - lower)), np.array([lower, upper])
+
+
+def _region(region, lower, upper):
+	if lower is not None or upper is not None:
+		raise ValueError('region: give a box or a region, not both')
+	try:
+		normals, offsets = (np.array(part, float) for part in region)
+		made = _polytope.polyhedron(vectors(normals, 'region', 3), numbersOf(offsets.tolist(), 'region'))
+	except (TypeError, ValueError) as error:
+		raise ValueError(f'region: must be (normals, offsets) of a convex body ({error})') from None
+	lengths = np.linalg.norm(normals, axis=1)
+	return (normals / lengths[:, None], offsets / lengths), float(made['volume']), np.array(made['vertices'], float).reshape(-1, 3)
+
+
+def boxPlanes(lower, upper):
+	"""(normals, offsets) of an axis-parallel box."""
+	return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([upper, -np.array(lower)])
 
 
 def _parts(k):
@@ -56,33 +88,46 @@ def _images(body, lower, upper):
 	return [cell @ periods for periods in itertools.product(*(range(a, b + 1) for a, b in zip(first, last, strict=True)))]
 
 
+def _whole(body):
+	"""Volume of a polyhedron [m³]."""
+	if not isinstance(body.shape, Polytope) or body.shape.dimension != 3:
+		raise ValueError(f'ids: body {body.id} is no polyhedron')
+	return float(body.shape.volume)
+
+
 def volumeWithin(body, lower, upper):
 	"""Volume [m³] of a polyhedron's part within the box from *lower* to *upper* [m].
 
 	:raises ValueError: naming *ids* for a body that is no polyhedron
 	"""
-	shape, state = body.shape, body.state
-	if not isinstance(shape, Polytope) or shape.dimension != 3:
-		raise ValueError(f'ids: body {body.id} is no polyhedron')
+	return volumeInside(body, *boxPlanes(lower, upper))
+
+
+def volumeInside(body, normals, offsets):
+	"""Volume [m³] of a polyhedron's part within half-spaces of unit normals.
+
+	:raises ValueError: naming *ids* for a body that is no polyhedron
+	"""
+	volume, shape, state, planes = _whole(body), body.shape, body.state, (normals, offsets)
 	turn, position = np.array(state.ori.toRotationMatrix(), float), np.array(state.pos, float)
 	corners = np.array(shape.vertices, float) @ turn.T + position
-	if (corners >= lower).all() and (corners <= upper).all():
-		return float(shape.volume)
-	if (corners.max(axis=0) <= lower).any() or (corners.min(axis=0) >= upper).any():
+	outside = corners @ normals.T - offsets
+	if (outside <= 0).all():
+		return volume
+	if (outside.min(axis=0) >= 0).any():
 		return 0.0
 	normals = np.array(shape.normals, float) @ turn.T
 	offsets = np.array(shape.offsets, float)
 	# about the body's centre, in units of its size
 	size = float(np.ptp(corners, axis=0).max())
-	box = np.vstack([np.eye(3), -np.eye(3)])
-	normals = np.vstack([normals, box])
-	offsets = np.concatenate([offsets, upper - position, position - lower]) / size
+	normals = np.vstack([normals, planes[0]])
+	offsets = np.concatenate([offsets, planes[1] - planes[0] @ position]) / size
 	# the largest ball inside: its centre is interior
-	found = linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
+	found = scipy.optimize.linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
 	if found.status != 0 or found.x[3] < thin:
 		return 0.0
-	part = HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
-	return float(ConvexHull(part.intersections).volume) * size**3
+	part = scipy.spatial.HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
+	return float(scipy.spatial.ConvexHull(part.intersections).volume) * size**3
 
 
 @dataclasses.dataclass

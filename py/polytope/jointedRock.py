@@ -12,7 +12,7 @@ import numbers
 from collections.abc import Iterable
 
 import numpy as np
-from scipy.stats import vonmises_fisher
+import scipy  # loads its packages at their first use: half a second
 from yade import _polytope
 
 from .arguments import flag, numbersOf, vector, vectors
@@ -94,7 +94,7 @@ class JointSet:
 		if self.fisher is None:
 			normals = np.tile(self.normal, (len(along), 1))
 		else:
-			normals = vonmises_fisher(self.normal, self.fisher, seed=random).rvs(len(along)).reshape(-1, 3)
+			normals = scipy.stats.vonmises_fisher(self.normal, self.fisher, seed=random).rvs(len(along)).reshape(-1, 3)
 		return np.column_stack([normals, along * (normals @ self.normal)])
 
 

@@ -75,12 +75,17 @@ def particleFabric(ids=None):
 	:returns: (3, 3) array [-]
 	:raises ValueError: naming *ids*
 	"""
+	return np.mean([np.outer(a, a) for a in _longAxes(ids)], axis=0)
+
+
+def _longAxes(ids):
+	"""(n, 3) unit vectors in world axes."""
 	axes = []
 	for k in _polytopes(ids):
 		body = O.bodies[k]
 		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
 		axes.append(turn[:, int(np.argmin(np.array(body.shape.inertia, float)))])
-	return np.mean([np.outer(a, a) for a in axes], axis=0)
+	return np.array(axes)
 
 
 def aabbExtrema(ids=None):

@@ -174,6 +174,7 @@ def addLegend(renderer, legend, height):
 	bar.SetTextPositionToPrecedeScalarBar()
 	bar.SetVerticalTitleSeparation(int(0.01 * height))
 	renderer.AddViewProp(bar)
+	return bar
 
 
 def shadingPass(radius):
@@ -238,8 +239,7 @@ def draw(meshes, settings, path):
 		renderer.AddActor(actorOf(style, mesh, settings['edges']))
 	addLights(renderer, settings['camera'])
 	placeCamera(renderer, settings['camera'])
-	if settings['legend']:
-		addLegend(renderer, settings['legend'], supersampling * height)
+	legend = addLegend(renderer, settings['legend'], supersampling * height) if settings['legend'] else None
 	window = vtkRenderWindow()
 	window.OffScreenRenderingOn()
 	window.SetMultiSamples(0)
@@ -247,6 +247,8 @@ def draw(meshes, settings, path):
 	large = pixelsOf(window, supersampling * width, supersampling * height)
 	pixels = large.reshape(height, supersampling, width, supersampling, 3).mean(axis=(1, 3))
 	if settings['shade']:
+		if legend:
+			renderer.RemoveViewProp(legend)  # which would shade the scene, in the size of another picture
 		pixels *= shadingOf(renderer, window, settings)
 	window.Finalize()  # before the display ends
 	write(pixels, path)

@@ -11,7 +11,7 @@ import itertools
 import numbers
 
 import numpy as np
-import scipy.spatial
+import scipy  # loads its packages at their first use: half a second
 from yade import _polytope
 
 from .arguments import flag, numbersOf, rows, vectors

@@ -33,7 +33,7 @@ template <class R, int D> struct WeightSums {
 	R second[D][D]; ///< Σ w_i a_i a_iᵀ, lower triangle; its trace is Σ w_i
 };
 
-/// At x, strictly inside; leaves slacks in planes.slack. `unit`: the length in which slacks are measured, so that no power overflows.
+/// At x; leaves slacks in planes.slack. A slack of which rounding leaves no digit counts as one rounding, outside as inside. `unit`: the length in which slacks are measured, so that no power overflows.
 template <class R, int D, int W>
 POLYTOPE_INLINE void weightSums(const PairPlanes<R, D>& planes, int body, const R* x, R unit, WeightSums<R, D>& sums)
 {
@@ -44,12 +44,13 @@ POLYTOPE_INLINE void weightSums(const PairPlanes<R, D>& planes, int body, const 
 		X[k] = broadcast<R, W>(x[k]);
 	for (V& s : sum)
 		s = broadcast<R, W>(0);
+	const V least = broadcast<R, W>(R(tolerance::leastSlack) * unit);
 	for (int i = planes.begin(body); i < planes.end(body); i += W) {
 		V       a[D];
 		const V slack = slacksOf<R, D, W>(planes, i, X, a);
 		store<R, W>(planes.slack + i, slack);
-		const V inverse = unit / slack;
-		const V weight  = inverse * inverse * maxOf(inverse, V(-inverse)); // x may be outside by rounding
+		const V inverse = unit / maxOf(maxOf(slack, V(-slack)), least); // x may be outside by rounding
+		const V weight  = inverse * inverse * inverse;
 		for (int k = 0, next = D; k < D; ++k) {
 			const V wa = weight * a[k];
 			sum[k] += wa;

@@ -2,28 +2,17 @@
 #include "contact/OverlapFootprint.hpp"
 
 #include "contact/OverlapVolume.hpp"
+#include "contact/PlanesInRows.hpp"
 
 namespace polytope {
 namespace {
 
 	template <int D> OverlapFootprint footprintOf(const std::vector<Plane>& list, const Vector3& direction, Real halfWidth)
 	{
-		const int                            count = int(list.size());
 		static thread_local ContactWorkspace workspace;
-		Real* const                          row = workspace.rows(D + 1, count);
-		PairPlanes<Real, D>                  planes;
-		for (int k = 0; k < D; ++k)
-			planes.normal[k] = row + k * count;
-		planes.offset = row + D * count;
-		planes.slack = planes.rate = nullptr;
-		planes.first = planes.total = count;
-		for (int i = 0; i < count; ++i) {
-			for (int k = 0; k < D; ++k)
-				planes.normal[k][i] = list[i].normal[k];
-			planes.offset[i] = list[i].offset;
-		}
-		const Real origin[D] = {};
-		Real       n[D];
+		const PairPlanes<Real, D>            planes    = planesInRows<D>(list, workspace.rows(D + 1, int(list.size())));
+		const Real                           origin[D] = {};
+		Real                                 n[D];
 		for (int k = 0; k < D; ++k)
 			n[k] = direction[k];
 		const Footprint<Real>   seen = Overlap<Real, D, 1>(planes, origin, halfWidth, workspace).footprint(origin, n);

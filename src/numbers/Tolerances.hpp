@@ -188,6 +188,11 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
+/// × size: least slack of a plane in the weights of the normal (DualWeights.hpp). Slacks are rounded by about that: in an overlap which is no thicker, one
+/// slack may come out as 1e-20 beside another of 1e-16, its weight, the third power, as 10¹² times the other's, and the normal as that of a face beside
+/// the contact. With the default tolerance an overlap is 45 times as thick.
+constexpr Real leastSlack = rounding;
+
 /// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
 /// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
 constexpr Real leverage = 1e-2;

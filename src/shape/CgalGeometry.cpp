@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/CgalGeometry.hpp"
 
+#include "shape/Numbers.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpzf.h>
@@ -56,8 +58,6 @@ namespace {
 			return sum;
 		}
 	}
-
-	bool finite(const Real& value) { return (Eigen::numext::isfinite)(value); }
 
 } // namespace
 

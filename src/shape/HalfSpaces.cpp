@@ -2,19 +2,13 @@
 #include "shape/HalfSpaces.hpp"
 
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/Numbers.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 namespace polytope {
 namespace {
-
-	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
-
-	bool finite(const Real& value) { return (Eigen::numext::isfinite)(value); }
-
-	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
 
 	std::string entry(std::size_t i) { return "entry " + std::to_string(i) + " (counted from 0) "; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "numbers/NumberText.hpp"
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/Numbers.hpp"
 #include "shape/PlaneMeeting.hpp"
 #include "shape/ShapeConstruction.hpp"
 
@@ -8,17 +9,12 @@
 #include <Eigen/SVD>
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 // hullOf: the points are brought to unit size about the middle of their box, the exact hull's triangles are joined into
 // facets (TriangleClusters.hpp), and each facet's plane is fitted to all of its points. In 2-D the polygon is made a prism first.
 namespace polytope {
 namespace {
-
-	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
-
-	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
 
 	struct UnitPoints {
 		std::vector<Vector3> points;
@@ -35,7 +31,7 @@ namespace {
 			        + "-D; give at least " + std::to_string(dimension + 1));
 		for (std::size_t i = 0; i < points.size(); ++i)
 			for (int k = 0; k < 3; ++k)
-				if (!(Eigen::numext::isfinite)(points[i][k]))
+				if (!finite(points[i][k]))
 					refuse("points: entry " + std::to_string(i)
 					        + " (counted from 0) is not finite; remove NaN and infinite values");
 				else if (magnitude(points[i][k]) > construction::largestLength)

@@ -5,16 +5,14 @@
 #include "shape/CgalGeometry.hpp"
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/InscribedBall.hpp"
+#include "shape/Numbers.hpp"
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 namespace polytope {
 namespace {
-
-	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
 
 	[[noreturn]] void refuseOpen(const Vector3& direction)
 	{
@@ -41,8 +39,6 @@ namespace {
 			}
 		return Vector3::Zero();
 	}
-
-	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
 
 	/// The power of two below: dividing by it changes no digit.
 	Real powerOfTwo(const Real& size)

@@ -12,4 +12,14 @@ struct PlacedShape {
 	Matrix3            rotation;
 };
 
+/// Appends its half-spaces n·x ≤ d, in the world's axes and from that origin.
+inline void addPlanesOf(const PlacedShape& body, std::vector<Plane>& planes)
+{
+	const HalfSpaces& own = body.shape.planes();
+	for (std::size_t i = 0; i < own.size(); ++i) {
+		const Vector3 normal = body.rotation * own.normals[i];
+		planes.push_back({ normal, own.offsets[i] + normal.dot(body.centre) });
+	}
+}
+
 } // namespace polytope

@@ -3,6 +3,7 @@
 
 #include "numbers/NumberText.hpp"
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/Numbers.hpp"
 #include "shape/PlaneMeeting.hpp"
 
 #include <stdexcept>
@@ -17,8 +18,6 @@
 //     faces that lose their area by it are dropped.
 namespace polytope {
 namespace {
-
-	Real magnitude(const Real& value) { return value < 0 ? Real(-value) : value; }
 
 	Triangles dualHull(const LocalPlanes& local)
 	{

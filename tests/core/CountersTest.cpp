@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 using namespace polytope;
@@ -155,18 +156,11 @@ TEST(Counters, SeparatedPairsAreDismissedAtOnce)
 	}
 }
 
-/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED=<faces>,<repetitions>,
-/// <cold|warm|averaged|apart> queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left.
-/// averaged: warm, with the paper's averaged normal.
-TEST(Counters, DISABLED_Queries)
+/// Queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left. averaged: warm, with the paper's
+/// averaged normal. A function that callgrind finds by its name.
+__attribute__((noinline)) void countedQueries(int faces, const std::string& kind, int repetitions)
 {
-	const char* text = std::getenv("POLYTOPE_COUNTED");
-	ASSERT_NE(text, nullptr);
-	int  faces = 0, repetitions = 0;
-	char kind[9] = "";
-	ASSERT_EQ(std::sscanf(text, "%d,%d,%8s", &faces, &repetitions, kind), 3);
-	const bool cold = std::string(kind) == "cold", apart = std::string(kind) == "apart";
-	std::printf("instruction set: %s\n", instructionSet());
+	const bool        cold = kind == "cold", apart = kind == "apart";
 	std::mt19937_64   random(1);
 	std::vector<Pair> pairs, moved;
 	for (int i = 0; i < 20; ++i) {
@@ -175,12 +169,27 @@ TEST(Counters, DISABLED_Queries)
 	}
 	std::vector<PairMemory> memories(pairs.size());
 	ContactSettings         settings;
-	if (std::string(kind) == "averaged") settings.normal = NormalSource::InnerPotential;
+	if (kind == "averaged") settings.normal = NormalSource::InnerPotential;
 	int contacts = 0;
 	for (int i = 0; i <= repetitions; ++i)
 		for (std::size_t k = 0; k < pairs.size(); ++k)
 			contacts += query(i % 2 ? moved[k] : pairs[k], settings, cold ? nullptr : &memories[k]).inContact;
 	EXPECT_EQ(contacts, apart ? 0 : (repetitions + 1) * int(pairs.size()));
+}
+
+/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED: words <cold|warm|averaged|apart>,<faces>,<repetitions>.
+TEST(Counters, DISABLED_Queries)
+{
+	const char* text = std::getenv("POLYTOPE_COUNTED");
+	ASSERT_NE(text, nullptr);
+	std::printf("instruction set: %s\n", instructionSet());
+	std::istringstream words(text);
+	for (std::string word; words >> word;) {
+		int  faces = 0, repetitions = 0;
+		char kind[9] = "";
+		ASSERT_EQ(std::sscanf(word.c_str(), "%8[a-z],%d,%d", kind, &faces, &repetitions), 3) << word;
+		countedQueries(faces, kind, repetitions);
+	}
 }
 
 } // namespace

@@ -92,6 +92,31 @@ TEST(DualWeights, AVertexOnAFaceHasTheFacesNormalAndCrossedEdgesTheirCrossProduc
 	}
 }
 
+/// In an overlap no thicker than rounding the slacks at its point are rounding, of either sign, and one may be a millionth of another.
+TEST(DualWeights, ACornerOnAFaceHasTheFacesNormalWhereSlacksAreAllRounding)
+{
+	const Real slacks[] = { 1.6e-16, 1e-17, -3e-18, 1e-20, 1e-24, 0 };
+	for (Real degrees : { 20., 45., 60. })
+		for (Real first : slacks)
+			for (Real second : slacks)
+				for (Real floor : slacks) {
+					const Real angle = degrees * Real(M_PI) / 180, c = std::cos(angle), s = std::sin(angle);
+					HalfSpaces corner, ground;
+					corner.dimension = ground.dimension = 2;
+					corner.normals                      = { { -c, -s, 0 }, { s, -c, 0 }, { c, s, 0 }, { -s, c, 0 } };
+					corner.offsets                      = { first, second, 0.5, 0.5 };
+					ground.normals                      = { { 0, 1, 0 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, -1, 0 } };
+					ground.offsets                      = { floor, 1, 1, 1 };
+					const PlaneRows<Real, 2> rows(corner, ground);
+					const Real               x[] = { 0, 0 };
+					Real                     n[2];
+					const Real weight = dualWeightsNormal<Real, 2, 1>(rows.planes, x, Real(0.5), n);
+					EXPECT_GT(std::hypot(n[0], n[1]), tolerance::direction * weight);
+					EXPECT_LE(lean(vectorOf(n, 2).normalized(), -Vector3::UnitY()), 1e-12)
+					        << degrees << "°, slacks " << first << ", " << second << ", " << floor;
+				}
+}
+
 /// A block on a plate that ends `beside` the contact's near side: the plate's side turns the normal by about (δ/2ℓ)³.
 TEST(DualWeights, APlaneBesideTheContactTurnsTheNormalByTheThirdPower)
 {

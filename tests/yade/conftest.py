@@ -4,6 +4,7 @@ import numbers
 import os
 import pathlib
 import sys
+import time
 
 os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # waiting threads do not occupy the cores that working ones need
 
@@ -48,6 +49,22 @@ def pytest_collection_modifyitems(items):
 	for item in items:
 		if f'{item.path.name}::{getattr(item, "originalname", item.name)}' in slowTests:
 			item.add_marker(pytest.mark.slow)
+
+
+omega = type(yade.O)
+startRun = omega.run
+
+
+def runAndLookEveryMillisecond(self, nSteps=-1, wait=False):
+	"""O.run, whose own `wait` looks only every 40 ms whether the run has ended: most of the time of short runs."""
+	startRun(self, nSteps)
+	if wait:
+		while self.running:
+			time.sleep(1e-3)
+		self.wait()  # raises what ended the run
+
+
+omega.run = runAndLookEveryMillisecond
 
 
 @pytest.fixture(autouse=True)

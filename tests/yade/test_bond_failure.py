@@ -203,3 +203,52 @@ def testABondEndsWithAnErasedBody():
 	assert {bond.failure for bond in polytope.bonds().bonds} == {'erased'} and polytope.bonds().intactCount == 0
 	assert O.bodies[2].state.vel[2] < -1e-3 * gravity * O.time
 	assert polytope.bonds().bonds[0].energy == 0 and next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+
+
+def hung(offset, size=(0.1, 0.1, 0.1), **strength):
+	"""A brick below another one, beside its place by so much, bonded with the strengths of their material; and the largest stress at the
+	edge of their common face under the brick's weight: weight and eccentricity over area and section modulus."""
+	joint(normalStiffness=1e11, shearStiffness=1e11, frictionAngle=0.5, **strength)
+	half = Vector3(*size) / 2
+	O.bodies.append(polytope.cuboid((0, 0, size[2]), half, fixed=True))
+	O.bodies.append(polytope.cuboid((offset, 0, 0), half))
+	newton = loop(True, damping=0.5)
+	assert ('tension' in [found.what for found in polytope.check(O)]) == (strength.get('tensileStrength', 0) > 0)
+	assert polytope.bond() == 1 and 'tension' not in [found.what for found in polytope.check(O)]
+	stepper()
+	width = size[0] - offset
+	weight = O.bodies[1].state.mass * gravity
+	return newton, weight / (width * size[1]) * (1 + 6 * (offset / 2) / width)
+
+
+def testAJointOfItsMaterialsStrengthHoldsABrickOffCentre():
+	"""By 1 mm, with 390 times the weight: what falls without a bond, for an ordinary joint pulls at a point."""
+	newton, stress = hung(0.001, tensileStrength=390 * 2600 * gravity * 0.1, cohesion=1e9)
+	newton.gravity = (0, 0, -gravity)
+	O.run(20000, wait=True)
+	bond, brick = polytope.bonds().bonds[0], O.bodies[1].state
+	assert bond.intact and bond.edgeStress == pytest.approx(stress, rel=1e-6)
+	angle = O.bodies[1].state.mass * gravity * 0.0005 / (1e11 * 0.1 * 0.099**3 / 12)
+	assert 2 * abs(brick.ori[1]) == pytest.approx(angle, rel=1e-4) and brick.vel.norm() < 1e-9
+
+
+@pytest.mark.parametrize('size, offset', [((0.1, 0.1, 0.1), 0.001), ((2, 1, 1), 0.4)])
+def testAHungBlockFallsWhereTheStressAtTheEdgeReachesItsStrength(size, offset):
+	newton, stress = hung(offset, size, tensileStrength=1e6, cohesion=1e9)
+	bond, times = polytope.bonds().bonds[0], 1e6 / stress
+	for k in range(20000):
+		newton.gravity = (0, 0, -gravity * 1.1 * times * k / 20000)
+		O.step()
+		if not bond.intact:
+			break
+	assert bond.failure == 'tension' and -newton.gravity[2] / gravity == pytest.approx(times, rel=0.01)
+	O.run(100, wait=True)
+	assert not O.interactions.countReal(), 'it falls'
+
+
+def testStrengthsAreThoseOfTheMaterialsIfTheyHaveAny():
+	for strength, expected in (({}, (math.inf, math.inf)), ({'cohesion': 2e5}, (0, 2e5)), ({'cohesion': 2e5, 'tensileStrength': 1e5}, (1e5, 2e5))):
+		O.reset()
+		hung(0, **strength)
+		bond = polytope.bonds().bonds[0]
+		assert (bond.tensileStrength, bond.cohesion) == expected

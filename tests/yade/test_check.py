@@ -443,7 +443,7 @@ def testFrictionAngleInDegrees():
 def testTensileStrengthOfAJointIsNoGlue():
 	scene(material=rock(tensileStrength=1e5))
 	found = onlyFinding('tension')
-	assert '1e+05 Pa' in found.seen and 'polytope.bond(' in found.advice
+	assert '1e+05 Pa' in found.seen and 'polytope.bond()' in found.advice
 
 
 

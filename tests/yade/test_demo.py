@@ -25,13 +25,13 @@ def demo(folder, *options):
 
 
 def testShortDemoComesToRestWithoutFailure(tmp_path):
-	text, results = demo(tmp_path, '--number', '72', '--steps', '6000', '--no-pictures')
+	text, results = demo(tmp_path, '--number', '45', '--steps', '6000', '--no-pictures')
 	assert [r['shape'] for r in results] == ['tetrahedron', 'cube', 'octahedron', 'dodecahedron', 'icosahedron']
 	for result in results:
-		assert result['inside'] == 72 and result['failures'] == 0
+		assert result['inside'] == 45 and result['failures'] == 0
 		assert result['energyEnd'] < 1e-3 < 0.1 < max(energy for _, energy in result['energies']), 'has fallen, and come to rest'
 		assert result['overlap'] < 0.005 and result['deepestOverlap'] < 0.03
-		assert result['contacts'] >= 72, 'each lies on something'
+		assert result['contacts'] >= 45, 'each lies on something'
 		assert 0.4 < result['meanHeight'] < 0.9
 		assert result['stateHash'] in text
 	assert (tmp_path / 'out' / 'results.csv').read_text().count('\n') == 6
@@ -63,13 +63,3 @@ def testHelloPrintsTheContact(tmp_path):
 	lines = {line[:17].strip(): line[17:].strip() for line in done.stdout.splitlines()}
 	assert float(lines['force over weight']) == pytest.approx(1, abs=1e-3)
 	assert float(lines['area'].split()[0]) == pytest.approx(0.8, rel=1e-3)
-
-
-products = {'polygons.py': 'output/polygons.png', 'mesh.py': 'output/pebbles.png', 'paraview.py': 'output/paraview/bodies.pvd'}
-
-
-@pytest.mark.parametrize('script, product', products.items())
-def testExampleMakesItsFile(tmp_path, script, product):
-	done = run(tmp_path, script)
-	assert done.returncode == 0, done.stdout + done.stderr
-	assert (tmp_path / product).stat().st_size > 500

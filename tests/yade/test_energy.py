@@ -39,6 +39,27 @@ class Ledger:
 		return terms
 
 
+@pytest.mark.parametrize(
+        'perArea,ig2,error', [
+                (False, {'normal': 'innerPotential'}, None), (True, {'normal': 'innerPotential'}, None), # the chord
+                (True, {}, 1e-9), # the mean depth
+                (True, {'contactModel': 'conservative'}, 1e-3), # with a barrier
+        ]
+)
+def testContactsHaveTheEnergyOfTheirDepthRule(perArea, ig2, error):
+	"""Of a flat contact all rules give ½ δ²; where that is the rule of the chord, the geometry says -1."""
+	joint(normalStiffness=stiffness)
+	loop(perArea, ig2=ig2)
+	O.trackEnergy = True
+	floor, block = blockOnFloor(1e-3)
+	O.dt = 1e-9
+	O.step()
+	geom = contact(floor, block).geom
+	energy = geom.penetrationDepth**2 / 2
+	assert geom.energyPerStiffness == (-1 if error is None else pytest.approx(energy, rel=error))
+	assert energies()['elastPotential'] == pytest.approx(stiffness * energy, rel=error or 1e-9)
+
+
 def testFlatDampedDropBalances():
 	"""A cube falls 10 mm flat on a floor, bounces, comes to rest."""
 	joint(normalStiffness=stiffness)

@@ -8,11 +8,11 @@ import runpy
 import sys
 
 import pytest
-from yade import O, Vector3, polytope
+from yade import Facet, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff')
-elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'jointedSlope': 'test_jointed_rock', 'mpi': 'test_mpi'}
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'funnel', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
+elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
 @pytest.fixture
@@ -72,6 +72,25 @@ def testCrushedGrainBreaksWhereItsStressSays(runs):
 	assert len(names['pieces']) == len(names['forces']) + 1 and isPicture('crushedGrain.png') and noFailures()
 
 
+def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
+	"""Four metres of it along the face."""
+	with pytest.raises(SystemExit) as end:
+		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
+	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
+
+
+def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
+	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.45': 'O.time < 0.35'})
+	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
+	grains = [body.state.pos for body in O.bodies if body.dynamic]
+	assert 0 < out and number == len(grains) > 8 and isPicture('output/funnel.png') and noFailures()
+	assert sum(isinstance(body.shape, Facet) for body in O.bodies) == 144
+	for x, y, z in grains:
+		# inside the funnel's radius at that height, or below its spout; above the floor
+		radius = 0.08 if z > 0.22 else 0.02 + 0.6 * (z - 0.12) if z > 0.12 else 0.02
+		assert z > 0 and (z < 0.09 or (x**2 + y**2) ** 0.5 < radius)
+
+
 def testPebblesLieInTheTray(runs, capsys):
 	names = runs('mesh', shorter={'O.time < 1.5': 'O.time < 0.25'})
 	hull = O.bodies[5].shape
@@ -98,6 +117,14 @@ def testParaviewsFilesAreThere(runs):
 		series = pathlib.Path(f'output/paraview/{recorder}.pvd').read_text()
 		files = re.findall(r'file="([^"]+)"', series)
 		assert len(files) == 5 and all((pathlib.Path('output/paraview') / file).stat().st_size > 500 for file in files)
+
+
+def testTriaxialTestHoldsItsStress(runs, capsys):
+	names = runs('triaxial', shorter={'mass=0.155': 'mass=0.014', '(0.07, 0.07, 0.07)': '(0.032, 0.032, 0.032)', 'run(0.2)': 'run(0.02)'})
+	columns = names['columns']
+	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'].max() > 4e4
+	assert columns['axialStrain'][-1] == pytest.approx(0.02, abs=1e-4) and columns['volumetricStrain'][-1] > 0
+	assert isPicture('triaxial.png') and isPicture('triaxialSample.png') and f'{len(names["sample"].ids)} grains' in capsys.readouterr().out and noFailures()
 
 
 def testTimeStepsColumnStands(runs, capsys):

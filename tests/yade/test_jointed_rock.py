@@ -4,7 +4,6 @@ from math import exp, pi, radians, tanh
 
 import numpy as np
 import pytest
-from test_demo import run
 from yade import polytope
 from yade.polytope import JointSet
 
@@ -162,10 +161,3 @@ def testWrongJointsAreRefused(arguments, named):
 def testWrongArgumentsAreRefused(arguments, named):
 	with pytest.raises(ValueError, match=f'^{named}:'):
 		polytope.jointedRock(**{'normals': box, 'offsets': half, 'jointSets': scattered, **arguments})
-
-
-def testSlopeSlidesBelowTheDipOfItsBeddingOnly(tmp_path):
-	done = run(tmp_path, 'jointedSlope.py')
-	assert done.returncode == 0, done.stdout + done.stderr
-	assert 'queries without an answer: 0' in done.stdout
-	assert (tmp_path / 'output/jointedSlope.png').stat().st_size > 50000

@@ -158,7 +158,7 @@ def testPresetsStandInTheirOrder(monkeypatch):
 	for letter in ('D', 'F'):
 		scene = allScenes()[letter]
 		changes = {name: polytope.settings(name) for name in ('fast', 'balanced', 'exact')}
-		table = polytope.tradeoff(scene.build, changes, scene.measure, scene.truth, repeats=2, timedSeconds=scene.timedSeconds and 0.1)
+		table = polytope.tradeoff(scene.build, changes, scene.measure, scene.truth, timedSeconds=scene.timedSeconds and 0.1)
 		fast, balanced, exact = (table[name] for name in ('fast', 'balanced', 'exact'))
 		assert exact.timeStepOfLimit is None or exact.timeStepOfLimit <= 1  # safe by stableTimeStep, and without advice by requirements
 		assert fast.timeStep > balanced.timeStep > exact.timeStep  # the number of steps makes the cost: the time of one hardly differs

@@ -6,6 +6,8 @@ import math
 import numpy as np
 from yade import FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
+from ..bonding import bonds
+
 __all__ = ['bodyFindings', 'notNumbers']
 
 largest = 50.0
@@ -111,10 +113,12 @@ def frictionAngle(scene):
 
 
 def tension(scene):
+	if bonds() and bonds().bonds:
+		return
 	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
 		if material.tensileStrength > 0:
 			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint pulls at one point and does not resist bending'
-			yield 'tension', seen, 'polytope.bond(tensileStrength=…, cohesion=…) where faces are to hold as if glued'
+			yield 'tension', seen, 'polytope.bond() after O.engines is set: faces that touch then hold with the material\'s strength over their whole area'
 			return
 
 

@@ -234,7 +234,8 @@ def _twin(body):
 	shape = body.shape
 	normals = vectors(shape.normals, 'normals', 3)
 	placed = _polytope.ofHalfSpaces(normals, shape.offsets, shape.dimension, shape.thickness, False, shape.cornerRadius, 0)
-	return _polytope.body(placed, body.material, body.state.pos, body.state.ori, True, 0)
+	state = body.state
+	return _polytope.body(placed, body.material, state.pos + state.ori * placed.position, state.ori, True, 0, None)
 
 
 def numbersOfBodies(scene):

@@ -66,6 +66,8 @@ class Collision:
 	frictionCoefficient: float = 1
 	contactDamping: float = 1
 	"""Of the contact, normal and shear, fraction of critical."""
+	shearDamping: float = None
+	"""Of the contact's shear alone, where it differs from *contactDamping*."""
 	damping: float = 0.3
 	"""YADE's own: NewtonIntegrator.damping."""
 	dampGravity: bool = True
@@ -86,6 +88,7 @@ class Collision:
 
 	def build(self):
 		O.reset()
+		shearDamping = self.contactDamping if self.shearDamping is None else self.shearDamping
 		O.materials.append(
 			RockJointMat(
 				density=self.density,
@@ -105,7 +108,7 @@ class Collision:
 			InteractionLoop(
 				[self.geometryFunctor],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
-				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
+				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=shearDamping)],
 			),
 			self.integrator,
 		]

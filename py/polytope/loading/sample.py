@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A sample of bodies within a boundary whose directions are each held at a stress or moved at a rate: what loading tests load.
+
+Stresses and strains of loading tests are positive in compression, as in soil mechanics; those of polytope.bodyStress are YADE's, positive
+in tension.
+"""
+
+import math
+
+import numpy as np
+from yade import O, Polytope, utils
+
+from ..heap import _mover, _parts
+from ..measures import bodyStress
+
+__all__ = ['Sample']
+
+stressError, restingForce = 5e-4, 5e-3
+"""Relative deviation from the target stress, and YADE's unbalanced force, below which a sample counts as settled."""
+mostSteps = 200000
+"""Steps after which a sample that does not settle is given up."""
+between, looks = 20, 10
+"""Steps between two looks at it, and how many in a row must find it at rest: one alone may be a turning point."""
+fastestStrain = 3e-4
+"""Strain in a time step at which boundaries move at most while they look for a stress. The step follows from the grains' own periods: neighbours that
+meet at this rate overlap by some 1e-3 of their size."""
+quasiStatic = 1e-3
+"""Inertial number of tests by default: below it the answer does not depend on the rate (GDR MiDi 2004, Eur. Phys. J. E 14:341)."""
+
+
+class Sample:
+	"""Base of samples between walls, in a periodic cell, in a shear frame, in a shear box.
+
+	:ivar list ids: of the bodies; a clump's for all its members
+	:ivar ndarray extents: lengths of the sample [m]
+	"""
+
+	def __init__(self, ids):
+		self.ids = [k for k in dict.fromkeys(map(_mover, ids)) if O.bodies[k].dynamic]
+		if not self.ids:
+			raise ValueError('ids: the sample has no body that can move')
+		parts = [O.bodies[part] for k in self.ids for part in _parts(k)]
+		if not all(isinstance(body.shape, Polytope) for body in parts):
+			raise ValueError('ids: a sample is made of polytopes')
+		self.solidVolume = sum(float(body.shape.volume) for body in parts)
+		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
+		self.meanSize = (self.solidVolume / len(self.ids)) ** (1 / 3)
+		self.stresses, self.rates, self.fastest = [None] * 3, [0.0] * 3, [math.inf] * 3
+
+	@property
+	def volume(self):
+		"""[m³], voids included"""
+		return float(np.prod(self.extents))
+
+	@property
+	def porosity(self):
+		"""1 − volume of the bodies over that of the sample [-]. Overlaps of bodies count twice."""
+		return 1 - self.solidVolume / self.volume
+
+	def stress(self):
+		"""Mean stress of the sample by the contacts of its bodies [Pa], positive in compression: (3, 3) array.
+
+		−1/V Σ f ⊗ (x − c) over bodies and their contacts, walls included; equal to the stress on the walls where all bodies are at rest
+		(Love 1927, Weber 1966).
+		"""
+		volumes = {k: sum(float(O.bodies[part].shape.volume) for part in _parts(k)) for k in self.ids}
+		return -sum(volumes[k] * one for k, one in bodyStress(self.ids).items()) / self.volume
+
+	def control(self, stresses=None, rates=None):
+		"""What the boundary does from the next step on, until it is told otherwise.
+
+		:param dict stresses: axis (0, 1, 2) → normal stress that is held [Pa], positive in compression
+		:param dict rates: axis → rate of shortening [1/s]; axes in neither stand still
+		"""
+		for axis in range(3):
+			self.stresses[axis] = None if stresses is None or axis not in stresses else float(stresses[axis])
+			self.rates[axis] = 0.0 if rates is None else float(rates.get(axis, 0))
+			self.fastest[axis] = fastestStrain / float(O.dt)
+		self.apply()
+
+	def inertialRate(self, stress, inertialNumber=quasiStatic):
+		"""Strain rate [1/s] of an inertial number I = rate · d · √(ρ/p), with the mean size d."""
+		density = self.mass / self.solidVolume
+		return inertialNumber / (self.meanSize * math.sqrt(density / stress))
+
+	def deviation(self):
+		"""Largest relative difference of a held stress from its target."""
+		now = self.boundaryStress()
+		return max((abs(now[axis] / goal - 1) for axis, goal in enumerate(self.stresses) if goal), default=0.0)
+
+	def settle(self, steps=mostSteps, untouched=False):
+		"""Steps until held stresses, if there are any, are met to 0.05 % and the bodies are at rest.
+
+		:param bool untouched: bodies that bear no force at all count as being at rest
+		:raises RuntimeError: if they are not after so many steps
+		"""
+		quiet = 0
+		for _ in range(0, steps, between):
+			for _ in range(between):
+				O.step()
+			unbalanced = float(utils.unbalancedForce())  # not a number where nothing bears a force
+			resting = unbalanced < restingForce or untouched and math.isnan(unbalanced)
+			quiet = quiet + 1 if resting and self.deviation() < stressError else 0
+			if quiet == looks:
+				return
+		seen = f'stress off by {100 * self.deviation():.2g} %, unbalanced force {float(utils.unbalancedForce()):.2g}'
+		raise RuntimeError(
+			f'loading: the sample has not come to rest within {steps} steps ({seen}); give more damping, or a stress that it can bear'
+		)

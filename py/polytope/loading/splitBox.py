@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A sample in a box of two halves, the upper of which slides over the lower one."""
+
+import numpy as np
+from yade import O
+
+from ..heap import _parts
+from .plates import force, moveTo, plate, replaced, thickness
+from .sample import Sample
+from .servo import Servo, actOn, eased
+
+__all__ = ['SplitBox']
+
+
+class SplitBox(Sample):
+	"""Lower half: a rough bottom and four smooth sides, which stand still. Upper half: four smooth sides that move along x, and a rough plate that moves
+	with them and holds the normal stress along z, on the area that the box had at the beginning.
+	"""
+
+	def __init__(self, sample):
+		super().__init__(sample.ids)
+		low, high = sample.lower, sample.upper
+		smooth = O.bodies[sample.walls[0][0]].material
+		rough = next(O.bodies[part].material for part in _parts(self.ids[0]))
+		self.begun, self.area = np.array(sample.extents), float(np.prod(sample.extents[:2]))
+		self.longest = thickness * float(self.begun[0])
+		replaced([k for pair in sample.walls for k in pair])
+		thick, middle = np.full(3, self.longest), (low[2] + high[2]) / 2
+		outer = low - thick, high + thick
+		self.bottom = plate(outer[0], [*outer[1][:2], low[2]], rough)
+		above = high[2] + self.begun[2]  # room for the plate, which moves between the sides
+		self.lowerSides = _sides(low, high, thick, outer[0][2], middle, smooth)
+		self.upperSides = _sides(low, high, thick, middle, above, smooth)
+		self.top = plate([*outer[0][:2], high[2]], [*outer[1][:2], high[2] + self.longest], rough)
+		self.places = {k: np.array(O.bodies[k].state.pos, float) for k in (*self.upperSides, self.top)}
+		self.servo, self.speed, self.present = Servo(self.mass), 0.0, 0.0
+		self.displacement, self.rise = 0.0, 0.0
+
+	@property
+	def extents(self):
+		return self.begun + (0, 0, self.rise)
+
+	def boundaryStress(self):
+		"""Normal stress [Pa] on the upper plate, positive in compression; the other two are not measured."""
+		return np.array([np.nan, np.nan, force(self.top)[2] / self.area])
+
+	def shearStress(self):
+		"""Force along x between the halves over the area at the beginning [Pa], positive where it resists the displacement."""
+		return -float(force(self.top, *self.upperSides)[0]) / self.area
+
+	def apply(self):
+		if any(self.rates) or self.stresses[0] is not None or self.stresses[1] is not None:
+			raise ValueError('sample: in a shear box only the stress along z can be held')
+		actOn(self)
+
+	def move(self):
+		"""Sets the velocities of the upper half for this step."""
+		dt, speed = float(O.dt), 0.0
+		if self.stresses[2] is not None:
+			self.servo.fastest = self.fastest[2] * float(self.begun[2])
+			speed = self.servo.step(force(self.top)[2] - self.stresses[2] * self.area)
+		self.present = eased(self.present, self.speed)
+		self.displacement += self.present * dt
+		self.rise += speed * dt
+		for k in self.upperSides:
+			moveTo(k, self.places[k] + (self.displacement, 0, 0))
+		moveTo(self.top, self.places[self.top] + (self.displacement, 0, self.rise))
+
+
+def _sides(low, high, thick, bottom, top, material):
+	"""Four plates round a box, from one height to another."""
+	outer = low - thick, high + thick
+	return [
+		plate([outer[0][0], outer[0][1], bottom], [low[0], outer[1][1], top], material),
+		plate([high[0], outer[0][1], bottom], [outer[1][0], outer[1][1], top], material),
+		plate([low[0], outer[0][1], bottom], [high[0], low[1], top], material),
+		plate([low[0], high[1], bottom], [high[0], outer[1][1], top], material),
+	]

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Loading tests: stacks of cubes and sliding blocks against closed forms; small random samples, whose stresses are held and balanced."""
+
+from math import exp, radians, tan
+
+import numpy as np
+import pytest
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, Vector3, polytope, utils
+
+edge, friction = 0.1, radians(30)
+perArea, perContact = 1e9, 1e7
+
+
+def material(stiffness=perArea):
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=friction))
+
+
+def stack(number, gap, perAreaStiffness=True):
+	"""Cubes on a regular lattice; along x and y with a gap."""
+	material(perArea if perAreaStiffness else perContact)
+	places = [np.array(place) for place in np.ndindex(*number)]
+	spacing = np.array([edge + gap, edge + gap, edge])
+	O.bodies.append([polytope.cuboid(tuple(spacing * (place + 0.5)), (edge / 2,) * 3) for place in places])
+	O.engines = polytope.engines(gravity=(0, 0, 0), physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perAreaStiffness))
+	return spacing * number
+
+
+def periodicStack(gap):
+	"""27 cubes in a periodic cell."""
+	O.periodic = True
+	extents = np.array([3 * (edge + gap)] * 2 + [3 * edge])
+	O.cell.setBox(*extents.tolist())
+	stack((3, 3, 3), gap)
+	return extents
+
+
+def grains(mass=0.008, seed=1, stiffness=1e11):
+	material(stiffness)
+	return polytope.grains([(0.005, 0), (0.006, 1)], mass=mass, elongation=(0.8, 1), flatness=(0.8, 1), vertices=10, seed=seed)
+
+
+packings = {}
+"""(periodic, mass) → (positions, orientations, corners) of the sample, which is packed once."""
+
+
+def packed(periodic=False, mass=0.008):
+	"""At 100 kPa."""
+	loose = grains(mass)
+	if (periodic, mass) not in packings:
+		length = (sum(body.shape.volume for body in loose) / 0.16) ** (1 / 3)
+		sample = polytope.pack(loose, (0, 0, 0), (length,) * 3, stress=1e5, periodic=periodic, seed=1)
+		assert 0.35 < sample.porosity < 0.55
+		corners = (None, tuple(O.cell.hSize.diagonal())) if periodic else (tuple(sample.lower), tuple(sample.upper))
+		packings[periodic, mass] = [(Vector3(O.bodies[k].state.pos), Quaternion(O.bodies[k].state.ori)) for k in sample.ids], corners
+		return sample
+	places, (lower, upper) = packings[periodic, mass]
+	for body, (position, orientation) in zip(loose, places, strict=True):
+		body.state.pos, body.state.ori = position, orientation
+	if periodic:
+		O.periodic = True
+		O.cell.setBox(*upper)
+	O.bodies.append(loose)
+	return polytope.sample(lower=lower, upper=None if periodic else upper)
+
+
+def noFailures():
+	return all(functor.stats()['failures'] == 0 for functor in O.engines[2].geomDispatcher.functors)
+
+
+def ofBoundary(sample):
+	"""Mean stress by the forces of the boundary alone, −1/V Σ f ⊗ x: that of any stress field in equilibrium with them."""
+	contacts, inside = polytope.arrays().contacts, np.isin(polytope.arrays().contacts.ids, sample.ids)
+	outer = inside.sum(axis=1) == 1
+	sign = np.where(inside[outer, 1], 1, -1)[:, None]
+	return -(sign * contacts.forces[outer]).T @ contacts.points[outer] / sample.volume
+
+
+@pytest.mark.parametrize('perAreaStiffness', (True, False))
+def testOedometerOfAStackOfCubesIsTheirSpringsInARow(perAreaStiffness):
+	"""m layers are m + 1 contacts in a row, those with the walls counted: ΔL = (m + 1) Δp / kₙ, or (m + 1) ΔF / (columns kₙ)."""
+	extents = stack((2, 2, 3), 0.01, perAreaStiffness)
+	test = polytope.oedometer(polytope.sample(lower=(0, 0, 0), upper=tuple(extents)))
+	lengths = []
+	for stress in (1e4, 2e4, 1e4):
+		test.load(stress)
+		lengths.append(test.sample.extents[2])
+	force = 1e4 * extents[0] * extents[1] / 4
+	expected = 4 * force / (perArea * edge**2 if perAreaStiffness else perContact)
+	assert lengths[0] - lengths[1] == pytest.approx(expected, rel=2e-3) and lengths[2] - lengths[0] == pytest.approx(0, abs=2e-3 * expected)
+	columns = test.columns
+	assert columns['axialStress'][1:] == pytest.approx([1e4, 2e4, 1e4], rel=1e-3) and columns['lateralStress'][1:] == pytest.approx(
+		[0, 0, 0]
+	)
+	assert test.sample.porosity == pytest.approx(1 - 12 * edge**3 / (extents[0] * extents[1] * lengths[2]), rel=1e-9)
+
+
+def testOedometerInAPeriodicCellIsTheSpringsOfItsLayers():
+	"""Three layers are three contacts in a row, the last one with the image of the first."""
+	extents = periodicStack(0.02)
+	test = polytope.oedometer(polytope.sample())
+	lengths = []
+	for stress in (1e4, 2e4):
+		test.load(stress)
+		lengths.append(test.sample.extents[2])
+	force = 1e4 * extents[0] * extents[1] / 9
+	assert lengths[0] - lengths[1] == pytest.approx(3 * force / (perArea * edge**2), rel=2e-3)
+	assert test.columns['lateralStress'] == pytest.approx([0, 0, 0], abs=1)
+
+
+def testSimpleShearOfAPeriodicLatticeHasItsShearModulus():
+	"""All cubes turn by half of the shear strain γ: contacts on all faces slip by aγ/2, so τ = kₛ a γ / 2."""
+	periodicStack(0)
+	sample = polytope.sample()
+	sample.control(stresses={0: 1e4, 1: 1e4, 2: 1e4})
+	sample.settle()
+	test = polytope.simpleShear(sample, stress=1e4, rate=0.005)
+	test.run(1e-4)
+	test.sample.settle()
+	test.note()
+	columns = test.columns
+	assert columns['shearStress'][-1] == pytest.approx(perArea / 2 * edge * columns['shearStrain'][-1] / 2, rel=1e-2)
+	turn = O.bodies[0].state.ori.toRotationMatrix()
+	assert turn[0, 2] == pytest.approx(columns['shearStrain'][-1] / 2, rel=2e-2)
+
+
+def testTriaxialOfAStackOfCubesHasItsModulusAndNoPoissonsRatio():
+	stack((2, 2, 2), 0)
+	test = polytope.triaxial(polytope.sample(lower=(0, 0, 0), upper=(2 * edge,) * 3), stress=1e4, rate=0.02)
+	before = test.sample.extents
+	test.run(5e-4)
+	test.sample.settle()
+	test.note()
+	columns = test.columns
+	assert columns['deviator'][-1] == pytest.approx(perArea * (before[2] - test.sample.extents[2]) / 3, rel=2e-3)
+	assert columns['axialStrain'][-1] == pytest.approx(5e-4, rel=1e-2)
+	assert columns['volumetricStrain'] == pytest.approx(columns['axialStrain'], abs=5e-6)
+	assert columns['lateralStress'] == pytest.approx(1e4, rel=1e-3)
+	assert len(columns['deviator']) == 202
+
+
+def testTriaxialBetweenWallsHoldsItsStress():
+	sample = packed()
+	test = polytope.triaxial(sample, stress=1e5, inertialNumber=5e-3)
+	assert sample.boundaryStress() == pytest.approx(1e5, rel=1e-3)
+	assert np.diag(sample.stress()) == pytest.approx(sample.boundaryStress(), rel=5e-3)
+	test.run(0.02)
+	columns = test.columns
+	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['lateralStress'] == pytest.approx(1e5, rel=0.02)
+	assert columns['axialStrain'][[0, -1]] == pytest.approx([0, 0.02], abs=1e-4) and columns['deviator'][-1] > 5e4
+	assert columns['porosity'][-1] == pytest.approx(1 - (1 - columns['porosity'][0]) * exp(columns['volumetricStrain'][-1]), rel=1e-3)
+	sample.settle()
+	assert np.diag(sample.stress()) == pytest.approx(sample.boundaryStress(), rel=5e-3) and noFailures()
+	assert sample.stress() == pytest.approx(ofBoundary(sample), abs=5e-3 * 1e5)
+	with pytest.raises(ValueError, match='^sample'):
+		polytope.triaxial('here', stress=1e5)
+
+
+def testTriaxialInAPeriodicCellHoldsItsStress():
+	test = polytope.triaxial(packed(periodic=True, mass=0.02), stress=1e5, inertialNumber=5e-3)
+	assert test.sample.boundaryStress() == pytest.approx(1e5, rel=1e-3)
+	test.run(0.02)
+	columns = test.columns
+	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'][-1] > 5e4
+	stress = -sum(O.bodies[k].shape.volume * one for k, one in polytope.bodyStress().items()) / O.cell.volume
+	assert np.diag(stress) == pytest.approx(test.sample.boundaryStress(), rel=5e-3) and noFailures()
+
+
+def testPeriodicSimpleShearToOneKeepsItsStressSymmetric():
+	"""The cell is replaced by a less tilted one on the way, which has the same contacts and the same stress."""
+	test = polytope.simpleShear(packed(periodic=True, mass=0.02), stress=1e5, inertialNumber=0.1)
+	widest = 0
+	for strain in np.arange(1, 11) / 10:
+		test.run(strain)
+		cell = np.array(O.cell.hSize, float).reshape(3, 3)
+		widest = max(widest, abs(cell[0, 2] / cell[0, 0]))
+	trsf = np.array(O.cell.trsf, float).reshape(3, 3)
+	assert trsf[0, 2] / trsf[2, 2] == pytest.approx(1, abs=1e-2) and widest < 0.6
+	cell = np.array(O.cell.hSize, float).reshape(3, 3)
+	assert np.linalg.det(cell) == pytest.approx(np.prod(test.sample.extents), rel=1e-9)
+	test.sample.settle()
+	stress = test.sample.stress()
+	assert stress[2, 2] == pytest.approx(1e5, rel=1e-3) and -stress[0, 2] > 1e4
+	assert np.abs(stress - stress.T).max() < 1e-3 * np.trace(stress) / 3
+	bodies = -sum(O.bodies[k].shape.volume * one for k, one in polytope.bodyStress().items()) / O.cell.volume
+	assert bodies == pytest.approx(stress, abs=5e-3 * 1e5) and noFailures()
+	before = sum(contact.isReal for contact in O.interactions)
+	O.interactions.clear()
+	O.step()
+	assert sum(contact.isReal for contact in O.interactions) == pytest.approx(before, abs=2)
+
+
+def testSimpleShearBetweenPlatesIsThatOfTheContacts():
+	test = polytope.simpleShear(packed(), stress=1e5, inertialNumber=2e-2)
+	assert test.sample.boundaryStress()[2] == pytest.approx(1e5, rel=1e-3)
+	test.run(0.1)
+	columns = test.columns
+	assert columns['normalStress'].mean() == pytest.approx(1e5, rel=1e-3) and 0.2 < columns['stressRatio'][-1] < 1
+	test.sample.settle()
+	assert test.sample.stress() == pytest.approx(ofBoundary(test.sample), abs=5e-3 * 1e5)
+	assert test.sample.boundaryStress()[2] == pytest.approx(1e5, rel=1e-3) and noFailures()
+	side = O.bodies[test.sample.sides[0]].state
+	assert (side.ori * type(side.pos)(0, 0, 1))[0] == pytest.approx(np.sin(np.arctan(0.1)), abs=1e-4)
+	with pytest.raises(ValueError, match='^strain'):
+		test.run(1.5)
+
+
+def testShearBoxOfTwoBlocksSlidesAtTheirFriction():
+	"""Blocks that leave room on the sides to which they move; the joint between them a little above the halves' own."""
+	material()
+	O.bodies.append([polytope.cuboid((0.52, 0.25, 0.155), (0.48, 0.25, 0.155)), polytope.cuboid((0.48, 0.25, 0.455), (0.48, 0.25, 0.145))])
+	test = polytope.shearBox(polytope.sample(lower=(0, 0, 0), upper=(1, 0.5, 0.6)), stress=1e5, speed=0.05)
+	test.run(0.01)
+	columns = test.columns
+	assert columns['stressRatio'][-1] == pytest.approx(tan(friction), rel=2e-3)
+	assert columns['normalStress'][50:] == pytest.approx(1e5, rel=2e-3) and columns['rise'][-1] == pytest.approx(0, abs=1e-4)
+	with pytest.raises(ValueError, match='^displacement'):
+		test.run(0.3)
+
+
+def testPackToAPorosity():
+	loose = grains()
+	length = (sum(body.shape.volume for body in loose) / 0.16) ** (1 / 3)
+	sample = polytope.pack(loose, (1, 2, 3), (1 + length, 2 + length, 3 + length), porosity=0.46, seed=1)
+	assert sample.porosity == pytest.approx(0.46, abs=2e-4) and utils.unbalancedForce() < 1e-2
+	assert (sample.lower > (1, 2, 3)).all() and polytope.porosity(sample.lower, sample.upper) == pytest.approx(0.46, abs=2e-3)
+
+
+def testPackUnderGravity():
+	loose = grains(0.004, stiffness=1e8)
+	sample = polytope.pack(loose, (0, 0, 0), (0.02, 0.02, 0.06), gravity=(0, 0, -9.81), seed=1)
+	weight = sum(O.bodies[k].state.mass for k in sample.ids) * 9.81
+	assert -O.forces.f(sample.walls[2][0], sync=True)[2] == pytest.approx(weight, rel=5e-3) and sample.walls[2][1] is None
+	assert polytope.aabbExtrema(sample.ids)[1][2] < 0.04
+	with pytest.raises(ValueError, match='^sample: it has no wall above'):
+		polytope.oedometer(sample)
+	sample.close()
+	test = polytope.oedometer(sample)
+	test.load(1e3)
+	below = O.forces.f(sample.walls[2][0], sync=True)[2], O.forces.f(sample.walls[2][1], sync=True)[2]
+	assert -below[0] - below[1] == pytest.approx(weight, rel=2e-2)
+
+
+def testWhatIsWrongIsNamed():
+	loose = grains()
+	for wrong, options in (
+		('stress', {}),
+		('stress', {'stress': 1e5, 'porosity': 0.5}),
+		('stress', {'stress': -1}),
+		('porosity', {'porosity': 2}),
+		('gravity', {'gravity': (1, 0, 0)}),
+		('friction', {'stress': 1e5, 'friction': 2}),
+	):
+		with pytest.raises(ValueError, match=f'^{wrong}: '):
+			polytope.pack(loose, (0, 0, 0), (0.1, 0.1, 0.1), **options)
+		assert len(O.bodies) == 0
+	with pytest.raises(ValueError, match='^upper: '):
+		polytope.pack(loose, (0, 0, 0), (0.01, 0.01, 0.01), stress=1e5)
+	with pytest.raises(ValueError, match='^bodies: '):
+		polytope.pack([], (0, 0, 0), (0.1, 0.1, 0.1), stress=1e5)
+	with pytest.raises(ValueError, match='^bodies: .* a periodic cell must be'):
+		polytope.pack(grains(0.004), (0, 0, 0), (0.1, 0.1, 0.1), stress=1e5, periodic=True)
+	O.bodies.append(loose)
+	with pytest.raises(ValueError, match='^bodies: '):
+		polytope.pack(loose, (0, 0, 0), (0.1, 0.1, 0.1), stress=1e5)
+	with pytest.raises(ValueError, match='^lower: '):
+		polytope.sample()
