@@ -137,6 +137,20 @@ tradeoff() {
 	exec python3 "$script" "$@"
 }
 
+# A script on several processes of this machine, more than it has cores if asked for. What is set in the environment stays.
+mpi() { # N SCRIPT [ARGUMENTS…]
+	[[ ${1:-} =~ ^[1-9][0-9]{0,3}$ ]] || fail "mpi: the first argument must be the number of processes, from 1 to 9999, not '${1:-}'." "./run mpi 3 examples/mpi.py"
+	[ -f "${2:-}" ] || fail "mpi: the second argument must be a script; there is no file '${2:-}'." "./run mpi 3 examples/mpi.py"
+	[ "$precision" = double ] || fail "mpi: YADE's $precision is built without MPI." "Leave YADE_POLYTOPE_PRECISION away."
+	command -v mpirun >/dev/null || fail "mpi: there is no mpirun here." "Install Debian's package openmpi-bin."
+	build
+	# shared memory alone: Open MPI looks for a network interface otherwise, and waits for ever where there is none
+	export OMPI_MCA_btl=${OMPI_MCA_btl:-self,sm}
+	# waiting processes leave the cores to the others
+	export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
+	exec mpirun --oversubscribe -np "$1" "$yadeProgram" -n -x "${@:2}"
+}
+
 format() {
 	local check=() files
 	[ "${1:-}" = --check ] && check=(--dry-run --Werror)
@@ -156,6 +170,7 @@ case $command in
 	test) . "$project/tools/test.sh" && test_ "$@" ;;
 	yade) build && exec "$yadeProgram" "$@" ;;
 	python) build && exec python3 "$@" ;;
+	mpi) mpi "$@" ;;
 	tradeoff) tradeoff "$@" ;;
 	search) buildPrecision double polytope_search && search "$@" ;;
 	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;

@@ -3,6 +3,7 @@
 
 #include "PolytopeGeom.hpp"
 #include "Prefetch.hpp"
+#include "RockJoint.hpp"
 
 #include <core/Body.hpp>
 #include <core/Omega.hpp>
@@ -13,6 +14,8 @@
 
 #include <limits>
 #include <map>
+#include <sys/mman.h>
+#include <typeinfo>
 
 namespace py = boost::python;
 
@@ -24,6 +27,15 @@ namespace {
 	/// then what it refers to) has the time of as many entries.
 	constexpr std::size_t ahead = 12;
 
+	/// Asks for large pages in memory that will be written from end to end: a fault for each 4 kB costs as much as what is written there.
+	void wantLargePages(char* memory, std::size_t bytes)
+	{
+		constexpr std::uintptr_t page  = 4096;
+		const auto               begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+		const auto               end   = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
+		if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE); // not to be had: small ones
+	}
+
 	/// Columns of one length, each the memory of a later NumPy array (a bytearray: no header of NumPy is needed to build).
 	class Table {
 	public:
@@ -32,9 +44,10 @@ namespace {
 		/// Memory of rows × `width` numbers of the type, which the dictionary owns.
 		template <class Number> Number* column(const char* name, int width = 1)
 		{
-			PyObject* const memory
-			        = PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(rows_ * std::size_t(width) * sizeof(Number)));
-			const py::object owner { py::handle<>(memory) }; // throws if there is no memory
+			const std::size_t bytes  = rows_ * std::size_t(width) * sizeof(Number);
+			PyObject* const   memory = PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(bytes));
+			const py::object  owner { py::handle<>(memory) }; // throws if there is no memory
+			wantLargePages(PyByteArray_AS_STRING(memory), bytes);
 			columns_[name] = py::make_tuple(owner, std::is_same<Number, double>::value ? "float64" : "int32", width);
 			return reinterpret_cast<Number*>(PyByteArray_AS_STRING(memory));
 		}
@@ -76,8 +89,11 @@ namespace {
 		Scene* const             scene = Omega::instance().getScene().get();
 		std::vector<const Body*> bodies;
 		bodies.reserve(scene->bodies->size());
-		for (const auto& body : *scene->bodies)
-			if (body) bodies.push_back(body.get());
+		for (std::size_t k = 0; k < scene->bodies->size(); ++k) {
+			if (k + ahead < scene->bodies->size()) prefetch::fetch((*scene->bodies)[Body::id_t(k + ahead)].get(), sizeof(Body));
+			const auto& body = (*scene->bodies)[Body::id_t(k)];
+			if (body && !body->getIsSubdomain()) bodies.push_back(body.get()); // those stand for ranks (docs/mpi.md)
+		}
 		scene->forces.sync();
 
 		Table       table(bodies.size());
@@ -117,6 +133,19 @@ namespace {
 		return py::make_tuple(table.columns(), codes.names());
 	}
 
+	/// The object as this class, null if it is of another one. A dynamic_cast takes ten times as long.
+	template <class Exact, class Object> const Exact* exactly(const Object* object)
+	{
+		return object && typeid(*object) == typeid(Exact) ? static_cast<const Exact*>(object) : nullptr;
+	}
+
+	const NormShearPhys* shearPhysOf(const IPhys* phys)
+	{
+		if (const auto* const own = exactly<RockJointPhys>(phys)) return own;
+		if (const auto* const friction = exactly<FrictPhys>(phys)) return friction;
+		return dynamic_cast<const NormShearPhys*>(phys);
+	}
+
 	/// What a row of contacts has from the geometry, by its class: all of PolytopeGeom, less of YADE's own, NaN for the rest.
 	struct Meeting {
 		Vector3r point = Vector3r::Constant(Real(notANumber)), normal = point;
@@ -125,18 +154,40 @@ namespace {
 
 		explicit Meeting(const IGeom* geom)
 		{
-			const auto* const spheres = dynamic_cast<const GenericSpheresContact*>(geom);
-			if (!spheres) return;
-			point  = spheres->contactPoint;
-			normal = spheres->normal;
-			if (const auto* const scGeom = dynamic_cast<const ScGeom*>(spheres)) depth = double(scGeom->penetrationDepth);
-			if (const auto* const own = dynamic_cast<const PolytopeGeom*>(spheres)) {
+			if (const auto* const own = exactly<PolytopeGeom>(geom)) {
+				point         = own->contactPoint;
+				normal        = own->normal;
+				depth         = double(own->penetrationDepth);
 				area          = double(own->contactArea);
 				infeasibility = double(own->infeasibility);
 				status        = own->statusCode;
+			} else if (const auto* const spheres = dynamic_cast<const GenericSpheresContact*>(geom)) {
+				point  = spheres->contactPoint;
+				normal = spheres->normal;
+				if (const auto* const scGeom = dynamic_cast<const ScGeom*>(spheres))
+					depth = double(scGeom->penetrationDepth);
 			}
 		}
 	};
+
+	/// Bytes between a PolytopeGeom and its status.
+	std::size_t statusOffset()
+	{
+		static const PolytopeGeom geom;
+		static const auto         offset
+		        = std::size_t(reinterpret_cast<const char*>(&geom.statusCode) - reinterpret_cast<const char*>(&geom));
+		return offset;
+	}
+
+	/// What a row of contacts is made of, called into the cache; other geometries and physics are smaller.
+	void fetchParts(const Interaction& contact)
+	{
+		const char* const geom = reinterpret_cast<const char*>(contact.geom.get());
+		// both ends of PolytopeGeom's own attributes; what lies between them is the pair's memory
+		prefetch::fetch(geom, sizeof(ScGeom) + 2 * sizeof(Real));
+		prefetch::fetch(geom ? geom + statusOffset() : nullptr, sizeof(int));
+		prefetch::fetch(contact.phys.get(), sizeof(NormShearPhys));
+	}
 
 	std::vector<const Interaction*> realContacts(const Scene& scene)
 	{
@@ -169,13 +220,10 @@ namespace {
 		auto* const  depths          = table.column<double>("depths");
 		auto* const  infeasibilities = table.column<double>("infeasibilities");
 		for (std::size_t row = 0; row < contacts.size(); ++row) {
-			if (row + ahead < contacts.size()) {
-				prefetch::fetch(contacts[row + ahead]->geom.get(), sizeof(PolytopeGeom));
-				prefetch::fetch(contacts[row + ahead]->phys.get(), sizeof(NormShearPhys));
-			}
+			if (row + ahead < contacts.size()) fetchParts(*contacts[row + ahead]);
 			const Interaction& one         = *contacts[row];
-			const auto* const  phys        = dynamic_cast<const NormShearPhys*>(one.phys.get());
-			const auto* const  push        = phys ? phys : dynamic_cast<const NormPhys*>(one.phys.get());
+			const auto* const  phys        = shearPhysOf(one.phys.get());
+			const NormPhys*    push        = phys ? phys : dynamic_cast<const NormPhys*>(one.phys.get());
 			const Vector3r     none        = Vector3r::Constant(Real(notANumber));
 			const Vector3r     normalForce = push ? push->normalForce : none;
 			const Vector3r     shearForce  = phys ? phys->shearForce : push ? Vector3r(Vector3r::Zero()) : none;

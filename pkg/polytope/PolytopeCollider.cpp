@@ -37,7 +37,10 @@ bool PolytopeCollider::turnedOutOfBox() const
 
 void PolytopeCollider::makeRoom()
 {
-	const Real most = math::max(verletDist, Real(0)), least = minSweepDistFactor * most;
+	const Real              most = math::max(verletDist, Real(0)), least = minSweepDistFactor * most;
+	const bool              again  = scene->iter == madeAt_; // yade.mpy runs it twice in a step: no body has turned since
+	const std::vector<Real> before = again ? rooms_ : std::vector<Real>();
+	madeAt_                        = scene->iter;
 	turns_.resize(scene->bodies->size());
 	rooms_.assign(turns_.size(), 0);
 	for (std::size_t id = 0; id < turns_.size(); ++id) {
@@ -49,7 +52,11 @@ void PolytopeCollider::makeRoom()
 			continue;
 		}
 		const bool known = turn.radius > 0;
-		turn.radius      = polytope->convex()->boundingRadius();
+		if (known && id < before.size() && turn.from.coeffs() == body->state->ori.coeffs()) {
+			rooms_[id] = before[id];
+			continue;
+		}
+		turn.radius = polytope->convex()->boundingRadius();
 		// twice the last interval's: so it does not run at each step, nor keep boxes enlarged for a rotation that has ended
 		const Real wanted = known ? 2 * way(turn, *body) : most;
 		turn.from         = body->state->ori;

@@ -34,7 +34,8 @@ private:
 
 	// by body id; not saved: after loading the first step makes all boxes anew
 	std::vector<Turn> turns_;
-	std::vector<Real> rooms_; ///< displacement of the farthest vertex that the box allows for
+	std::vector<Real> rooms_;       ///< displacement of the farthest vertex that the box allows for
+	long              madeAt_ = -1; ///< step in which they were made
 };
 REGISTER_SERIALIZABLE(PolytopeCollider);
 

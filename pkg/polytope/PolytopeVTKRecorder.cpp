@@ -102,8 +102,10 @@ namespace {
 			writer->SetDataModeToAppended();
 			writer->EncodeAppendedDataOff();
 		}
-		if (compress && !ascii) writer->SetCompressorTypeToZLib();
-		else writer->SetCompressorTypeToNone();
+		if (compress && !ascii) {
+			writer->SetCompressorTypeToZLib(); // the one that all readers know
+			writer->SetCompressionLevel(1);    // the fastest
+		} else writer->SetCompressorTypeToNone();
 		if (!writer->Write()) throw std::runtime_error("PolytopeVTKRecorder.fileName: cannot write " + file);
 	}
 

@@ -10,6 +10,7 @@
 #include "PolytopeGeom.hpp"
 #include "PotentialContacts.hpp"
 #include "Vectors.hpp"
+#include "WorkerContacts.hpp"
 
 #include "BuildInfo.hpp"
 
@@ -204,6 +205,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	yade::defineVectors();
 	yade::defineConstruction();
 	yade::defineArrays();
+	yade::defineWorkerContacts();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>,

@@ -16,6 +16,8 @@ import warnings
 
 from yade import O, PolytopeCheckpoint
 
+from ._ranks import forgetDivision
+
 __all__ = ['checkpoint', 'continueFrom']
 
 stopping = (signal.SIGTERM, signal.SIGINT)
@@ -58,7 +60,8 @@ def checkpoint(fileName='checkpoint', iterPeriod=0, realPeriod=0, onSignal=True)
 def continueFrom(fileName='checkpoint'):
 	"""Loads the newest complete state that *checkpoint* has written under this name, with permanent forces, which O.load alone leaves out.
 
-	The run goes on with the engines it was saved with, the checkpoints among them, written under this name::
+	The run goes on with the engines it was saved with, the checkpoints among them, written under this name. A state saved on several processes
+	can go on with another number of them, or with one::
 
 	    if not polytope.continueFrom('output/run'):
 	        …  # the first time: bodies, engines and the checkpoint
@@ -91,6 +94,7 @@ def _engines():
 
 
 def _goOn(fileName):
+	forgetDivision()
 	engines = _engines()
 	for engine in engines:
 		if len(engines) == 1:  # else each has a name of its own

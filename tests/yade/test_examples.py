@@ -12,7 +12,7 @@ from yade import Facet, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
 here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'funnel', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
-elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs'}
+elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
 @pytest.fixture

@@ -81,6 +81,9 @@ def testNamesOfAVerbAreThoseOfItsProgram(verb):
         (['sanitize', '--only', 'nothing'], 'nothing'),
         (['sanitize', '--only'], '--only'),
         (['sanitize', 'core'], 'core'),
+        (['mpi'], 'number of processes'),
+        (['mpi', '0', 'x.py'], 'number of processes'),
+        (['mpi', '2', 'nowhere.py'], 'nowhere.py'),
 ])
 def testRefusals(arguments, named):
 	done = inside(*arguments)

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Contacts between two ranks of a run on several processes (py/polytope/mpi.py).
+//
+// When yade.mpy divides a scene, each worker deletes the bodies of all other ranks, gets those back that are near its own, and searches for
+// contacts anew. So the contacts between two ranks, and all contacts with fixed bodies, which are with rank 0, begin without the shear
+// force, slip and strength that they had. A worker takes these contacts from the whole scene before, and puts them back afterwards.
+#include "WorkerContacts.hpp"
+
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
+#include <boost/python.hpp>
+
+namespace py = boost::python;
+
+namespace yade {
+namespace {
+
+	class WorkerContacts {
+	public:
+		/// Takes the pairs with a geometry of which one body is this rank's, and one is not.
+		WorkerContacts()
+		{
+			const Scene& scene = *Omega::instance().getScene();
+			for (const auto& pair : *scene.interactions) {
+				if (!pair || !pair->geom) continue;
+				const auto body1 = Body::byId(pair->getId1()), body2 = Body::byId(pair->getId2());
+				if (!body1 || !body2 || (body1->subdomain == scene.subdomain) == (body2->subdomain == scene.subdomain))
+					continue;
+				// deleting a body empties its pairs
+				const auto copy    = boost::make_shared<Interaction>(pair->getId1(), pair->getId2());
+				copy->geom         = pair->geom;
+				copy->phys         = pair->phys;
+				copy->cellDist     = pair->cellDist;
+				copy->isActive     = pair->isActive;
+				copy->iterMadeReal = pair->iterMadeReal;
+				copy->iterBorn     = pair->iterBorn;
+				pairs_.push_back(copy);
+			}
+		}
+
+		/// Puts them in place of those found since, where both bodies are here.
+		long put()
+		{
+			Scene& scene = *Omega::instance().getScene();
+			long   count = 0;
+			for (auto& pair : pairs_) {
+				if (!Body::byId(pair->getId1()) || !Body::byId(pair->getId2())) continue;
+				scene.interactions->insertInteractionMPI(pair);
+				++count;
+			}
+			pairs_.clear();
+			return count;
+		}
+
+	private:
+		std::vector<shared_ptr<Interaction>> pairs_;
+	};
+
+} // namespace
+
+void defineWorkerContacts()
+{
+	py::class_<WorkerContacts>("WorkerContacts",
+	        "Contacts of this rank's bodies with those of other ranks, as they are when the object is made; used by yade.polytope.mpi.")
+	        .def("put", &WorkerContacts::put, "Puts them back where both bodies are here; returns how many.");
+}
+
+} // namespace yade

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run on several processes leaves in a scene that was saved after it. Does not start MPI, as importing yade.polytope.mpi does."""
+
+from yade import O
+
+__all__ = ['eraseRanks', 'forgetDivision']
+
+
+def forgetDivision():
+	"""The scene is then as one that was never divided: one process computes contacts of bodies of its own subdomain only."""
+	for body in O.bodies:
+		body.subdomain = 0
+	eraseRanks()
+
+
+def eraseRanks():
+	"""Erases the bodies that stand for ranks, and the boxes they have."""
+	for body in O.bodies:
+		if body.isSubdomain:
+			O.bodies.erase(body.id)
+	for engine in O.engines:
+		dispatcher = getattr(engine, 'boundDispatcher', None)
+		if dispatcher:
+			dispatcher.functors = [functor for functor in dispatcher.functors if functor.__class__.__name__ != 'Bo1_Subdomain_Aabb']

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How yade.mpy divides a scene, set right for polytopes.
+
+yade.mpy looks for the collider by the class name InsertionSortCollider and by the label *collider*, and every rank has a time step of its
+own. When it divides a scene, contacts across the borders of ranks begin anew, and permanent forces are lost. *install* lets it find
+PolytopeCollider, whatever its label, hands contacts and permanent forces over as they are, keeps the time steps of all ranks equal, refuses what
+would come out wrong, and ends all ranks when one fails.
+"""
+
+import functools
+import math
+import sys
+import traceback
+
+import yade
+from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polytope, mpy
+
+from .._ranks import eraseRanks
+from .recorders import ofWholeScene
+
+__all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
+
+shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
+"""What runs after a time stepper on each rank."""
+
+
+_ranksOfBodies = {}
+"""On rank 0 while the scene is merged: body's id → rank. The bodies themselves are rank 0's then, which can step alone."""
+
+
+def size():
+	"""Number of processes; 1 without mpirun."""
+	return mpy.numThreads or 1
+
+
+def handOut():
+	"""The next run hands the scene of rank 0 out to all ranks, as the first one does. On every rank; the scene must be merged."""
+	O.splittedOnce = False
+
+
+def assign(ranks):
+	"""Gives bodies to ranks, on rank 0.
+
+	:param dict ranks: id → rank; the others stay with rank 0
+	"""
+	_ranksOfBodies.clear()
+	for body in O.bodies:
+		body.subdomain = ranks.get(body.id, 0)
+
+
+def _own():
+	"""On rank 0, after a merge: YADE leaves out contacts of which no body is this rank's."""
+	for body in O.bodies:
+		if body.subdomain != 0 and not body.isSubdomain:
+			_ranksOfBodies[body.id] = body.subdomain
+			body.subdomain = 0
+
+
+def _disown():
+	"""Before the scene is divided again."""
+	for k, rank in _ranksOfBodies.items():
+		if O.bodies[k] is not None:
+			O.bodies[k].subdomain = rank
+	_ranksOfBodies.clear()
+
+
+def shareTimeStep():
+	"""Every rank takes the smallest of the time steps that the ranks have found; where none has found a limit, each keeps its own."""
+	if size() > 1 and O.splitted:
+		least = mpy.comm.allreduce(O.dt if _limitsTheStep() else math.inf, op=mpy.MPI.MIN)
+		if least < math.inf:
+			O.dt = least
+
+
+def _limitsTheStep():
+	"""Whether this rank's time stepper has found a limit. Rank 0 has fixed bodies alone, and the time step that O.reset has left."""
+	stepper = next(engine for engine in O.engines if isinstance(engine, TimeStepper))
+	return bool(stepper.limitedBy) if isinstance(stepper, PolytopeTimeStepper) else mpy.rank > 0
+
+
+def _typedEngine(name):
+	"""YADE's function of this name finds the class alone, not those derived from it."""
+	kind = getattr(yade, name)
+	for engine in O.engines:
+		if isinstance(engine, kind):
+			return engine
+	raise RuntimeError(f'O.engines: there is no {name}, which a run on several processes needs')
+
+
+def _prepared(splitScene):
+	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
+
+	@functools.wraps(splitScene)
+	def split():
+		_disown()
+		if O.splittedOnce:
+			splitScene()
+			return
+		if mpy.rank != 0:
+			splitScene()
+			_takePermanentLoads(None)
+			return
+		check()
+		eraseRanks()
+		if mpy.DOMAIN_DECOMPOSITION:
+			_keepFixedBodies()
+		loads = _permanentLoads()
+		plain = O.engines
+		O.engines = _sharing(plain)
+		splitScene()
+		O.initialEngines = plain  # what the merged scene gets
+		_takePermanentLoads(loads)
+
+	return split
+
+
+def _keepFixedBodies():
+	"""yade.mpy's decomposition leaves walls, boxes and facets with rank 0, and the subdomain of others to itself; fixed polytopes belong to rank 0, too."""
+	from yade.bisectionDecomposition import decompBodiesSerial  # starts to write errors to the standard output
+
+	def ofMaster(self, body):
+		return not body.dynamic or body.isSubdomain
+
+	decompBodiesSerial.checkIfMasterBody = ofMaster
+	for body in O.bodies:
+		if not body.dynamic:
+			body.subdomain = 0
+
+
+def _permanentLoads():
+	"""YADE does not send them with the scene."""
+	if not O.forces.getPermForceUsed():
+		return []
+	O.forces.f(0, sync=True)  # else those set since the last step are not seen
+	return [(body.id, tuple(O.forces.permF(body.id)), tuple(O.forces.permT(body.id))) for body in O.bodies]
+
+
+def _takePermanentLoads(loads):
+	loads = mpy.comm.bcast(loads)
+	if mpy.rank == 0:
+		return
+	for k, force, torque in loads:
+		if O.bodies[k] is not None and O.bodies[k].subdomain == mpy.rank and any(force + torque):
+			O.forces.setPermF(k, Vector3(force))
+			O.forces.setPermT(k, Vector3(torque))
+
+
+def _sharing(engines):
+	"""With one time step on all ranks; without what writes the whole scene (recorders.py)."""
+	made = []
+	for engine in engines:
+		if ofWholeScene(engine):
+			continue
+		made.append(engine)
+		if isinstance(engine, TimeStepper):
+			made.append(PyRunner(iterPeriod=1, initRun=True, command=shareStep))
+	return made
+
+
+def check():
+	"""Refuses a scene that would come out wrong on several processes. On rank 0.
+
+	:raises RuntimeError: naming what is wrong, and what to do
+	"""
+	_typedEngine('InsertionSortCollider')
+	_typedEngine('NewtonIntegrator')
+	_checkSettings()
+	if O.periodic:
+		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
+	if O.trackEnergy:
+		raise RuntimeError('O.trackEnergy: must be False; contacts of two ranks would count twice. polytope.mpi.arrays() has what energies are made of')
+	if any(body.isClump for body in O.bodies):
+		raise RuntimeError('O.bodies: clumps are not supported on several processes; run this scene on one')
+	for engine in O.engines:
+		if isinstance(engine, yade.PolytopeBonds) and engine.bonds:
+			raise RuntimeError('O.engines: bonds (polytope.bond) are not supported on several processes; run this scene on one')
+		if isinstance(engine, yade.Recorder):
+			name = engine.__class__.__name__
+			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
+	moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
+	if not mpy.DOMAIN_DECOMPOSITION and all(body.subdomain == 0 for body in moving):
+		raise RuntimeError('Body.subdomain: all bodies are with rank 0; call polytope.mpi.divide() or set mpy.DOMAIN_DECOMPOSITION')
+	if not mpy.DOMAIN_DECOMPOSITION and not all(0 < body.subdomain < size() for body in moving):
+		raise RuntimeError(f'Body.subdomain: must be a rank, 1 to {size() - 1}; call polytope.mpi.divide()')
+
+
+def _checkSettings():
+	"""Settings of yade.mpy that lose bodies or contacts."""
+	for name, wanted, why in (
+		('ERASE_REMOTE', True, 'ranks would keep dead copies of bodies'),
+		('COPY_MIRROR_BODIES_WHEN_COLLIDE', True, 'bodies that come near another rank would be missed there'),
+		('USE_CPP_MPI', True, 'its other way gives states of one rank to bodies of another where rank 0 has bodies that are touched'),
+		('OPTIMIZE_COM', True, 'it was not tested with polytopes'),
+		('MERGE_W_INTERACTIONS', True, 'merged contacts would begin anew'),
+		('REALLOCATE_FREQUENCY', 0, 'a body that changes ranks during a run would lose contacts; call polytope.mpi.divide() between two runs instead'),
+		('RESET_SUBDOMAINS_WHEN_COLLIDE', False, 'contacts would begin anew; call polytope.mpi.divide() between two runs instead'),
+		('DISTRIBUTED_INSERT', False, 'polytope.mpi hands out the scene of rank 0'),
+		('MERGE_SPLIT', False, 'polytope.mpi.run() merges where it is needed'),
+		('MINIMAL_INTERSECTIONS', False, 'it was not tested with polytopes'),
+	):
+		if getattr(mpy, name) != wanted:
+			raise RuntimeError(f'mpy.{name}: must be {wanted!r}; {why}')
+
+
+def _withBodiesOfRankZero(mergeScene):
+	@functools.wraps(mergeScene)
+	def merge():
+		merges = O.splitted
+		mergeScene()
+		if merges and mpy.rank == 0:
+			_own()
+
+	return merge
+
+
+def _withCollider(parallelCollide):
+	@functools.wraps(parallelCollide)
+	def collide():
+		mpy.collider = _typedEngine('InsertionSortCollider')
+		divided = mpy.rank > 0 and not O.splitted  # this worker still has the whole scene
+		contacts = _polytope.WorkerContacts() if divided else None
+		parallelCollide()
+		if contacts:
+			contacts.put()
+
+	return collide
+
+
+def _endAll(kind, fault, trace):
+	"""An exception that ends one rank ends all: the others would wait for it for ever."""
+	traceback.print_exception(kind, fault, trace)
+	sys.stdout.flush()
+	sys.stderr.flush()
+	mpy.MPI.COMM_WORLD.Abort(1)
+
+
+def _exit(status=None):
+	"""As sys.exit, but one that says that something has failed ends all ranks: the program yade calls it after an exception."""
+	if status not in (None, 0):
+		sys.stdout.flush()
+		sys.stderr.flush()
+		mpy.MPI.COMM_WORLD.Abort(status if isinstance(status, int) else 1)
+	raise SystemExit(status)
+
+
+def install():
+	"""Sets the functions of yade.mpy, once."""
+	if hasattr(mpy, 'bodiesAreOurs'):
+		return
+	mpy.typedEngine = _typedEngine
+	mpy.splitScene = _prepared(mpy.splitScene)
+	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
+	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
+	mpy.AUTO_COLOR = False  # colours of bodies are the user's
+	mpy.bodiesAreOurs = True
+	if size() > 1:
+		sys.excepthook = _endAll
+		sys.exit = _exit

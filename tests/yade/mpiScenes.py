@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes that test_mpi.py runs on one process and, under mpirun, on several: `mpiScenes.py FOLDER SCENE …`.
+
+Each writes what rank 0 has at its end to FOLDER/SCENE-RANKS.json, all numbers in full.
+"""
+
+import json
+import os
+import random
+import sys
+import time
+
+import numpy as np
+import yade
+from yade import O, Quaternion, Vector3, polytope
+from yade.polytope import mpi
+
+folder = sys.argv[1]
+solids, radius, settling, steps = 24, 0.22, 2500, 100
+master = mpi.rank() == 0
+
+
+def material():
+	O.materials.append(
+		yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5, dilationAngle=0.05)
+	)
+
+
+def start():
+	"""A heap that has come to rest in a box, on one process."""
+	random.seed(1)
+	material()
+	O.bodies.append(polytope.plates((-1, -0.5, 0), (1, 0.5, 2)))
+	for k in range(solids):
+		place = (-0.75 + 0.5 * (k % 4) + random.uniform(-0.02, 0.02), -0.24 + 0.48 * (k // 4 % 2), 0.25 + 0.45 * (k // 8))
+		O.bodies.append(polytope.regular((4, 6, 8, 12, 20)[k % 5], radius, place, Quaternion((1, k, 2), k)))
+	O.engines = polytope.engines()
+	O.run(settling, wait=True)
+	O.save(f'{folder}/start.yade', quiet=True)
+
+
+def load(name='start'):
+	mpi.merge()
+	if master:
+		O.load(f'{folder}/{name}.yade', quiet=True)
+	mpi.divide()
+
+
+def heap():
+	load()
+	mpi.run(steps)
+	return state()
+
+
+def parts():
+	"""Merged and divided again as it was."""
+	load()
+	mpi.run(steps // 2)
+	mpi.run(steps // 2)
+	return state()
+
+
+def divided():
+	"""Divided anew along another axis; before that the fields of all ranks, against those of the merged scene."""
+	load()
+	mpi.run(steps // 2, merged=False)
+	fields, stats = mpi.arrays(), mpi.stats()
+	mpi.divide(1)
+	again = polytope.arrays()
+	mpi.run(steps // 2)
+	if not master:
+		return None
+	order = np.lexsort(again.contacts.ids.T[::-1])
+	same = {
+		**{name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name)) for name in ('ids', 'positions', 'velocities', 'masses')},
+		**{name: np.array_equal(getattr(fields.contacts, name), getattr(again.contacts, name)[order]) for name in ('ids', 'forces', 'points', 'areas')},
+	}
+	# force on all bodies together, fixed ones included: the contacts' own cancel
+	return {**state(), 'same': same, 'net': [float(x) for x in fields.bodies.forces.sum(axis=0)], 'push': float(abs(fields.contacts.forces).max()),
+		'stats': {name: stats[name] for name in ('pairs', 'failures')}, 'names': [fields.bodies.shapeNames[k] for k in fields.bodies.shapes]}
+
+
+def decomposed():
+	"""By yade.mpy's own decomposition."""
+	mpi.mpy.DOMAIN_DECOMPOSITION = True
+	load()
+	mpi.run(steps)
+	mpi.mpy.DOMAIN_DECOMPOSITION = False
+	return master and {**state(), 'counts': [sum(len(b.shape.ids) for b in O.bodies if b.isSubdomain and b.subdomain == k) for k in (1, 2)]}
+
+
+def recorded():
+	"""With a snapshot of ParaView and a saved state every 25 steps; a pull that YADE does not send with the scene; a step by rank 0 alone."""
+	load()
+	if master:
+		os.makedirs(f'{folder}/{mpi.size()}', exist_ok=True)
+		O.forces.setPermF(O.bodies[len(O.bodies) - 1].id, Vector3(300, 0, 0))
+		O.engines = O.engines + [
+			yade.PolytopeVTKRecorder(iterPeriod=25, fileName=f'{folder}/{mpi.size()}/'),
+			polytope.checkpoint(f'{folder}/{mpi.size()}/run', iterPeriod=25, onSignal=False),
+		]
+	mpi.run(60)
+	if master:
+		O.step()
+	mpi.run(39)
+	found = state()
+	if master:
+		found['engines'] -= 2
+	return found
+
+
+def settled():
+	load()
+	return state()
+
+
+def sliding(pieces, number):
+	mpi.merge()
+	O.reset()
+	if master:
+		O.materials.append(
+			yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3, dilationAngle=0.05)
+		)
+		half = 6 / pieces
+		O.bodies.append([polytope.cuboid((half * (2 * k + 1) - 4, 0, -0.5), (half, 1, 0.5), fixed=True) for k in range(pieces)])
+		for k in range(8):
+			O.bodies.append(polytope.cuboid((0.7 * k - 3, 0, 0.2), (0.2, 0.3, 0.2), Quaternion((0, 0, 1), 0.1 * k)))
+			O.bodies[-1].state.vel = (2.0 + 0.05 * k, 0.1, 0)
+		O.engines = polytope.engines(timeStepper=False)
+		O.dt = 3e-4
+	mpi.divide()
+	mpi.run(number)
+	return state()
+
+
+def smooth():
+	return sliding(1, 400)
+
+
+def joints():
+	return sliding(24, 80)
+
+
+def refused():
+	"""What the check says about each of these, on rank 0; nothing is run, so the other ranks need not take part."""
+	load()
+	if not master:
+		return None
+	from yade.polytope.mpi import division
+
+	said = {}
+
+	def saysNo(name):
+		try:
+			division.check()
+		except RuntimeError as fault:
+			said[name] = str(fault)
+		else:
+			said[name] = None
+
+	saysNo('nothing')
+	mpy = mpi.mpy
+	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_FREQUENCY', 1), ('MERGE_W_INTERACTIONS', False), ('USE_CPP_MPI', False)):
+		former = getattr(mpy, name)
+		setattr(mpy, name, value)
+		saysNo(f'mpy.{name}')
+		setattr(mpy, name, former)
+	O.trackEnergy = True
+	saysNo('O.trackEnergy')
+	O.trackEnergy = False
+	engines = O.engines
+	O.engines = engines + [yade.ForceRecorder(ids=[0], file=os.devnull)]
+	saysNo('ForceRecorder')
+	O.engines = engines
+	O.bodies.appendClumped([polytope.regular(6, 0.1, (0, 0, 3)), polytope.regular(6, 0.1, (0.1, 0, 3))])
+	saysNo('clumps')
+	load()
+	polytope.bond(O.bodies.append([polytope.cuboid((k, 0, 9), (0.5, 0.5, 0.5)) for k in range(2)]))
+	saysNo('bonds')
+	load()
+	O.periodic = True
+	saysNo('O.periodic')
+	return said
+
+
+def state():
+	"""Of the merged scene."""
+	if not master:
+		return None
+	whole = lambda vector: [float(x).hex() for x in vector]
+	return {
+		'iter': O.iter,
+		'time': O.time,
+		'engines': len(O.engines),
+		'coordination': polytope.coordinationNumber().mean,
+		'mass': float(polytope.arrays().bodies.masses.sum()),
+		'bodies': {
+			b.id: [*whole(b.state.pos), *whole(b.state.ori), *whole(b.state.vel), *whole(b.state.angVel)]
+			for b in O.bodies
+			if b.dynamic and not b.isSubdomain
+		},
+		'contacts': {
+			f'{i.id1} {i.id2}': [*whole(i.geom.normal), *whole(i.phys.normalForce), *whole(i.phys.shearForce), *whole(i.phys.slip), i.phys.dilation.hex(), i.phys.intact]
+			for i in O.interactions
+			if i.isReal
+		},
+	}
+
+
+def killed():
+	"""Saves every 20 steps, twice, then runs on until it is killed."""
+	with open(f'{folder}/process-{mpi.rank()}', 'w') as file:
+		file.write(str(os.getpid()))
+	load()
+	if master:
+		O.engines = O.engines + [polytope.checkpoint(f'{folder}/run', iterPeriod=20, onSignal=False)]
+	mpi.run(40)
+	if master:
+		O.engines[-1].dead = True
+		open(f'{folder}/running', 'w').close()
+	mpi.run(10**6, merged=False)
+
+
+def continued():
+	"""What such a script does when it is called again."""
+	mpi.merge()
+	if master:
+		assert polytope.continueFrom(f'{folder}/run') == f'{folder}/run.yade' and O.engines[-1].written == 2
+		O.engines = O.engines[:-1]
+	mpi.divide()
+	mpi.run(steps - 40)
+	return state()
+
+
+for name in sys.argv[2:]:
+	begin = time.perf_counter()
+	found = globals()[name]()
+	if master:
+		with open(f'{folder}/{name}-{mpi.size()}.json', 'w') as file:
+			json.dump(found, file)
+		print(name, f'{time.perf_counter() - begin:.2f} s', flush=True)

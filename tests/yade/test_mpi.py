@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes on 2 and 3 ranks under mpirun against one process: bodies, contacts and what joints remember. The scenes: mpiScenes.py.
+
+To start processes takes most of the time, so one call runs many scenes.
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from yade import polytope
+
+if shutil.which('mpirun') is None or 'MPI' not in polytope.buildInfo()['yadeFeatures']:
+	pytest.skip('YADE has no MPI here, or there is no mpirun', allow_module_level=True)
+
+here = pathlib.Path(__file__).resolve().parent
+project = here.parents[1]
+scenes = str(here / 'mpiScenes.py')
+hangs = 300
+"""Time after which a run is taken for one that hangs [s]; one takes some seconds."""
+size = 0.22
+"""Of the solids of the heap [m]."""
+sameAsHeap = ['parts', 'divided', 'decomposed']
+"""The heap's hundred steps on 3 ranks, in other ways."""
+environment = {
+	**os.environ,
+	'OMP_NUM_THREADS': '1',
+	'OMPI_ALLOW_RUN_AS_ROOT': '1',
+	'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
+	'OMPI_MCA_btl': 'self,sm',
+	'OMPI_MCA_mpi_yield_when_idle': '1',
+}
+
+
+def launch(ranks, *command):
+	"""A command on this number of ranks, 0: without MPI."""
+	run = ['mpirun', '--oversubscribe', '-np', str(ranks)] if ranks else []
+	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True)
+
+
+def under(ranks, *command, fails=False):
+	"""What it has printed."""
+	process = launch(ranks, *command)
+	try:
+		said = process.communicate(timeout=hangs)[0]
+	except subprocess.TimeoutExpired:
+		os.killpg(process.pid, signal.SIGKILL)
+		raise
+	assert (process.returncode != 0) == fails, said
+	return said
+
+
+@pytest.fixture(scope='module')
+def found(tmp_path_factory):
+	"""What the scenes have found: found(name, ranks)."""
+	folder = tmp_path_factory.mktemp('mpi')
+	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'smooth', 'joints')
+	under(2, sys.executable, scenes, str(folder), 'heap')
+	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'refused')
+
+	def read(name, ranks):
+		return json.loads((folder / f'{name}-{ranks}.json').read_text())
+
+	read.folder = folder
+	return read
+
+
+def farthest(one, other):
+	return max(abs(float.fromhex(x) - float.fromhex(y)) for x, y in zip(one, other, strict=True))
+
+
+def same(one, several):
+	"""To 1e-12 of a body's size, and what contacts remember."""
+	assert one['iter'] == several['iter'] and one['engines'] == several['engines']
+	assert one['coordination'] == several['coordination'] > 1 and one['mass'] == pytest.approx(several['mass'], rel=1e-12)
+	assert one['time'] == pytest.approx(several['time'], rel=1e-13)
+	assert one['bodies'].keys() == several['bodies'].keys() and len(one['bodies']) == 24
+	assert max(farthest(one['bodies'][k][:7], several['bodies'][k][:7]) for k in one['bodies']) < 1e-12 * size
+	assert max(farthest(one['bodies'][k][7:], several['bodies'][k][7:]) for k in one['bodies']) < 1e-9
+	assert one['contacts'].keys() == several['contacts'].keys() and len(one['contacts']) > 24
+	largest = max(abs(float.fromhex(x)) for contact in one['contacts'].values() for x in contact[3:6])
+	for ids, contact in one['contacts'].items():
+		assert contact[13] == several['contacts'][ids][13]  # intact
+		assert farthest(contact[:13], several['contacts'][ids][:13]) < 1e-9 * largest
+	return True
+
+
+@pytest.mark.parametrize('name, ranks', [('heap', 2), ('heap', 3), *((name, 3) for name in sameAsHeap)])
+def testMergedSceneIsThatOfOneProcess(found, name, ranks):
+	assert same(found('heap', 1), found(name, ranks))
+
+
+def testTheSceneMovesAndContactsRemember(found):
+	"""Else the comparison above would say nothing."""
+	before, after = found('settled', 1), found('heap', 1)
+	assert max(farthest(before['bodies'][k][:3], after['bodies'][k][:3]) for k in before['bodies']) > 1e-7
+	contacts = after['contacts'].values()
+	assert any(float.fromhex(x) != 0 for contact in contacts for x in contact[6:9])  # shear force
+	assert any(float.fromhex(x) != 0 for contact in contacts for x in contact[9:12])  # slip
+
+
+def testFieldsOfAllRanksAreThoseOfTheMergedScene(found):
+	divided = found('divided', 3)
+	assert set(divided['same'].values()) == {True}, divided['same']
+	assert max(abs(x) for x in divided['net']) < 1e-9 * divided['push'] and divided['push'] > 100
+	assert set(divided['names']) == {'Polytope'}
+	assert divided['stats']['pairs'] > 50 * len(divided['contacts']) and divided['stats']['failures'] == 0
+
+
+def testDecompositionOfYadeGivesFixedBodiesToRankZero(found):
+	assert found('decomposed', 3)['counts'] == [12, 12]
+
+
+def testRecordersWriteTheWholeSceneOnce(found):
+	"""And permanent forces act; a scene that rank 0 has changed is handed out anew."""
+	one, several = found('recorded', 1), found('recorded', 3)
+	assert same(one, several)
+	assert max(farthest(one['bodies'][k][:3], found('heap', 1)['bodies'][k][:3]) for k in one['bodies']) > 1e-6
+	names = [sorted(path.name for path in (found.folder / str(ranks)).iterdir() if '.26' not in path.name) for ranks in (1, 3)]
+	assert names[0] == names[1] and {'bodies.pvd', 'bodies.2550.vtu', 'contacts.2575.vtp', 'run.yade', 'run.previous.yade'} <= set(names[0])
+	for ranks in (1, 3):
+		assert 'NumberOfCells="30"' in (found.folder / f'{ranks}/bodies.2575.vtu').read_text(errors='replace')  # six walls
+
+
+@pytest.mark.parametrize('name, moved', [('smooth', 400), ('joints', 80)])
+def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
+	one, several = found(name, 1), found(name, 3)
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
+	assert max(farthest(one['bodies'][k][:3], several['bodies'][k][:3]) for k in one['bodies']) < 1e-12 * 0.4
+	assert max(farthest(one['contacts'][k][6:13], several['contacts'][k][6:13]) for k in one['contacts']) < 1e-9 * 2500
+	places = [float.fromhex(body[0]) for body in one['bodies'].values()]
+	assert min(place - (0.7 * k - 3) for k, place in enumerate(places)) > 3e-4 * moved
+	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
+
+
+@pytest.mark.parametrize('name, remedy', [
+	('mpy.ERASE_REMOTE', 'must be True'),
+	('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
+	('mpy.MERGE_W_INTERACTIONS', 'must be True'),
+	('mpy.USE_CPP_MPI', 'must be True'),
+	('mpy.REALLOCATE_FREQUENCY', 'call polytope.mpi.divide()'),
+	('O.trackEnergy', 'polytope.mpi.arrays()'),
+	('ForceRecorder', 'polytope.mpi.merge()'),
+	('clumps', 'on one'),
+	('bonds', 'on one'),
+	('O.periodic', 'on one process'),
+])
+def testWhatCannotBeHadIsRefused(found, name, remedy):
+	said = found('refused', 3)
+	assert said['nothing'] is None and name in said[name] and remedy in said[name]
+
+
+def testARunThatIsKilledGoesOnFromItsLastState(found):
+	"""Saved on 3 ranks, continued on 3 and on one."""
+	process = launch(3, sys.executable, scenes, str(found.folder), 'killed')
+	end = time.monotonic() + hangs
+	while not (found.folder / 'running').exists() and process.poll() is None and time.monotonic() < end:
+		time.sleep(0.05)
+	time.sleep(0.2)
+	assert process.poll() is None, process.communicate()[0]
+	for number in (process.pid, *(int((found.folder / f'process-{rank}').read_text()) for rank in range(3))):
+		os.kill(number, signal.SIGKILL)
+	process.communicate()
+	for ranks in (3, 0):
+		under(ranks, sys.executable, scenes, str(found.folder), 'continued')
+		assert same(found('heap', 1), found('continued', ranks or 1))
+
+
+def testARankThatFailsEndsTheRun(tmp_path):
+	script = tmp_path / 'fails.py'
+	script.write_text('from yade import *\nfrom yade import polytope\nfrom yade.polytope import mpi\n'
+	                  'if mpi.rank() == 1:\n\traise ValueError("on purpose")\nmpi.mpy.comm.barrier()\nmpi.mpy.comm.recv(source=1, tag=99)\n')
+	assert 'on purpose' in under(2, 'yade', '-n', '-x', str(script), fails=True)
+
+
+def testASceneThatIsNotDividedIsRefused(tmp_path):
+	script = tmp_path / 'undivided.py'
+	script.write_text('from yade import *\nfrom yade import O, polytope\nfrom yade.polytope import mpi\n'
+	                  'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
+	                  '\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines()\nmpi.run(5)\n')
+	assert 'polytope.mpi.divide()' in under(2, sys.executable, str(script), fails=True)
+
+
+def testExampleOnThreeRanks():
+	"""By `./run mpi` as far as the tests were started by `./run`."""
+	example = [str(project / 'examples/mpi.py'), '0.05', '24']
+	said = [under(0, 'yade', '-n', '-x', *example)]
+	if 'buildKey' in os.environ:
+		said.append(under(0, 'bash', str(project / 'tools/inside.sh'), 'mpi', '3', *example))
+	else:
+		said.append(under(3, 'yade', '-n', '-x', *example))
+	heights = [[float(line.split('mean height ')[1].split()[0]) for line in text.splitlines() if 'mean height' in line] for text in said]
+	assert len(heights[0]) == 1 and heights[0] == heights[1] and heights[0][0] > 0.2
