@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A grain is pressed between two plates and breaks into smaller and stronger ones; prints the forces at which, draws it.
 
-	./run python examples/crushedGrain.py
+./run python examples/crushedGrain.py
 """
+
 from math import radians
 
 from yade import O, RockJointMat, polytope

@@ -7,6 +7,7 @@
 #include "Vectors.hpp"
 
 #include <core/Body.hpp>
+#include <core/Clump.hpp>
 #include <core/Material.hpp>
 #include <core/State.hpp>
 
@@ -92,6 +93,26 @@ namespace {
 		return body;
 	}
 
+	/// Gives a clump another mass, centre and principal axes than those that YADE sums over its members; the members stay where they are.
+	void setClump(const shared_ptr<Body>& body, const Real& mass, const Vector3r& inertia, const Vector3r& centre,
+	        const Quaternionr& axes, Real isotropyTolerance)
+	{
+		auto* const clump = dynamic_cast<Clump*>(body->shape.get());
+		if (!clump) throw std::invalid_argument("body: is no clump");
+		State& state  = *body->state;
+		state.mass    = mass;
+		state.inertia = inertia;
+		state.pos = state.refPos = centre;
+		state.ori = state.refOri = axes;
+		const Quaternionr back   = axes.conjugate();
+		for (auto& [id, relative] : clump->members) {
+			const State& member  = *Body::byId(id)->state;
+			relative.position    = back * (member.pos - centre);
+			relative.orientation = back * member.ori;
+		}
+		body->setAspherical(inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
+	}
+
 	py::object bytesOf(const void* data, std::size_t size)
 	{
 		return py::object(py::handle<>(PyBytes_FromStringAndSize(static_cast<const char*>(data), Py_ssize_t(size))));
@@ -146,6 +167,7 @@ void defineConstruction()
 	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
 	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, turn, fixed, isotropyTolerance, color or None.");
+	py::def("setClump", &setClump, "Mass and principal axes of a clump: body, mass, inertia, centre, axes, isotropyTolerance.");
 	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
 }
 

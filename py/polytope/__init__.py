@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*, *readShapes* (and *writeShapes*); random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
@@ -27,6 +27,7 @@ from .bonding import bond, bonds
 from .breakage import split
 from .check import check
 from .checkpoints import checkpoint, continueFrom
+from .clumps import clump
 from .energy import mechanicalEnergy
 from .engines import engines
 from .grainBreakage import breakGrains
@@ -72,6 +73,7 @@ __all__ = [
 	'check',
 	'checkpoint',
 	'cloud',
+	'clump',
 	'contact',
 	'contactFabric',
 	'contactRose',

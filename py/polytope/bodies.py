@@ -24,9 +24,7 @@ import os
 import random
 import warnings
 
-from yade import Quaternion, Vector3
-
-from yade import _polytope
+from yade import Quaternion, Vector3, _polytope
 
 from .arguments import flag, materialOf, number, numbersOf, rotation, vector, vectors
 from .precision import isNumber
@@ -152,13 +150,17 @@ def polygon(points2d, thickness=1.0, **body):
 
 
 @builder
-def fromMesh(path, scale=1.0, **body):
+def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
 
-	A mesh that is not closed, or not convex, is warned of.
+	A mesh that is not closed, or not convex, is warned of. With *parts* it becomes several convex bodies, for clump().
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
+	:param parts: number of convex parts at most, into which CoACD cuts the mesh, approximately; or 'objects': the separate objects of the file,
+	    each of them convex. The result is then a list: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``; *center* and *orientation*
+	    are of the whole. CoACD is optional: ``pip install coacd``.
+	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
 	"""
@@ -166,6 +168,9 @@ def fromMesh(path, scale=1.0, **body):
 		raise ValueError(f'scale: must be positive and finite, got {scale}')
 	points, triangles = readMesh(path, 'path')
 	points = points * scale
+	if parts is not None:
+		from .meshParts import convexParts
+		return convexParts(path, points, triangles, parts, body)
 	corners = vectors(points, 'points', 3)
 
 	def shape(*corner):
@@ -189,7 +194,7 @@ def _tellWhatTheHullHides(path, points, triangles, hull):
 		warnings.warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices", stacklevel=4)
 	elif abs(mesh.volume) < (1 - notConvex) * hull:
 		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
-		warnings.warn(f'{seen}; cut it into convex meshes and clump their bodies (O.bodies.appendClumped)', stacklevel=4)
+		warnings.warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts', stacklevel=4)
 
 
 def readMesh(path, name):

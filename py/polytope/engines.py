@@ -27,6 +27,7 @@ from yade import (
 	PolytopeCollider,
 	PolytopeTimeStepper,
 	RockJointMat,
+	Sphere,
 	TimeStepper,
 	Vector3,
 )
@@ -112,7 +113,8 @@ def _usualGravity(scene):
 
 
 def _collider(scene):
-	sizes = [float(body.shape.inscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)]
+	moving = [body.shape for body in scene.bodies if isinstance(body.shape, (Polytope, Sphere)) and scene.moves(body)]
+	sizes = [float(shape.radius if isinstance(shape, Sphere) else shape.inscribedRadius) for shape in moving]
 	bounds = [Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb(), Bo1_Box_Aabb()]
 	return PolytopeCollider(bounds, verletDist=reach * min(sizes) if sizes else reachOfNothing)
 

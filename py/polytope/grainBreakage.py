@@ -31,14 +31,14 @@ def breakGrains(
 	ids=None,
 	smallest=None,
 ):
-	"""Splits grains whose mean stress exceeds a strength; call it every few steps: ``PyRunner(command='polytope.breakGrains(…)', iterPeriod=20)``.
+	"""Splits grains whose mean stress exceeds a strength; every few steps: ``PyRunner(command='polytope.breakGrains(…)', iterPeriod=20)``.
 
 	With the principal values σ₁ ≥ σ₂ ≥ σ₃ of bodyStress (tension positive) a grain breaks where one of these exceeds 1, along the plane of
 	the largest of them, through its centroid:
 
 	- max(σ₁, 0)/*tension* + max(−σ₃, 0)/*compression* (Gladkyy & Kuna 2017, Granular Matter 19:41) and (σ₁ − σ₃)/2/*shear* (Tresca):
 	  along a plane of greatest shear stress, half way between the directions of σ₁ and σ₃;
-	- q/*octahedral* with q = √((σ₁−σ₂)² + (σ₂−σ₃)² + (σ₃−σ₁)²)/3 (McDowell & de Bono 2013): normal to the direction of σ₁, so along the load;
+	- q/*octahedral* with q = √((σ₁−σ₂)² + (σ₂−σ₃)² + (σ₃−σ₁)²)/3 (McDowell & de Bono 2013): normal to the direction of σ₁;
 	- 3 q/√2/*vonMises*: along both planes of greatest shear stress, into four pieces.
 
 	What is broken, how, and what is kept: split. Members of clumps, bonded and fixed bodies are left out.
@@ -46,14 +46,16 @@ def breakGrains(
 	:param float tension, compression, shear, octahedral, vonMises: strengths [Pa] of a grain of *volume*; default infinite
 	:param float volume: [m³] for which strengths are given; other grains have strength × (volume/V)^(1/modulus). Default: all have the same
 	:param float modulus: of Weibull's distribution, above 0; needed with *volume*, *probability* and *seed*
-	:param float probability: strengths are those that have failed with this probability, 0 to 1; default 1 − 1/e, the scale of the distribution
+	:param float probability: strengths are those that have failed with this probability, 0 to 1; default 1 − 1/e, the distribution's scale
 	:param int seed: gives each grain a random strength of its own, by its number, distributed after Weibull; not with *probability*
 	:param ids: of the grains; default all free polytopes
 	:param float smallest: least inscribed radius of a piece [m]: grains that would leave a smaller one do not break; default as of split
 	:returns: dictionary: number of each grain that broke → numbers of its pieces
 	:raises ValueError: naming the argument
 	"""
-	limits = np.array([_strength(value, name) for value, name in zip((tension, compression, shear, octahedral, vonMises), strengths, strict=True)])
+	limits = np.array(
+		[_strength(value, name) for value, name in zip((tension, compression, shear, octahedral, vonMises), strengths, strict=True)]
+	)
 	if np.isinf(limits).all():
 		raise ValueError(f'tension: give at least one strength, of {", ".join(strengths)}')
 	factor = _sizeEffect(volume, modulus, probability, seed)
@@ -84,7 +86,7 @@ def _use(values, axes, limits):
 
 
 def _cut(k, planes, smallest):
-	"""Numbers of the pieces; empty where the first plane would leave one below *smallest*. Where a later plane would, that piece stays whole."""
+	"""Numbers of the pieces; empty where the first plane would leave one below *smallest*. Where a later plane would, its piece stays."""
 	centre, pieces = vector(O.bodies[k].state.pos, 'point'), [k]
 	for normal in planes:
 		cut = []

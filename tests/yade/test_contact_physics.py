@@ -32,19 +32,24 @@ def testBlockCarriesItsWeight(perArea, half):
 	assert block.state.vel.norm() < 1e-12 and block.state.angVel.norm() < 1e-12
 
 
-def testStatisticsCountPairsAndWhichOfThemTouch():
-	"""Two blocks in the floor, and one so little above it that their boxes overlap."""
+def testStatisticsAreTheSumsOverAllQueries():
+	"""Two turned blocks in the floor, and one so little above it that their boxes overlap; every query anew, as `polytope.contact` makes it."""
 	joint(normalStiffness=stiffness)
-	loop()
-	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	O.bodies.append([polytope.cuboid((x, 0, .499), (.5, .5, .5)) for x in (-2, 2)])
+	loop(ig2={'warmStart': False, 'timing': True})
+	floor = O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
+	turned = Quaternion((1, 2, 3), 1.)
+	O.bodies.append([polytope.cuboid((x, 0, .6), (.5, .5, .5), turned) for x in (-2, 2)])
 	O.bodies.append(polytope.cuboid((0, 0, .51), (.5, .5, .5)))
 	O.engines[1].verletDist = .05
-	O.dt = 1e-9
+	O.dt = 1e-12
 	for _ in range(4):
 		O.step()
+	queries = [polytope.contact(O.bodies[floor], body) for body in O.bodies if body.id != floor]
 	stats = O.engines[2].geomDispatcher.functors[0].stats()
-	assert stats['contacts'] == 2 * 4 and stats['pairs'] == 3 * 4
+	assert stats['pairs'] == 3 * 4 and stats['contacts'] == stats['statuses']['contact'] == stats['timedPairs'] == 2 * 4
+	assert stats['simplexPivots'] == 4 * sum(query.simplexPivots for query in queries) > 0
+	assert stats['newtonIterations'] == 4 * sum(query.newtonIterations for query in queries if query.inContact) > 0
+	assert stats['lpSeconds'] > 0 and stats['centreSeconds'] > 0
 
 
 def testStackCarriesItsWeight():

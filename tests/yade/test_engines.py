@@ -75,6 +75,14 @@ def testEveryShapeIsMet():
 	assert {type(one.geom).__name__ for one in O.interactions if one.isReal} == {'PolytopeGeom', 'ScGeom'}
 
 
+def testSmallestMovingBodySetsTheReachOfTheBoxes():
+	blockOnFloor()
+	O.bodies.append(utils.sphere((1, 1, 3), 0.05))
+	assert polytope.engines()[1].verletDist == pytest.approx(0.005)
+	O.bodies[2].state.blockedDOFs = 'xyzXYZ'
+	assert polytope.engines()[1].verletDist == pytest.approx(0.04)
+
+
 def testFunctorsFollowMaterials():
 	blockOnFloor(material=FrictMat(density=2600, young=1e8))
 	loop = polytope.engines()[2]

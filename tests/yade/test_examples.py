@@ -8,10 +8,10 @@ import runpy
 import sys
 
 import pytest
-from yade import O, Vector3, polytope
+from yade import Facet, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
+here = ('bondedCube', 'crushedCube', 'crushedGrain', 'energy', 'funnel', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs'}
 
 
@@ -77,6 +77,18 @@ def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
 	with pytest.raises(SystemExit) as end:
 		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
 	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
+
+
+def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
+	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.75': 'O.time < 0.35'})
+	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
+	grains = [body.state.pos for body in O.bodies if body.dynamic]
+	assert 0 < out and number == len(grains) > 8 and isPicture('output/funnel.png') and noFailures()
+	assert sum(isinstance(body.shape, Facet) for body in O.bodies) == 144
+	for x, y, z in grains:
+		# inside the funnel's radius at that height, or below its spout; above the floor
+		radius = 0.08 if z > 0.22 else 0.02 + 0.6 * (z - 0.12) if z > 0.12 else 0.02
+		assert z > 0 and (z < 0.09 or (x**2 + y**2) ** 0.5 < radius)
 
 
 def testPebblesLieInTheTray(runs, capsys):

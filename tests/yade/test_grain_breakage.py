@@ -6,10 +6,9 @@ import types
 
 import numpy as np
 import pytest
+from scenes import joint, loop
 from yade import O, Vector3, polytope
 from yade.polytope.grainBreakage import _sizeEffect, _use
-
-from scenes import joint, loop
 
 stiffness, px, pz = 1e9, 4e5, 1e6
 
@@ -25,7 +24,9 @@ def pressed():
 			place = side * (half + 0.1 - pressure / stiffness)
 			extents = [3, 3, 3]
 			extents[axis] = 0.1
-			plate = O.bodies.append(polytope.cuboid(place * Vector3.Unit(axis), extents, fixed=True, mask=1 + (axis == 2)))  # plates do not meet
+			plate = O.bodies.append(
+				polytope.cuboid(place * Vector3.Unit(axis), extents, fixed=True, mask=1 + (axis == 2))
+			)  # plates do not meet
 	O.dt = 1e-9
 	O.trackEnergy = True
 	O.step()

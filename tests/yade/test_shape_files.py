@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shapes from and to text files: what was written is read, of Neper and Rockable what their manuals say; malformed files are refused by line."""
+"""Shapes from and to text files: what is written is read, Neper's and Rockable's as they say; malformed files are refused by line."""
 
 import pathlib
 import warnings
 
 import numpy as np
 import pytest
-from yade import O, Vector3, polytope
-
 from scenes import joint
+from yade import O, Vector3, polytope
 
 files = pathlib.Path(__file__).parent / 'shapes'
 
@@ -32,7 +31,9 @@ def farthest(points, others):
 def testWhatIsWrittenIsReadAgain(tmp_path):
 	O.bodies.append([polytope.randomGrain(0.1, seed=k, center=(k, 100, 0)) for k in range(5)])
 	O.bodies.append([polytope.fromHalfSpaces(*block) for block in polytope.voronoi(((0, 0, 0), (1, 1, 1)), 10, seed=1).blocks])
-	redundant = polytope.fromHalfSpaces([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (1, 1, 1)], [1, 1, 1, 1, 1, 1, 3])
+	redundant = polytope.fromHalfSpaces(
+		[(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (1, 1, 1)], [1, 1, 1, 1, 1, 1, 3]
+	)
 	O.bodies.append([redundant, polytope.polygon([(0, 0), (1, 0), (0, 1)])])
 	path = tmp_path / 'new' / 'grains.txt'
 	assert polytope.writeShapes(path) == 16
@@ -40,14 +41,16 @@ def testWhatIsWrittenIsReadAgain(tmp_path):
 	for body, other in zip(list(O.bodies)[:16], again, strict=True):
 		assert farthest(corners(body), corners(other)) < 1e-12, 'of grains 100 m away'
 		assert len(other.shape.normals) == (6 if body is redundant else len(body.shape.normals))
-		assert other.shape.volume == pytest.approx(body.shape.volume, rel=1e-12) and other.state.mass == pytest.approx(body.state.mass, rel=1e-12)
+		assert other.shape.volume == pytest.approx(body.shape.volume, rel=1e-12) and other.state.mass == pytest.approx(
+			body.state.mass, rel=1e-12
+		)
 	assert polytope.writeShapes(path, ids=[3]) == 1 and len(polytope.readShapes(path)) == 1
 	with pytest.raises(ValueError, match='^ids: body 16 is no polyhedron'):
 		polytope.writeShapes(path, ids=[16])
 
 
 def testYadesOwnReaderTakesTheFile(tmp_path):
-	"""Its loop, as in YADE's ymport.textPolyhedra, which itself needs YADE's Polyhedra: header of three words, vertices, faces are skipped."""
+	"""As YADE's ymport.textPolyhedra reads it, which itself needs YADE's Polyhedra: header of three words, vertices, faces are skipped."""
 	O.bodies.append([polytope.regular(12, 1), polytope.cuboid((3, 0, 0), (1, 1, 1))])
 	polytope.writeShapes(tmp_path / 'two.txt')
 	lines = (tmp_path / 'two.txt').read_text().splitlines()
@@ -91,7 +94,10 @@ def testWhatIsNotConvexIsSaid(tmp_path):
 	(tmp_path / 'dent.txt').write_text(f'7 9 6\n{lists[0]}\n{lists[1]}\n')
 	numbered = '\n'.join(f'{len(row)} ' + ' '.join(map(str, row)) for row in faces)
 	(tmp_path / 'dent.shp').write_text(f'<\nname Dent\nnv 9\n{lists[0]}\nnf 6\n{numbered}\n>\n')
-	for name, words in (('dent.txt', "polyhedron 7 .line 1 of .*dent.txt'. is not convex"), ('dent.shp', "'Dent' .line 1 of .* is not convex")):
+	for name, words in (
+		('dent.txt', "polyhedron 7 .line 1 of .*dent.txt'. is not convex"),
+		('dent.shp', "'Dent' .line 1 of .* is not convex"),
+	):
 		with pytest.warns(UserWarning, match=words):
 			(body,) = polytope.readShapes(tmp_path / name)
 		assert body.shape.volume == pytest.approx(8)
@@ -111,7 +117,11 @@ def cell(old, new):
 	[
 		('a.txt', '', 'line 0: there is no polyhedron'),
 		('a.txt', '1 4 4\n0 0 0\n1 0 0\n0 1 0\n', 'line 4: a coordinate of a vertex is expected, a number, but the file ends'),
-		('a.txt', '1 4 1\n0 0 0\n1 0 0\n0 x 0\n0 0 1\n0 1 2\n', "line 4: a coordinate of a vertex is expected, a number, but 'x' is there; a polyhedron is a line"),
+		(
+			'a.txt',
+			'1 4 1\n0 0 0\n1 0 0\n0 x 0\n0 0 1\n0 1 2\n',
+			"line 4: a coordinate of a vertex is expected, a number, but 'x' is there; a polyhedron is a line",
+		),
 		('a.txt', '1 4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 4\n', 'line 6: the number of a vertex must be from 0 to 3, got 4'),
 		('a.txt', '1 4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1\n', 'line 6: a face has at least three vertices, got 2'),
 		('a.txt', '# head\n1 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n', 'line 2: the vertices of polyhedron 1 .* make no body'),
@@ -128,7 +138,11 @@ def cell(old, new):
 		('a.shp', '<\nname a\nnv 1\n0 0 0\n<\n', "a shape begins before that of line 1 ends with '>'"),
 		('a.shp', '<\nname a\nnv 1.5\n', "line 3: the number of vertices is expected, a whole number, but '1.5'"),
 		('a.shp', '<\nname a\nradius -1\n', 'line 3: the radius must be at least 0'),
-		('a.shp', '<\nname a\nnv 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnf 1\n3 0 1 7\n>', 'line 9: the number of a vertex must be from 0 to 3, got 7'),
+		(
+			'a.shp',
+			'<\nname a\nnv 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnf 1\n3 0 1 7\n>',
+			'line 9: the number of a vertex must be from 0 to 3, got 7',
+		),
 	],
 	ids=lambda value: value if len(value) < 80 else 'file',
 )

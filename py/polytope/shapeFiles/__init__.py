@@ -22,8 +22,8 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, **body):
 	"""Bodies of all shapes in a text file: ``O.bodies.append(polytope.readShapes('cells.tess', scale=1e-3))``.
 
 	- ``.tess``: cells of a Neper tessellation, of its dimension 3 as polyhedra, 2 as polygons. Cells share faces exactly.
-	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges and
-	  corners, there round, are sharp); a flat shape is a plate of twice that thickness. They lie where their vertices do.
+	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges,
+	  there round, are sharp); a flat shape is a plate of twice that thickness. They lie where their vertices do.
 	- any other name: polyhedra in YADE's text format, from writeShapes or from YADE's export.textPolyhedra, as convex hulls.
 
 	What is not convex is warned of.

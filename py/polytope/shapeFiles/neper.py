@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tessellations of Neper (https://neper.info), files .tess of its format 2 and later.
 
-Sections begin with words ``**name``. A face has an equation a x + b y + c z = d, once for both cells beside it, so cells share faces exactly.
+Sections begin with words ``**name``. A face has an equation a x + b y + c z = d, one for both cells beside it: cells share faces exactly.
 """
 
 from yade import Vector3
@@ -13,7 +13,7 @@ __all__ = ['bodies']
 
 remedy = "write the tessellation anew with neper -T, format tess; Neper's manual has the format"
 fits = 1e-6
-"""Distance of a vertex from its face's plane, over the tessellation's size: Neper writes 12 decimals. Faces moved by regularization are not plane."""
+"""Distance of a vertex from its face's plane, over the cell's size: Neper writes 12 decimals. Regularization bends faces by more."""
 
 
 def bodies(path, place, **body):

@@ -9,7 +9,7 @@ from yade import Vector3
 __all__ = ['Words', 'warnIfNotConvex']
 
 onHull = 1e-6
-"""Distance of a face's corners from a plane of the hull, over the size, up to which the face is a part of it: files have six digits and more."""
+"""Distance of a face's corners from a plane of the hull, over the size, up to which it is a part of it: files have six digits and more."""
 
 
 class Words:

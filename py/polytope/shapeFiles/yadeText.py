@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE's text format for polyhedra, as its export.textPolyhedra writes and ymport.textPolyhedra reads it.
 
-Each polyhedron: a line "number vertices faces", a line for each vertex with its coordinates, a line for each face with its vertices, from 0.
+Each polyhedron: a line "number vertices faces", a line for each vertex with its coordinates, one for each face with its vertices, from 0.
 """
 
 import os

@@ -29,6 +29,20 @@ def taken(source):
 	return out.getvalue()
 
 
+def withKept(text, path):
+	"""New results with those of the files that they are not about, as *path* has them: kernel and law may be run apart."""
+	if not path.exists():
+		return text
+	new = list(csv.DictReader(io.StringIO(text)))
+	files = {row['file'] for row in new}
+	found = [row for row in rows(path) if row['file'] not in files] + new
+	out = io.StringIO()
+	writer = csv.DictWriter(out, columns, lineterminator='\n')
+	writer.writeheader()
+	writer.writerows(sorted(found, key=lambda row: (row['file'], int(row['line']), int(row['column']))))
+	return out.getvalue()
+
+
 def rows(path):
 	with open(path, newline='') as found:
 		return list(csv.DictReader(found))
@@ -51,9 +65,12 @@ def summary(folder):
 	some = sum(count.values())
 	left = some - count['equivalent']
 	share = 100 * count['killed'] / left
-	first = next(iter(rows(folder / file)))
+	revisions = collections.defaultdict(set)
+	for row in rows(folder / file):
+		revisions[row['revision'][:7], row['seed']].add(row['file'].split('/')[0])
+	which = '; '.join(f'{", ".join(sorted(places))}: revision {revision}, seed {seed}' for (revision, seed), places in sorted(revisions.items()))
 	text = f'{share:.1f} %'
-	return paragraph(f"""{some} mutants were run (revision {first['revision'][:7]}, seed {first['seed']}): {count['killed']} are killed, {count['equivalent']} change
+	return paragraph(f"""{some} mutants were run ({which}): {count['killed']} are killed, {count['equivalent']} change
 		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.""")
 
 

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Grains run out of a funnel that is read from an STL file; prints how many have left it, draws them.
+
+./run python examples/funnel.py          writes output/funnel.stl and output/funnel.png
+"""
+
+import os
+from math import cos, pi, radians, sin
+
+import trimesh
+from yade import O, RockJointMat, polytope, ymport
+
+# the funnel, as a program for drawing would write it: rings of points, and two triangles between neighbours
+profile = [(0.08, 0.32), (0.08, 0.22), (0.02, 0.12), (0.02, 0.09)]  # radius and height [m]
+sides = 24
+points = [(r * cos(2 * pi * k / sides), r * sin(2 * pi * k / sides), z) for r, z in profile for k in range(sides)]
+quads = [
+	(sides * j + k, sides * j + (k + 1) % sides, sides * (j + 1) + (k + 1) % sides, sides * (j + 1) + k)
+	for j in range(3)
+	for k in range(sides)
+]
+os.makedirs('output', exist_ok=True)
+trimesh.Trimesh(points, [three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))]).export('output/funnel.stl')
+
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=5e7, frictionAngle=radians(25)))
+O.bodies.append(ymport.stl('output/funnel.stl', color=(0.6, 0.65, 0.7)))
+O.bodies.append(polytope.cuboid((0, 0, -0.01), (0.15, 0.15, 0.01), fixed=True))
+curve = [(0.007, 0), (0.01, 0.5), (0.013, 1)]  # opening of the sieve [m], part that passes
+grains = polytope.grains(curve, mass=0.25, elongation=(0.7, 1), flatness=(0.6, 1), vertices=12, seed=2)
+for k, grain in enumerate(grains):
+	grain.shape.color = (0.85 - 0.0008 * k, 0.6 - 0.001 * k, 0.35)
+O.bodies.append(polytope.cloud((-0.055, -0.055, 0.21), (0.055, 0.055, 0.5), grains, seed=2))
+
+O.engines = polytope.engines()
+while O.time < 0.75:
+	O.run(200, wait=True)
+heights = [body.state.pos[2] for body in O.bodies if body.dynamic]
+print(sum(height < 0.09 for height in heights), 'of', len(heights), 'grains have left the funnel')
+polytope.picture('output/funnel.png', fixed=lambda body: 'glass' if body.id < 2 * len(quads) else 'solid', view=(-0.3, -1, 0.35))
