@@ -10,7 +10,7 @@ from yade import O, Polytope
 from .arguments import number, vector
 from .bonding import bonds
 from .breakage import split
-from .heap import _free as _named
+from .heap import namedBodies
 from .measures import bodyStress
 
 __all__ = ['breakGrains']
@@ -105,7 +105,7 @@ def _breakable(ids):
 	if ids is None:
 		chosen = [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic and not body.isClumpMember]
 	else:
-		chosen = [k for k in _named(ids) if O.bodies[k].dynamic and not O.bodies[k].isClump]
+		chosen = [k for k in namedBodies(ids) if O.bodies[k].dynamic and not O.bodies[k].isClump]
 		other = next((k for k in chosen if not isinstance(O.bodies[k].shape, Polytope)), None)
 		if other is not None:
 			raise ValueError(f'ids: body {other} has no Polytope shape')

@@ -12,7 +12,7 @@ from yade import O, Polytope, _polytope
 from .arguments import numbersOf, vectors
 from .bonding import bonds
 
-__all__ = ['Coordination', 'coordinationNumber', 'porosity', 'volumeInside', 'volumeWithin']
+__all__ = ['Coordination', 'coordinationNumber', 'namedBodies', 'porosity', 'volumeInside', 'volumeWithin']
 
 thin = 1e-9
 """Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
@@ -32,7 +32,7 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	:returns: [-]
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
-	solids = [O.bodies[part] for k in _free(ids) for part in _parts(k)]
+	solids = [O.bodies[part] for k in namedBodies(ids) for part in _parts(k)]
 	if lower is None and upper is None and region is None:
 		if not O.periodic:
 			raise ValueError('lower: give the corners of a box, or a region; only a periodic cell has a volume of its own')
@@ -153,7 +153,7 @@ def coordinationNumber(ids=None):
 	:returns: Coordination
 	:raises ValueError: naming *ids* if there is none, or a body is not there, named twice, or a member of a clump
 	"""
-	touching = dict.fromkeys(_free(ids), 0)
+	touching = dict.fromkeys(namedBodies(ids), 0)
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
 	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
@@ -171,7 +171,8 @@ def _mover(k):
 	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
 
 
-def _free(ids):
+def namedBodies(ids):
+	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming *ids*."""
 	if ids is not None:
 		try:
 			ids = list(ids)

@@ -11,7 +11,7 @@ from yade import O, Polytope, Sphere
 
 from ._faces import worldVertices
 from .bonding import bonds
-from .heap import _free as _named
+from .heap import namedBodies
 
 __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'sizeDistribution']
 
@@ -96,7 +96,7 @@ def aabbExtrema(ids=None):
 	:raises ValueError: naming *ids* for a body that is not there, or without an extent (walls)
 	"""
 	low, high = np.full(3, np.inf), np.full(3, -np.inf)
-	for k in _massive(None) if ids is None else _named(ids):
+	for k in _massive(None) if ids is None else namedBodies(ids):
 		for member in O.bodies[k].shape.members if O.bodies[k].isClump else (k,):
 			points = _extremes(O.bodies[member])
 			low, high = np.minimum(low, points.min(axis=0)), np.maximum(high, points.max(axis=0))
@@ -147,7 +147,7 @@ def _massive(ids):
 	if ids is None:
 		bodies = (O.bodies[_whole(body.id)] for body in O.bodies if body is not None and isinstance(body.shape, (Polytope, Sphere)))
 		return list(dict.fromkeys(body.id for body in bodies if body.dynamic))
-	for k in (named := _named(ids)):
+	for k in (named := namedBodies(ids)):
 		if not O.bodies[k].isClump and not isinstance(O.bodies[k].shape, (Polytope, Sphere)):
 			raise ValueError(f'ids: body {k} is neither a polytope nor a sphere')
 	return named
@@ -161,7 +161,7 @@ def _polytopes(ids):
 			if body is not None and isinstance(body.shape, Polytope) and body.dynamic and not body.isClumpMember
 		]
 	else:
-		found = _named(ids)
+		found = namedBodies(ids)
 	if not found:
 		raise ValueError('ids: there is no free polytope')
 	for k in found:

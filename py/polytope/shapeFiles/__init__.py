@@ -8,7 +8,7 @@ from yade import O, Polytope, Vector3
 
 from ..arguments import number, vector
 from ..bodies import builder
-from ..heap import _free as _named
+from ..heap import namedBodies
 from . import neper, rockable, yadeText
 
 __all__ = ['readShapes', 'writeShapes']
@@ -62,7 +62,7 @@ def writeShapes(path, ids=None):
 	:returns: number of polyhedra written
 	:raises ValueError: naming *ids* for a body that is not there or no polyhedron
 	"""
-	chosen = _polyhedra() if ids is None else _named(ids)
+	chosen = _polyhedra() if ids is None else namedBodies(ids)
 	for k in chosen:
 		shape = O.bodies[k].shape
 		if not isinstance(shape, Polytope) or shape.dimension != 3:
