@@ -24,6 +24,12 @@ def quick(tmp_path_factory):
 	return folder
 
 
+def testTheFullVariantsSizesAreSaid(tmp_path):
+	"""The numbers that the full variant takes, which is too long for a test."""
+	said = ' '.join(run(script, tmp_path, '--help').stdout.split())
+	assert 'None: 119, quick 31' in said and 'chebyshevCentre,centroid' in said
+
+
 def table(folder, name):
 	with open(folder / 'out' / f'{name}.csv', newline='') as file:
 		return list(csv.reader(file))[1:]

@@ -97,6 +97,14 @@ def testResultsWithoutARevisionAreNotTaken(root, tmp_path):
 	assert code and '--take bench' in said
 
 
+def testResultsOfARunInWhichAScriptFailedAreNotTaken(root, tmp_path):
+	findings(tmp_path / 'found/wedge')
+	findings(tmp_path / 'found/beam')
+	(tmp_path / 'found/beam/findings.json').unlink()
+	code, said = results('--take', 'paper', tmp_path / 'found', '--root', root)
+	assert code and 'beam ended without findings' in said
+
+
 def benchmark(folder):
 	"""results.json as `./run bench` writes it."""
 	def target(measure, bound, ratio, met, ours='0.26 µs', peer='0.37 µs'):

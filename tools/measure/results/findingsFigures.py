@@ -10,6 +10,9 @@ files = {'paper': 'paper.json', 'accuracy': 'accuracy.json'}
 
 def taken(source):
 	"""What is kept of the folder of a run: the rows of each script, and what it was run with. ValueError if there are none."""
+	failed = [path.parent.name for path in sorted(source.glob('*/run.json')) if not (path.parent / 'findings.json').exists()]
+	if failed:
+		raise ValueError(f'{source}: {", ".join(failed)} ended without findings; see log.txt there')
 	scripts = []
 	for path in sorted(source.glob('*/findings.json')):
 		found, record = json.loads(path.read_text()), json.loads((path.parent / 'run.json').read_text())
