@@ -15,6 +15,7 @@
 namespace py = boost::python;
 
 namespace yade {
+#ifdef YADE_MPI // not in Debian's builds of wider precisions: py/polytope/mpi is refused there
 namespace {
 
 	class WorkerContacts {
@@ -66,5 +67,8 @@ void defineWorkerContacts()
 	        "Contacts of this rank's bodies with those of other ranks, as they are when the object is made; used by yade.polytope.mpi.")
 	        .def("put", &WorkerContacts::put, "Puts them back where both bodies are here; returns how many.");
 }
+#else
+void defineWorkerContacts() { }
+#endif
 
 } // namespace yade
