@@ -48,7 +48,7 @@ def breakGrains(
 	:param float modulus: of Weibull's distribution, above 0; needed with *volume*, *probability* and *seed*
 	:param float probability: strengths are those that have failed with this probability, 0 to 1; default 1 − 1/e, the distribution's scale
 	:param int seed: gives each grain a random strength of its own, by its number, distributed after Weibull; not with *probability*
-	:param ids: of the grains; default all free polytopes
+	:param ids: of the grains, of which those that are no more (broken before) are left out, and so are their pieces; default all free polytopes
 	:param float smallest: least inscribed radius of a piece [m]: grains that would leave a smaller one do not break; default as of split
 	:returns: dictionary: number of each grain that broke → numbers of its pieces
 	:raises ValueError: naming the argument
@@ -105,7 +105,7 @@ def _breakable(ids):
 	if ids is None:
 		chosen = [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic and not body.isClumpMember]
 	else:
-		chosen = [k for k in namedBodies(ids) if O.bodies[k].dynamic and not O.bodies[k].isClump]
+		chosen = [k for k in namedBodies(ids, erased=True) if O.bodies[k].dynamic and not O.bodies[k].isClump]
 		other = next((k for k in chosen if not isinstance(O.bodies[k].shape, Polytope)), None)
 		if other is not None:
 			raise ValueError(f'ids: body {other} has no Polytope shape')

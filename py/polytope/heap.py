@@ -171,13 +171,18 @@ def _mover(k):
 	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
 
 
-def namedBodies(ids):
-	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming *ids*."""
+def namedBodies(ids, erased=False):
+	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming *ids*.
+
+	:param bool erased: leave out numbers of bodies that have been erased, in place of refusing them
+	"""
 	if ids is not None:
 		try:
 			ids = list(ids)
 		except TypeError:
 			raise ValueError(f'ids: must be a list of numbers of bodies, got {ids!r}') from None
+		if erased:
+			ids = [k for k in ids if not (isinstance(k, numbers.Integral) and 0 <= k < len(O.bodies) and O.bodies[k] is None)]
 		for k in ids:
 			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
 				raise ValueError(f'ids: there is no body {k!r}')

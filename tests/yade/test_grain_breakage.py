@@ -99,6 +99,9 @@ def testWhatIsLeftWholeAndRefused(pressed):
 	block, plate = pressed
 	assert polytope.breakGrains(compression=1, smallest=10) == {} and O.bodies[block] is not None
 	assert polytope.breakGrains(compression=1, ids=[plate]) == {}, 'fixed bodies do not break'
+	spare = O.bodies.append(polytope.cuboid((5, 5, 5), (1, 1, 1)))
+	O.bodies.erase(spare)
+	assert polytope.breakGrains(compression=1, ids=[plate, spare]) == {}, 'what is no more is left out'
 	for arguments, words in (
 		({}, 'tension: give at least one'),
 		({'shear': -1}, 'shear: must be a strength'),

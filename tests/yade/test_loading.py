@@ -205,13 +205,14 @@ def testSimpleShearBetweenPlatesIsThatOfTheContacts():
 
 
 def testShearBoxOfTwoBlocksSlidesAtTheirFriction():
-	"""Blocks that leave room on the sides to which they move; the joint between them a little above the halves' own."""
+	"""Over the rim of the lower half, which bears nothing, as well; blocks leave room on the sides to which they move."""
 	material()
-	O.bodies.append([polytope.cuboid((0.52, 0.25, 0.155), (0.48, 0.25, 0.155)), polytope.cuboid((0.48, 0.25, 0.455), (0.48, 0.25, 0.145))])
+	O.bodies.append([polytope.cuboid((0.52, 0.25, 0.15), (0.48, 0.25, 0.15)), polytope.cuboid((0.48, 0.25, 0.45), (0.48, 0.25, 0.15))])
 	test = polytope.shearBox(polytope.sample(lower=(0, 0, 0), upper=(1, 0.5, 0.6)), stress=1e5, speed=0.05)
-	test.run(0.01)
+	test.run(0.05)
 	columns = test.columns
-	assert columns['stressRatio'][-1] == pytest.approx(tan(friction), rel=2e-3)
+	sliding = columns['displacement'] > 0.01
+	assert columns['stressRatio'][sliding] == pytest.approx(tan(friction), rel=2e-3)
 	assert columns['normalStress'][50:] == pytest.approx(1e5, rel=2e-3) and columns['rise'][-1] == pytest.approx(0, abs=1e-4)
 	with pytest.raises(ValueError, match='^displacement'):
 		test.run(0.3)

@@ -12,6 +12,11 @@ from .servo import Servo, actOn, eased
 __all__ = ['SplitBox']
 
 
+gap = 0.05
+"""Between the halves, over the mean size of the bodies: what slides over the lower half's rim must not lean on it, as in the apparatus; no grain falls
+through."""
+
+
 class SplitBox(Sample):
 	"""Lower half: a rough bottom and four smooth sides, which stand still. Upper half: four smooth sides that move along x, and a rough plate that moves
 	with them and holds the normal stress along z, on the area that the box had at the beginning.
@@ -29,8 +34,9 @@ class SplitBox(Sample):
 		outer = low - thick, high + thick
 		self.bottom = plate(outer[0], [*outer[1][:2], low[2]], rough)
 		above = high[2] + self.begun[2]  # room for the plate, which moves between the sides
-		self.lowerSides = _sides(low, high, thick, outer[0][2], middle, smooth)
-		self.upperSides = _sides(low, high, thick, middle, above, smooth)
+		half = gap / 2 * sample.meanSize
+		self.lowerSides = _sides(low, high, thick, outer[0][2], middle - half, smooth)
+		self.upperSides = _sides(low, high, thick, middle + half, above, smooth)
 		self.top = plate([*outer[0][:2], high[2]], [*outer[1][:2], high[2] + self.longest], rough)
 		self.places = {k: np.array(O.bodies[k].state.pos, float) for k in (*self.upperSides, self.top)}
 		self.servo, self.speed, self.present = Servo(self.mass), 0.0, 0.0
