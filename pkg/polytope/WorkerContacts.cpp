@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Contacts between two ranks of a run on several processes (py/polytope/mpi.py).
+// Contacts between two ranks of a run on several processes (py/polytope/mpi).
 //
 // When yade.mpy divides a scene, each worker deletes the bodies of all other ranks, gets those back that are near its own, and searches for
 // contacts anew. So the contacts between two ranks, and all contacts with fixed bodies, which are with rank 0, begin without the shear
@@ -15,7 +15,7 @@
 namespace py = boost::python;
 
 namespace yade {
-#ifdef YADE_MPI // not in Debian's builds of wider precisions: py/polytope/mpi is refused there
+#ifdef YADE_MPI // Debian's builds of wider precisions have none, and no yade.mpy
 namespace {
 
 	class WorkerContacts {

@@ -12,7 +12,7 @@ from yade import O, Polytope, _polytope
 from .arguments import numbersOf, vectors
 from .bonding import bonds
 
-__all__ = ['Coordination', 'coordinationNumber', 'namedBodies', 'porosity', 'volumeInside', 'volumeWithin']
+__all__ = ['Coordination', 'coordinationNumber', 'moverOf', 'namedBodies', 'partsOf', 'porosity', 'volumeInside', 'volumeWithin']
 
 thin = 1e-9
 """Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
@@ -32,7 +32,7 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	:returns: [-]
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
-	solids = [O.bodies[part] for k in namedBodies(ids) for part in _parts(k)]
+	solids = [O.bodies[part] for k in namedBodies(ids) for part in partsOf(k)]
 	if lower is None and upper is None and region is None:
 		if not O.periodic:
 			raise ValueError('lower: give the corners of a box, or a region; only a periodic cell has a volume of its own')
@@ -70,7 +70,7 @@ def boxPlanes(lower, upper):
 	return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([upper, -np.array(lower)])
 
 
-def _parts(k):
+def partsOf(k):
 	"""Ids of a clump's members; of another body its own."""
 	body = O.bodies[k]
 	return list(body.shape.members) if body.isClump else [k]
@@ -158,7 +158,7 @@ def coordinationNumber(ids=None):
 		raise ValueError('ids: there is no free polytope')
 	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
 	pairs += {(bond.id1, bond.id2) for bond in (bonds().bonds if bonds() else ()) if bond.intact}
-	for k in map(_mover, itertools.chain(*pairs)):
+	for k in map(moverOf, itertools.chain(*pairs)):
 		if k in touching:
 			touching[k] += 1
 	bearing = [count for count in touching.values() if count > 1]
@@ -166,7 +166,7 @@ def coordinationNumber(ids=None):
 	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))
 
 
-def _mover(k):
+def moverOf(k):
 	"""The body itself, or the clump that it is a member of."""
 	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
 
@@ -186,10 +186,10 @@ def namedBodies(ids, erased=False):
 		for k in ids:
 			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
 				raise ValueError(f'ids: there is no body {k!r}')
-			if _mover(k) != k:
-				raise ValueError(f'ids: body {k} is a member of clump {_mover(k)}; name the clump')
+			if moverOf(k) != k:
+				raise ValueError(f'ids: body {k} is a member of clump {moverOf(k)}; name the clump')
 		if len(set(ids)) < len(ids):
 			raise ValueError('ids: some bodies are named twice')
 		return ids
-	free = (_mover(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
+	free = (moverOf(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
 	return [k for k in dict.fromkeys(free) if O.bodies[k].dynamic]

@@ -6,10 +6,20 @@ from yade import O
 
 from .sample import Sample, quasiStatic
 
-__all__ = ['LoadingTest']
+__all__ = ['LoadingTest', 'checkAxis', 'checkStress']
 
 records = 200
 """Rows of the record for each run()."""
+
+
+def checkStress(stress, name='stress'):
+	if not stress > 0:
+		raise ValueError(f'{name}: must be above 0 [Pa], got {stress!r}')
+
+
+def checkAxis(axis):
+	if axis not in (0, 1, 2):
+		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
 
 
 class LoadingTest:

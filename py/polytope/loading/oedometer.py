@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One-dimensional compression, between rigid walls or in a periodic cell."""
 
-from .loadingTest import LoadingTest
+from .loadingTest import LoadingTest, checkAxis, checkStress
 
 __all__ = ['Oedometer', 'oedometer']
 
@@ -34,8 +34,7 @@ class Oedometer(LoadingTest):
 	def load(self, *stresses):
 		"""Loads to each of these axial stresses [Pa] in turn, waits for rest, and notes a row: stages of an oedometer test, unloading as well."""
 		for stress in stresses:
-			if not stress > 0:
-				raise ValueError(f'stresses: must be above 0 [Pa], got {stress!r}')
+			checkStress(stress, 'stresses')
 			self.sample.control(stresses={self.axis: stress})
 			self.sample.settle()
 			self.note()
@@ -49,6 +48,5 @@ def oedometer(sample, axis=2):
 	:returns: Oedometer, with load(stress, …), record, columns, plot(path)
 	:raises ValueError: naming the argument
 	"""
-	if axis not in (0, 1, 2):
-		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
+	checkAxis(axis)
 	return Oedometer(sample, axis)

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from yade import O, Polytope, utils
 
-from ..heap import _mover, _parts
+from ..heap import moverOf, partsOf
 from ..measures import bodyStress
 
 __all__ = ['Sample']
@@ -36,10 +36,10 @@ class Sample:
 	"""
 
 	def __init__(self, ids):
-		self.ids = [k for k in dict.fromkeys(map(_mover, ids)) if O.bodies[k].dynamic]
+		self.ids = [k for k in dict.fromkeys(map(moverOf, ids)) if O.bodies[k].dynamic]
 		if not self.ids:
 			raise ValueError('ids: the sample has no body that can move')
-		parts = [O.bodies[part] for k in self.ids for part in _parts(k)]
+		parts = [O.bodies[part] for k in self.ids for part in partsOf(k)]
 		if not all(isinstance(body.shape, Polytope) for body in parts):
 			raise ValueError('ids: a sample is made of polytopes')
 		self.solidVolume = sum(float(body.shape.volume) for body in parts)
@@ -63,7 +63,7 @@ class Sample:
 		−1/V Σ f ⊗ (x − c) over bodies and their contacts, walls included; equal to the stress on the walls where all bodies are at rest
 		(Love 1927, Weber 1966).
 		"""
-		volumes = {k: sum(float(O.bodies[part].shape.volume) for part in _parts(k)) for k in self.ids}
+		volumes = {k: sum(float(O.bodies[part].shape.volume) for part in partsOf(k)) for k in self.ids}
 		return -sum(volumes[k] * one for k, one in bodyStress(self.ids).items()) / self.volume
 
 	def control(self, stresses=None, rates=None):

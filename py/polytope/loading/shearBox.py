@@ -3,7 +3,7 @@
 
 import math
 
-from .loadingTest import LoadingTest
+from .loadingTest import LoadingTest, checkStress
 from .sample import quasiStatic
 from .splitBox import SplitBox
 from .walls import WalledSample
@@ -70,6 +70,5 @@ def shearBox(sample, stress, speed=None, inertialNumber=quasiStatic):
 	:returns: ShearBox, with run(displacement), record, columns, plot(path)
 	:raises ValueError: naming the argument
 	"""
-	if not stress > 0:
-		raise ValueError(f'stress: must be above 0 [Pa], got {stress!r}')
+	checkStress(stress)
 	return ShearBox(sample, float(stress), speed, inertialNumber)

@@ -6,7 +6,7 @@ import math
 import numpy as np
 from yade import O
 
-from ..heap import _parts
+from ..heap import partsOf
 from .plates import force, moveTo, plate, replaced, thickness
 from .sample import Sample
 from .servo import Servo, actOn, eased
@@ -27,7 +27,7 @@ class ShearFrame(Sample):
 		super().__init__(sample.ids)
 		low, high = sample.lower, sample.upper
 		smooth = O.bodies[sample.walls[0][0]].material
-		rough = next(O.bodies[part].material for part in _parts(self.ids[0]))
+		rough = next(O.bodies[part].material for part in partsOf(self.ids[0]))
 		self.foot, (self.length, self.width, self.height) = low, sample.extents
 		self.thick, self.displacement, self.shearRate = thickness * self.length, 0.0, 0.0
 		replaced([*sample.walls[0], *sample.walls[2]])

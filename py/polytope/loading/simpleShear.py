@@ -3,7 +3,7 @@
 
 import math
 
-from .loadingTest import LoadingTest
+from .loadingTest import LoadingTest, checkStress
 from .sample import quasiStatic
 from .shearFrame import ShearFrame
 from .walls import WalledSample
@@ -68,6 +68,5 @@ def simpleShear(sample, stress, rate=None, inertialNumber=quasiStatic):
 	:returns: SimpleShear, with run(strain), record, columns, plot(path)
 	:raises ValueError: naming the argument
 	"""
-	if not stress > 0:
-		raise ValueError(f'stress: must be above 0 [Pa], got {stress!r}')
+	checkStress(stress)
 	return SimpleShear(sample, float(stress), rate, inertialNumber)

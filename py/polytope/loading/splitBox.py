@@ -4,7 +4,7 @@
 import numpy as np
 from yade import O
 
-from ..heap import _parts
+from ..heap import partsOf
 from .plates import force, moveTo, plate, replaced, thickness
 from .sample import Sample
 from .servo import Servo, actOn, eased
@@ -26,7 +26,7 @@ class SplitBox(Sample):
 		super().__init__(sample.ids)
 		low, high = sample.lower, sample.upper
 		smooth = O.bodies[sample.walls[0][0]].material
-		rough = next(O.bodies[part].material for part in _parts(self.ids[0]))
+		rough = next(O.bodies[part].material for part in partsOf(self.ids[0]))
 		self.begun, self.area = np.array(sample.extents), float(np.prod(sample.extents[:2]))
 		self.longest = thickness * float(self.begun[0])
 		replaced([k for pair in sample.walls for k in pair])

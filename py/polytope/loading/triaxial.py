@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Triaxial compression or extension, between rigid walls or in a periodic cell."""
 
-from .loadingTest import LoadingTest
+from .loadingTest import LoadingTest, checkAxis, checkStress
 from .sample import quasiStatic
 
 __all__ = ['Triaxial', 'triaxial']
@@ -64,8 +64,6 @@ def triaxial(sample, stress, axis=2, rate=None, inertialNumber=quasiStatic):
 	:returns: Triaxial, with run(strain), record, columns, plot(path)
 	:raises ValueError: naming the argument
 	"""
-	if not stress > 0:
-		raise ValueError(f'stress: must be above 0 [Pa], got {stress!r}')
-	if axis not in (0, 1, 2):
-		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
+	checkStress(stress)
+	checkAxis(axis)
 	return Triaxial(sample, float(stress), axis, rate, inertialNumber)
