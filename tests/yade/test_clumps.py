@@ -153,6 +153,33 @@ def testPartsAreChecked():
 			polytope.clump(parts)
 
 
+def testMeasuresCountAnOverlapOnce():
+	"""Porosity of a box that cuts the clump, of a periodic cell, and the stress of a clump that bears a load, with the union's volume."""
+	number, _ = polytope.clump([box((0, 0, 0), (3, 1, 1)), box((0, 0, 0), (1, 2, 1))])
+	O.bodies.append(box((10, 10, 10), (11, 11, 11)))
+	assert polytope.porosity((-1, -1, -1), (4, 3, 3), ids=[number]) == pytest.approx(1 - 4 / 80, rel=1e-12)
+	assert polytope.porosity((0.5, -1, 0.5), (2, 3, 1), ids=[number]) == pytest.approx(1 - (1.5 + 0.5) / 2 / 3, rel=1e-12)
+	assert polytope.porosity((5, 5, 5), (6, 6, 6), ids=[number]) == 1
+	O.periodic = True
+	O.cell.setBox(20, 20, 20)
+	assert polytope.porosity(ids=[number]) == pytest.approx(1 - 4 / 8000, rel=1e-12)
+	assert polytope.porosity((-1, -1, -1), (1, 1, 1), ids=[number]) == pytest.approx(1 - 1 / 8, rel=1e-12), 'the images do not reach it'
+	assert polytope.porosity((20, 20, 20), (22, 22, 22), ids=[number]) == pytest.approx(1 - 3 / 8, rel=1e-12)
+
+
+def testStressOfAClumpOfOverlappingParts():
+	"""A bar of two parts that overlap by half, pulled at both ends by a bond: force over the area of its section."""
+	left, right = (polytope.cuboid((side * 2, 0, 0), (0.5, 0.5, 0.5), fixed=side < 0) for side in (-1, 1))
+	O.bodies.append([left, right])
+	number, _ = polytope.clump([box((-1.5, -0.5, -0.5), (0.5, 0.5, 0.5)), box((-0.5, -0.5, -0.5), (1.5, 0.5, 0.5))])
+	loop(True, damping=0.5)
+	assert polytope.bond() == 2
+	stepper()
+	O.forces.setPermF(1, (1e4, 0, 0))
+	O.run(4000, wait=True)
+	assert polytope.bodyStress([number])[number][0, 0] == pytest.approx(1e4, rel=1e-3)
+
+
 # ------------------------------------------------------------------------------------------------ meshes
 
 corners = [(x, y, z) for x, y in ((0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)) for z in (0, 1)]
