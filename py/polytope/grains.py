@@ -92,7 +92,10 @@ def cloud(lower, upper, bodies, seed=None):
 	:raises ValueError: naming *bodies*, or *upper* where the box is too small for them
 	"""
 	low, high = np.array([*vector(lower, 'lower')], float), np.array([*vector(upper, 'upper')], float)
-	bodies = list(bodies)
+	try:
+		bodies = list(bodies)
+	except TypeError:
+		raise ValueError(f'bodies: must be a list of polyhedra, got {bodies!r}') from None
 	if not all(isinstance(body, Body) and isinstance(body.shape, Polytope) and body.shape.dimension == 3 for body in bodies):
 		raise ValueError('bodies: must be a list of polyhedra')
 	corners = [_corners(body) for body in bodies]
