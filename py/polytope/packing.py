@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
-from yade import Body, O
+from yade import Body, O, Wall
 
 from ._scene import geometryFunctors
 from .arguments import namedArguments, number, vector
@@ -15,7 +15,7 @@ from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
 from .loading.sample import between, fastestStrain
 from .loading.servo import actOn
-from .loading.walls import WalledSample, meetWalls, sixWalls, smooth, withoutEachOther
+from .loading.walls import WalledSample, boundaryMask, meetWalls, sixWalls, smooth, withoutEachOther
 from .measures import aabbExtrema
 
 __all__ = ['pack', 'sample']
@@ -84,7 +84,10 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	"""The bodies that are in the scene, as a sample for triaxial() and the other tests; for samples that pack() did not make, or after O.load.
 
 	:param ids: of the bodies; default all that can move
-	:param lower, upper: corners of the box at which walls are made [m]; without them the extents of the bodies, in a periodic scene its cell
+	Walls and plates of a sample that the scene had before, as after O.load, are replaced.
+
+	:param lower, upper: corners of the box at which walls are made [m]; without them where such walls are, or at the extents of the bodies; in a
+	    periodic scene its cell
 	:param float wallFriction: angle between bodies and walls [rad]
 	:returns: WalledSample or PeriodicSample
 	:raises ValueError: naming the argument
@@ -94,12 +97,22 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 		raise ValueError('ids: the sample has no body that can move')
 	if (lower is None) != (upper is None) or (O.periodic and lower is not None):
 		raise ValueError('lower: give both corners of the box, or neither; in a periodic scene neither')
+	former = [body for body in O.bodies if body is not None and body.mask == boundaryMask and not body.dynamic]
 	if not O.periodic:
-		lower, upper = aabbExtrema(chosen) if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
+		there = _corners(former) or aabbExtrema(chosen)
+		lower, upper = there if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
 		if not all(low < high for low, high in zip(lower, upper, strict=True)):
 			raise ValueError(f'upper: must be above lower in all three directions, got lower {lower!r}, upper {upper!r}')
+	for body in former:
+		O.bodies.erase(body.id)
 	material = next(O.bodies[part].material for k in chosen for part in partsOf(k))
 	return _boundary(chosen, lower, upper, material, wallFriction, O.periodic, None)
+
+
+def _corners(former):
+	"""Of the box between six walls, if there are as many."""
+	walls = [[float(body.state.pos[axis]) for body in former if isinstance(body.shape, Wall) and body.shape.axis == axis] for axis in range(3)]
+	return tuple(np.array([end(places) for places in walls]) for end in (min, max)) if all(len(places) == 2 for places in walls) else None
 
 
 def _checked(stress, porosity):

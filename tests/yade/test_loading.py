@@ -5,7 +5,7 @@ from math import exp, radians, tan
 
 import numpy as np
 import pytest
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, polytope, utils
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, Wall, polytope, utils
 
 edge, friction = 0.1, radians(30)
 perArea, perContact = 1e9, 1e7
@@ -173,6 +173,25 @@ def testContactAndWallStressDifferByInertia():
 	assert 0.01 < lateral < 0.025 and -0.03 < axial < -0.01
 	assert found[2e-2, 0] == pytest.approx((lateral, axial), abs=0.006), 'without numerical damping nearly the same'
 	assert np.abs(found[5e-3, 0.2]).max() < 0.006
+
+
+def testAnotherSceneIsToldOf(tmp_path):
+	"""After O.load a test of before would step for ever, since its bodies are gone; the boundary of the loaded scene stands still, which a run must not hide."""
+	extents = stack((2, 2, 2), 0)
+	test = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
+	O.save(str(tmp_path / 'test.yade.gz'))
+	O.load(str(tmp_path / 'test.yade.gz'))
+	with pytest.raises(RuntimeError, match='^sample: its bodies are not in the present scene, as after O.load'):
+		test.run(1e-4)
+	with pytest.raises(RuntimeError):
+		O.step()
+	again = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
+	assert sum(isinstance(body.shape, Wall) for body in O.bodies if body is not None) == 6, 'in place of the former ones, not beside them'
+	assert again.sample.extents == pytest.approx(test.sample.extents, rel=1e-9) and again.sample.extents == pytest.approx(extents, rel=1e-2)
+	again.run(1e-5)
+	O.reset()
+	with pytest.raises(RuntimeError, match='^sample: its bodies are not'):
+		again.run(1e-4)
 
 
 def testAStressThatTheGrainsCannotBearIsToldOf():

@@ -80,6 +80,7 @@ class LoadingTest:
 
 	def until(self, progress, goal, rows=records):
 		"""Steps until progress() has gone from what it is to *goal*, and notes so many rows at equal distances."""
+		self.sample.mustBePresent()
 		begin = progress()
 		sign = 1 if goal >= begin else -1
 		for mark in np.linspace(begin, goal, rows + 1)[0 if not self.record else 1 :]:

@@ -41,6 +41,7 @@ class Sample:
 		self.ids = [k for k in dict.fromkeys(map(moverOf, ids)) if O.bodies[k].dynamic]
 		if not self.ids:
 			raise ValueError('ids: the sample has no body that can move')
+		self._first = O.bodies[self.ids[0]]
 		parts = [O.bodies[part] for k in self.ids for part in partsOf(k)]
 		if not all(isinstance(body.shape, Polytope) for body in parts):
 			raise ValueError('ids: a sample is made of polytopes')
@@ -49,6 +50,15 @@ class Sample:
 		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
 		self.meanSize = (self.solidVolume / len(self.ids)) ** (1 / 3)
 		self.stresses, self.rates, self.fastest = [None] * 3, [0.0] * 3, [math.inf] * 3
+
+	def mustBePresent(self):
+		"""RuntimeError where the scene is another one by now: what moves the boundary, and all that is measured, would be of bodies that are gone."""
+		k = self.ids[0]
+		# a body's text has its address, which no other one has while this one is kept
+		if not k < len(O.bodies) or repr(O.bodies[k]) != repr(self._first):
+			raise RuntimeError(
+				'sample: its bodies are not in the present scene, as after O.load or O.reset; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
+			)
 
 	@property
 	def volume(self):
@@ -74,6 +84,7 @@ class Sample:
 		:param dict stresses: axis (0, 1, 2) → normal stress that is held [Pa], positive in compression
 		:param dict rates: axis → rate of shortening [1/s]; axes in neither stand still
 		"""
+		self.mustBePresent()
 		for axis in range(3):
 			self.stresses[axis] = None if stresses is None or axis not in stresses else float(stresses[axis])
 			self.rates[axis] = 0.0 if rates is None else float(rates.get(axis, 0))
