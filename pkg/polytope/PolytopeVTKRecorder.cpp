@@ -17,7 +17,6 @@
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -64,21 +63,24 @@ namespace {
 		array->InsertNextTypedTuple(bytes);
 	}
 
-	/// The polyhedron as one cell, with vertices of its own.
+	/// The polyhedron as one cell, with vertices of its own. `faces`, `vertices`: buffers.
 	void appendSolid(vtkUnstructuredGrid* grid, vtkPoints* points, const polytope::Polyhedron& solid, const Vector3r& position,
-	        const Matrix3r& turn)
+	        const Matrix3r& turn, std::vector<vtkIdType>& faces, std::vector<vtkIdType>& vertices)
 	{
 		const vtkIdType first = points->GetNumberOfPoints();
-		for (const Vector3r& vertex : solid.vertices)
+		vertices.clear();
+		for (const Vector3r& vertex : solid.vertices) {
+			vertices.push_back(points->GetNumberOfPoints());
 			append(points, position + turn * vertex);
-		vtkNew<vtkIdList> faces; // number of faces, then each face as its number of vertices and the vertices
-		faces->InsertNextId(vtkIdType(solid.faces.size()));
-		for (const auto& face : solid.faces) {
-			faces->InsertNextId(vtkIdType(face.size()));
-			for (int vertex : face)
-				faces->InsertNextId(first + vertex);
 		}
-		grid->InsertNextCell(VTK_POLYHEDRON, faces);
+		faces.clear(); // each face as its number of vertices and the vertices
+		for (const auto& face : solid.faces) {
+			faces.push_back(vtkIdType(face.size()));
+			for (int vertex : face)
+				faces.push_back(first + vertex);
+		}
+		// told its vertices: VTK would search for them among the faces' corners, which takes longer than all else here
+		grid->InsertNextCell(VTK_POLYHEDRON, vtkIdType(vertices.size()), vertices.data(), vtkIdType(solid.faces.size()), faces.data());
 	}
 
 	Vector3r insideCell(const Scene& scene, const Vector3r& point)
@@ -106,6 +108,7 @@ namespace {
 			writer->SetCompressorTypeToZLib(); // the one that all readers know
 			writer->SetCompressionLevel(1);    // the fastest
 		} else writer->SetCompressorTypeToNone();
+		writer->SetIdTypeToInt32(); // half the bytes to compress; there is no scene with 2³¹ corners of faces
 		if (!writer->Write()) throw std::runtime_error("PolytopeVTKRecorder.fileName: cannot write " + file);
 	}
 
@@ -172,12 +175,14 @@ void PolytopeVTKRecorder::writeBodies(const string& file) const
 	auto* const        angularVelocity = column<vtkDoubleArray>(cells, "angularVelocity", 3);
 	auto* const        displacement    = column<vtkDoubleArray>(cells, "displacement", 3);
 
+	std::vector<vtkIdType> faces, vertices;
 	for (const auto& body : *scene->bodies) {
 		if (!body || !body->shape || !recorded(*body) || (skipNondynamic && !body->isDynamic())) continue;
 		const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
 		if (!shape || !shape->convex()) continue;
 		const State& state = *body->state;
-		appendSolid(grid, points, shape->convex()->polyhedron(), insideCell(*scene, state.pos), state.ori.toRotationMatrix());
+		appendSolid(grid, points, shape->convex()->polyhedron(), insideCell(*scene, state.pos), state.ori.toRotationMatrix(), faces,
+		        vertices);
 		id->InsertNextValue(body->getId());
 		appendColor(color, shape->color);
 		groupMask->InsertNextValue(int(body->groupMask));
