@@ -290,6 +290,30 @@ def testTensionBreaksAndDoesNotHeal(perArea):
 	assert i.phys.normalForce.norm() == 0
 
 
+def testTensionAloneIsTimesTheAreaPerContactToo():
+	joint(tensileStrength=4e4, normalStiffness=stiffness, shearStiffness=stiffness)
+	loop()
+	floor, block = blockOnFloor(overlap, half=(.25, .5, .5))
+	driven(block, (0, 0, 0.01))
+	O.dt = dt
+	O.step()
+	i, pull = contact(floor, block), 0
+	while i.phys.intact:
+		pull = -i.phys.normalForce[2]
+		O.step()
+	assert pull == pytest.approx(4e4 * 0.5, rel=0.1)
+
+
+def testAJointThatIsPulledOpenKeepsASmallShearForce():
+	"""Two thousandths of a newton, far above what rounding leaves."""
+	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e6))
+	block.state.pos += Vector3(1e-3 / stiffness, 0, 2 * overlap)
+	block.state.vel = Vector3(1e-3 / stiffness / dt, 0, 0)
+	O.step()
+	O.step()
+	assert i.phys.normalForce[2] < 0 and i.phys.shearForce.norm() == pytest.approx(2e-3, rel=1e-6)
+
+
 def testOpenJointKeepsTheAreaOfItsLastTouch():
 	"""Also where rounding decides whether the bodies touch; the section of bodies apart is that of bodies grown by 1e-6."""
 	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e5), perArea=True)
