@@ -141,6 +141,29 @@ def joints():
 	return sliding(24, 80)
 
 
+def searched():
+	"""How often each rank has searched for pairs in twenty steps of cubes at rest side by side, with a fixed one and without."""
+	found = {}
+	for fixed in (True, False):
+		mpi.merge()
+		O.reset()
+		if master:
+			material()
+			O.bodies.append([polytope.cuboid((0.9999 * k, 0, 0), (0.5, 0.5, 0.5)) for k in range(6)])
+			if fixed:
+				O.bodies.append(polytope.cuboid((2.5, 0, -0.999), (4, 0.5, 0.5), fixed=True))
+			O.engines = polytope.engines(timeStepper=False, gravity=(0, 0, 0))
+			O.dt = 1e-6
+		mpi.divide()
+		counts = []
+		for number in (2, 20):
+			mpi.run(number, merged=False)
+			counts.append(next(engine for engine in O.engines if isinstance(engine, yade.PolytopeCollider)).numAction)
+		found['with a fixed body' if fixed else 'all move'] = yade.mpy.comm.gather(counts)
+	mpi.merge()
+	return found
+
+
 def refused():
 	"""What the check says about each of these, on rank 0; nothing is run, so the other ranks need not take part."""
 	load()

@@ -62,7 +62,7 @@ def found(tmp_path_factory):
 	folder = tmp_path_factory.mktemp('mpi')
 	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'smooth', 'joints')
 	under(2, sys.executable, scenes, str(folder), 'heap')
-	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'refused')
+	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'searched', 'refused')
 
 	def read(name, ranks):
 		return json.loads((folder / f'{name}-{ranks}.json').read_text())
@@ -137,6 +137,12 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	places = [float.fromhex(body[0]) for body in one['bodies'].values()]
 	assert min(place - (0.7 * k - 3) for k, place in enumerate(places)) > 3e-4 * moved
 	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
+
+
+def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
+	"""Also where rank 0 has no body that could."""
+	for counts in found('searched', 3).values():
+		assert len(counts) == 3 and all(before == after > 0 for before, after in counts), counts
 
 
 @pytest.mark.parametrize('name, remedy', [

@@ -226,6 +226,20 @@ def _withCollider(parallelCollide):
 	return collide
 
 
+def _withIdleRanks(checkAndCollide):
+	"""Of a rank without bodies that have a box, which is rank 0 where nothing is fixed, the integrator leaves 0, and the collider takes it that no
+	step was done: all ranks would search for pairs in every step."""
+
+	@functools.wraps(checkAndCollide)
+	def check():
+		newton = _typedEngine('NewtonIntegrator')
+		if newton.maxVelocitySq == 0:
+			newton.maxVelocitySq = 0.5  # as it is where no body has left its box
+		return checkAndCollide()
+
+	return check
+
+
 def _endAll(kind, fault, trace):
 	"""An exception that ends one rank ends all: the others would wait for it for ever."""
 	traceback.print_exception(kind, fault, trace)
@@ -251,6 +265,7 @@ def install():
 	mpy.splitScene = _prepared(mpy.splitScene)
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
+	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
 	if size() > 1:
