@@ -23,6 +23,14 @@ public:
 
 	boost::python::list bondList() const;
 
+	/// Several processes (py/polytope/mpi): states of the bonds of which this rank decides, and those of another rank, taken over.
+	boost::python::list states() const;
+	void                takeStates(const boost::python::list& states);
+	bool                divided = false; ///< whether the scene is divided: then bonds act of which a body is this rank's
+	long                missing = 0;     ///< times that the other body of an intact bond was not here, so that it did not act
+	/// The bodies that have the bonds' numbers now are theirs: yade.mpy replaces bodies by copies.
+	void adoptBodies();
+
 	bool        joins(Body::id_t id1, Body::id_t id2) const override;
 	bool        left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const override;
 	bool        hasBonds(Body::id_t id) const override;
@@ -37,6 +45,11 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
 		, /*ctor*/
 		, /*py*/
+		.def_readwrite("_divided", &PolytopeBonds::divided)
+		.def_readwrite("_missing", &PolytopeBonds::missing)
+		.def("_states", &PolytopeBonds::states)
+		.def("_takeStates", &PolytopeBonds::takeStates)
+		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
 		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a :yref:`PolytopeBond`; see *polytope.bond*, which calls it.")
@@ -47,6 +60,8 @@ private:
 	using Key = std::uint64_t;
 	static Key key(Body::id_t id1, Body::id_t id2);
 
+	bool isOurs(const PolytopeBond& bond) const;
+	bool isAbsent(const PolytopeBond& bond) const;
 	void act(PolytopeBond& bond) const;
 	void settle();
 	void end(int index, long step);
