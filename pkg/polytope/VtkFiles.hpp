@@ -61,6 +61,7 @@ template <class Writer> void writeFile(vtkDataObject* data, const string& file, 
 		writer->SetCompressorTypeToZLib(); // the one that all readers know
 		writer->SetCompressionLevel(1);    // the fastest
 	} else writer->SetCompressorTypeToNone();
+	writer->SetIdTypeToInt32(); // half the bytes to compress; there is no scene with 2³¹ corners of faces
 	if (!writer->Write()) throw std::runtime_error("PolytopeVTKRecorder.fileName: cannot write " + file);
 }
 

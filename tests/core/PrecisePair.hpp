@@ -212,7 +212,7 @@ public:
 			}
 		n                   = minus(sum[0], sum[1]);
 		const Number length = norm(n);
-		if (!(length > Number(1e-12) * all)) return -1;
+		if (!(length > Number(1e-24) * all)) return -1;
 		for (Number& component : n)
 			component /= length;
 		return 16 * all / length;

@@ -52,6 +52,32 @@ def testStatisticsAreTheSumsOverAllQueries():
 	assert stats['lpSeconds'] > 0 and stats['centreSeconds'] > 0
 
 
+@pytest.mark.parametrize('young, weight', [(3e8, 0.25), (0., 0.5), (float('inf'), 0.5)])
+def testWeightsOfTheNormalsAreThoseOfTheStiffnesses(young, weight):
+	"""Equal ones where they say nothing."""
+	material = [O.materials.append(FrictMat(young=k, poisson=0.3, frictionAngle=0.5, density=density)) for k in (1e8, 2e8)]
+	bodies = [polytope.cuboid((0, 0, z), (.5, .5, .5), material=m) for z, m in zip((0, .999), material, strict=True)]
+	O.bodies.append(bodies)
+	bodies[1].material.young = young  # no body is made of a material without stiffness
+	bodies[1].state.ori = Quaternion((1, 2, 3), 0.02)
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(normal='innerPotential')
+	O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Polytope_Aabb()]), InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])]
+	O.step()
+	geom = contact(*bodies).geom
+	assert geom.normalWeight == weight
+	# the same gradients, weighted there as the bodies' stiffnesses say
+	assert (geom.normal - polytope.contact(*bodies, normal='innerPotential').normal).norm() < 1e-14
+
+
+def testOverlapThatIsNotSeenIsLessThanABody():
+	joint()
+	bodies = [polytope.cuboid((0, 0, z), (.5, .5, .5)) for z in (0, .999)]
+	assert polytope.contact(*bodies, tolerance=0.5).status == 'separated'
+	for tolerance in (1, -1e-20):
+		with pytest.raises(ValueError, match='tolerance: must be at least 0 and below 1'):
+			polytope.contact(*bodies, tolerance=tolerance)
+
+
 def testArmsAcrossThePeriodEndAtTheImage():
 	rowInAPeriodicCell()
 	contacts = [one for one in O.interactions if one.isReal]

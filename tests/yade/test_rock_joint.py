@@ -290,6 +290,25 @@ def testTensionBreaksAndDoesNotHeal(perArea):
 	assert i.phys.normalForce.norm() == 0
 
 
+@pytest.mark.parametrize('normal', ['dualWeights', 'innerPotential'])
+@pytest.mark.parametrize('strength', ['tensileStrength', 'cohesion'])
+def testStrengthPerContactIsTimesThePresentArea(strength, normal):
+	floor, block, i = pressed({strength: 4e4}, ig2={'normal': normal})
+	block.state.pos += Vector3(4.75, 0, 0)  # over the floor's end
+	O.step()
+	assert i.phys.contactArea == pytest.approx(0.75, rel=1e-9) and i.phys.intact
+
+
+def testAJointThatIsPulledOpenKeepsASmallShearForce():
+	"""Two thousandths of a newton, far above what rounding leaves."""
+	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e6))
+	block.state.pos += Vector3(1e-3 / stiffness, 0, 2 * overlap)
+	block.state.vel = Vector3(1e-3 / stiffness / dt, 0, 0)
+	O.step()
+	O.step()
+	assert i.phys.normalForce[2] < 0 and i.phys.shearForce.norm() == pytest.approx(2e-3, rel=1e-6)
+
+
 def testOpenJointKeepsTheAreaOfItsLastTouch():
 	"""Also where rounding decides whether the bodies touch; the section of bodies apart is that of bodies grown by 1e-6."""
 	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e5), perArea=True)

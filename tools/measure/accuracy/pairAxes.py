@@ -102,8 +102,9 @@ axes = {
 			Limit('contact point over the size, beyond 3e-9 of the overlap', 'centreTimesOverlap', 5e-15, 'paper'),
 			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
 		],
-		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep. A wedge of 1e-12 has no reference.',
-		unjudged=0.01,
+		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep. At angles below rounding the conservative '
+		'contact of a wedge may have its force where the exact Φ is not below zero yet, by rounding.',
+		unjudged=0.002,
 	),
 	'twins': Axis(
 		'Two planes of one body that nearly agree',
@@ -130,14 +131,17 @@ axes = {
 			Limit('least overlap called a contact, in roundings', 'overlapCalledContact', 200, 'paper', least=30),
 			Limit('largest overlap called separated, in roundings', 'overlapCalledSeparated', 60, 'paper'),
 		],
-		'A pair touches from −s* = 45 roundings on. The conservative contact begins deeper, where its barrier is overcome.',
+		'A pair touches from −s* = 45 roundings on. The conservative contact begins deeper, where its barrier is overcome. Where parallel edges overlap by '
+		'less than 2e-11 of their length, how the weights balance along them is decided by the rounding of the planes’ normals: the normal may be that of '
+		'either face.',
 	),
 	'coincident': Axis(
 		'Identical bodies in one place',
 		'distance of their centres over the size',
 		[
 			depths[0],
-			Limit('depth over the size × distance of the centres over the size', 'depthTimesDistance', 1e-15, 'paper'),
+			# eight roundings, what planes and positions leave of s* (Reference.cpp): the normal is as uncertain as they are over the distance
+			Limit('depth over the size × distance of the centres over the size', 'depthTimesDistance', 8 * 2.0**-52, 'paper'),
 			Limit('depth × normal over the size', 'forceError', 1e-10, 'conservative'),
 		],
 		'The direction between two bodies that nearly coincide is as uncertain as rounding over their distance, and so is the depth along it. Where no '

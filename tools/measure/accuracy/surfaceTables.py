@@ -8,7 +8,7 @@ from tabulate import tabulate
 from tqdm import tqdm
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, Quaternion, Vector3
 
-from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, roll
+from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, restOverEnd, roll
 from surfaceStudy.measures import cross, rest, slideDown, stop
 
 __all__ = ['SurfaceStudy', 'contacts', 'rules']
@@ -249,9 +249,11 @@ class SurfaceStudy:
 			rows.append(['gap of 0.12 m under a cube of 0.5 m: come down [m]', name, rule, wide, '', '', abs(wide) < 1e-3])
 			rows.append(['gap of 0.12 m under a cube of 0.1 m: come down [m]', name, rule, narrow, '', '', narrow > 0.04])
 			for over in (0.2, -0.2):
-				down = edgeCarries(contact, perArea, over=over)
+				# faces with a stiffness per area: the edge is pressed in, and it takes a while to come to rest
+				pressed = perArea and not contact and over > 0
+				down = edgeCarries(contact, perArea, over=over, time=3 if pressed else 0.3)
 				where = 'inside' if over > 0 else 'outside'
-				good = down < 1e-3 if over > 0 else down > 0.01
+				good = abs(down / restOverEnd(over) - 1) < 0.01 if pressed else down < 1e-3 if over > 0 else down > 0.01
 				rows.append([f'end of a slab, centroid 50 mm {where}: come down [m]', name, rule, down, '', '', good])
 		self.findings.table(
 			'edges',

@@ -13,7 +13,7 @@ from .floors import Floor
 from .surface import SurfaceScene
 from .measures import planarFloor
 
-__all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'roll']
+__all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'restOverEnd', 'roll']
 
 
 def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.002, speed=0.1):
@@ -56,6 +56,17 @@ def edgeCarries(contact=None, perArea=False, body='cube', over=0.2, time=0.3):
 	start = run.position
 	run.release(time)
 	return float(start[2] - run.position[2])
+
+
+def restOverEnd(over=0.2, side=0.5, depth=SurfaceScene.depth):
+	"""What edgeCarries gives of a cube at rest on a foundation of springs (stiffness per area): its centroid lies c inside of the end, a little less
+	once it is tilted; a pressure that falls to 0 over 3 c from the end, and a depth of 2/3 of that at the end below the centroid [m]."""
+	inside = over * side / 2
+	c = inside
+	for _ in range(50):
+		edge = 2 * depth * side / (3 * c)
+		c = inside - side / 2 * edge / (3 * c)
+	return edge * 2 / 3 - depth
 
 
 @dataclasses.dataclass
