@@ -26,11 +26,11 @@ void PolytopeVTKRecorder::writeBonds(const string& file) const
 	vtkNew<vtkCellArray> areas;
 	points->SetDataTypeToDouble();
 	vtkCellData* const cells = data->GetCellData();
-	auto* const        id1 = column<vtkIntArray>(cells, "id1"), *const id2 = column<vtkIntArray>(cells, "id2");
-	auto* const        state  = column<vtkIntArray>(cells, "state");
-	auto* const        force  = column<vtkDoubleArray>(cells, "force", 3), *const moment = column<vtkDoubleArray>(cells, "moment", 3);
-	auto* const        normal = column<vtkDoubleArray>(cells, "normalStress"), *const edge = column<vtkDoubleArray>(cells, "edgeStress");
-	auto* const        shear  = column<vtkDoubleArray>(cells, "shearStress"), *const energy = column<vtkDoubleArray>(cells, "energy");
+	auto *const id1 = column<vtkIntArray>(cells, "id1"), *const id2 = column<vtkIntArray>(cells, "id2");
+	auto* const state = column<vtkIntArray>(cells, "state");
+	auto *const force = column<vtkDoubleArray>(cells, "force", 3), *const moment = column<vtkDoubleArray>(cells, "moment", 3);
+	auto *const normal = column<vtkDoubleArray>(cells, "normalStress"), *const edge = column<vtkDoubleArray>(cells, "edgeStress");
+	auto *const shear = column<vtkDoubleArray>(cells, "shearStress"), *const energy = column<vtkDoubleArray>(cells, "energy");
 	const std::vector<string> states { "intact", "tension", "shear" };
 
 	for (const auto& engine : scene->engines) {

@@ -61,7 +61,8 @@ namespace {
 				faces.push_back(first + vertex);
 		}
 		// told its vertices: VTK would search for them among the faces' corners, which takes longer than all else here
-		grid->InsertNextCell(VTK_POLYHEDRON, vtkIdType(vertices.size()), vertices.data(), vtkIdType(solid.faces.size()), faces.data());
+		grid->InsertNextCell(
+		        VTK_POLYHEDRON, vtkIdType(vertices.size()), vertices.data(), vtkIdType(solid.faces.size()), faces.data());
 	}
 
 } // namespace
