@@ -127,7 +127,8 @@ namespace {
 			const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
 			if (!shape || !shape->convex() || shape->dimension != 3) throw std::invalid_argument("parts: must be polyhedra");
 			const State& state = *body->state;
-			parts.push_back({ { *shape->convex(), state.pos - origin, state.ori.toRotationMatrix() }, state.mass / shape->volume() });
+			parts.push_back(
+			        { { *shape->convex(), state.pos - origin, state.ori.toRotationMatrix() }, state.mass / shape->volume() });
 		}
 		const auto all = polytope::unionOf(parts);
 		py::list   tensor;

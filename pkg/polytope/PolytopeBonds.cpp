@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeBonds.hpp"
 
+#include <core/Omega.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 #include "PolytopeGeom.hpp"
@@ -246,6 +247,12 @@ void PolytopeBonds::adoptBodies()
 long PolytopeBonds::intactCount() const
 {
 	return std::count_if(bonds.begin(), bonds.end(), [](const auto& bond) { return bond->intact; });
+}
+
+long PolytopeBonds::intactInScene() const
+{
+	const auto& bodies = *Omega::instance().getScene()->bodies;
+	return std::count_if(bonds.begin(), bonds.end(), [&](const auto& bond) { return bond->intact && bond->hasItsBodies(bodies); });
 }
 
 bool PolytopeBonds::joins(Body::id_t id1, Body::id_t id2) const { return intactPairs_.count(key(id1, id2)) > 0; }

@@ -20,6 +20,8 @@ public:
 	/// range with std::invalid_argument naming them. `gap` below 0: as far as faces count as touching.
 	long make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern);
 	long intactCount() const;
+	/// Intact bonds whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
+	long intactInScene() const;
 
 	boost::python::list bondList() const;
 
@@ -52,6 +54,7 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
+		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, whether or not this engine is in O.engines.")
 		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a :yref:`PolytopeBond`; see *polytope.bond*, which calls it.")
 	);
 	// clang-format on

@@ -24,7 +24,7 @@ namespace polytope {
 /// to n. Two faces that are tilted against each other are equally far from the centroid.
 template <class R, int D, int W> POLYTOPE_INLINE R distanceFromFace(const PairPlanes<R, D>& planes, const R* x, const R* n)
 {
-	using V = typename Lanes<R, W>::Type;
+	using V      = typename Lanes<R, W>::Type;
 	const V zero = broadcast<R, W>(0), far = broadcast<R, W>(R(padOffset));
 	V       X[D];
 	for (int k = 0; k < D; ++k)

@@ -128,7 +128,8 @@ public:
 		}
 		if (!(result.volume > 0)) return false;
 		for (int k = 0; k < 3; ++k)
-			result.centroid[k] = x[k] + moment[k] / (4 * result.volume); // the volume is six times its value yet, the moment 24 times
+			result.centroid[k]
+			        = x[k] + moment[k] / (4 * result.volume); // the volume is six times its value yet, the moment 24 times
 		result.volume /= 6;
 		return true;
 	}

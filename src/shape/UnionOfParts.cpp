@@ -66,8 +66,8 @@ namespace {
 
 		void add(const PlacedShape& part)
 		{
-			const Polyhedron& faces = part.shape.polyhedron();
-			Cutter            cutter;
+			const Polyhedron&  faces = part.shape.polyhedron();
+			Cutter             cutter;
 			std::vector<Plane> own;
 			addPlanesOf(part, own);
 			cutter.firstPlane = int(planes_.size());
@@ -122,7 +122,7 @@ namespace {
 		{
 			if (++pieces_ > most_)
 				refuse("parts: their union has more than " + std::to_string(most_)
-				       + " convex pieces; give fewer parts in one place, or parts of fewer faces");
+				        + " convex pieces; give fewer parts in one place, or parts of fewer faces");
 			std::vector<int> reaching, planes, fewest;
 			int              chosen = -1;
 			for (int k : cutters) {
@@ -184,7 +184,7 @@ namespace {
 					const Vector3 a = block.corners[std::size_t(block.rings[std::size_t(block.begin(f))])] - middle,
 					              b = block.corners[std::size_t(block.rings[std::size_t(k - 1)])] - middle,
 					              c = block.corners[std::size_t(block.rings[std::size_t(k)])] - middle, sum = a + b + c;
-					const Real    part = a.dot(b.cross(c)) / 6;
+					const Real part = a.dot(b.cross(c)) / 6;
 					volume += part;
 					first += part / 4 * sum;
 					second += part / 20

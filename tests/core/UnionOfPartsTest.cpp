@@ -79,7 +79,8 @@ TEST(UnionOfParts, OfBoxesIsTheSumOverTheirGrid)
 	std::vector<Real>                      grid[3];
 	Parts                                  parts;
 	for (int k = 0; k < count; ++k) {
-		const double x = place(random), y = place(random), z = place(random), a = length(random), b = length(random), c = length(random);
+		const double x = place(random), y = place(random), z = place(random), a = length(random), b = length(random),
+		             c = length(random);
 		middles.push_back(Vector3(x, y, z));
 		halves.push_back(Vector3(a, b, c));
 		for (int i = 0; i < 3; ++i)
@@ -121,8 +122,8 @@ TEST(UnionOfParts, OfBoxesIsTheSumOverTheirGrid)
 TEST(UnionOfParts, ManyInOnePlace)
 {
 	std::mt19937_64       random(3);
-	const Parts           parts  = aboutOnePoint(30, random);
-	const UnionProperties onward = unionOf(parts.list);
+	const Parts           parts    = aboutOnePoint(30, random);
+	const UnionProperties onward   = unionOf(parts.list);
 	const UnionProperties backward = unionOf({ parts.list.rbegin(), parts.list.rend() });
 	EXPECT_NEAR(onward.volume, backward.volume, 1e-11 * onward.volume);
 	EXPECT_LE((onward.centre - backward.centre).norm(), 1e-11);
@@ -161,7 +162,8 @@ TEST(UnionOfParts, RefusesMorePiecesThanAllowed)
 		unionOf(parts.list, 100);
 		FAIL() << "not refused";
 	} catch (const std::invalid_argument& error) {
-		EXPECT_EQ(std::string(error.what()).rfind("parts: their union has more than 100 convex pieces; give fewer", 0), 0u) << error.what();
+		EXPECT_EQ(std::string(error.what()).rfind("parts: their union has more than 100 convex pieces; give fewer", 0), 0u)
+		        << error.what();
 	}
 }
 
