@@ -89,6 +89,19 @@ def testWhatTheStudiesFoundIsWrittenWithWhatIsMissed(root, tmp_path):
 	assert results('--check', '--root', root)[0] == 0
 
 
+def testSpeedOverFlushPiecesIsThatOfTheResults(root):
+	"""README.md and which-contact.md: a number typed in by hand, and new data, are both found."""
+	data = root / 'docs/results/accuracy.json'
+	(found,) = (script for script in json.loads(data.read_text())['scripts'] if script['name'] == 'surfaces')
+	losses = [row['ours'] for row in found['rows'] if row['quantity'].startswith('1 m/s over three joints: loss of speed: default')]
+	assert len(losses) == 2
+	for page in ('README.md', 'docs/which-contact.md'):
+		assert '; '.join(f'{loss:.2g}' for loss in losses) in (root / page).read_text()
+	changed(data, str(max(losses)), '0.0123')
+	assert results('--check', '--root', root)[0] == 1
+	assert results('--root', root)[0] == 0 and '0.012' in (root / 'README.md').read_text()
+
+
 def testResultsWithoutARevisionAreNotTaken(root, tmp_path):
 	findings(tmp_path / 'found/wedge', revision=None)
 	code, said = results('--take', 'paper', tmp_path / 'found', '--root', root)
