@@ -290,18 +290,13 @@ def testTensionBreaksAndDoesNotHeal(perArea):
 	assert i.phys.normalForce.norm() == 0
 
 
-def testTensionAloneIsTimesTheAreaPerContactToo():
-	joint(tensileStrength=4e4, normalStiffness=stiffness, shearStiffness=stiffness)
-	loop()
-	floor, block = blockOnFloor(overlap, half=(.25, .5, .5))
-	driven(block, (0, 0, 0.01))
-	O.dt = dt
+@pytest.mark.parametrize('normal', ['dualWeights', 'innerPotential'])
+@pytest.mark.parametrize('strength', ['tensileStrength', 'cohesion'])
+def testStrengthPerContactIsTimesThePresentArea(strength, normal):
+	floor, block, i = pressed({strength: 4e4}, ig2={'normal': normal})
+	block.state.pos += Vector3(4.75, 0, 0)  # over the floor's end
 	O.step()
-	i, pull = contact(floor, block), 0
-	while i.phys.intact:
-		pull = -i.phys.normalForce[2]
-		O.step()
-	assert pull == pytest.approx(4e4 * 0.5, rel=0.1)
+	assert i.phys.contactArea == pytest.approx(0.75, rel=1e-9) and i.phys.intact
 
 
 def testAJointThatIsPulledOpenKeepsASmallShearForce():

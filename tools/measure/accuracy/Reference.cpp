@@ -73,9 +73,9 @@ namespace {
 	/// the ends of the overlap, ℓ away, whose weights (δ/ℓ)³ are below what two roundings leave of the others' (1e-32) once δ/ℓ < 2e-11.
 	Real tiltedNormal(const PrecisePairOf<Digits150>& exact, const Vector& x, const Vector& normal)
 	{
-		std::mt19937_64                 random(1);
-		std::normal_distribution<Real>  gauss;
-		Real                            largest = 0;
+		std::mt19937_64                random(1);
+		std::normal_distribution<Real> gauss;
+		Real                           largest = 0;
 		for (int trial = 0; trial < 4; ++trial) {
 			PrecisePairOf<Digits150> tilted = exact;
 			for (auto& body : tilted.planes)
@@ -113,7 +113,8 @@ namespace {
 		c.centreRounding     = 2e-9 + 2 * roundings / Real(-optimum.infeasibility);
 		Vector          balanced;
 		const Digits150 slip = exact.balancedNormal(centre, balanced) * c.centreRounding;
-		c.normalRounding     = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip) + 2 * tiltedNormal(exact, centre, balanced));
+		c.normalRounding
+		        = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip) + 2 * tiltedNormal(exact, centre, balanced));
 		const auto exit1 = exact.exit(0, centre, normal, 1), exit2 = exact.exit(1, centre, normal, -1);
 		const Real glance = Real(1 / exit1.rate + 1 / exit2.rate);
 		// the way to a plane that is met at a grazing angle is as uncertain as the angle
