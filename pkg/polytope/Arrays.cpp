@@ -12,6 +12,7 @@
 
 #include <boost/python.hpp>
 
+#include <array>
 #include <limits>
 #include <map>
 #include <sys/mman.h>
@@ -65,35 +66,38 @@ namespace {
 			column[3 * row + std::size_t(k)] = double(vector[k]);
 	}
 
-	/// Number of each class of shapes in the order in which they are met.
-	class ShapeCodes {
-	public:
-		int codeOf(const Shape* shape)
-		{
-			if (!shape) return -1;
-			const auto found = codes_.find(shape->getClassIndex());
-			if (found != codes_.end()) return found->second;
-			names_.append(shape->getClassName());
-			return codes_[shape->getClassIndex()] = int(codes_.size());
+	/// Replaces the class indices in `shapes` by numbers of the classes in the order in which they are met, -1 for no shape; \returns their names.
+	py::tuple numberShapes(const std::vector<const Body*>& bodies, int* shapes)
+	{
+		std::map<int, int> codes;
+		py::list           names;
+		for (std::size_t row = 0; row < bodies.size(); ++row) {
+			const Shape* const shape = bodies[row]->shape.get();
+			if (!shape) continue;
+			const auto found = codes.emplace(shapes[row], int(codes.size()));
+			if (found.second) names.append(shape->getClassName());
+			shapes[row] = found.first->second;
 		}
-		py::tuple names() const { return py::tuple(names_); }
+		return py::tuple(names);
+	}
 
-	private:
-		std::map<int, int> codes_;
-		py::list           names_;
-	};
+	std::vector<const Body*> bodiesOf(const Scene& scene)
+	{
+		std::vector<const Body*> bodies;
+		bodies.reserve(scene.bodies->size());
+		for (std::size_t k = 0; k < scene.bodies->size(); ++k) {
+			if (k + ahead < scene.bodies->size()) prefetch::fetch((*scene.bodies)[Body::id_t(k + ahead)].get(), sizeof(Body));
+			const auto& body = (*scene.bodies)[Body::id_t(k)];
+			if (body && !body->getIsSubdomain()) bodies.push_back(body.get()); // those stand for ranks (docs/mpi.md)
+		}
+		return bodies;
+	}
 
 	/// \returns (columns, names of the shapes' classes)
 	py::tuple bodyColumns()
 	{
-		Scene* const             scene = Omega::instance().getScene().get();
-		std::vector<const Body*> bodies;
-		bodies.reserve(scene->bodies->size());
-		for (std::size_t k = 0; k < scene->bodies->size(); ++k) {
-			if (k + ahead < scene->bodies->size()) prefetch::fetch((*scene->bodies)[Body::id_t(k + ahead)].get(), sizeof(Body));
-			const auto& body = (*scene->bodies)[Body::id_t(k)];
-			if (body && !body->getIsSubdomain()) bodies.push_back(body.get()); // those stand for ranks (docs/mpi.md)
-		}
+		Scene* const                   scene  = Omega::instance().getScene().get();
+		const std::vector<const Body*> bodies = bodiesOf(*scene);
 		scene->forces.sync();
 
 		Table       table(bodies.size());
@@ -108,7 +112,7 @@ namespace {
 		auto* const angularVelocities = table.column<double>("angularVelocities", 3);
 		auto* const forces            = table.column<double>("forces", 3);
 		auto* const torques           = table.column<double>("torques", 3);
-		ShapeCodes  codes;
+#pragma omp parallel for schedule(static)
 		for (std::size_t row = 0; row < bodies.size(); ++row) {
 			if (row + 2 * ahead < bodies.size()) prefetch::fetch(bodies[row + 2 * ahead], sizeof(Body));
 			if (row + ahead < bodies.size()) {
@@ -118,7 +122,7 @@ namespace {
 			const Body&  body  = *bodies[row];
 			const State& state = *body.state;
 			ids[row]           = body.getId();
-			shapes[row]        = codes.codeOf(body.shape.get());
+			shapes[row]        = body.shape ? body.shape->getClassIndex() : -1;
 			clumpIds[row]      = body.clumpId;
 			masks[row]         = int(body.groupMask);
 			masses[row]        = double(state.mass);
@@ -130,7 +134,8 @@ namespace {
 			put(forces, row, scene->forces.getForce(body.getId()));
 			put(torques, row, scene->forces.getTorque(body.getId()));
 		}
-		return py::make_tuple(table.columns(), codes.names());
+		const py::tuple names = numberShapes(bodies, shapes);
+		return py::make_tuple(table.columns(), names);
 	}
 
 	/// The object as this class, null if it is of another one. A dynamic_cast takes ten times as long.
@@ -179,68 +184,109 @@ namespace {
 		return offset;
 	}
 
-	/// What a row of contacts is made of, called into the cache; other geometries and physics are smaller.
-	void fetchParts(const Interaction& contact)
+	/// One row of contacts: what is needed of the interaction, and its parts.
+	struct Row {
+		const IGeom*         geom;
+		const IPhys*         phys;
+		std::array<int, 2>   ids;
+		std::array<int, 3>   image;
+	};
+
+	/// What a row is made of, called into the cache; other geometries and physics are smaller.
+	void fetchParts(const Row& row)
 	{
-		const char* const geom = reinterpret_cast<const char*>(contact.geom.get());
+		const char* const geom = reinterpret_cast<const char*>(row.geom);
 		// both ends of PolytopeGeom's own attributes; what lies between them is the pair's memory
 		prefetch::fetch(geom, sizeof(ScGeom) + 2 * sizeof(Real));
-		prefetch::fetch(geom ? geom + statusOffset() : nullptr, sizeof(int));
-		prefetch::fetch(contact.phys.get(), sizeof(NormShearPhys));
+		prefetch::fetch(geom + statusOffset(), sizeof(int));
+		prefetch::fetch(row.phys, sizeof(NormShearPhys));
 	}
 
-	std::vector<const Interaction*> realContacts(const Scene& scene)
+	/// Real contacts among the interactions from `begin` to before `end`.
+	std::vector<Row> rowsBetween(const InteractionContainer& all, std::size_t begin, std::size_t end)
 	{
-		std::vector<const Interaction*> contacts;
-		const std::size_t               size = scene.interactions->size();
-		contacts.reserve(size);
-		for (std::size_t k = 0; k < size; ++k) {
-			if (k + ahead < size) prefetch::fetch((*scene.interactions)[k + ahead].get(), sizeof(Interaction));
-			const auto& one = (*scene.interactions)[k];
-			if (one && one->isReal()) contacts.push_back(one.get());
+		std::vector<Row> rows;
+		for (std::size_t k = begin; k < end; ++k) {
+			if (k + ahead < end) prefetch::fetch(all[k + ahead].get(), sizeof(Interaction));
+			const auto& one = all[k];
+			if (one && one->isReal())
+				rows.push_back({ one->geom.get(), one->phys.get(), { one->getId1(), one->getId2() },
+				        { one->cellDist[0], one->cellDist[1], one->cellDist[2] } });
 		}
-		return contacts;
+		return rows;
 	}
+
+	/// All real contacts, in parts that follow each other, one for each thread.
+	std::vector<std::vector<Row>> rowsOfContacts(const Scene& scene)
+	{
+		const std::size_t             size = scene.interactions->size(), number = std::size_t(omp_get_max_threads());
+		std::vector<std::vector<Row>> parts(number);
+#pragma omp parallel for schedule(static)
+		for (std::size_t part = 0; part < number; ++part)
+			parts[part] = rowsBetween(*scene.interactions, size * part / number, size * (part + 1) / number);
+		return parts;
+	}
+
+	/// Columns of contacts.
+	class ContactTable {
+	public:
+		explicit ContactTable(std::size_t rows) : table_(rows) { }
+
+		void write(std::size_t at, const Row& row)
+		{
+			const auto* const phys        = shearPhysOf(row.phys);
+			const NormPhys*   push        = phys ? phys : dynamic_cast<const NormPhys*>(row.phys);
+			const Vector3r    none        = Vector3r::Constant(Real(notANumber));
+			const Vector3r    normalForce = push ? push->normalForce : none;
+			const Vector3r    shearForce  = phys ? phys->shearForce : push ? Vector3r(Vector3r::Zero()) : none;
+			const Meeting     meeting(row.geom);
+			for (std::size_t k = 0; k < 2; ++k)
+				ids_[2 * at + k] = row.ids[k];
+			for (std::size_t k = 0; k < 3; ++k)
+				images_[3 * at + k] = row.image[k];
+			statuses_[at] = meeting.status;
+			put(points_, at, meeting.point);
+			put(normals_, at, meeting.normal);
+			put(forces_, at, normalForce + shearForce);
+			put(normalForces_, at, normalForce);
+			put(shearForces_, at, shearForce);
+			areas_[at]           = meeting.area;
+			depths_[at]          = meeting.depth;
+			infeasibilities_[at] = meeting.infeasibility;
+		}
+
+		py::dict columns() const { return table_.columns(); }
+
+	private:
+		Table         table_;
+		int* const    ids_             = table_.column<int>("ids", 2);
+		int* const    images_          = table_.column<int>("images", 3);
+		int* const    statuses_        = table_.column<int>("statuses");
+		double* const points_          = table_.column<double>("points", 3);
+		double* const normals_         = table_.column<double>("normals", 3);
+		double* const forces_          = table_.column<double>("forces", 3);
+		double* const normalForces_    = table_.column<double>("normalForces", 3);
+		double* const shearForces_     = table_.column<double>("shearForces", 3);
+		double* const areas_           = table_.column<double>("areas");
+		double* const depths_          = table_.column<double>("depths");
+		double* const infeasibilities_ = table_.column<double>("infeasibilities");
+	};
 
 	/// \returns (columns, names of the statuses)
 	py::tuple contactColumns()
 	{
-		const Scene& scene    = *Omega::instance().getScene();
-		const auto   contacts = realContacts(scene);
-		Table        table(contacts.size());
-		auto* const  ids             = table.column<int>("ids", 2);
-		auto* const  images          = table.column<int>("images", 3);
-		auto* const  statuses        = table.column<int>("statuses");
-		auto* const  points          = table.column<double>("points", 3);
-		auto* const  normals         = table.column<double>("normals", 3);
-		auto* const  forces          = table.column<double>("forces", 3);
-		auto* const  normalForces    = table.column<double>("normalForces", 3);
-		auto* const  shearForces     = table.column<double>("shearForces", 3);
-		auto* const  areas           = table.column<double>("areas");
-		auto* const  depths          = table.column<double>("depths");
-		auto* const  infeasibilities = table.column<double>("infeasibilities");
-		for (std::size_t row = 0; row < contacts.size(); ++row) {
-			if (row + ahead < contacts.size()) fetchParts(*contacts[row + ahead]);
-			const Interaction& one         = *contacts[row];
-			const auto* const  phys        = shearPhysOf(one.phys.get());
-			const NormPhys*    push        = phys ? phys : dynamic_cast<const NormPhys*>(one.phys.get());
-			const Vector3r     none        = Vector3r::Constant(Real(notANumber));
-			const Vector3r     normalForce = push ? push->normalForce : none;
-			const Vector3r     shearForce  = phys ? phys->shearForce : push ? Vector3r(Vector3r::Zero()) : none;
-			const Meeting      meeting(one.geom.get());
-			ids[2 * row]     = one.getId1();
-			ids[2 * row + 1] = one.getId2();
-			for (int k = 0; k < 3; ++k)
-				images[3 * row + std::size_t(k)] = one.cellDist[k];
-			statuses[row] = meeting.status;
-			put(points, row, meeting.point);
-			put(normals, row, meeting.normal);
-			put(forces, row, normalForce + shearForce);
-			put(normalForces, row, normalForce);
-			put(shearForces, row, shearForce);
-			areas[row]           = meeting.area;
-			depths[row]          = meeting.depth;
-			infeasibilities[row] = meeting.infeasibility;
+		const auto               parts = rowsOfContacts(*Omega::instance().getScene());
+		std::vector<std::size_t> first { 0 }; // row of each part, and their number
+		for (const auto& part : parts)
+			first.push_back(first.back() + part.size());
+		ContactTable table(first.back());
+#pragma omp parallel for schedule(static)
+		for (std::size_t part = 0; part < parts.size(); ++part) {
+			const auto& rows = parts[part];
+			for (std::size_t k = 0; k < rows.size(); ++k) {
+				if (k + ahead < rows.size()) fetchParts(rows[k + ahead]);
+				table.write(first[part] + k, rows[k]);
+			}
 		}
 		py::list names;
 		for (int code = 0; code < polytope::contactStatusCount; ++code)

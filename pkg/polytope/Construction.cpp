@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What bodies.py and jointedRock.py of py/polytope call: a shape made by ShapeFactory, a body made of it, a rock mass cut into blocks.
+// What bodies.py, clumps.py and jointedRock.py of py/polytope call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill
+// together, a rock mass cut into blocks.
 #include "Construction.hpp"
 
 #include "Polytope.hpp"
@@ -14,6 +15,7 @@
 #include <src/shape/JointedBlocks.hpp>
 #include <src/shape/RegularSolids.hpp>
 #include <src/shape/ShapeFactory.hpp>
+#include <src/shape/UnionOfParts.hpp>
 
 #include <boost/python.hpp>
 
@@ -113,6 +115,28 @@ namespace {
 		body->setAspherical(inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
 	}
 
+	/// (volume, mass, centre, inertia as nine numbers) of what polyhedra fill together, each of the density that its mass gives.
+	py::tuple unionOf(const py::object& bodies)
+	{
+		std::vector<shared_ptr<Body>> given;
+		for (py::ssize_t i = 0; i < py::len(bodies); ++i)
+			given.push_back(py::extract<shared_ptr<Body>>(bodies[i]));
+		std::vector<polytope::UnionPart> parts;
+		const Vector3r                   origin = given.at(0)->state->pos; // numbers are small about it
+		for (const auto& body : given) {
+			const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
+			if (!shape || !shape->convex() || shape->dimension != 3) throw std::invalid_argument("parts: must be polyhedra");
+			const State& state = *body->state;
+			parts.push_back(
+			        { { *shape->convex(), state.pos - origin, state.ori.toRotationMatrix() }, state.mass / shape->volume() });
+		}
+		const auto all = polytope::unionOf(parts);
+		py::list   tensor;
+		for (int k = 0; k < 9; ++k)
+			tensor.append(all.inertia(k / 3, k % 3));
+		return py::make_tuple(all.volume, all.mass, Vector3r(origin + all.centre), tensor);
+	}
+
 	py::object bytesOf(const void* data, std::size_t size)
 	{
 		return py::object(py::handle<>(PyBytes_FromStringAndSize(static_cast<const char*>(data), Py_ssize_t(size))));
@@ -168,6 +192,7 @@ void defineConstruction()
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
 	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, turn, fixed, isotropyTolerance, color or None.");
 	py::def("setClump", &setClump, "Mass and principal axes of a clump: body, mass, inertia, centre, axes, isotropyTolerance.");
+	py::def("unionOf", &unionOf, "Volume, mass, centre of mass and tensor of inertia (nine numbers) of what polyhedra fill together.");
 	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
 }
 

@@ -13,19 +13,19 @@ namespace {
 		return own.empty() || (!own.owner_before(bodies[id]) && !bodies[id].owner_before(own));
 	}
 
-	void adopt(boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies)
+	void adopt(boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies, bool anew)
 	{
-		if (own.empty() && bodies.exists(id)) own = bodies[id];
+		if ((anew || own.empty()) && bodies.exists(id)) own = bodies[id];
 	}
 
 } // namespace
 
 bool PolytopeBond::hasItsBodies(const BodyContainer& bodies) const { return isStill(body1_, id1, bodies) && isStill(body2_, id2, bodies); }
 
-void PolytopeBond::adoptBodies(const BodyContainer& bodies)
+void PolytopeBond::adoptBodies(const BodyContainer& bodies, bool anew)
 {
-	adopt(body1_, id1, bodies);
-	adopt(body2_, id2, bodies);
+	adopt(body1_, id1, bodies, anew);
+	adopt(body2_, id2, bodies, anew);
 }
 
 void PolytopeBond::setStresses(const Vector3r& displacement, const Vector3r& rotation)

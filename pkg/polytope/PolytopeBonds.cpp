@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeBonds.hpp"
 
+#include <core/Omega.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 #include "PolytopeGeom.hpp"
@@ -50,21 +51,42 @@ void PolytopeBonds::action()
 {
 	if (bonds.empty()) return;
 	bookFailed();
-	const long count = long(bonds.size());
-#pragma omp parallel for schedule(static)
-	for (long k = 0; k < count; ++k)
-		if (bonds[k]->intact) act(*bonds[k]);
+	const long count  = long(bonds.size());
+	long       absent = 0;
+#pragma omp parallel for schedule(static) reduction(+ : absent)
+	for (long k = 0; k < count; ++k) {
+		PolytopeBond& bond = *bonds[k];
+		if (!bond.intact || (divided && !isOurs(bond))) continue;
+		if (divided && isAbsent(bond)) ++absent;
+		else act(bond);
+	}
+	missing += absent;
 	settle();
+}
+
+/// In a divided scene: a body is this rank's. Two ranks that share a bond find the same force, for they have the same states. Rank 0 has fixed bodies
+/// and does not know the others; workers send it the forces on its own.
+bool PolytopeBonds::isOurs(const PolytopeBond& bond) const
+{
+	const auto own = [&](Body::id_t id) { return scene->bodies->exists(id) && (*scene->bodies)[id]->subdomain == scene->subdomain; };
+	return scene->subdomain == 0 ? own(bond.id1) && own(bond.id2) : own(bond.id1) || own(bond.id2);
+}
+
+bool PolytopeBonds::isAbsent(const PolytopeBond& bond) const
+{
+	return !scene->bodies->exists(bond.id1) || !scene->bodies->exists(bond.id2);
 }
 
 /// Force of this step on both bodies, and whether the bond fails in it: then it has acted for the last time.
 void PolytopeBonds::act(PolytopeBond& bond) const
 {
-	if (!bond.hasItsBodies(*scene->bodies)) {
-		bond.erase();
-		return;
+	if (!divided) { // else bodies of other ranks come and go
+		if (!bond.hasItsBodies(*scene->bodies)) {
+			bond.erase();
+			return;
+		}
+		bond.adoptBodies(*scene->bodies);
 	}
-	bond.adoptBodies(*scene->bodies);
 	const State &              state1 = *(*scene->bodies)[bond.id1]->state, &state2 = *(*scene->bodies)[bond.id2]->state;
 	const Vector3r             shift = shiftOf(bond, *scene), to1 = state1.ori * bond.point1, to2 = state2.ori * bond.point2;
 	const Vector3r             between = (state2.pos - state1.pos + shift) + (to2 - to1);
@@ -181,9 +203,56 @@ boost::python::list PolytopeBonds::bondList() const
 	return all;
 }
 
+boost::python::list PolytopeBonds::states() const
+{
+	// of the first body's rank, or where that is rank 0, which has fixed bodies alone, of the second's
+	const auto rankOf = [&](Body::id_t id) { return scene->bodies->exists(id) ? (*scene->bodies)[id]->subdomain : Body::id_t(-1); };
+	boost::python::list all;
+	for (int k = 0; k < int(bonds.size()); ++k) {
+		const PolytopeBond& bond  = *bonds[k];
+		const int           first = rankOf(bond.id1);
+		if ((first == 0 ? rankOf(bond.id2) : first) != scene->subdomain) continue;
+		all.append(boost::python::make_tuple(k, bond.intact, bond.failure, bond.failedAt, bond.energy, bond.normalStress,
+		        bond.edgeStress, bond.shearStress,
+		        boost::python::make_tuple(bond.force, bond.moment, bond.point, bond.arm1, bond.arm2)));
+	}
+	return all;
+}
+
+void PolytopeBonds::takeStates(const boost::python::list& states)
+{
+	using boost::python::extract;
+	for (long i = 0; i < boost::python::len(states); ++i) {
+		const boost::python::object state = states[i], vectors = state[8];
+		PolytopeBond&               bond = *bonds.at(extract<std::size_t>(state[0])());
+		bond.intact                      = extract<bool>(state[1]);
+		bond.failure                     = extract<std::string>(state[2])();
+		bond.failedAt                    = extract<long>(state[3]);
+		Real* const     numbers[]        = { &bond.energy, &bond.normalStress, &bond.edgeStress, &bond.shearStress };
+		Vector3r* const places[]         = { &bond.force, &bond.moment, &bond.point, &bond.arm1, &bond.arm2 };
+		for (int k = 0; k < 4; ++k)
+			*numbers[k] = extract<Real>(state[4 + k]);
+		for (int k = 0; k < 5; ++k)
+			*places[k] = extract<Vector3r>(vectors[k]);
+	}
+	rebuild();
+}
+
+void PolytopeBonds::adoptBodies()
+{
+	for (const auto& bond : bonds)
+		bond->adoptBodies(*scene->bodies, /*anew*/ true);
+}
+
 long PolytopeBonds::intactCount() const
 {
 	return std::count_if(bonds.begin(), bonds.end(), [](const auto& bond) { return bond->intact; });
+}
+
+long PolytopeBonds::intactInScene() const
+{
+	const auto& bodies = *Omega::instance().getScene()->bodies;
+	return std::count_if(bonds.begin(), bonds.end(), [&](const auto& bond) { return bond->intact && bond->hasItsBodies(bodies); });
 }
 
 bool PolytopeBonds::joins(Body::id_t id1, Body::id_t id2) const { return intactPairs_.count(key(id1, id2)) > 0; }
@@ -193,7 +262,7 @@ bool PolytopeBonds::left(Body::id_t id1, Body::id_t id2, BondRemains& remains) c
 	const auto found = failedPairs_.find(key(id1, id2));
 	if (found == failedPairs_.end()) return false;
 	const PolytopeBond& bond = *bonds[found->second];
-	if (!bond.hasItsBodies(*scene->bodies)) return false;
+	if (divided ? isAbsent(bond) : !bond.hasItsBodies(*scene->bodies)) return false;
 	remains.overlap    = bond.overlap;
 	remains.inLastStep = bond.failedAt + 1 == scene->iter;
 	if (!remains.inLastStep) return true;

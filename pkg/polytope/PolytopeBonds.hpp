@@ -20,8 +20,18 @@ public:
 	/// range with std::invalid_argument naming them. `gap` below 0: as far as faces count as touching.
 	long make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern);
 	long intactCount() const;
+	/// Intact bonds whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
+	long intactInScene() const;
 
 	boost::python::list bondList() const;
+
+	/// Several processes (py/polytope/mpi): states of the bonds of which this rank decides, and those of another rank, taken over.
+	boost::python::list states() const;
+	void                takeStates(const boost::python::list& states);
+	bool                divided = false; ///< whether the scene is divided: then bonds act of which a body is this rank's
+	long                missing = 0;     ///< times that the other body of an intact bond was not here, so that it did not act
+	/// The bodies that have the bonds' numbers now are theirs: yade.mpy replaces bodies by copies.
+	void adoptBodies();
 
 	bool        joins(Body::id_t id1, Body::id_t id2) const override;
 	bool        left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const override;
@@ -37,8 +47,14 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
 		, /*ctor*/
 		, /*py*/
+		.def_readwrite("_divided", &PolytopeBonds::divided)
+		.def_readwrite("_missing", &PolytopeBonds::missing)
+		.def("_states", &PolytopeBonds::states)
+		.def("_takeStates", &PolytopeBonds::takeStates)
+		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
+		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, whether or not this engine is in O.engines.")
 		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a :yref:`PolytopeBond`; see *polytope.bond*, which calls it.")
 	);
 	// clang-format on
@@ -47,6 +63,8 @@ private:
 	using Key = std::uint64_t;
 	static Key key(Body::id_t id1, Body::id_t id2);
 
+	bool isOurs(const PolytopeBond& bond) const;
+	bool isAbsent(const PolytopeBond& bond) const;
 	void act(PolytopeBond& bond) const;
 	void settle();
 	void end(int index, long step);

@@ -45,15 +45,36 @@ namespace {
 		return done;
 	}
 
+	/// The bodies without their lists of pairs, for as long as the object lives. YADE writes these lists with each body, pairs without a contact
+	/// among them, and forgets them when it loads: InteractionContainer has the contacts once more, and makes the lists from them.
+	class WithoutPairLists {
+	public:
+		explicit WithoutPairLists(Scene& scene) : scene_(scene), lists_(scene.bodies->size()) { exchange(); }
+		~WithoutPairLists() { exchange(); }
+		WithoutPairLists(const WithoutPairLists&)            = delete;
+		WithoutPairLists& operator=(const WithoutPairLists&) = delete;
+
+	private:
+		Scene&                         scene_;
+		std::vector<Body::MapId2IntrT> lists_;
+
+		void exchange()
+		{
+			for (std::size_t k = 0; k < lists_.size(); ++k)
+				if (const auto& body = (*scene_.bodies)[Body::id_t(k)]) body->intrs.swap(lists_[k]);
+		}
+	};
+
 	/// As Omega::saveSimulation, which does not notice when the end of a file cannot be written, and changes what O.reload() loads.
 	/// \returns whether the system has taken all of it
 	bool writeScene(const string& name)
 	{
 		std::ofstream file(name, std::ios::binary | std::ios::trunc);
 		if (!file) return false;
+		const shared_ptr<Scene> scene = Omega::instance().getScene();
 		try {
-			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(
-			        file, "scene", Omega::instance().getScene());
+			const WithoutPairLists lists(*scene);
+			ObjectIO::save<const shared_ptr<Scene>, boost::archive::binary_oarchive>(file, "scene", scene);
 			file.close();
 		} catch (const std::exception&) { // of the archive or the stream, when the system does not take their bytes
 			return false;

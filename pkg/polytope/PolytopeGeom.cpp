@@ -130,6 +130,29 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::jointsHavePressure() const
 	return depthRule(settings_, StiffnessRule::PerArea) == polytope::DepthRule::Mean;
 }
 
+polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settingsOfLoop() const
+{
+	polytope::ContactSettings settings = settings_;
+	settings.warmStart                 = warmStart;
+	settings.timed                     = timing;
+	return settings;
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
+        const polytope::ConvexShape& convex2, const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace,
+        const Interaction& c)
+{
+	polytope::PairMemory memory = candidates_.recall(c, scene->iter);
+	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = false;
+	polytope::ContactResult result;
+	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settingsOfLoop(), memory, workspace, result);
+	candidates_.remember(c, scene->iter, memory);
+	// a point without a contact: within the barrier of a conservative contact, whose next step begins there
+	if (result.inContact || memory.hasPoint) return false;
+	count(result);
+	return true;
+}
+
 bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
         const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
         const shared_ptr<Interaction>& c)
@@ -139,13 +162,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
 	// a thread's own buffers; they grow to the largest pair it has computed
 	static thread_local polytope::ContactWorkspace workspace;
-	auto&                                          geom    = geometry(c);
 	const bool                                     wasReal = c->isReal();
 	if (convex1.dimension() != convex2.dimension()) return failed(c);
+	const Vector3r centre2   = state2.pos + shift2 - frame1.origin;
+	const Matrix3r rotation2 = state2.ori.toRotationMatrix();
+	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
 
-	polytope::ContactSettings settings = settings_;
-	settings.warmStart                 = warmStart;
-	settings.timed                     = timing;
+	auto&                     geom     = geometry(c);
+	polytope::ContactSettings settings = settingsOfLoop();
 	settings.section   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
 	settings.depthRule = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
@@ -166,8 +190,6 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 		settings.internal = geom.internalFaces.empty() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
-	const Vector3r          centre2   = state2.pos + shift2 - frame1.origin;
-	const Matrix3r          rotation2 = state2.ori.toRotationMatrix();
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	if (!wasReal && result.inContact) {
 		const auto &material1 = Body::byId(c->getId1(), scene)->material, &material2 = Body::byId(c->getId2(), scene)->material;
@@ -206,13 +228,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
 	return true;
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
-        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+void Ig2_Polytope_Polytope_PolytopeGeom::count(const polytope::ContactResult& result)
 {
-	auto& geom         = geometry(c);
-	geom.statusCode    = int(result.status);
-	geom.infeasibility = result.infeasibility;
-
 	ContactCounters& count = counters();
 	++count.pairs;
 	++count.statuses[int(result.status)];
@@ -227,11 +244,24 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 		count.centreNanoseconds += result.centreNanoseconds;
 		count.timedPairs += result.newtonIterations > 0 || result.ipoptSolved;
 	}
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	count(result);
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) {
+		known->statusCode    = int(result.status);
+		known->infeasibility = result.infeasibility;
+	}
 
 	const bool wasReal = c->isReal();
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
+	auto& geom           = geometry(c);
+	geom.statusCode      = int(result.status);
+	geom.infeasibility   = result.infeasibility;
 	geom.contactArea     = result.area;
 	geom.barrierValue    = result.barrierValue;
 	geom.rockingArm      = result.rockingArm;
@@ -250,7 +280,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c
 	ContactCounters& count = counters();
 	++count.pairs;
 	++count.statuses[int(polytope::ContactStatus::Failed)];
-	geometry(c).statusCode = int(polytope::ContactStatus::Failed);
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) known->statusCode = int(polytope::ContactStatus::Failed);
 	return c->isReal();
 }
 

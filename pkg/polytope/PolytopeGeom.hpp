@@ -3,6 +3,7 @@
 
 #include "AreaUsers.hpp"
 #include "BondsOfScene.hpp"
+#include "CandidateMemory.hpp"
 #include "Polytope.hpp"
 
 #include <core/Dispatching.hpp>
@@ -122,12 +123,20 @@ protected:
 
 	// Steps of go(), shared with the mixed pairs (MixedPairs.hpp).
 
-	/// The pair's geometry, made with the pair, not with the contact: a separated pair is dismissed by the weights stored in it.
+	/// The pair's geometry, made where it has none.
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
 
 	/// Two sets of half-spaces: core query, then apply().
 	bool query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
 	        const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
+
+	/// Whether a pair without a geometry has no need of one. Else the query that makes it starts without memory: what a new contact is
+	/// does not depend on what the pair remembers, so it is the same in a scene that was saved and loaded before.
+	bool isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
+	        const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace, const Interaction& c);
+
+	/// Settings of all pairs.
+	polytope::ContactSettings settingsOfLoop() const;
 
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
@@ -143,11 +152,13 @@ protected:
 	bool failed(const shared_ptr<Interaction>& c);
 
 	ContactCounters& counters();
+	void             count(const polytope::ContactResult& result);
 
 private:
 	polytope::ContactSettings    settings_;
 	AreaUsers                    areaUsers_;
 	BondsInStep                  bonds_;
+	CandidateMemory              candidates_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
 	/// contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance, as they were last accepted.
 	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal,

@@ -5,6 +5,7 @@
 
 #include "Polytope.hpp"
 #include "PolytopeGeom.hpp"
+#include "VtkFiles.hpp"
 
 #include <core/Scene.hpp>
 #include <pkg/dem/FrictPhys.hpp>
@@ -15,9 +16,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -34,27 +32,9 @@ namespace yade {
 YADE_PLUGIN((PolytopeVTKRecorder));
 CREATE_LOGGER(PolytopeVTKRecorder);
 
+using namespace vtkFiles;
+
 namespace {
-
-	/// An array of the data set's attributes under this name; the attributes own it.
-	template <class Array> Array* column(vtkFieldData* attributes, const char* name, int components = 1)
-	{
-		vtkNew<Array> array;
-		array->SetName(name);
-		array->SetNumberOfComponents(components);
-		attributes->AddArray(array);
-		return array;
-	}
-
-	void append(vtkDoubleArray* array, const Vector3r& vector)
-	{
-		array->InsertNextTuple3(double(vector[0]), double(vector[1]), double(vector[2]));
-	}
-
-	void append(vtkPoints* points, const Vector3r& point)
-	{
-		points->InsertNextPoint(double(point[0]), double(point[1]), double(point[2]));
-	}
 
 	void appendColor(vtkUnsignedCharArray* array, const Vector3r& color)
 	{
@@ -64,49 +44,25 @@ namespace {
 		array->InsertNextTypedTuple(bytes);
 	}
 
-	/// The polyhedron as one cell, with vertices of its own.
+	/// The polyhedron as one cell, with vertices of its own. `faces`, `vertices`: buffers.
 	void appendSolid(vtkUnstructuredGrid* grid, vtkPoints* points, const polytope::Polyhedron& solid, const Vector3r& position,
-	        const Matrix3r& turn)
+	        const Matrix3r& turn, std::vector<vtkIdType>& faces, std::vector<vtkIdType>& vertices)
 	{
 		const vtkIdType first = points->GetNumberOfPoints();
-		for (const Vector3r& vertex : solid.vertices)
+		vertices.clear();
+		for (const Vector3r& vertex : solid.vertices) {
+			vertices.push_back(points->GetNumberOfPoints());
 			append(points, position + turn * vertex);
-		vtkNew<vtkIdList> faces; // number of faces, then each face as its number of vertices and the vertices
-		faces->InsertNextId(vtkIdType(solid.faces.size()));
+		}
+		faces.clear(); // each face as its number of vertices and the vertices
 		for (const auto& face : solid.faces) {
-			faces->InsertNextId(vtkIdType(face.size()));
+			faces.push_back(vtkIdType(face.size()));
 			for (int vertex : face)
-				faces->InsertNextId(first + vertex);
+				faces.push_back(first + vertex);
 		}
-		grid->InsertNextCell(VTK_POLYHEDRON, faces);
-	}
-
-	Vector3r insideCell(const Scene& scene, const Vector3r& point)
-	{
-		return scene.isPeriodic ? scene.cell->wrapShearedPt(point) : point;
-	}
-
-	/// Readers take this as the snapshot's time even without the series' list.
-	void stampTime(vtkDataObject* data, const Scene& scene)
-	{
-		column<vtkDoubleArray>(data->GetFieldData(), "TimeValue")->InsertNextValue(double(scene.time));
-	}
-
-	template <class Writer> void writeFile(vtkDataObject* data, const string& file, bool ascii, bool compress)
-	{
-		vtkNew<Writer> writer;
-		writer->SetFileName(file.c_str());
-		writer->SetInputData(data);
-		if (ascii) writer->SetDataModeToAscii();
-		else {
-			writer->SetDataModeToAppended();
-			writer->EncodeAppendedDataOff();
-		}
-		if (compress && !ascii) {
-			writer->SetCompressorTypeToZLib(); // the one that all readers know
-			writer->SetCompressionLevel(1);    // the fastest
-		} else writer->SetCompressorTypeToNone();
-		if (!writer->Write()) throw std::runtime_error("PolytopeVTKRecorder.fileName: cannot write " + file);
+		// told its vertices: VTK would search for them among the faces' corners, which takes longer than all else here
+		grid->InsertNextCell(
+		        VTK_POLYHEDRON, vtkIdType(vertices.size()), vertices.data(), vtkIdType(solid.faces.size()), faces.data());
 	}
 
 } // namespace
@@ -126,8 +82,8 @@ string PolytopeVTKRecorder::snapshotName(const string& recorder, long step, cons
 void PolytopeVTKRecorder::postLoad(PolytopeVTKRecorder&)
 {
 	for (const string& recorder : recorders)
-		if (recorder != "bodies" && recorder != "contacts") {
-			const string message = "recorders: must be among 'bodies' and 'contacts', not '" + recorder + "'";
+		if (recorder != "bodies" && recorder != "contacts" && recorder != "bonds") {
+			const string message = "recorders: must be among 'bodies', 'contacts' and 'bonds', not '" + recorder + "'";
 			recorders            = goodRecorders_;
 			throw std::invalid_argument(message);
 		}
@@ -154,6 +110,10 @@ void PolytopeVTKRecorder::action()
 		writeContacts(snapshotName("contacts", scene->iter, "vtp"));
 		writeSeries("contacts", "vtp");
 	}
+	if (has("bonds")) {
+		writeBonds(snapshotName("bonds", scene->iter, "vtp"));
+		writeSeries("bonds", "vtp");
+	}
 }
 
 void PolytopeVTKRecorder::writeBodies(const string& file) const
@@ -172,12 +132,14 @@ void PolytopeVTKRecorder::writeBodies(const string& file) const
 	auto* const        angularVelocity = column<vtkDoubleArray>(cells, "angularVelocity", 3);
 	auto* const        displacement    = column<vtkDoubleArray>(cells, "displacement", 3);
 
+	std::vector<vtkIdType> faces, vertices;
 	for (const auto& body : *scene->bodies) {
 		if (!body || !body->shape || !recorded(*body) || (skipNondynamic && !body->isDynamic())) continue;
 		const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
 		if (!shape || !shape->convex()) continue;
 		const State& state = *body->state;
-		appendSolid(grid, points, shape->convex()->polyhedron(), insideCell(*scene, state.pos), state.ori.toRotationMatrix());
+		appendSolid(grid, points, shape->convex()->polyhedron(), insideCell(*scene, state.pos), state.ori.toRotationMatrix(), faces,
+		        vertices);
 		id->InsertNextValue(body->getId());
 		appendColor(color, shape->color);
 		groupMask->InsertNextValue(int(body->groupMask));

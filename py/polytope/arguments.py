@@ -1,14 +1,31 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Arguments that scripts give, as YADE's numbers and vectors. What cannot be converted is a ValueError that names the argument."""
 
+import functools
+import inspect
+
 import numpy as np
 from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'materialOf', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
+__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
 
 infinite = float('inf')
+
+
+def namedArguments(function):
+	"""Decorates a public function: where a keyword is unknown it is named, and what the function takes."""
+	own = list(inspect.signature(function).parameters)
+
+	@functools.wraps(function)
+	def checked(*given, **named):
+		for name in named:
+			if name not in own:
+				raise TypeError(f'{function.__name__}: there is no argument {name!r}; it takes {", ".join(own)}')
+		return function(*given, **named)
+
+	return checked
 
 
 def number(value, name):

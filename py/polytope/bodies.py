@@ -24,9 +24,10 @@ import os
 import random
 import warnings
 
+import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
-from .arguments import flag, materialOf, number, numbersOf, rotation, vector, vectors
+from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors
 from .precision import isNumber
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
@@ -45,6 +46,9 @@ colours = random.Random()
 
 notConvex = 1e-3
 """Part of the hull's volume that a mesh may lack and still count as convex: curved surfaces of flat triangles lack some."""
+
+concave = 1e-6
+"""Of an outline's extent: how deep a point may lie inside the hull, and still be one of a straight side, written with six digits."""
 
 singlePrecision = 1e-6
 """Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
@@ -132,13 +136,14 @@ def cuboid(center, extents, orientation=None, **body):
 
 @builder
 def polygon(points2d, thickness=1.0, **body):
-	"""Convex polygon in the xy plane (2-D): the hull of the points, with z and rotations out of the plane blocked.
+	"""Convex polygon in the xy plane (2-D), with z and rotations out of the plane blocked.
 
-	:param points2d: (n, 2) points [m] in world coordinates
+	:param points2d: (n, 2) corners [m] in world coordinates, in any order
 	:param float thickness: extent along z for mass and contact areas [m]
-	:raises ValueError: naming *points2d*, *thickness*, or a *velocity* or *angularVelocity* out of the plane
+	:raises ValueError: naming *points2d* (also where a corner lies inside the others: the outline is not convex), *thickness*, or a *velocity* or *angularVelocity* out of the plane
 	"""
-	points, thickness = vectors(points2d, 'points2d', 2), number(thickness, 'thickness')
+	outline = rows(points2d, 'points2d', 2)
+	points, thickness = vectors(outline, 'points2d', 2), number(thickness, 'thickness')
 
 	def shape(*corner):
 		try:
@@ -146,7 +151,27 @@ def polygon(points2d, thickness=1.0, **body):
 		except ValueError as error:
 			raise ValueError(str(error).replace('points', 'points2d', 1) if str(error).startswith('points') else str(error)) from None
 
-	return _body(shape, flat=True, **body)
+	made = _body(shape, flat=True, **body)
+	if len(made.shape.offsets) < len(outline):
+		refuseInside(shape(None, defaultCornerFraction), outline, made.shape)
+	return made
+
+
+def refuseInside(placed, outline, shape):
+	"""Refuses the outline of a polygon or prism, some of whose points are no corners, where one is not on its rim: it is not convex.
+
+	:param placed: the shape where the points are (CentralShape)
+	"""
+	turn = np.array(placed.orientation.toRotationMatrix(), float).reshape(3, 3)
+	normals = np.array(shape.normals, float) @ turn.T
+	sides = np.abs(normals[:, 2]) < 0.5  # a prism's ends are normal to z
+	points = np.array(outline, float)
+	slacks = np.array(shape.offsets, float)[sides] - (points - np.array(placed.position, float)[:2]) @ normals[sides, :2].T
+	k = int(np.argmax(slacks.min(axis=1)))
+	if slacks[k].min() > concave * np.ptp(points, axis=0).max():
+		raise ValueError(
+			f'points2d: the outline is not convex, point {k} {tuple(points[k].tolist())} lies inside the hull of the others; leave it out, or make convex parts'
+		)
 
 
 @builder

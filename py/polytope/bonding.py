@@ -7,14 +7,20 @@ import warnings
 
 from yade import Clump, InteractionLoop, NewtonIntegrator, O, Polytope, PolytopeBond, PolytopeBonds
 
+from .arguments import namedArguments
 from .precision import isNumber, real
 
-__all__ = ['bond', 'bonds']
+__all__ = ['bond', 'bonds', 'removedBonds']
 
 facing = 0.01
 """Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
 
 
+lastSeen = [None]
+"""The last engine PolytopeBonds that was in O.engines: a list of engines that is set later may lack it."""
+
+
+@namedArguments
 def bond(
 	ids=None,
 	gap=None,
@@ -76,12 +82,23 @@ def bond(
 		warnings.warn(f'no bond was made: no two faces {within} and face each other within {float(angle):g} rad; give a larger gap or angle', stacklevel=2)
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
+		lastSeen[0] = engine
 	return made
 
 
 def bonds():
 	"""The scene's engine PolytopeBonds, None where there is none."""
-	return next((engine for engine in O.engines if isinstance(engine, PolytopeBonds)), None)
+	found = next((engine for engine in O.engines if isinstance(engine, PolytopeBonds)), None)
+	if found is not None:
+		lastSeen[0] = found
+	return found
+
+
+def removedBonds():
+	"""An engine PolytopeBonds with intact bonds between bodies of this scene that is no longer in O.engines; None where there is none."""
+	if bonds() is None and lastSeen[0] is not None and lastSeen[0].intactInScene:
+		return lastSeen[0]
+	return None
 
 
 def _value(given, name):

@@ -5,7 +5,7 @@ import numbers
 
 from yade import O, Polytope, Quaternion, Vector3, _polytope
 
-from .arguments import number, vector, vectors
+from .arguments import namedArguments, number, vector, vectors
 from .bodies import defaultCornerFraction, isotropyTolerance
 from .bonding import bonds
 
@@ -16,6 +16,7 @@ thinnest = 1e-3
 rounding rather than by forces."""
 
 
+@namedArguments
 def split(id, normal, point=None, smallest=None):
 	"""Breaks a body in two along a plane: ``below, above = polytope.split(7, normal=(0, 0, 1))``. The body is erased, the two pieces are new bodies.
 

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies that are not convex, as clumps of convex parts that may overlap: `polytope.clump(…)`. Mass and inertia are those of the union."""
 
+import warnings
+
 import numpy as np
 from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 
-from .arguments import vectors
-from .bodies import defaultCornerFraction, isotropyTolerance
+from .bodies import isotropyTolerance
 
 __all__ = ['clump', 'union']
+
+apart = 0.01
+"""Gap between two parts over the smaller one's inscribed radius, above which they do not belong together: parts that a program cuts out of a mesh
+miss each other by the rounding of their file, a part in the wrong place by a part of its size."""
 
 
 def clump(parts):
@@ -17,11 +22,13 @@ def clump(parts):
 	of the part that comes first; O.bodies.appendClumped counts them for each part. There are no contacts between parts, and bodies slide
 	over faces that two parts share as over one. It moves as the first part does, and is fixed if that is.
 
+	Parts that do not touch are allowed, as in YADE: the clump is rigid across the gap. Since that is seldom meant, a warning names the part.
+
 	O.bodies.updateClumpProperties and addToClump make YADE's sums of them again.
 
 	:param parts: list of polyhedra that are not in the scene yet
 	:returns: (number of the clump, numbers of its parts), as O.bodies.appendClumped does
-	:raises ValueError: naming *parts*
+	:raises ValueError: naming *parts*, also where their union would take more than some ten seconds
 	"""
 	parts = list(parts)
 	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for part in parts):
@@ -31,6 +38,7 @@ def clump(parts):
 			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'
 		)
 	mass, centre, tensor = union(parts)
+	_warnOfPartsApart(parts)
 	first = parts[0].state
 	velocity = first.vel + first.angVel.cross(Vector3(*centre) - first.pos)
 	spin, blocked = Vector3(first.angVel), first.blockedDOFs
@@ -46,70 +54,28 @@ def clump(parts):
 
 
 def union(parts):
-	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra fill together, by cutting it into disjoint convex pieces."""
-	planes, boxes = [_planes(part) for part in parts], [_box(part) for part in parts]
-	pieces = []
-	for k, part in enumerate(parts):
-		rest = [part.state]
-		if any(_meet(boxes[k], boxes[j]) for j in range(k)):
-			left = [planes[k]]
-			for j in range(k):
-				if _meet(boxes[k], boxes[j]):
-					left = [outside for piece in left for outside in _outside(piece, planes[j], part)]
-			rest = [_piece(one, part) for one in left]
-		pieces += rest
-	mass = sum(float(piece.mass) for piece in pieces)
-	centre = sum(float(piece.mass) * np.array(piece.pos, float) for piece in pieces) / mass
-	tensor = np.zeros((3, 3))
-	for piece in pieces:
-		turn, arm = np.array(piece.ori.toRotationMatrix(), float).reshape(3, 3), np.array(piece.pos, float) - centre
-		own = turn @ np.diag([float(moment) for moment in piece.inertia]) @ turn.T
-		tensor += own + float(piece.mass) * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-	return mass, centre, tensor
+	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra fill together (src/shape/UnionOfParts.hpp)."""
+	_, mass, centre, tensor = _polytope.unionOf(parts)
+	return float(mass), np.array(centre, float), np.array(tensor, float).reshape(3, 3)
 
 
-def _planes(part):
-	"""Normals and offsets of a body, world axes."""
-	normals = [part.state.ori * normal for normal in part.shape.normals]
-	return normals, [offset + normal.dot(part.state.pos) for normal, offset in zip(normals, part.shape.offsets, strict=True)]
-
-
-def _box(part):
-	corners = np.array([part.state.pos + part.state.ori * vertex for vertex in part.shape.vertices], float)
-	return corners.min(axis=0), corners.max(axis=0)
-
-
-def _meet(one, other):
-	return (one[0] < other[1]).all() and (other[0] < one[1]).all()
-
-
-def _outside(piece, cutter, part):
-	"""What is left of a convex piece outside of another one, as disjoint convex pieces."""
-	normals, offsets = piece
-	if _piece((normals + cutter[0], offsets + cutter[1]), part) is None:
-		return [piece]
-	left = []
-	for normal, offset in zip(*cutter, strict=True):
-		beyond = normals + [-normal], offsets + [-offset]
-		if _piece(beyond, part) is not None:
-			left.append(beyond)
-		normals, offsets = normals + [normal], offsets + [offset]
-	return left
-
-
-def _piece(planes, part):
-	"""State of the polyhedron between planes, of the part's density; None where there is none, or a flat one."""
-	normals, offsets = planes
-	origin = part.state.pos  # numbers are small about it
-	about = [offset - normal.dot(origin) for normal, offset in zip(normals, offsets, strict=True)]
-	try:
-		shape = _polytope.ofHalfSpaces(vectors(normals, 'normals', 3), about, 3, 1, False, None, defaultCornerFraction)
-	except ValueError:
-		return None
-	state = _polytope.body(shape, part.material, origin + shape.position, Quaternion.Identity, False, isotropyTolerance, None).state
-	density = part.state.mass / part.shape.volume / part.material.density  # of the body, which need not be the material's
-	state.mass, state.inertia = density * state.mass, density * state.inertia
-	return state
+def _warnOfPartsApart(parts):
+	"""Parts that touch none of the others, as groups: the body is rigid across the gap all the same."""
+	reach = [max(float(vertex.norm()) for vertex in part.shape.vertices) for part in parts]
+	groups = list(range(len(parts)))
+	for j, part in enumerate(parts):
+		for k in range(j):
+			allowed = apart * float(min(part.shape.inscribedRadius, parts[k].shape.inscribedRadius))
+			if groups[j] == groups[k] or (part.state.pos - parts[k].state.pos).norm() > reach[j] + reach[k] + allowed:
+				continue
+			if _polytope.contact(part, parts[k]).infeasibility < allowed / 2:  # half of the gap
+				groups = [groups[k] if group == groups[j] else group for group in groups]
+	alone = [k for k, group in enumerate(groups) if group != groups[0]]
+	if alone:
+		warnings.warn(
+			f'parts: part {alone[0]} touches neither part 0 nor what is joined to it; the clump is rigid across the gap. If that is not meant, check center and extents of the part',
+			stacklevel=3,
+		)
 
 
 def _quaternion(axes):

@@ -32,8 +32,8 @@ from yade import (
 	Vector3,
 )
 
-from .arguments import number, vector
-from .bonding import bonds
+from .arguments import namedArguments, number, vector
+from .bonding import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
 
@@ -45,15 +45,18 @@ reach = 0.1
 """verletDist over the inscribed radius of the smallest body that can move, as polytope.requirements advises it."""
 reachOfNothing = 0.02
 """verletDist [m] in a scene without such a body."""
+firstStep = 1e-8
+"""Largest O.dt [s] before PolytopeTimeStepper, the last of the engines, has acted: that of a new scene. A step made before, with YADE's own engines, leaves 1 s or so."""
 allShapes = ('Box', 'Facet', 'Polytope', 'Sphere', 'Wall')
 gravityOnEarth = 9.81
 
 
+@namedArguments
 def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, integrator=None, timeStepper=None, damping=None):
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; the bonds that there are (polytope.bond); NewtonIntegrator; PolytopeTimeStepper. What is wrong with the scene is warned of, as *check* finds it.
+	and laws for its materials; the bonds that there are (polytope.bond); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
@@ -84,11 +87,13 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 		ForceResetter(),
 		_one(collider, Collider, 'collider') or _collider(scene),
 		loop,
-		*([bonds()] if bonds() else []),
+		*(engine for engine in (bonds() or removedBonds(),) if engine),
 		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=damping),
 	]
 	if timeStepper is not False:
 		made.append(_one(timeStepper, TimeStepper, 'timeStepper') or PolytopeTimeStepper())
+	if isinstance(made[-1], PolytopeTimeStepper):
+		O.dt = min(O.dt, firstStep)
 	for finding in checkOf(O, made):
 		warnings.warn(f'{finding.what}: {finding.seen}; {finding.advice}', stacklevel=2)
 	return made

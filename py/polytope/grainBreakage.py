@@ -7,7 +7,7 @@ import numbers
 import numpy as np
 from yade import O, Polytope
 
-from .arguments import number, vector
+from .arguments import namedArguments, number, vector
 from .bonding import bonds
 from .breakage import split
 from .heap import namedBodies
@@ -18,6 +18,7 @@ __all__ = ['breakGrains']
 strengths = ('tension', 'compression', 'shear', 'octahedral', 'vonMises')
 
 
+@namedArguments
 def breakGrains(
 	tension=math.inf,
 	compression=math.inf,

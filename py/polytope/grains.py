@@ -92,7 +92,10 @@ def cloud(lower, upper, bodies, seed=None):
 	:raises ValueError: naming *bodies*, or *upper* where the box is too small for them
 	"""
 	low, high = np.array([*vector(lower, 'lower')], float), np.array([*vector(upper, 'upper')], float)
-	bodies = list(bodies)
+	try:
+		bodies = list(bodies)
+	except TypeError:
+		raise ValueError(f'bodies: must be a list of polyhedra, got {bodies!r}') from None
 	if not all(isinstance(body, Body) and isinstance(body.shape, Polytope) and body.shape.dimension == 3 for body in bodies):
 		raise ValueError('bodies: must be a list of polyhedra')
 	corners = [_corners(body) for body in bodies]
@@ -175,11 +178,12 @@ def _fraction(random, least, largest, volume, shape):
 	# where mass is uniform over the logarithm of the size, numbers fall with its cube
 	steep = least**-3 - largest**-3
 	meanCube = 3 * math.log(largest / least) / steep
-	shapes, volumes = [], []
-	while sum(volumes) * meanCube < volume:
+	shapes, volumes, total = [], [], 0.0  # not summed anew for each grain: there may be 100 000
+	while total * meanCube < volume:
 		shapes.append(shape())
 		volumes.append(scipy.spatial.ConvexHull(shapes[-1]).volume)
-	if shapes and sum(volumes) * meanCube - volume > volumes[-1] * meanCube / 2:  # one less is nearer
+		total += volumes[-1]
+	if shapes and total * meanCube - volume > volumes[-1] * meanCube / 2:  # one less is nearer
 		shapes.pop(), volumes.pop()
 	if not shapes:
 		return [], []

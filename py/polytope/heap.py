@@ -7,12 +7,13 @@ import numbers
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import O, Polytope, _polytope
+from yade import O, Polytope, Vector3, _polytope
 
 from .arguments import numbersOf, vectors
+from .bodies import fromHalfSpaces
 from .bonding import bonds
 
-__all__ = ['Coordination', 'coordinationNumber', 'moverOf', 'namedBodies', 'partsOf', 'porosity', 'volumeInside', 'volumeWithin']
+__all__ = ['Coordination', 'coordinationNumber', 'moverOf', 'namedBodies', 'partsOf', 'porosity', 'solidVolume', 'volumeInside', 'volumeWithin']
 
 thin = 1e-9
 """Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
@@ -22,7 +23,7 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	"""Part of a box, a convex region or the periodic cell that is not filled: 1 − solid volume / volume.
 
 	Bodies across its faces count with the part inside, cut exactly (the polyhedron of both sets of half-spaces). Where bodies in
-	contact overlap, the overlap counts twice, and so does that of a clump's members. Choose a box inside the heap: near walls and free
+	contact overlap, the overlap counts twice; that of a clump's parts counts once. Choose a box inside the heap: near walls and free
 	surface there is less. In a periodic cell every image of a body counts with its part in the box.
 
 	:param lower, upper: opposite corners of an axis-parallel box [m], 3 numbers each
@@ -32,14 +33,14 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	:returns: [-]
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
-	solids = [O.bodies[part] for k in namedBodies(ids) for part in partsOf(k)]
+	solids = [[O.bodies[part] for part in partsOf(k)] for k in namedBodies(ids)]
 	if lower is None and upper is None and region is None:
 		if not O.periodic:
 			raise ValueError('lower: give the corners of a box, or a region; only a periodic cell has a volume of its own')
-		return 1 - sum(_whole(body) for body in solids) / abs(float(O.cell.volume))
+		return 1 - sum(_filled(parts) for parts in solids) / abs(float(O.cell.volume))
 	(normals, offsets), volume, corners = _box(lower, upper) if region is None else _region(region, lower, upper)
 	low, high = corners.min(axis=0), corners.max(axis=0)
-	return 1 - sum(volumeInside(body, normals, offsets - normals @ shift) for body in solids for shift in _images(body, low, high)) / volume
+	return 1 - sum(_filledInside(parts, (normals, offsets), low, high) for parts in solids) / volume
 
 
 def _box(lower, upper):
@@ -74,6 +75,32 @@ def partsOf(k):
 	"""Ids of a clump's members; of another body its own."""
 	body = O.bodies[k]
 	return list(body.shape.members) if body.isClump else [k]
+
+
+def solidVolume(k):
+	"""Volume of a polyhedron, or what the parts of a clump of them fill together [m³]: with the rigid body it does not change."""
+	return _filled([O.bodies[part] for part in partsOf(k)])
+
+
+def _filled(parts):
+	volumes = [_whole(body) for body in parts]
+	return volumes[0] if len(parts) == 1 else float(_polytope.unionOf(parts)[0])
+
+
+def _filledInside(parts, planes, low, high):
+	"""Volume [m³] of a body's part, with all of its images, within half-spaces: what its parts fill less what they fill outside."""
+	normals, offsets = planes
+	if len(parts) == 1:
+		return sum(volumeInside(parts[0], normals, offsets - normals @ shift) for shift in _images(parts[0], low, high))
+	for body in parts:
+		_whole(body)
+	region = fromHalfSpaces(normals.tolist(), offsets.tolist(), material=parts[0].material)
+	place, inside = Vector3(region.state.pos), 0.0
+	for shift in {tuple(shift) for body in parts for shift in _images(body, low, high)}:
+		region.state.pos = place - Vector3(*shift)
+		whole, around = _polytope.unionOf(parts)[0], _polytope.unionOf([region, *parts])[0]
+		inside += float(whole + region.shape.volume - around)
+	return inside
 
 
 def _images(body, lower, upper):

@@ -7,11 +7,11 @@ YADE's own functions of this kind take every body for a sphere, or leave out wha
 import math
 
 import numpy as np
-from yade import O, Polytope, Sphere
+from yade import O, Polytope, Sphere, Vector3
 
 from ._faces import worldVertices
 from .bonding import bonds
-from .heap import namedBodies
+from .heap import namedBodies, solidVolume
 
 __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'sizeDistribution']
 
@@ -21,7 +21,7 @@ def bodyStress(ids=None):
 	their force and with the first moments of the stresses of bending and twisting over their area.
 
 	The mean of a body in equilibrium; gravity has no part in it about the centroid. Not symmetric where the body is not in equilibrium of
-	moments. A clump is one body, its volume that of its members, overlaps counted for each.
+	moments. A clump is one body, its volume what its parts fill together (with spheres among them: the sum).
 
 	:param ids: of the bodies; None: all free polytopes and spheres, and clumps of them
 	:returns: dictionary id → (3, 3) array [Pa], tension positive as in YADE; rows are components of the force
@@ -55,7 +55,8 @@ def _addBond(stress, bond):
 
 
 def contactFabric(ids=None):
-	"""Fabric tensor of the contacts that bear a force: the mean of n ⊗ n over their normals (Satake 1982); its trace is 1.
+	"""Fabric tensor of the contacts that bear a force: the mean of n ⊗ n over their normals (Satake 1982); its trace is 1. A bond that bears a force
+	counts as a contact, with its normal.
 
 	:param ids: contacts of these bodies count, one between two of them once; None: all free polytopes and spheres, and clumps of them
 	:returns: (3, 3) array [-]; a third of the unit matrix where normals have no direction in common
@@ -63,6 +64,9 @@ def contactFabric(ids=None):
 	"""
 	chosen = set(_massive(ids))
 	normals = [np.array(contact.geom.normal, float) for contact in _bearing() if {_whole(contact.id1), _whole(contact.id2)} & chosen]
+	for bond in _intactBonds():
+		if bond.force.squaredNorm() > 0 and {_whole(bond.id1), _whole(bond.id2)} & chosen:
+			normals.append(np.array(O.bodies[bond.id1].state.ori * bond.frame1 * Vector3(1, 0, 0), float))
 	if not normals:
 		raise ValueError('ids: no contact of these bodies bears a force')
 	return np.mean([np.outer(n, n) for n in normals], axis=0)
@@ -183,6 +187,8 @@ def _extremes(body):
 
 def _volume(k):
 	body = O.bodies[k]
+	if body.isClump and all(isinstance(O.bodies[part].shape, Polytope) for part in body.shape.members):
+		return solidVolume(k)
 	if body.isClump:
 		return sum(_volume(member) for member in body.shape.members)
 	return float(body.shape.volume) if isinstance(body.shape, Polytope) else 4 / 3 * math.pi * float(body.shape.radius) ** 3

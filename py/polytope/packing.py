@@ -2,18 +2,21 @@
 """A dense sample from loose bodies: `polytope.pack(…)` compresses them to a stress or a porosity, or lets them fall."""
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
-from yade import Body, O
+from yade import Body, O, Wall
 
 from ._scene import geometryFunctors
-from .arguments import number, vector
+from .arguments import namedArguments, number, vector
 from .engines import engines
 from .grains import cloud
+from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
 from .loading.sample import between, fastestStrain
 from .loading.servo import actOn
-from .loading.walls import WalledSample, meetWalls, sixWalls, smooth, withoutEachOther
+from .loading.walls import WalledSample, boundaryMask, meetWalls, sixWalls, smooth, withoutEachOther
+from .measures import aabbExtrema
 
 __all__ = ['pack', 'sample']
 
@@ -25,6 +28,7 @@ densest = 0.35
 """Porosity of a dense sample, by which the size of the cell is judged beforehand."""
 
 
+@namedArguments
 def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodic=False, friction=None, wallFriction=0, seed=None):
 	"""Packs polyhedra in a box between walls or in a periodic cell: ``sample = polytope.pack(grains, (0, 0, 0), (0.1, 0.1, 0.1), stress=1e5)``.
 
@@ -75,20 +79,40 @@ def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodi
 	return made
 
 
+@namedArguments
 def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	"""The bodies that are in the scene, as a sample for triaxial() and the other tests; for samples that pack() did not make, or after O.load.
 
 	:param ids: of the bodies; default all that can move
-	:param lower, upper: corners of the box at which walls are made [m]; without them, in a periodic scene: its cell
+	Walls and plates of a sample that the scene had before, as after O.load, are replaced.
+
+	:param lower, upper: corners of the box at which walls are made [m]; without them where such walls are, or at the extents of the bodies; in a
+	    periodic scene its cell
 	:param float wallFriction: angle between bodies and walls [rad]
 	:returns: WalledSample or PeriodicSample
 	:raises ValueError: naming the argument
 	"""
-	chosen = [body.id for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember] if ids is None else list(ids)
-	if (lower is None) != (upper is None) or (lower is None) == (not O.periodic):
-		raise ValueError('lower: give both corners of the box; in a periodic scene neither')
-	material = next((O.bodies[k].material for k in chosen if O.bodies[k].material), None)
+	chosen = [body.id for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember] if ids is None else namedBodies(ids)
+	if not chosen:
+		raise ValueError('ids: the sample has no body that can move')
+	if (lower is None) != (upper is None) or (O.periodic and lower is not None):
+		raise ValueError('lower: give both corners of the box, or neither; in a periodic scene neither')
+	former = [body for body in O.bodies if body is not None and body.mask == boundaryMask and not body.dynamic]
+	if not O.periodic:
+		there = _corners(former) or aabbExtrema(chosen)
+		lower, upper = there if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
+		if not all(low < high for low, high in zip(lower, upper, strict=True)):
+			raise ValueError(f'upper: must be above lower in all three directions, got lower {lower!r}, upper {upper!r}')
+	for body in former:
+		O.bodies.erase(body.id)
+	material = next(O.bodies[part].material for k in chosen for part in partsOf(k))
 	return _boundary(chosen, lower, upper, material, wallFriction, O.periodic, None)
+
+
+def _corners(former):
+	"""Of the box between six walls, if there are as many."""
+	walls = [[float(body.state.pos[axis]) for body in former if isinstance(body.shape, Wall) and body.shape.axis == axis] for axis in range(3)]
+	return tuple(np.array([end(places) for places in walls]) for end in (min, max)) if all(len(places) == 2 for places in walls) else None
 
 
 def _checked(stress, porosity):
@@ -107,7 +131,7 @@ def _angle(value, name):
 
 
 def _loose(bodies):
-	bodies = list(bodies)
+	bodies = list(bodies) if isinstance(bodies, Iterable) else []
 	if not bodies or not all(isinstance(body, Body) and body.id < 0 for body in bodies):
 		raise ValueError('bodies: must be a list of bodies that are not in the scene yet, such as polytope.grains makes')
 	if len({body.material.id for body in bodies}) > 1:

@@ -9,10 +9,10 @@ import numbers
 import os
 
 import numpy as np
-from yade import Quaternion, Vector3
+from yade import Quaternion, Vector3, _polytope
 
-from .arguments import number, rotation, rows, vector
-from .bodies import builder, cuboid, fromVertices, readMesh
+from .arguments import number, rotation, rows, vector, vectors
+from .bodies import builder, cuboid, defaultCornerFraction, fromVertices, readMesh, refuseInside
 
 __all__ = ['frustum', 'plates', 'prism', 'terrain', 'tube']
 
@@ -25,17 +25,21 @@ flat = 1e-9
 
 @builder
 def prism(points2d, height, **body):
-	"""Straight prism: the convex hull of points in the xy plane, from z = 0 to *height*. For 2-D take *polygon*.
+	"""Straight prism over a convex polygon in the xy plane, from z = 0 to *height*. For 2-D take *polygon*.
 
-	:param points2d: (n, 2) points [m]
+	:param points2d: (n, 2) corners [m], in any order
 	:param float height: [m]
-	:raises ValueError: naming *points2d* or *height*
+	:raises ValueError: naming *points2d* (also where a corner lies inside the others: the outline is not convex) or *height*
 	"""
 	height, outline = _positive(height, 'height'), rows(points2d, 'points2d', 2)
+	corners = [(x, y, z) for x, y in outline for z in (0, height)]
 	try:
-		return fromVertices([(x, y, z) for x, y in outline for z in (0, height)], **body)
+		made = fromVertices(corners, **body)
 	except ValueError as error:
 		raise ValueError(str(error).replace('points', 'points2d', 1) if str(error).startswith('points') else str(error)) from None
+	if len(made.shape.offsets) < len(outline) + 2:
+		refuseInside(_polytope.ofPoints(vectors(corners, 'points2d', 3), 3, 0, 1, None, defaultCornerFraction), outline, made.shape)
+	return made
 
 
 @builder

@@ -14,7 +14,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import _polytope
 
-from .arguments import flag, numbersOf, rows, vectors
+from .arguments import flag, namedArguments, numbersOf, rows, vectors
 
 __all__ = ['VoronoiCells', 'voronoi']
 
@@ -35,11 +35,12 @@ class VoronoiCells:
 	blocks: list
 	"""(normals, offsets) of each cell in world coordinates, for polytope.fromHalfSpaces."""
 	volumes: np.ndarray
-	"""[m³]; of a region that is a box they add up to its volume to rounding."""
+	"""[m³]; of a region that is a box they add up to its volume to rounding, wherever it is."""
 	seeds: np.ndarray
 	"""(n, 3) points [m], in the order of the blocks."""
 
 
+@namedArguments
 def voronoi(region, cells=None, periodic=False, relaxed=0, seeds=None, seed=None):
 	"""Cuts a box or a convex region into Voronoi cells: ``[polytope.fromHalfSpaces(*block) for block in polytope.voronoi(…).blocks]``.
 
@@ -59,7 +60,10 @@ def voronoi(region, cells=None, periodic=False, relaxed=0, seeds=None, seed=None
 		raise ValueError(f'relaxed: must be a whole number, at least 0, got {relaxed!r}')
 	if (cells is None) == (seeds is None):
 		raise ValueError('cells: give a number of cells, or seeds, one of them')
-	points = _random(cells, normals, offsets, lower, upper, seed) if seeds is None else _own(seeds, normals, offsets, upper - lower)
+	# about the region's middle: Qhull and the cells' volumes lose the digits that coordinates far away take
+	middle = (lower + upper) / 2
+	offsets, lower, upper = offsets - normals @ middle, lower - middle, upper - middle
+	points = _random(cells, normals, offsets, lower, upper, seed) if seeds is None else _own(seeds, middle, normals, offsets, upper - lower)
 	box = upper - lower if periodic else None
 	for _ in range(relaxed):
 		_, _, points = _cells(points, normals, offsets, (lower, upper), box)
@@ -69,7 +73,8 @@ def voronoi(region, cells=None, periodic=False, relaxed=0, seeds=None, seed=None
 	whole = float(np.prod(box)) if periodic else _volume(normals, offsets)
 	if abs(volumes.sum() / whole - 1) > filled:
 		raise RuntimeError(f'voronoi: the cells fill {volumes.sum():.9g} of {whole:.9g} m³; move seeds that are nearly at one place')
-	return VoronoiCells(blocks, volumes, points)
+	blocks = [(planes, [offset + float(np.dot(normal, middle)) for normal, offset in zip(planes, ends, strict=True)]) for planes, ends in blocks]
+	return VoronoiCells(blocks, volumes, points + middle)
 
 
 def _volume(normals, offsets):
@@ -108,8 +113,8 @@ def _random(cells, normals, offsets, lower, upper, seed):
 	raise ValueError('region: is too thin for random points; give seeds of your own')
 
 
-def _own(seeds, normals, offsets, extent):
-	points = np.array([[float(x) for x in row] for row in rows(seeds, 'seeds', 3)])
+def _own(seeds, middle, normals, offsets, extent):
+	points = np.array([[float(x) for x in row] for row in rows(seeds, 'seeds', 3)]).reshape(-1, 3) - middle
 	if not len(points) or not np.isfinite(points).all() or not (points @ normals.T < offsets).all():
 		raise ValueError('seeds: must be finite points inside the region')
 	if len(points) > 1 and scipy.spatial.cKDTree(points).query(points, k=2)[0][:, 1].min() <= atOnce * extent.max():

@@ -22,22 +22,33 @@ namespace polytope {
 
 /// From x along n to the surface of the body that has a face there: of the planes through which n leaves one body and −n the other, the one more normal
 /// to n. Two faces that are tilted against each other are equally far from the centroid.
-template <class R, int D> POLYTOPE_INLINE R distanceFromFace(const PairPlanes<R, D>& planes, const R* x, const R* n)
+template <class R, int D, int W> POLYTOPE_INLINE R distanceFromFace(const PairPlanes<R, D>& planes, const R* x, const R* n)
 {
+	using V      = typename Lanes<R, W>::Type;
+	const V zero = broadcast<R, W>(0), far = broadcast<R, W>(R(padOffset));
+	V       X[D];
+	for (int k = 0; k < D; ++k)
+		X[k] = broadcast<R, W>(x[k]);
 	R distance = 0, steepest = 0;
 	for (int body = 0; body < 2; ++body) {
-		R nearest = R(padOffset), rate = 0;
-		for (int i = planes.begin(body); i < planes.end(body); ++i) {
-			R a[D], d;
-			planes.plane(i, a, d);
-			const R leaving = (body == 0 ? R(1) : R(-1)) * dot<R, D>(a, n), slack = d - dot<R, D>(a, x);
-			if (!(leaving > 0) || !(slack < nearest * leaving)) continue;
-			nearest = slack / leaving;
-			rate    = leaving;
+		V N[D], nearest = far, rate = zero;
+		for (int k = 0; k < D; ++k)
+			N[k] = broadcast<R, W>(body == 0 ? n[k] : -n[k]);
+		for (int i = planes.begin(body); i < planes.end(body); i += W) {
+			V       a[D];
+			const V slack   = slacksOf<R, D, W>(planes, i, X, a);
+			V       leaving = a[0] * N[0];
+			for (int k = 1; k < D; ++k)
+				leaving += a[k] * N[k];
+			const V way = leaving > zero ? slack / leaving : far;
+			rate        = way < nearest ? leaving : rate;
+			nearest     = minOf(nearest, way);
 		}
-		if (!(rate > steepest)) continue;
-		steepest = rate;
-		distance = maxOf<R>(0, nearest);
+		const R way  = horizontalMin<R, W>(nearest);
+		const R most = -horizontalMin<R, W>(V(nearest <= broadcast<R, W>(way) ? -rate : zero));
+		if (!(most > steepest)) continue;
+		steepest = most;
+		distance = maxOf<R>(0, way);
 	}
 	return distance;
 }
@@ -76,7 +87,7 @@ POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& setti
 	const R area = overlap.areaAlong(n);
 	if (!(area > 0)) return false;
 	const R mean   = mass.volume / area;
-	const R energy = mean * distanceFromFace<R, D>(planes, mass.centroid, n);
+	const R energy = mean * distanceFromFace<R, D, W>(planes, mass.centroid, n);
 	const R share  = settings.depthRule == DepthRule::Mean ? R(1) : onFaces<R, D>(out.depth, overlap.footprint(mass.centroid, n));
 	R       point[D];
 	for (int k = 0; k < D; ++k)

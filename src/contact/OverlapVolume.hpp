@@ -114,21 +114,23 @@ public:
 					next[k] -= first[k];
 				if (v > 1) {
 					const R twice = triple(a, last, next);
-					area += twice / 2;
+					area += twice;
 					for (int k = 0; k < 3; ++k)
-						arm[k] += twice * (last[k] + next[k]) / 6;
+						arm[k] += twice * (last[k] + next[k]);
 				}
 				for (int k = 0; k < 3; ++k)
 					last[k] = next[k];
 			}
-			area_[face] = area;
-			result.volume += area * height / 3;
+			area_[face] = area / 2;
+			result.volume += area * height;
 			for (int k = 0; k < 3; ++k)
-				moment[k] += height / 4 * (area * (first[k] - x[k]) + arm[k]);
+				moment[k] += height * (3 * area * (first[k] - x[k]) + arm[k]);
 		}
 		if (!(result.volume > 0)) return false;
 		for (int k = 0; k < 3; ++k)
-			result.centroid[k] = x[k] + moment[k] / result.volume;
+			result.centroid[k]
+			        = x[k] + moment[k] / (4 * result.volume); // the volume is six times its value yet, the moment 24 times
+		result.volume /= 6;
 		return true;
 	}
 
@@ -164,16 +166,19 @@ public:
 				project(corner[v], p, axes, next);
 				const R twice  = (last[0] - first[0]) * (next[1] - first[1]) - (last[1] - first[1]) * (next[0] - first[0]);
 				const R sum[2] = { first[0] + last[0] + next[0], first[1] + last[1] + next[1] };
-				result.area += twice / 2;
+				result.area += twice;
 				for (int k = 0; k < 3; ++k) {
 					const int i = k / 2, j = (k + 1) / 2;
-					result.second[k] += twice / 24
-					        * (first[i] * first[j] + last[i] * last[j] + next[i] * next[j] + sum[i] * sum[j]);
+					result.second[k]
+					        += twice * (first[i] * first[j] + last[i] * last[j] + next[i] * next[j] + sum[i] * sum[j]);
 				}
 				last[0] = next[0];
 				last[1] = next[1];
 			}
 		}
+		result.area /= 2;
+		for (R& second : result.second)
+			second /= 24;
 		return result;
 	}
 

@@ -79,7 +79,8 @@ TEST(MeanDepth, DistanceFromFaceIsToTheNearestPlane)
 		const HalfSpaces         upper { { -up, -oblique }, { 0.05, 0.02 }, 3 };
 		const PlaneRows<Real, 3> rows(lower, upper);
 		const Real               x[] = { 0, 0, 0 }, n[] = { 0, 0, 1 };
-		EXPECT_NEAR((distanceFromFace<Real, 3>(rows.planes, x, n)), 0.1, 1e-15);
+		EXPECT_NEAR((distanceFromFace<Real, 3, 1>(rows.planes, x, n)), 0.1, 1e-15);
+		EXPECT_NEAR((distanceFromFace<Real, 3, 2>(rows.planes, x, n)), 0.1, 1e-15); // both planes in one vector
 	}
 }
 

@@ -141,6 +141,57 @@ def joints():
 	return sliding(24, 80)
 
 
+def bonded():
+	"""Two beams of nine blocks that are bonded to each other, each held at one end by its first block; one bond in the middle of the second is weak."""
+	mpi.merge()
+	O.reset()
+	if master:
+		material()
+		for row in (0, 2):
+			O.bodies.append([polytope.cuboid((0.4 * k, row, 0), (0.2, 0.2, 0.2), fixed=k == 0) for k in range(9)])
+		O.engines = polytope.engines(timeStepper=False)
+		O.dt = 2e-5
+		polytope.bond(normalStiffness=1e9, shearStiffness=4e8, tensileStrength=1e9, cohesion=1e9)
+		weak = next(bond for bond in polytope.bonds().bonds if (bond.id1, bond.id2) == (13, 14))
+		weak.tensileStrength = weak.cohesion = 120
+	mpi.divide()
+	mpi.run(150, merged=False)
+	mpi.run(100)
+	half = state()
+	mpi.run(50)
+	found = state()
+	if master:
+		found['halfWay'] = half['bodies']
+		found['bonds'] = {
+			f'{b.id1} {b.id2}': [b.intact, b.failure, b.failedAt, [float(x).hex() for x in (*b.force, *b.moment, *b.point, b.energy, b.edgeStress)]]
+			for b in polytope.bonds().bonds
+		}
+	return found
+
+
+def searched():
+	"""How often each rank has searched for pairs in twenty steps of cubes at rest side by side, with a fixed one and without."""
+	found = {}
+	for fixed in (True, False):
+		mpi.merge()
+		O.reset()
+		if master:
+			material()
+			O.bodies.append([polytope.cuboid((0.9999 * k, 0, 0), (0.5, 0.5, 0.5)) for k in range(6)])
+			if fixed:
+				O.bodies.append(polytope.cuboid((2.5, 0, -0.999), (4, 0.5, 0.5), fixed=True))
+			O.engines = polytope.engines(timeStepper=False, gravity=(0, 0, 0))
+			O.dt = 1e-6
+		mpi.divide()
+		counts = []
+		for number in (2, 20):
+			mpi.run(number, merged=False)
+			counts.append(next(engine for engine in O.engines if isinstance(engine, yade.PolytopeCollider)).numAction)
+		found['with a fixed body' if fixed else 'all move'] = yade.mpy.comm.gather(counts)
+	mpi.merge()
+	return found
+
+
 def refused():
 	"""What the check says about each of these, on rank 0; nothing is run, so the other ranks need not take part."""
 	load()
@@ -174,9 +225,6 @@ def refused():
 	O.engines = engines
 	O.bodies.appendClumped([polytope.regular(6, 0.1, (0, 0, 3)), polytope.regular(6, 0.1, (0.1, 0, 3))])
 	saysNo('clumps')
-	load()
-	polytope.bond(O.bodies.append([polytope.cuboid((k, 0, 9), (0.5, 0.5, 0.5)) for k in range(2)]))
-	saysNo('bonds')
 	load()
 	O.periodic = True
 	saysNo('O.periodic')

@@ -167,6 +167,21 @@ def testPolygonStaysInItsPlane():
 	assert polytope.polygon([(0, 0), (1, 0), (0, 1)], fixed=True).state.blockedDOFs == 'xyzXYZ'
 
 
+@pytest.mark.parametrize('make', [polytope.polygon, lambda outline, **body: polytope.prism(outline, 2, **body)])
+@pytest.mark.parametrize('size', [1e-9, 1, 1e4])
+def testConcaveOutlineIsRefused(make, size):
+	"""An L, wherever and however it is turned; but not points on a straight side, to six digits, a first corner repeated, or corners in any order."""
+	corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]
+	for outline in (corners, corners[::-1]):
+		with pytest.raises(ValueError, match=r'^points2d: the outline is not convex, point \d \(.*\) lies inside the hull of the others; leave it out'):
+			make([(size * (x + 7), size * y) for x, y in outline], center=(0, 0, 0), orientation=Quaternion((0, 0, 1), 1))
+	pentagon = [(math.cos(k), math.sin(k)) for k in (0, 1, 2, 4, 5, 0)] + [((math.cos(1) + 1) / 2 - 1e-7, math.sin(1) / 2)]
+	volume = make([(size * x, size * y) for x, y in pentagon[:5]]).shape.volume
+	for outline in (pentagon, pentagon[::-1], sorted(pentagon)):
+		assert make([(size * x, size * y) for x, y in outline]).shape.volume == pytest.approx(volume, rel=1e-9)
+	assert make((point for point in corners[:3])).shape.volume > 0, 'an iterator'
+
+
 def testMeshFile(tmp_path):
 	import trimesh
 	for name in ('box.stl', 'box.obj', 'box.ply', 'box.off'):

@@ -68,6 +68,18 @@ def testMeasuresCountBonds():
 	assert polytope.coordinationNumber([1, 2, 3]).mean == pytest.approx(5 / 3)
 
 
+def testFabricCountsBonds():
+	"""A row that is pulled: normals along x; without a force nothing."""
+	row(3)
+	stepper()
+	with pytest.raises(ValueError, match='no contact'):
+		polytope.contactFabric()
+	O.forces.setPermF(2, (1e4, 0, 0))
+	O.run(3000, wait=True)
+	fabric = polytope.contactFabric()
+	assert fabric[0, 0] == pytest.approx(1, abs=1e-9) and fabric.trace() == pytest.approx(1)
+
+
 def testMechanicalEnergyCountsBonds():
 	row(3)
 	next(one for one in O.engines if isinstance(one, NewtonIntegrator)).damping = 0
@@ -99,6 +111,31 @@ def testTheCheckKnowsBonds():
 	assert 'not before the NewtonIntegrator' in polytope.check(O)['bonds'].seen
 	O.engines = [*(one for one in engines if not isinstance(one, PolytopeTimeStepper)), GlobalStiffnessTimeStepper(defaultDt=1e-5)]
 	assert 'does not know bonds' in polytope.check(O)['time step'].seen
+
+
+def testBondsThatAreLeftOutOfTheEnginesAreMissed():
+	"""By check, until engines() puts them back; not in another scene, and not once they are broken or their bodies are gone."""
+	assert row(3) == 2
+	stepper()
+	lone = [engine for engine in O.engines if engine is not polytope.bonds() and type(engine).__name__ != 'PolytopeBonds']
+	O.engines = lone
+	found = polytope.check(O)['bonds']
+	assert 'whose 2 bonds were intact' in found.seen and 'polytope.engines(' in found.advice
+	O.bodies.erase(2)
+	assert 'whose 1 bonds were intact' in polytope.check(O)['bonds'].seen
+	O.engines = polytope.engines()
+	assert polytope.bonds().intactInScene == 1 and not polytope.check(O)
+	O.engines = lone
+	O.reset()
+	joint(normalStiffness=kn, shearStiffness=ks)
+	O.bodies.append([polytope.cuboid((k, 0, 0), (0.5, 0.5, 0.5), fixed=k == 0) for k in range(3)])
+	O.engines = polytope.engines()
+	assert not polytope.check(O) and polytope.bonds() is None
+
+
+def testAnUnknownArgumentIsNamed():
+	with pytest.raises(TypeError, match="^bond: there is no argument 'strength'; it takes ids, gap, .* tensileStrength, "):
+		row(2, strength=1e6)
 
 
 def testEnergyOfACubeThatBreaksOnAFloor():

@@ -516,6 +516,43 @@ def testBladeThatTurnsInPlace(shape):
 	assert 'verletDist=0' in onlyFinding('turning bodies').advice
 
 
+def testBodyLargerThanHalfOfAPeriodicCell():
+	"""And YADE's collider ends the run, as soon as it meets another one."""
+	for length, wrong in ((0.9, False), (1.1, True)):
+		O.reset()
+		O.materials.append(rock())
+		O.periodic = True
+		O.cell.setBox(2, 3, 3)
+		O.bodies.append(polytope.cuboid((0.5, 1, 1), (length / 2, 0.2, 0.2)))
+		O.bodies.append(polytope.cuboid((0.6, 1, 1.39), (0.3, 0.2, 0.2)))
+		O.engines = polytope.engines(collider=PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01), gravity=(0, 0, 0)) if not wrong else O.engines
+		if wrong:
+			with pytest.warns(UserWarning, match='^periodic cell: 1 bodies'):
+				O.engines = polytope.engines(gravity=(0, 0, 0))
+			found = onlyFinding('periodic cell')
+			assert 'body 0 most' in found.seen and '0.5' in found.seen and 'larger cell' in found.advice
+			O.engines[1].allowBiggerThanPeriod = True
+			assert not polytope.check(O)
+		else:
+			assert not polytope.check(O)
+			O.step()
+
+
+def testAllFaultsOfALoneBodyAreListed():
+	"""Without a collider, a loop, or a resetter; none hides another."""
+	O.materials.append(FrictMat(density=2600, young=1e8, frictionAngle=35, label='basalt'))
+	O.materials.append(FrictMat(density=2600, young=1e8, frictionAngle=40, label='granite'))
+	O.bodies.append(polytope.cuboid((0, 0, 0), (60, 1, 1), material='basalt'))
+	O.bodies.append(polytope.cuboid((0, 0, 0), (60, 1, 1), material='granite', mask=2))
+	O.bodies[0].state.mass = 0
+	O.bodies[0].state.inertia = (0, 0, 0)
+	O.bodies[1].state.vel = (math.nan, 0, 0)
+	O.engines = [NewtonIntegrator()]
+	seen = repr(polytope.check(O))
+	for words in ('no InteractionLoop', 'no collider', 'no ForceResetter', 'has mass 0', "'basalt' is 35 rad", "'granite' is 40 rad", 'm across', 'state.vel is not'):
+		assert words in seen, (words, seen)
+
+
 # ------------------------------------------------------------------------------------------------ itself
 
 

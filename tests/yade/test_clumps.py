@@ -3,6 +3,7 @@
 
 import sys
 import types
+import warnings
 
 import numpy as np
 import pytest
@@ -57,6 +58,7 @@ shapes = {
 }
 
 
+@pytest.mark.filterwarnings('ignore:parts:UserWarning')
 @pytest.mark.parametrize('name', shapes)
 def testPropertiesAreThoseOfTheUnion(name):
 	boxes, twice = shapes[name]
@@ -80,6 +82,29 @@ def testCrossOfThreeTurnedBars():
 	cube = (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)
 	mass, _, tensor = sums([(1, tuple(-np.roll(half, k)), tuple(np.roll(half, k))) for k in range(3)] + [(-1, *cube)] * 2)
 	assertEqual(properties(number), (3 * mass, np.array(place, float), 3 * tensor), 100)  # the tensor is isotropic
+
+
+def testManyPartsInOnePlace():
+	"""A star of 24 bars through one point, and grains of many faces about it: in a second, and the same in any order."""
+	def parts():
+		bars = [polytope.cuboid((1, 2, 3), (2, 0.2, 0.1 + 0.01 * k), orientation=Quaternion((1, 2, k), 0.7 * k)) for k in range(24)]
+		return bars + [polytope.randomGrain(1.2, vertices=30, seed=k, center=(1, 2, 3)) for k in range(6)]
+
+	onward, _ = polytope.clump(parts())
+	backward, _ = polytope.clump(parts()[::-1])
+	assertEqual(properties(onward), properties(backward), 5)
+	single = [float(part.state.mass) for part in parts()]
+	assert max(single) < properties(onward)[0] < sum(single) / 2
+
+
+def testPartsApartAreWarnedOf():
+	"""Allowed, as in YADE; but by name: the part in the wrong place is seldom meant."""
+	row = [box((k, 0, 0), (k + 1, 1, 1)) for k in range(3)]
+	with pytest.warns(UserWarning, match=r'^parts: part 1 touches neither part 0 nor what is joined to it; the clump is rigid'):
+		polytope.clump([row[0], box((5, 0, 0), (6, 1, 1)), row[1], row[2]])
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		polytope.clump([box((0, 5, 0), (1, 6, 1)), box((2, 5, 0), (3, 6, 1)), box((1, 5, 0), (2, 6.2, 1))])  # joined by the last one
 
 
 def testPartsDoNotTouchEachOtherAndTheClumpKeepsItsMotion():
@@ -126,6 +151,33 @@ def testPartsAreChecked():
 	):
 		with pytest.raises(ValueError, match=f'^parts: {words}'):
 			polytope.clump(parts)
+
+
+def testMeasuresCountAnOverlapOnce():
+	"""Porosity of a box that cuts the clump, of a periodic cell, and the stress of a clump that bears a load, with the union's volume."""
+	number, _ = polytope.clump([box((0, 0, 0), (3, 1, 1)), box((0, 0, 0), (1, 2, 1))])
+	O.bodies.append(box((10, 10, 10), (11, 11, 11)))
+	assert polytope.porosity((-1, -1, -1), (4, 3, 3), ids=[number]) == pytest.approx(1 - 4 / 80, rel=1e-12)
+	assert polytope.porosity((0.5, -1, 0.5), (2, 3, 1), ids=[number]) == pytest.approx(1 - (1.5 + 0.5) / 2 / 3, rel=1e-12)
+	assert polytope.porosity((5, 5, 5), (6, 6, 6), ids=[number]) == 1
+	O.periodic = True
+	O.cell.setBox(20, 20, 20)
+	assert polytope.porosity(ids=[number]) == pytest.approx(1 - 4 / 8000, rel=1e-12)
+	assert polytope.porosity((-1, -1, -1), (1, 1, 1), ids=[number]) == pytest.approx(1 - 1 / 8, rel=1e-12), 'the images do not reach it'
+	assert polytope.porosity((20, 20, 20), (22, 22, 22), ids=[number]) == pytest.approx(1 - 3 / 8, rel=1e-12)
+
+
+def testStressOfAClumpOfOverlappingParts():
+	"""A bar of two parts that overlap by half, pulled at both ends by a bond: force over the area of its section."""
+	left, right = (polytope.cuboid((side * 2, 0, 0), (0.5, 0.5, 0.5), fixed=side < 0) for side in (-1, 1))
+	O.bodies.append([left, right])
+	number, _ = polytope.clump([box((-1.5, -0.5, -0.5), (0.5, 0.5, 0.5)), box((-0.5, -0.5, -0.5), (1.5, 0.5, 0.5))])
+	loop(True, damping=0.5)
+	assert polytope.bond() == 2
+	stepper()
+	O.forces.setPermF(1, (1e4, 0, 0))
+	O.run(4000, wait=True)
+	assert polytope.bodyStress([number])[number][0, 0] == pytest.approx(1e4, rel=1e-3)
 
 
 # ------------------------------------------------------------------------------------------------ meshes

@@ -187,3 +187,17 @@ def testGravityAndDampingBelongToOneOfThem():
 		polytope.engines(gravity=(0, 0, -1), integrator=NewtonIntegrator())
 	with pytest.raises(ValueError, match='damping: belongs to the integrator'):
 		polytope.engines(damping=0, integrator=NewtonIntegrator())
+
+
+def testAStepMadeBeforeDoesNotShootTheBodies():
+	"""YADE's own engines set O.dt to a second; the first step of ours must not be that long."""
+	O.reset()
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6))
+	O.dt = 0.8
+	block = O.bodies.append(polytope.cuboid((0, 0, 1), (0.5, 0.4, 0.3)))
+	O.engines = polytope.engines()
+	O.step()
+	assert O.bodies[block].state.vel.norm() < 1e-6 and 1e-6 < O.dt < 0.1
+	O.dt = 0.8
+	polytope.engines(timeStepper=False)
+	assert O.dt == 0.8, "without a time stepper it is the script's"

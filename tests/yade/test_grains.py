@@ -4,6 +4,7 @@
 import math
 import sys
 import time
+import types
 
 import numpy as np
 import pytest
@@ -91,6 +92,16 @@ def testHundredThousandGrainsAMinute():
 	sample = polytope.grains([(0.009, 0), (0.01, 1)], 0.36, seed=1)
 	assert len(sample) > 250
 	assert (time.process_time() - began) / len(sample) < 60 / 1e5
+
+
+def testTimeGrowsWithTheNumberOfGrainsAlone(monkeypatch):
+	"""The choice of 30 000 grains' sizes, their volumes being given: it grew with the square."""
+	grains = sys.modules['yade.polytope.grains']
+	monkeypatch.setattr(grains.scipy.spatial, 'ConvexHull', lambda points: types.SimpleNamespace(volume=0.5))
+	began = time.process_time()
+	shapes, sizes = grains._fraction(np.random.default_rng(1), 1, 1.1, 0.5 * 1.15 * 30000, lambda: 0)
+	assert len(shapes) == len(sizes) > 25000
+	assert time.process_time() - began < 0.8
 
 
 # ------------------------------------------------------------------------------------------------ cloud

@@ -5,7 +5,7 @@ from math import exp, radians, tan
 
 import numpy as np
 import pytest
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, Vector3, polytope, utils
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, NewtonIntegrator, O, Quaternion, RockJointMat, Vector3, Wall, polytope, utils
 
 edge, friction = 0.1, radians(30)
 perArea, perContact = 1e9, 1e7
@@ -155,6 +155,51 @@ def testTriaxialBetweenWallsHoldsItsStress():
 		polytope.triaxial('here', stress=1e5)
 
 
+def testContactAndWallStressDifferByInertia():
+	"""While a sample deforms: on the axis the contacts bear less than the walls, sideways more, as the square of the inertial number; not by damping."""
+	found = {}
+	for inertialNumber, damping in ((2e-2, 0.2), (2e-2, 0), (5e-3, 0.2)):
+		O.reset()
+		sample = packed()
+		test = polytope.triaxial(sample, stress=1e5, inertialNumber=inertialNumber)
+		next(engine for engine in O.engines if isinstance(engine, NewtonIntegrator)).damping = damping
+		rows, usual = [], test.measure
+		test.measure = lambda rows=rows, sample=sample, usual=usual: (rows.append((np.diag(sample.stress()), sample.boundaryStress())), usual())[1]
+		test.run(0.01)
+		contacts, walls = np.array(rows)[20:].mean(axis=0)
+		found[inertialNumber, damping] = contacts[:2].mean() / walls[:2].mean() - 1, contacts[2] / walls[2] - 1
+	print(found)
+	lateral, axial = found[2e-2, 0.2]
+	assert 0.01 < lateral < 0.025 and -0.03 < axial < -0.01
+	assert found[2e-2, 0] == pytest.approx((lateral, axial), abs=0.006), 'without numerical damping nearly the same'
+	assert np.abs(found[5e-3, 0.2]).max() < 0.006
+
+
+def testAnotherSceneIsToldOf(tmp_path):
+	"""After O.load a test of before would step for ever, since its bodies are gone; the boundary of the loaded scene stands still, which a run must not hide."""
+	extents = stack((2, 2, 2), 0)
+	test = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
+	O.save(str(tmp_path / 'test.yade.gz'))
+	O.load(str(tmp_path / 'test.yade.gz'))
+	with pytest.raises(RuntimeError, match='^sample: its bodies are not in the present scene, as after O.load'):
+		test.run(1e-4)
+	with pytest.raises(RuntimeError):
+		O.step()
+	again = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
+	assert sum(isinstance(body.shape, Wall) for body in O.bodies if body is not None) == 6, 'in place of the former ones, not beside them'
+	assert again.sample.extents == pytest.approx(test.sample.extents, rel=1e-9) and again.sample.extents == pytest.approx(extents, rel=1e-2)
+	again.run(1e-5)
+	O.reset()
+	with pytest.raises(RuntimeError, match='^sample: its bodies are not'):
+		again.run(1e-4)
+
+
+def testAStressThatTheGrainsCannotBearIsToldOf():
+	"""Joints so soft that they would overlap by their size: the boundary stops, and waiting does not help."""
+	with pytest.raises(RuntimeError, match=r'^loading: the bodies are at rest, and the stress stays .* % off: .*; give the material a higher normalStiffness'):
+		polytope.pack(grains(0.008, stiffness=1e8), (0, 0, 0), (0.033,) * 3, stress=1e5, periodic=True, seed=1)
+
+
 def testTriaxialInAPeriodicCellHoldsItsStress():
 	test = polytope.triaxial(packed(periodic=True, mass=0.02), stress=1e5, inertialNumber=5e-3)
 	assert test.sample.boundaryStress() == pytest.approx(1e5, rel=1e-3)
@@ -263,5 +308,32 @@ def testWhatIsWrongIsNamed():
 	O.bodies.append(loose)
 	with pytest.raises(ValueError, match='^bodies: '):
 		polytope.pack(loose, (0, 0, 0), (0.1, 0.1, 0.1), stress=1e5)
-	with pytest.raises(ValueError, match='^lower: '):
-		polytope.sample()
+	for wrong, options in (
+		('lower', {'lower': (0, 0, 0)}),
+		('upper', {'lower': (0, 0, 0), 'upper': (1, 0, 1)}),
+		('ids', {'ids': []}),
+		('ids', {'ids': [10**6]}),
+	):
+		with pytest.raises(ValueError, match=f'^{wrong}: '):
+			polytope.sample(**options)
+	for make, arguments in ((polytope.sample, ()), (polytope.pack, (loose,)), (polytope.triaxial, ()), (polytope.oedometer, ())):
+		with pytest.raises(TypeError, match=f"^{make.__name__}: there is no argument 'strain'; it takes "):
+			make(*arguments, strain=1)
+
+
+def testASampleOfWhatIsThereHasTheExtentsOfItsBodies():
+	"""A stack of cubes, without corners; and stages of an oedometer that say nothing."""
+	extents = stack((2, 2, 3), 0)
+	sample = polytope.sample()
+	assert sample.extents == pytest.approx(extents, rel=1e-12) and sample.porosity == pytest.approx(0, abs=1e-12)
+	test = polytope.oedometer(sample)
+	with pytest.raises(ValueError, match=r'^stresses: give the axial stresses of the stages'):
+		test.load()
+	for wrong in ('1e5', -1, float('nan'), float('inf'), True):
+		with pytest.raises(ValueError, match='^stresses: must be a number above 0'):
+			test.load(1e5, wrong)
+	triaxial = polytope.triaxial(polytope.sample(lower=(0, 0, 0), upper=tuple(extents)), stress=1e5)
+	for wrong in ('0.1', float('nan'), float('inf'), True, None):
+		with pytest.raises(ValueError, match='^strain: must be a finite number'):
+			triaxial.run(wrong)
+	assert len(test.columns['axialStress']) == 1, 'nothing is loaded before all stages are known to be right'

@@ -60,9 +60,9 @@ def under(ranks, *command, fails=False):
 def found(tmp_path_factory):
 	"""What the scenes have found: found(name, ranks)."""
 	folder = tmp_path_factory.mktemp('mpi')
-	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'smooth', 'joints')
+	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'smooth', 'joints', 'bonded')
 	under(2, sys.executable, scenes, str(folder), 'heap')
-	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'refused')
+	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'bonded', 'searched', 'refused')
 
 	def read(name, ranks):
 		return json.loads((folder / f'{name}-{ranks}.json').read_text())
@@ -139,6 +139,27 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
 
 
+def testBondsBetweenRanksActAndFailAsOnOne(found):
+	"""Also those with a fixed body, which is rank 0's; the joint that follows the bond of two ranks is on both."""
+	one, several = found('bonded', 1), found('bonded', 3)
+	for bodies in ('halfWay', 'bodies'):
+		assert max(farthest(one[bodies][k][:7], several[bodies][k][:7]) for k in one[bodies]) < 1e-12 * 0.4
+	assert one['bonds'].keys() == several['bonds'].keys() and len(one['bonds']) == 16
+	for pair, (*fate, numbers) in one['bonds'].items():
+		assert several['bonds'][pair][:3] == fate and fate[0] == (pair != '13 14')
+		assert farthest(numbers, several['bonds'][pair][3]) < 1e-9 * max(abs(float.fromhex(x)) for x in numbers)
+	assert one['bonds']['13 14'][1] == 'tension' and 0 < one['bonds']['13 14'][2] < 250
+	assert one['contacts'].keys() == several['contacts'].keys() == {'13 14'}
+	assert farthest(one['contacts']['13 14'][3:6], several['contacts']['13 14'][3:6]) < 1e-6 * abs(float.fromhex(one['contacts']['13 14'][3]))
+	assert max(-float.fromhex(body[2]) for body in one['bodies'].values()) > 1e-5  # they hang down
+
+
+def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
+	"""Also where rank 0 has no body that could."""
+	for counts in found('searched', 3).values():
+		assert len(counts) == 3 and all(before == after > 0 for before, after in counts), counts
+
+
 @pytest.mark.parametrize('name, remedy', [
 	('mpy.ERASE_REMOTE', 'must be True'),
 	('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
@@ -148,7 +169,6 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	('O.trackEnergy', 'polytope.mpi.arrays()'),
 	('ForceRecorder', 'polytope.mpi.merge()'),
 	('clumps', 'on one'),
-	('bonds', 'on one'),
 	('O.periodic', 'on one process'),
 ])
 def testWhatCannotBeHadIsRefused(found, name, remedy):

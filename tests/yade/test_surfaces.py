@@ -30,6 +30,7 @@ conservative = {'contactModel': 'conservative'}
 
 
 missed = {
+	'testSlidesOverTheSeamsBetweenThePartsOfAClump[icosahedron-0-overlapping-perContact': 'spin 0.0026 for 0.002: shares of a stiffness per contact count an overlap of parts twice',
 	'testBodiesSlideOverPlates[hull-perContact': 'spin 0.016 for 0.002: with a stiffness per contact a body lifts off by rocking more than it takes',
 }
 """Limits that the default contact does not meet yet, and by how much."""
@@ -87,6 +88,15 @@ def testFacesThatAreNotQuiteLevelSlideOverPieces(floor, perArea):
 	assert crossing.failures == 0
 	assert crossing.kept == pytest.approx(1, abs=2 * sliding)
 	assert abs(crossing.direction) < sliding
+
+
+@rules
+@pytest.mark.parametrize('floor', ['plates', 'oblique', 'bricks', 'rock', 'overlapping'])
+@pytest.mark.parametrize('body, tilt', [('cube', 0), ('icosahedron', 0), ('cube', 45)])
+def testSlidesOverTheSeamsBetweenThePartsOfAClump(floor, body, tilt, perArea):
+	"""Made by polytope.clump; a body on a face, or held on an edge."""
+	tilted = {'tilt': Quaternion(Vector3(0, 1, 0), math.radians(tilt)), 'held': True} if tilt else {}
+	keeps(cross(floor, body, perArea=perArea, clumped=True, **tilted))
 
 
 @rules
@@ -245,7 +255,7 @@ def testADodecahedronRollsAsOnOnePiece(perArea):
 # what the scenes are made of
 
 
-@pytest.mark.parametrize('kind', [kind for kind in floorKinds if kind != 'wall'])
+@pytest.mark.parametrize('kind', [kind for kind in floorKinds if kind not in ('wall', 'overlapping')])
 def testPiecesAreFlushAndFillTheFloor(kind):
 	floor = Floor(3, 0.7, before=1.4, after=1.2, side=(-1.0, 1.3))
 	pieces = floor.pieces(kind)

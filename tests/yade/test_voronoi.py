@@ -19,6 +19,22 @@ def testVolumesAddUp():
 	assert sum(body.shape.volume for body in bodies) == pytest.approx(volume, rel=1e-12)
 
 
+@pytest.mark.parametrize('periodic', [False, True])
+@pytest.mark.parametrize(('far', 'size'), [(1e6, 1), (1e6, 1e6), (-1e9, 1), (0, 1e-6), (10, 1e-6)])
+def testFarAwayAndOfAnySize(far, size, periodic):
+	"""Cells of a box are those of the box at the origin, moved and scaled; bodies are made of them as far as coordinates have digits."""
+	corners = np.full(3, float(far)), np.full(3, float(far)) + size
+	size = corners[1] - corners[0]
+	here = polytope.voronoi(((0, 0, 0), (1, 1, 1)), 20, seed=1, periodic=periodic)
+	there = polytope.voronoi(corners, 20, seed=1, periodic=periodic)
+	digits = 1e-14 * max(1, abs(far) / size[0])
+	assert there.volumes.sum() == pytest.approx(np.prod(size), rel=1e-12)
+	assert there.volumes == pytest.approx(here.volumes * np.prod(size), rel=1e-9)
+	assert there.seeds == pytest.approx(here.seeds * size + far, rel=1e-15, abs=1e-12 * size[0])
+	bodies = [polytope.fromHalfSpaces(*block) for block in there.blocks]
+	assert sum(body.shape.volume for body in bodies) == pytest.approx(np.prod(size), rel=100 * digits)
+
+
 @pytest.mark.parametrize('number', [1, 2, 5, 9, 40])
 def testFewCells(number):
 	assert polytope.voronoi(box, number, seed=3).volumes.sum() == pytest.approx(volume, rel=1e-12)

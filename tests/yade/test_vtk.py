@@ -193,7 +193,7 @@ def testEmptySceneGivesFilesWithoutCells(tmp_path):
 
 
 def testRefusesWhatItCannotDo(tmp_path):
-	with pytest.raises(ValueError, match="recorders: must be among 'bodies' and 'contacts', not 'spheres'"):
+	with pytest.raises(ValueError, match="recorders: must be among 'bodies', 'contacts' and 'bonds', not 'spheres'"):
 		PolytopeVTKRecorder(recorders=['spheres'])
 	recorder = PolytopeVTKRecorder(recorders=['bodies'])
 	with pytest.raises(ValueError, match='recorders'):
@@ -202,3 +202,36 @@ def testRefusesWhatItCannotDo(tmp_path):
 	(tmp_path / 'file').write_text('')
 	with pytest.raises(RuntimeError, match='file'):
 		PolytopeVTKRecorder(fileName=f'{tmp_path}/file/x')()
+
+
+def testBondsAreReadBack(tmp_path):
+	"""Areas where the first body has carried them, state, force and stresses; a failed one stays, one of an erased body does not."""
+	joint(normalStiffness=1e9, shearStiffness=5e8)
+	O.bodies.append([polytope.cuboid((k, 0, 0), (0.5, 0.4, 0.3), fixed=k == 0) for k in range(4)])
+	loop(True)
+	assert polytope.bond(tensileStrength=1e7, cohesion=1e7) == 3
+	O.dt = 1e-5
+	O.bodies[1].state.pos += (1e-4, 0, 0)
+	O.bodies[2].state.pos += (1e-4, 0, 0)
+	O.bodies[3].state.pos += (0.1, 0, 0)
+	recorder = PolytopeVTKRecorder(fileName=str(tmp_path / 'r-'), recorders=['bonds'], ascii=True)
+	O.step()
+	recorder()
+	(file,) = tmp_path.glob('r-bonds.*.vtp')
+	data = readContacts(file)
+	cells, bonds = arraysOf(data.GetCellData()), polytope.bonds().bonds
+	assert cells['id1'].tolist() == [0, 1, 2] and cells['id2'].tolist() == [1, 2, 3] and cells['state'].tolist() == [0, 0, 1]
+	assert cells['normalStress'] == pytest.approx([1e5, 0, 0], rel=1e-9, abs=1e-3) and cells['edgeStress'][0] == pytest.approx(1e5)
+	assert cells['force'][0] == pytest.approx([-1e5 * 0.48, 0, 0], rel=1e-9) and cells['energy'][0] == pytest.approx(float(bonds[0].energy))
+	names = data.GetFieldData().GetAbstractArray('stateNames')
+	assert [names.GetValue(k) for k in range(3)] == ['intact', 'tension', 'shear']
+	for k, x in enumerate((0.5, 1.5 + 1e-4, 2.5 + 1e-4)):
+		corners = vtk_to_numpy(data.GetCell(k).GetPoints().GetData())
+		assert len(corners) == 4 and corners[:, 0] == pytest.approx(x, abs=1e-6)
+		assert sorted({round(float(y), 6) for y in corners[:, 1]}) == [-0.4, 0.4]
+	assert (tmp_path / 'r-bonds.pvd').exists()
+	O.bodies.erase(3)
+	O.step()
+	recorder()
+	newest = max(tmp_path.glob('r-bonds.*.vtp'), key=lambda path: int(path.name.split('.')[1]))
+	assert arraysOf(readContacts(newest).GetCellData())['id2'].tolist() == [1, 2]

@@ -2,9 +2,10 @@
 """What is wrong with a scene before its first step, each with the remedy: `polytope.check(O)`."""
 
 from ..requirements import Finding
-from .bodies import bodyFindings, notNumbers
+from .bodies import bodyFindings
 from .engines import engineFindings
 from .pairs import pairFindings
+from .places import notNumbers, placeFindings
 from .scene import SceneToCheck
 from .steps import stepFindings
 
@@ -35,11 +36,11 @@ def check(O):
 	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
 	apply forces as for spheres, functors of one loop that disagree in contactModel, conservative contacts with stiffness per area, contacts of
 	YADE's materials without any damping, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes
-	in the same place, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, attributes that nothing
+	in the same place, bodies too large for a periodic cell, bonds whose engine is missing, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, attributes that nothing
 	reads, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's
 	collider does not notice.
 
-	Where a position or velocity is not a number, what rests on it is not looked at.
+	It lists all that it finds, not the first only. Where a position or velocity is not a number, what rests on it (overlaps, time step) is not looked at.
 
 	It reads, and changes nothing. What a scene in motion needs, and what it pays for without using it, tells polytope.requirements(O). That
 	nothing was found does not mean that the scene is what you meant. What PyRunner does is not seen.
@@ -55,7 +56,7 @@ def checkOf(O, engines):
 	"""The same of the scene with other engines; None: its own."""
 	scene = SceneToCheck(O, engines)
 	lost = list(notNumbers(scene))
-	found = [*lost, *engineFindings(scene), *pairFindings(scene)]
+	found = [*lost, *engineFindings(scene), *pairFindings(scene), *bodyFindings(scene)]
 	if not lost:
-		found += [*bodyFindings(scene), *stepFindings(scene)]
-	return Check(Finding(*one) for one in found)
+		found += [*placeFindings(scene), *stepFindings(scene)]
+	return Check(Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same

@@ -4,6 +4,7 @@
 from yade import ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, PolytopeBonds
 
 from .._scene import notConservative, stiffnessesPerArea
+from ..bonding import removedBonds
 
 __all__ = ['engineFindings']
 
@@ -19,7 +20,7 @@ def missing(scene):
 		return
 	if not scene.loops:
 		yield 'engines', 'O.engines has no InteractionLoop: bodies pass through each other', 'O.engines = polytope.engines()'
-	elif not scene.colliders:
+	if not scene.colliders:
 		yield (
 			'engines',
 			'O.engines has no collider: no pair is ever found',
@@ -53,7 +54,10 @@ def order(scene):
 
 def bonds(scene):
 	"""Bonds whose forces are not there when bodies are moved, or of which others know nothing."""
-	those = scene.those(PolytopeBonds)
+	those, removed = scene.those(PolytopeBonds), removedBonds() if scene.ownEngines else None
+	if removed is not None:
+		seen = f'O.engines has no PolytopeBonds any more, whose {removed.intactInScene} bonds were intact: those bodies are loose'
+		yield 'bonds', seen, 'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.bonds() before NewtonIntegrator'
 	if len(those) > 1:
 		yield 'bonds', f'O.engines has {len(those)} PolytopeBonds: contacts know the bonds of the first one only', 'keep one, and make all bonds with polytope.bond'
 	resetters = scene.those(ForceResetter)

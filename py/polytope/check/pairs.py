@@ -155,12 +155,12 @@ def forces(scene, loop, functor, one, other):
 				seen,
 				'take Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) or Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()',
 			)
-		elif undamped(scene, functor, maker, phys, one, other):
-			yield (
-				'damping and energy',
-				f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: one spring along the normal gains energy',
-				"take RockJointMat, or contactModel='conservative', or NewtonIntegrator.damping above 0 (usual: 0.2)",
-			)
+	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, functor, maker, phys, one, other):
+		yield (
+			'damping and energy',
+			f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: one spring along the normal gains energy',
+			"take RockJointMat, or contactModel='conservative', or NewtonIntegrator.damping above 0 (usual: 0.2)",
+		)
 
 
 def undamped(scene, functor, maker, phys, one, other):

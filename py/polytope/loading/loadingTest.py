@@ -1,24 +1,33 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What all loading tests share: steps until something is reached, a record of what was measured on the way, and its curves as a picture."""
 
+import math
+
 import numpy as np
 from yade import O
 
+from ..precision import isNumber
 from .sample import Sample, quasiStatic
 
-__all__ = ['LoadingTest', 'checkAxis', 'checkStress']
+__all__ = ['LoadingTest', 'checkAxis', 'checkGoal', 'checkStress']
 
 records = 200
 """Rows of the record for each run()."""
 
 
 def checkStress(stress, name='stress'):
-	if not stress > 0:
-		raise ValueError(f'{name}: must be above 0 [Pa], got {stress!r}')
+	if isinstance(stress, bool) or not isNumber(stress) or not 0 < stress < math.inf:
+		raise ValueError(f'{name}: must be a number above 0, and finite [Pa], got {stress!r}')
+
+
+def checkGoal(value, name):
+	"""Of run(): with what is not a number it would record rows without a step."""
+	if isinstance(value, bool) or not isNumber(value) or not abs(value) < math.inf:
+		raise ValueError(f'{name}: must be a finite number, got {value!r}')
 
 
 def checkAxis(axis):
-	if axis not in (0, 1, 2):
+	if isinstance(axis, bool) or axis not in (0, 1, 2):
 		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
 
 
@@ -37,9 +46,9 @@ class LoadingTest:
 		if not isinstance(sample, Sample):
 			raise ValueError(f'sample: must be what polytope.pack returns, or polytope.sample(), got {sample!r}')
 		self.sample, self.record = sample, {}
-		if rate is not None and not rate > 0:
+		if rate is not None and not (isNumber(rate) and 0 < rate < math.inf):
 			raise ValueError(f'rate: must be a strain rate above 0 [1/s], got {rate!r}')
-		if not inertialNumber > 0:
+		if not (isNumber(inertialNumber) and 0 < inertialNumber < math.inf):
 			raise ValueError(f'inertialNumber: must be above 0, got {inertialNumber!r}')
 		self.rate = rate if rate is not None else sample.inertialRate(stress, inertialNumber)
 
@@ -71,6 +80,7 @@ class LoadingTest:
 
 	def until(self, progress, goal, rows=records):
 		"""Steps until progress() has gone from what it is to *goal*, and notes so many rows at equal distances."""
+		self.sample.mustBePresent()
 		begin = progress()
 		sign = 1 if goal >= begin else -1
 		for mark in np.linspace(begin, goal, rows + 1)[0 if not self.record else 1 :]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One-dimensional compression, between rigid walls or in a periodic cell."""
 
+from ..arguments import namedArguments
 from .loadingTest import LoadingTest, checkAxis, checkStress
 
 __all__ = ['Oedometer', 'oedometer']
@@ -33,13 +34,17 @@ class Oedometer(LoadingTest):
 
 	def load(self, *stresses):
 		"""Loads to each of these axial stresses [Pa] in turn, waits for rest, and notes a row: stages of an oedometer test, unloading as well."""
+		if not stresses:
+			raise ValueError('stresses: give the axial stresses of the stages [Pa], such as load(1e5, 2e5, 4e5, 1e5)')
 		for stress in stresses:
 			checkStress(stress, 'stresses')
+		for stress in stresses:
 			self.sample.control(stresses={self.axis: stress})
 			self.sample.settle()
 			self.note()
 
 
+@namedArguments
 def oedometer(sample, axis=2):
 	"""Oedometer test: no lateral strain, the axial stress goes through stages: ``polytope.oedometer(sample).load(1e5, 2e5, 4e5, 1e5)``.
 

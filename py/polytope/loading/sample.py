@@ -10,7 +10,7 @@ import math
 import numpy as np
 from yade import O, Polytope, utils
 
-from ..heap import moverOf, partsOf
+from ..heap import moverOf, partsOf, solidVolume
 from ..measures import bodyStress
 
 __all__ = ['Sample']
@@ -21,6 +21,8 @@ mostSteps = 200000
 """Steps after which a sample that does not settle is given up."""
 between, looks = 20, 10
 """Steps between two looks at it, and how many in a row must find it at rest: one alone may be a turning point."""
+unchanged, stalledLooks = 1e-9, 50
+"""Relative change of the deviation between two looks, and how many such looks of a sample at rest, after which its stress will never be reached: the boundary has stopped."""
 fastestStrain = 3e-4
 """Strain in a time step at which boundaries move at most while they look for a stress. The step follows from the grains' own periods: neighbours that
 meet at this rate overlap by some 1e-3 of their size."""
@@ -39,13 +41,24 @@ class Sample:
 		self.ids = [k for k in dict.fromkeys(map(moverOf, ids)) if O.bodies[k].dynamic]
 		if not self.ids:
 			raise ValueError('ids: the sample has no body that can move')
+		self._first = O.bodies[self.ids[0]]
 		parts = [O.bodies[part] for k in self.ids for part in partsOf(k)]
 		if not all(isinstance(body.shape, Polytope) for body in parts):
 			raise ValueError('ids: a sample is made of polytopes')
-		self.solidVolume = sum(float(body.shape.volume) for body in parts)
+		self.volumes = {k: solidVolume(k) for k in self.ids}
+		self.solidVolume = sum(self.volumes.values())
 		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
 		self.meanSize = (self.solidVolume / len(self.ids)) ** (1 / 3)
 		self.stresses, self.rates, self.fastest = [None] * 3, [0.0] * 3, [math.inf] * 3
+
+	def mustBePresent(self):
+		"""RuntimeError where the scene is another one by now: what moves the boundary, and all that is measured, would be of bodies that are gone."""
+		k = self.ids[0]
+		# a body's text has its address, which no other one has while this one is kept
+		if not k < len(O.bodies) or repr(O.bodies[k]) != repr(self._first):
+			raise RuntimeError(
+				'sample: its bodies are not in the present scene, as after O.load or O.reset; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
+			)
 
 	@property
 	def volume(self):
@@ -54,7 +67,7 @@ class Sample:
 
 	@property
 	def porosity(self):
-		"""1 − volume of the bodies over that of the sample [-]. Overlaps of bodies count twice."""
+		"""1 − volume of the bodies over that of the sample [-]. Overlaps of bodies in contact count twice."""
 		return 1 - self.solidVolume / self.volume
 
 	def stress(self):
@@ -63,8 +76,7 @@ class Sample:
 		−1/V Σ f ⊗ (x − c) over bodies and their contacts, walls included; equal to the stress on the walls where all bodies are at rest
 		(Love 1927, Weber 1966).
 		"""
-		volumes = {k: sum(float(O.bodies[part].shape.volume) for part in partsOf(k)) for k in self.ids}
-		return -sum(volumes[k] * one for k, one in bodyStress(self.ids).items()) / self.volume
+		return -sum(self.volumes[k] * one for k, one in bodyStress(self.ids).items()) / self.volume
 
 	def control(self, stresses=None, rates=None):
 		"""What the boundary does from the next step on, until it is told otherwise.
@@ -72,6 +84,7 @@ class Sample:
 		:param dict stresses: axis (0, 1, 2) → normal stress that is held [Pa], positive in compression
 		:param dict rates: axis → rate of shortening [1/s]; axes in neither stand still
 		"""
+		self.mustBePresent()
 		for axis in range(3):
 			self.stresses[axis] = None if stresses is None or axis not in stresses else float(stresses[axis])
 			self.rates[axis] = 0.0 if rates is None else float(rates.get(axis, 0))
@@ -88,13 +101,17 @@ class Sample:
 		now = self.boundaryStress()
 		return max((abs(now[axis] / goal - 1) for axis, goal in enumerate(self.stresses) if goal), default=0.0)
 
+	def _stalled(self, deviation):
+		seen = f'the bodies are at rest, and the stress stays {100 * deviation:.2g} % off: they cannot bear it (porosity {self.porosity:.2g})'
+		return f'{seen}; give the material a higher normalStiffness, or a lower stress'
+
 	def settle(self, steps=mostSteps, untouched=False):
 		"""Steps until held stresses, if there are any, are met to 0.05 % and the bodies are at rest.
 
 		:param bool untouched: bodies that bear no force at all count as being at rest
 		:raises RuntimeError: if they are not after so many steps
 		"""
-		quiet = 0
+		quiet, still, before = 0, 0, 0.0
 		for _ in range(0, steps, between):
 			for _ in range(between):
 				O.step()
@@ -103,6 +120,11 @@ class Sample:
 			quiet = quiet + 1 if resting and self.deviation() < stressError else 0
 			if quiet == looks:
 				return
+			now = self.deviation()
+			still = still + 1 if resting and now > stressError and abs(now - before) < unchanged * now else 0
+			before = now
+			if still == stalledLooks:
+				raise RuntimeError(f'loading: {self._stalled(now)}')
 		seen = f'stress off by {100 * self.deviation():.2g} %, unbalanced force {float(utils.unbalancedForce()):.2g}'
 		raise RuntimeError(
 			f'loading: the sample has not come to rest within {steps} steps ({seen}); give more damping, or a stress that it can bear'

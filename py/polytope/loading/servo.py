@@ -56,4 +56,5 @@ def act():
 	"""What the engine calls."""
 	if acting[0] is None:
 		raise RuntimeError('loading: the boundary of this scene is not known in this session, as after O.load; make the loading test anew')
+	acting[0].mustBePresent()
 	acting[0].move()

@@ -3,7 +3,9 @@
 
 import math
 
-from .loadingTest import LoadingTest, checkStress
+from ..arguments import namedArguments
+from ..precision import isNumber
+from .loadingTest import LoadingTest, checkGoal, checkStress
 from .sample import quasiStatic
 from .splitBox import SplitBox
 from .walls import WalledSample
@@ -27,7 +29,7 @@ class ShearBox(LoadingTest):
 		super().__init__(sample, None, inertialNumber, stress)
 		# strain is in a band of some grains between the halves
 		self.speed = self.rate * band * sample.meanSize if speed is None else speed
-		if not 0 < self.speed < math.inf:
+		if not isNumber(self.speed) or not 0 < self.speed < math.inf:
 			raise ValueError(f'speed: must be above 0 [m/s], got {speed!r}')
 		self.sample = SplitBox(sample)
 		self.sample.control(stresses={2: stress})
@@ -47,6 +49,7 @@ class ShearBox(LoadingTest):
 
 	def run(self, displacement):
 		"""Moves the upper half to this displacement [m] along x, back if it is less than now, then stops it."""
+		checkGoal(displacement, 'displacement')
 		if not abs(displacement) <= self.sample.longest:
 			seen = (
 				f'displacement: at most {self.sample.longest:.3g} m, a quarter of the box, so that it does not open, got {displacement!r}'
@@ -57,6 +60,7 @@ class ShearBox(LoadingTest):
 		self.sample.speed = 0.0
 
 
+@namedArguments
 def shearBox(sample, stress, speed=None, inertialNumber=quasiStatic):
 	"""Direct shear: the upper half of the box slides along x over the lower one, under a constant normal stress: ``polytope.shearBox(sample, 1e5).run(0.01)``.
 

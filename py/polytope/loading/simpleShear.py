@@ -3,7 +3,8 @@
 
 import math
 
-from .loadingTest import LoadingTest, checkStress
+from ..arguments import namedArguments
+from .loadingTest import LoadingTest, checkGoal, checkStress
 from .sample import quasiStatic
 from .shearFrame import ShearFrame
 from .walls import WalledSample
@@ -48,6 +49,7 @@ class SimpleShear(LoadingTest):
 
 	def run(self, strain):
 		"""Shears to this strain (displacement over height) since the start of the test, back if it is less than now, then stands still."""
+		checkGoal(strain, 'strain')
 		if not abs(strain) <= self.largest:
 			raise ValueError(f'strain: between plates at most {self.largest:g}, got {strain!r}; for more take a periodic cell')
 		self.sample.shear(self.rate if strain > self.strain() else -self.rate)
@@ -55,6 +57,7 @@ class SimpleShear(LoadingTest):
 		self.sample.shear(0.0)
 
 
+@namedArguments
 def simpleShear(sample, stress, rate=None, inertialNumber=quasiStatic):
 	"""Simple shear: velocity along x in proportion to z, under a constant normal stress along z: ``polytope.simpleShear(sample, stress=1e5).run(0.3)``.
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Triaxial compression or extension, between rigid walls or in a periodic cell."""
 
-from .loadingTest import LoadingTest, checkAxis, checkStress
+from ..arguments import namedArguments
+from .loadingTest import LoadingTest, checkAxis, checkGoal, checkStress
 from .sample import quasiStatic
 
 __all__ = ['Triaxial', 'triaxial']
@@ -44,6 +45,7 @@ class Triaxial(LoadingTest):
 
 	def run(self, strain):
 		"""Shortens the sample to this axial strain since the start of the test (negative: extension; less than now: unloading), then stands still."""
+		checkGoal(strain, 'strain')
 		now = self.strains()[self.axis]
 		lateral = dict.fromkeys(self.lateral, self.stress)
 		self.sample.control(stresses=lateral, rates={self.axis: self.rate if strain > now else -self.rate})
@@ -51,6 +53,7 @@ class Triaxial(LoadingTest):
 		self.sample.control(stresses=lateral)
 
 
+@namedArguments
 def triaxial(sample, stress, axis=2, rate=None, inertialNumber=quasiStatic):
 	"""Triaxial test: lateral stresses are held, the axis is shortened at a constant rate: ``polytope.triaxial(sample, stress=1e5).run(0.2)``.
 

@@ -68,6 +68,7 @@ def run(steps, merged=True):
 	while steps > 0:
 		piece = mpy.comm.bcast(min(int(steps), recorders.stepsToNext()) if rank() == 0 else None)
 		mpy.mpirun(piece, size())
+		division.checkBonds()
 		steps -= piece
 		_record()
 	if merged:

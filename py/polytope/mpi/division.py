@@ -18,7 +18,7 @@ from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polyto
 from .._ranks import eraseRanks
 from .recorders import ofWholeScene
 
-__all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
+__all__ = ['check', 'checkBonds', 'handOut', 'install', 'shareTimeStep', 'size']
 
 shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
 """What runs after a time stepper on each rank."""
@@ -87,10 +87,50 @@ def _typedEngine(name):
 	raise RuntimeError(f'O.engines: there is no {name}, which a run on several processes needs')
 
 
+def _bonds():
+	"""The engine with the scene's bonds, or None; its name begins with _ where only several processes need it."""
+	return next((engine for engine in O.engines if isinstance(engine, yade.PolytopeBonds)), None)
+
+
+def _divideBonds(divided):
+	bonds = _bonds()
+	if bonds:
+		bonds._divided, bonds._missing = divided, 0
+
+
+def checkBonds():
+	"""After steps, on every rank.
+
+	:raises RuntimeError: a bond did not act, for its other body was not on its rank
+	"""
+	bonds = _bonds()
+	if mpy.comm.allreduce(bonds._missing if bonds else 0):
+		raise RuntimeError('O.engines: a bond joins bodies so far apart that their boxes do not meet; set a larger verletDist of the collider, or a smaller gap in polytope.bond')
+
+
+def _mergeBonds(states):
+	"""On rank 0: what the workers have found."""
+	bonds = _bonds()
+	if bonds:
+		for state in states:
+			bonds._takeStates(state)
+		bonds._adoptBodies()
+
+
 def _prepared(splitScene):
 	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
+	handedOut = _handedOut(splitScene)
 
 	@functools.wraps(splitScene)
+	def split():
+		handedOut()
+		_divideBonds(True)
+
+	return split
+
+
+def _handedOut(splitScene):
+
 	def split():
 		_disown()
 		if O.splittedOnce:
@@ -172,8 +212,6 @@ def check():
 	if any(body.isClump for body in O.bodies):
 		raise RuntimeError('O.bodies: clumps are not supported on several processes; run this scene on one')
 	for engine in O.engines:
-		if isinstance(engine, yade.PolytopeBonds) and engine.bonds:
-			raise RuntimeError('O.engines: bonds (polytope.bond) are not supported on several processes; run this scene on one')
 		if isinstance(engine, yade.Recorder):
 			name = engine.__class__.__name__
 			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
@@ -206,9 +244,13 @@ def _withBodiesOfRankZero(mergeScene):
 	@functools.wraps(mergeScene)
 	def merge():
 		merges = O.splitted
+		states = mpy.comm.gather(_bonds()._states() if mpy.rank > 0 and _bonds() else []) if merges else []
 		mergeScene()
-		if merges and mpy.rank == 0:
-			_own()
+		if merges:
+			_divideBonds(False)
+			if mpy.rank == 0:
+				_own()
+				_mergeBonds(states)
 
 	return merge
 
@@ -224,6 +266,20 @@ def _withCollider(parallelCollide):
 			contacts.put()
 
 	return collide
+
+
+def _withIdleRanks(checkAndCollide):
+	"""Of a rank without bodies that have a box, which is rank 0 where nothing is fixed, the integrator leaves 0, and the collider takes it that no
+	step was done: all ranks would search for pairs in every step."""
+
+	@functools.wraps(checkAndCollide)
+	def check():
+		newton = _typedEngine('NewtonIntegrator')
+		if newton.maxVelocitySq == 0:
+			newton.maxVelocitySq = 0.5  # as it is where no body has left its box
+		return checkAndCollide()
+
+	return check
 
 
 def _endAll(kind, fault, trace):
@@ -251,6 +307,7 @@ def install():
 	mpy.splitScene = _prepared(mpy.splitScene)
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
+	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
 	if size() > 1:

@@ -15,10 +15,12 @@ import math
 import os
 import pathlib
 import platform
+import statistics
 import subprocess
 import sys
 
 import kernels
+import memory
 import plots
 import results
 import scenes
@@ -27,7 +29,7 @@ import targets
 from tabulate import tabulate
 
 here = pathlib.Path(__file__).resolve().parent
-groups = ('kernels', 'shapes', 'results', 'scenes', 'growth', 'threads')
+groups = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'growth', 'threads')
 outputs = (
         'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
         'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
@@ -37,6 +39,7 @@ outputs = (
 def arguments():
 	parser = argparse.ArgumentParser(prog='./run bench', description=__doc__.split('\n\n')[1].replace('\n', ' '))
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
+	parser.add_argument('--large', action='store_true', help='the settled heaps by size also with 100 000 bodies: some hours')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
 	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
 	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only check the options
@@ -147,8 +150,13 @@ def shapeGroup(run):
 def resultGroup(run):
 	found = results.run(run.core, run.quick)
 	run.results['results'] = found
-	run.say(f"{found['bodies']} bodies, {found['contacts']} contacts, saved in {found['bytes'] / 1e6:.0f} MB; O.load takes {found['load']:.2f} s\n")
-	return targets.resultRows(found)
+	run.say(
+	        f"{found['bodies']} bodies, {found['contacts']} contacts, saved in {found['bytes'] / 1e6:.0f} MB, by a checkpoint in "
+	        f"{found['checkpointBytes'] / 1e6:.0f} MB, which O.load reads in {found['loadCheckpoint']:.2f} s\n"
+	)
+	used = memory.run(run.core, run.quick)
+	run.results['memory'] = used
+	return targets.resultRows(found) + targets.memoryRows(used)
 
 
 def describe(run, heaps):
@@ -189,6 +197,22 @@ def showExtras(run):
 	plots.extras(costs, run.output / 'asked-for.png')
 
 
+def sizeGroup(run):
+	found = run.scenes.sizes(run.large)
+	describe(run, [(method, one) for methods in found.values() for method, one in methods.items()])
+	rows = []
+	for number, methods in found.items():
+		each = {method: {name: [row['engines'][name] for row in one['rows']] for name in one['rows'][0]['engines']} for method, one in methods.items()}
+		# ours first; the collider of the spheres is YADE's own
+		for (name, ours), (peer, spheres) in zip(each['ours'].items(), each['spheres'].items(), strict=True):
+			cost = [1e6 * statistics.fmean(times) / methods[method]['bodies'] for method, times in (('ours', ours), ('spheres', spheres))]
+			rows.append([number, name if name == peer else f'{name}, {peer}', *cost, cost[0] / cost[1]])
+	run.say(tabulate(rows, ['settled bodies', 'engine', 'cubes, µs/body and step', 'spheres', 'ratio'], floatfmt='.3f') + '\n')
+	if not run.large:
+		run.note('sizes without --large: heaps of 100 000 are left out.')
+	return targets.sizeRows(found)
+
+
 def growthGroup(run):
 	found, memory = run.scenes.growth()
 	describe(run, [('cubes', one) for one in found.values()])
@@ -212,7 +236,7 @@ class Run:
 	"""State of one run: options, messages, results."""
 
 	def __init__(self, options):
-		self.programs, self.quick, self.core = options.programs, options.quick, os.cpu_count() - 1
+		self.programs, self.quick, self.large, self.core = options.programs, options.quick, options.large, os.cpu_count() - 1
 		self.output = pathlib.Path(options.output).resolve()
 		for name in outputs:  # of an earlier run, which may have measured more
 			(self.output / name).unlink(missing_ok=True)
@@ -239,7 +263,7 @@ def main():
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
 	rows, interrupted = [], False
-	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, growthGroup, threadGroup), strict=True):
+	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:
@@ -262,7 +286,7 @@ def main():
 	        run.output / 'heaps.csv', [
 	                {
 	                        **{key: value for key, value in one['request'].items() if key not in ('save', 'load', 'pairs')}, 'threads': one['threads'],
-	                        **row, 'bodies': one['bodies'], 'largestSpeed': one['largestSpeed'],
+	                        **{key: value for key, value in row.items() if key != 'engines'}, 'bodies': one['bodies'], 'largestSpeed': one['largestSpeed'],
 	                        'bytesPerBody': scenes.memoryPerBody(one),
 	                        'bytesPerContact': scenes.memoryPerContact(one)
 	                } for one in run.results['heaps'] for row in one['rows']

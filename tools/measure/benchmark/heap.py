@@ -3,15 +3,14 @@
 
 Usage: heap.py '{"method": "ours", …}' with the fields of Request as JSON. The last line printed is RESULT and JSON.
 """
-import ctypes
 import dataclasses
-import gc
 import json
 import os
 import sys
 import time
 
 import numpy as np
+from memory import memoryInUse
 from yade import Body, InsertionSortCollider, InteractionLoop, ForceResetter, NewtonIntegrator, O, Quaternion, Vector3, utils
 from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
 
@@ -215,23 +214,6 @@ def writePairs(path, scene):
 	np.savetxt(path, rows, fmt='%.17g', delimiter=',')
 
 
-class MallocInfo(ctypes.Structure):
-	"""struct mallinfo2 of the C library."""
-	_fields_ = [
-	        (name, ctypes.c_size_t)
-	        for name in ('arena', 'ordblks', 'smblks', 'hblks', 'hblkhd', 'usmblks', 'fsmblks', 'uordblks', 'fordblks', 'keepcost')
-	]
-
-
-def memoryInUse():
-	"""What C++ has allocated and not freed [bytes]: neither Python's small objects nor what allocators keep for later."""
-	gc.collect()
-	library = ctypes.CDLL(None)
-	library.mallinfo2.restype = MallocInfo
-	info = library.mallinfo2()
-	return info.uordblks + info.hblkhd
-
-
 # ------------------------------------------------------------------------------------------------------------------- measuring
 
 
@@ -273,6 +255,7 @@ def measure(scene, request):
 		        'contacts': (before[1] + after[1]) / 2,
 		        'loop': 1e-9 * share * scene.interactionLoop.execTime / each,
 		        'step': 1e-9 * share * sum(engine.execTime for engine in O.engines) / each,
+		        'engines': {type(engine).__name__: 1e-9 * share * engine.execTime / each for engine in O.engines},
 		        'share': share,
 		})
 	O.timingEnabled = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time of polytope.arrays(), O.save, O.load and a checkpoint of a large scene.
+"""Time of polytope.arrays(), a snapshot, O.save, O.load and a checkpoint of a large scene, and of O.save and O.load of as many of YADE's spheres.
 
 As a program (bench.py runs it in a process of its own) it prints what it measured as JSON. Walls of cubes, four contacts a cube as in a
 heap, made in random order, so that bodies and contacts lie in memory as in a heap, too.
@@ -16,15 +16,40 @@ numbers = {'quick': 10000, 'full': 100000}
 """Bodies."""
 
 
+def places(number):
+	side = round(number ** (1 / 3))
+	lattice = [(k % side, k // side % side, k // side**2) for k in range(number)]
+	random.Random(1).shuffle(lattice)
+	return [(0.999 * x, 1.01 * y, 0.999 * z) for x, y, z in lattice]
+
+
 def scene(number):
 	from yade import O, RockJointMat, polytope
 
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5))
-	side = round(number ** (1 / 3))
-	places = [(k % side, k // side % side, k // side**2) for k in range(number)]
-	random.Random(1).shuffle(places)
-	O.bodies.append([polytope.cuboid((0.999 * place[0], 1.01 * place[1], 0.999 * place[2]), (0.5, 0.5, 0.5)) for place in places])
+	O.bodies.append([polytope.cuboid(place, (0.5, 0.5, 0.5)) for place in places(number)])
 	O.engines = polytope.engines(timeStepper=False)
+	O.dt = 1e-6
+	for _ in range(2):
+		O.step()
+
+
+def spheres(number):
+	"""YADE's own at the same places, four contacts each."""
+	from yade import (
+	        Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+	        Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, utils
+	)
+
+	O.reset()
+	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
+	O.bodies.append([utils.sphere(place, 0.5) for place in places(number)])
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Sphere_Aabb()]),
+	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+	        NewtonIntegrator(),
+	]
 	O.dt = 1e-6
 	for _ in range(2):
 		O.step()
@@ -41,16 +66,26 @@ def median(call, repeats):
 
 
 def measure(quick):
-	from yade import O, polytope
+	from yade import O, PolytopeVTKRecorder, polytope
 
-	scene(numbers['quick' if quick else 'full'])
+	number = numbers['quick' if quick else 'full']
+	scene(number)
 	found = {'bodies': len(O.bodies), 'contacts': len(polytope.arrays().contacts.ids), 'arrays': median(polytope.arrays, 10)}
 	with tempfile.TemporaryDirectory() as folder:
+		found['snapshot'] = median(PolytopeVTKRecorder(fileName=f'{folder}/', recorders=['bodies', 'contacts'], iterPeriod=1), 3)
 		engine = polytope.checkpoint(f'{folder}/run', iterPeriod=1, onSignal=False)
 		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 1)
 		found['checkpoint'] = median(engine.write, 1)
 		found['bytes'] = os.path.getsize(f'{folder}/scene.yade')
+		found['checkpointBytes'] = os.path.getsize(f'{folder}/run.yade')
 		found['load'] = median(lambda: O.load(f'{folder}/scene.yade', quiet=True), 1)
+		found['loadCheckpoint'] = median(lambda: O.load(f'{folder}/run.yade', quiet=True), 1)
+		spheres(number)
+		found['spheres'] = {
+		        'contacts': O.interactions.countReal(),
+		        'save': median(lambda: O.save(f'{folder}/spheres.yade', quiet=True), 1),
+		        'load': median(lambda: O.load(f'{folder}/spheres.yade', quiet=True), 1),
+		}
 	return found
 
 

@@ -36,7 +36,7 @@ class Scenes:
 		command = ['taskset', '-c', str(self.core)] if threads == 1 else []
 		command += [sys.executable, str(here / 'heap.py'), json.dumps(request)]
 		environment = dict(os.environ, OMP_NUM_THREADS=str(threads), YADE_PREFIX=str(self.overlay(request.get('method', 'ours'))))
-		limit = 600 if self.quick else 3600
+		limit = 600 if self.quick else 4 * 3600 if request.get('number', 0) >= 1e5 else 3600
 		try:
 			output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=limit)
 		except subprocess.TimeoutExpired:
@@ -103,6 +103,15 @@ class Scenes:
 		number, columns = (500, 9) if self.quick else (10000, 30)
 		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
+
+	def sizes(self, large):
+		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}}."""
+		numbers = (500, ) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
+		found = {}
+		for number in tqdm(numbers, desc='settled heaps by size'):
+			heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True, 'settle': 8000, 'steps': 100 if number < 1e5 else 50}
+			found[number] = {method: self.run(method=method, **heap) for method in ('ours', 'spheres')}
+		return found
 
 	def extras(self):
 		"""The settled cubes once more from the same state, with optional features: {what: result}."""

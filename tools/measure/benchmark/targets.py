@@ -108,9 +108,16 @@ def resultRows(found):
 	size = f"{found['bodies']} bodies, {found['contacts']} contacts"
 	return [
 		below(f'polytope.arrays(), {size}', 50, 1e3 * found['arrays'], 'ms'),
+		below(f'PolytopeVTKRecorder, bodies and contacts, {size}', 1, found['snapshot'], 's'),
 		below(f'O.save, {size}', 5, found['save'], 's'),
 		below(f'checkpoint on the disk, {size}', 5, found['checkpoint'], 's'),
+		reported(f'O.save, {found["bodies"]} bodies', "YADE's spheres", found['save'], found['spheres']['save'], '{:.2f} s'),
+		reported(f'O.load, {found["bodies"]} bodies', "YADE's spheres", found['load'], found['spheres']['load'], '{:.2f} s'),
 	]
+
+
+def memoryRows(found):
+	return [below(f'memory of a {name}', bound, 1e-3 * found[name], 'kB') for name, bound in (('body', 1.1), ('pair apart', 0.3), ('contact', 1.2))]
 
 
 def sceneRows(found):
@@ -132,6 +139,16 @@ def settledRows(found):
 	return [atMost(f'InteractionLoop per contact, settled heap of {number} cubes', 4, "YADE's spheres", ours, spheres)]
 
 
+def sizeRows(found):
+	rows = []
+	for number, methods in found.items():
+		ours, spheres = (1e6 * median(methods[key]['perBody']) for key in ('ours', 'spheres'))
+		rows.append(atMost(f'time per body and step, settled heap of {number} cubes', 1.5, "YADE's spheres", ours, spheres))
+		ours, spheres = (1e6 * median([row['step'] / row['contacts'] for row in methods[key]['rows']]) for key in ('ours', 'spheres'))
+		rows.append(reported(f'time per contact and step, settled heap of {number} cubes', "YADE's spheres", ours, spheres))
+	return rows
+
+
 def growthRows(found, memory):
 	numbers = sorted(found)
 	first = numbers[0]
@@ -147,5 +164,10 @@ def growthRows(found, memory):
 
 
 def threadRows(found):
-	one, two = (1e6 * median([row['loop'] / row['pairs'] for row in found[threads]['rows']]) for threads in (1, 2))
-	return [atLeast(f"InteractionLoop per pair, threads 1 → 2, {found[1]['request']['number']} cubes", 1.8, 'one thread', two, one)]
+	cubes = f"{found[1]['request']['number']} cubes"
+	loop = [1e6 * median([row['loop'] / row['pairs'] for row in found[threads]['rows']]) for threads in (1, 2)]
+	step = [1e6 * median(found[threads]['perBody']) for threads in (1, 2)]
+	return [
+		atLeast(f'InteractionLoop per pair, threads 1 → 2, {cubes}', 1.85, 'one thread', loop[1], loop[0]),
+		atLeast(f'time per body and step, threads 1 → 2, {cubes}', 1.7, 'one thread', step[1], step[0]),
+	]

@@ -88,6 +88,11 @@ def _plates(floor):
 	return [_cuboid(low, high, floor, top) for low, high, top in floor.rows()]
 
 
+def _overlapping(floor):
+	"""Plates that reach below the next one by half of their length, their tops level: parts of a body cut approximately."""
+	return [_cuboid(low, min(high + (high - low) / 2, floor.ends[1]), floor, top) for low, high, top in floor.rows()]
+
+
 def _boxes(floor):
 	return [
 		utils.box(*_middle(low, high, *floor.side, top - floor.thickness, top), fixed=True) for low, high, top in floor.rows()
@@ -185,6 +190,7 @@ floorKinds = {
 	'slab': _slab,
 	'wall': _wall,
 	'plates': _plates,
+	'overlapping': _overlapping,
 	'oblique': _oblique,
 	'boxes': _boxes,
 	'facets': _facets,

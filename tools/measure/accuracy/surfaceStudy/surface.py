@@ -32,6 +32,7 @@ from yade import (
 	Vector3,
 )
 
+from yade.polytope.clumps import clump
 from yade.polytope.timeStep import stableTimeStep
 from .flatBodies import lyingBody, planarBodies
 from .floors import Floor
@@ -66,6 +67,8 @@ class SurfaceScene:
 	perArea: bool = False
 	"""Stiffness per area [Pa/m] instead of per contact [N/m]."""
 	pieces: Floor = dataclasses.field(default_factory=Floor)
+	clumped: bool = False
+	"""Pieces are the parts of one fixed clump, made by polytope.clump; polytopes only."""
 	friction: float = 0.0
 	"""Coefficient μ."""
 	incline: float = 0.0
@@ -106,9 +109,13 @@ class SurfaceScene:
 		self.up = np.array([0.0, 1.0, 0.0] if self.planar else [0.0, 0.0, 1.0])
 		self.along = np.array([math.cos(self.heading), math.sin(self.heading), 0.0])
 		self.across = np.cross(self.up, self.along)
-		for piece in self.pieces.pieces(self.floor):
+		made = self.pieces.pieces(self.floor)
+		for piece in made:
 			self._turned(piece)
-			O.bodies.append(piece)
+		if self.clumped:
+			clump(made)
+		else:
+			O.bodies.append(made)
 		self.moving = self.lying.body
 		self.moving.state.pos = Vector3(*self._start())
 		self._turned(self.moving)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of where bodies are and how they meet there, of polytope.check(). Each yields (what, seen, advice)."""
+
+import math
+
+import numpy as np
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+
+__all__ = ['notNumbers', 'placeFindings']
+
+softest = 0.1
+"""Overlap over the inscribed radius, under a body's own weight or in its impact on one face, above which the contact gives way: overlaps of
+some thousandths are usual, and forces are computed for small ones."""
+
+half = 0.5
+"""Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
+
+
+def placeFindings(scene):
+	for one in (coincidence, spanning, stiffness):
+		yield from one(scene)
+
+
+def notNumbers(scene):
+	"""Also of clumps, whose members follow them."""
+	names = ('pos', 'ori', 'vel', 'angVel')
+	lost = {}
+	for body in scene.O.bodies:
+		if body is not None and (wrong := [name for name in names if not _finite(getattr(body.state, name))]):
+			lost[body.id] = wrong
+	if lost:
+		key, wrong = next(iter(lost.items()))
+		more = f', and {len(lost) - 1} bodies more' if len(lost) > 1 else ''
+		seen = f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
+		yield 'not a number', seen, 'give it finite values; in a run, go back to a saved state and take PolytopeTimeStepper()'
+
+
+def _finite(several):
+	return all(math.isfinite(several[k]) for k in range(len(several)))
+
+
+def coincidence(scene):
+	"""Polytopes of one shape in one place: the overlap is the whole body, and nothing says which way they are to part."""
+	there, pairs = {}, []
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope):
+			planes = sorted(float(offset) for offset in body.shape.offsets)
+			where = (*map(float, body.state.pos), float(body.shape.volume), *planes)
+			other = there.setdefault(where, body)
+			sameClump = body.isClumpMember and other.isClumpMember and body.clumpId == other.clumpId
+			if other is not body and other.mask & body.mask and not sameClump:
+				pairs.append((other.id, body.id))
+	if pairs:
+		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
+		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: they are shot apart, in any direction'
+		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
+
+
+def spanning(scene):
+	"""Bodies of more than half of a periodic cell: YADE's collider ends the run when it meets one, since an image could be on either side."""
+	colliders = [collider for collider in scene.colliders if not collider.allowBiggerThanPeriod]
+	if not scene.O.periodic or not colliders:
+		return
+	cell = np.array(scene.O.cell.hSize, float).reshape(3, 3)
+	if not abs(np.linalg.det(cell)) > 0:
+		yield 'periodic cell', 'O.cell has no volume', 'O.cell.setBox(x, y, z) with the edges of the cell'
+		return
+	margin = 2 * max(float(collider.verletDist) for collider in colliders) / np.abs(np.linalg.norm(cell, axis=0))
+	large = {}
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope):
+			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+			corners = np.linalg.solve(cell, turn @ np.array(body.shape.vertices, float).reshape(-1, 3).T)  # in periods
+			share = float((np.ptp(corners, axis=1) + np.maximum(margin, 0)).max())
+			if share > half:
+				large[body.id] = share
+	if large:
+		key = max(large, key=large.get)
+		seen = f"{len(large)} bodies (body {key} most) span {large[key]:.2g} of the periodic cell with the collider's verletDist: YADE ends the run"
+		yield 'periodic cell', seen, 'a larger cell, smaller bodies, or walls; for plates through the whole cell allowBiggerThanPeriod=True in the collider'
+
+
+def stiffness(scene):
+	"""A body on one of its faces, of the mean size of those of its volume, against another one of its material."""
+	makers = [
+		one for loop in scene.loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)
+	]
+	if not makers or makers[0].kn:  # a MatchMaker: its values are not known here
+		return
+	deepest, worst = 0.0, None
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and body.dynamic and not body.isClumpMember:
+			share = _overlap(body, makers[0].stiffnessPerArea, scene.gravity())
+			deepest, worst = max((deepest, worst), (share, body), key=lambda one: one[0])
+	if deepest <= softest:
+		return
+	perArea = makers[0].stiffnessPerArea
+	unit, other = ('Pa/m', 'N/m') if perArea else ('N/m', 'Pa/m')
+	value = f'normalStiffness {float(worst.material.normalStiffness):.3g} {unit}'
+	seen = f'{value}: body {worst.id} sinks in by {deepest:.2g} of its inscribed radius, by its weight or speed'
+	advice = (
+		f'a higher normalStiffness; if it is meant in {other}: Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea={not perArea})'
+	)
+	yield 'stiffness', seen, advice
+
+
+def _overlap(body, perArea, gravity):
+	"""Over its inscribed radius."""
+	shape, weight = body.shape, float(body.state.mass)
+	face = float(shape.volume) ** (2 / 3) if shape.dimension == 3 else math.sqrt(float(shape.volume * shape.thickness))
+	k = float(body.material.normalStiffness) * (face if perArea else 1)
+	return (
+		max(weight * gravity / k, float(body.state.vel.norm()) * math.sqrt(weight / k)) / float(shape.inscribedRadius)
+		if weight > 0
+		else 0.0
+	)
