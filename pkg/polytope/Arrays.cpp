@@ -186,10 +186,10 @@ namespace {
 
 	/// One row of contacts: what is needed of the interaction, and its parts.
 	struct Row {
-		const IGeom*         geom;
-		const IPhys*         phys;
-		std::array<int, 2>   ids;
-		std::array<int, 3>   image;
+		const IGeom*       geom;
+		const IPhys*       phys;
+		std::array<int, 2> ids;
+		std::array<int, 3> image;
 	};
 
 	/// What a row is made of, called into the cache; other geometries and physics are smaller.
