@@ -45,3 +45,16 @@ def results(where):
 	"""(findings, their rows by quantity) of a run in *where*."""
 	content = json.loads((where / 'out/findings.json').read_text())
 	return content, {row['quantity']: row for row in content['rows']}
+
+
+def expectRangesOfTheWholeRun(rows, letter, but=()):
+	"""Each row that a short run has in common with the whole run that docs/results keeps is judged by a range as wide, but those named in *but*; and by the
+	same range, where it does not lie about what the run itself has measured."""
+	kept = json.loads((folder.parents[1] / 'docs/results/paper.json').read_text())['scripts']
+	whole = {row['quantity']: row for script in kept if script['letter'] == letter for row in script['rows']}
+	common = [name for name, row in whole.items() if row['accept'] and name in rows and name not in but]
+	assert len(common) > len([row for row in rows.values() if row['accept']]) / 2, common
+	for name in common:
+		(low, high), (lowest, highest) = rows[name]['accept'], whole[name]['accept']
+		assert high - low == pytest.approx(highest - lowest, rel=1e-2, abs=1e-12), name
+		assert low == pytest.approx(lowest, rel=1e-3, abs=1e-12), name

@@ -5,6 +5,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -15,6 +16,7 @@ from yade import polytope
 folder = pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/accuracy'
 
 import pairTables
+from pairAxes import axes
 from pairExtremes import program
 
 # by its path: `./run paper` has a report.py, too
@@ -42,11 +44,56 @@ def testPairsHoldTheStatedLimits(tmp_path):
 	assert len(list((tmp_path / 'samples').glob('*.csv'))) == 14  # also the transitions of the deep axis
 
 
+def stated(axis):
+	"""What docs/accuracy.md states of an axis, without its first column."""
+	(line,) = re.findall(rf'^\| {re.escape(axis)} \| (.*) \|$', (folder.parents[2] / 'docs/accuracy.md').read_text(), re.MULTILINE)
+	return line
+
+
+ofPairs = {
+	'depth': ('overlap depth', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14', 'down to 1e-6': 'to 3e-9 of the overlap', 'down to 1e-14': '5e-15'}),
+	'aspect': ('aspect ratio', {'s* over': 's* to 1e-14', 'depth × normal': 'depth to 1e-12', 'up to 1e8': 'to 1e-4 of the overlap', 'the overlap': 'conservative to 0.03'}),
+	'size': ('size ratio of the pair', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
+	'angle': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
+	'twins': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
+	'planes': ('planes per body; redundant, duplicated', {'s* over': 's* to 1e-14', 'depth over': 'depth 2e-14', 'contact point': 'point 1e-8'}),
+	'units': ('units', {'scaled': 'scaled answer to 1e-11'}),
+}
+"""Axis of the pairs → row of the table in docs/accuracy.md, and what is in a limit's text → what is in that row, which ends with the limit or its unit."""
+
+
+@pytest.mark.parametrize('axis', ofPairs)
+def testLimitsOfPairsAreThoseOfTheDocumentation(axis):
+	row, limits = ofPairs[axis]
+	for text, said in limits.items():
+		limit = next(one for one in axes[axis].limits if text in one.text and (text != 'the overlap' or one.model == 'conservative'))
+		assert said in stated(row)
+		assert limit.most == float(re.findall(r'\d[\d.e-]*', said.removesuffix(' of the overlap').replace('s*', ''))[-1]), limit.text
+
+
+ofScenes = {
+	'Stiffness ratio: normal forces at rest, worst relative error': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
+	'Mass ratio: heavy block left on a light one (paper), worst relative error of a force': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
+	'Mass ratio: momentum after a collision, worst relative change': ('stiffness ratio 1e6, mass ratio 1e9', 'momentum to 1e-14'),
+	'Tower of 50 blocks: worst relative error of a normal force (paper)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Tower of 50 blocks: worst relative error of a normal force (conservative)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Steps at rest: way of a block of 1 m in 1000000 steps': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', '; 1e-11'),
+	'Steps at rest: its turn': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'm, 1e-10'),
+	'Slide: distance after 1000000 steps, worst relative error': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'distance to 1e-5'),
+}
+"""Row of the findings → row of the table in docs/accuracy.md, and what is in it; ends with the limit."""
+
+
 def testScenesHoldTheStatedLimits(tmp_path):
+	"""The short run, with the limits and the numbers of steps of the whole one."""
 	code, findings = run('sceneExtremes', tmp_path, '--quick')
 	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
 	assert not [row for row in findings['rows'] if row['good'] is False]  # None: reported only
 	assert code == 0 and len(list(tmp_path.glob('*.png'))) == 6
+	accept = {row['quantity']: row['accept'] for row in findings['rows']}
+	for quantity, (row, said) in ofScenes.items():
+		assert said in stated(row)
+		assert accept[quantity] == [0, float(said.split()[-1])], quantity
 
 
 def sample(**changes):

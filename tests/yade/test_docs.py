@@ -6,6 +6,8 @@ import os
 import pathlib
 import re
 import runpy
+import shlex
+import subprocess
 import sys
 
 import pytest
@@ -82,6 +84,41 @@ def testCommandsThatAreNamedExist(name):
 	assert {'demo', 'test', 'yade', 'python', 'help'} <= known
 	for command in re.findall(r'(?<!\w)\./run +([a-z]+)', (project / name).read_text()):
 		assert command in known, f'{name}: ./run {command}'
+
+
+def commands(text):
+	"""The words after `./run` of each command in blocks of code and between backquotes."""
+	blocks = [line for _, kind, body in fence.findall(text) if kind in ('', 'sh') for line in body.splitlines()]
+	inline = re.findall(r'`([^`]*)`', prose(text))
+	found = [re.match(r'\s*\./run ([a-z].*)', line) for line in blocks + [' '.join(span.split()) for span in inline]]
+	words = [re.sub(r'[|…\[\]]', ' ', one[1]) for one in found if one]  # alternatives, and what may be left out
+	return [shlex.split(line, comments=True) for line in words]
+
+
+def notTaken(verb, *arguments):
+	"""Why `./run` refuses it, or which option the program behind it does not have; nothing if it is taken."""
+	if verb == 'python':
+		script = project / ''.join(arguments[:1])
+		options = [word for word in arguments if word.startswith('--')]
+		texts = [path.read_text() for path in (script, *script.parent.glob('boon2012/reporting/options.py')) if path.is_file()]
+		return ' '.join(option for option in options if not any(f"'{option}'" in text for text in texts))
+	tools = project / 'tools'
+	check = f'. {shlex.quote(str(tools / "messages.sh"))}; . {shlex.quote(str(tools / "verbs.sh"))}; checkArguments "$@"'
+	return subprocess.run(['bash', '-c', check, 'run', verb, *arguments], capture_output=True, text=True).stderr
+
+
+@pytest.mark.parametrize('name', names)
+def testCommandsTakeTheirArguments(name):
+	for words in commands((project / name).read_text()):
+		assert not notTaken(*words), f'{name}: ./run {" ".join(words)}: {notTaken(*words)}'
+
+
+def testArgumentsThatAreNotTakenAreFound():
+	found = commands('`./run search\n--pears 3` `./run COMMAND`\n```sh\n./run bench --only kernels  # x\n```\n')
+	assert found == [['bench', '--only', 'kernels'], ['search', '--pears', '3']]
+	assert not notTaken('bench', '--only', 'kernels') and '--pears' in notTaken('search', '--pears', '3')
+	assert 'bones' in notTaken('accuracy', '--only', 'bones')
+	assert notTaken('python', 'examples/paper/f_collisions.py', '--quick', '--colision', 'edgeEdge') == '--colision'
 
 
 def testReadmeIsShortAndHasTheCommandsOfContinuousIntegration():

@@ -3,6 +3,8 @@
 import json
 import math
 import os
+import pathlib
+import re
 import subprocess
 import sys
 
@@ -247,3 +249,10 @@ def testStrangeBoxesAndFacetsAreCountedNotFatal():
 	ends = answers[3 * 16], answers[-1]  # the box and the facet as they were
 	assert all(status == 'contact' and depth == pytest.approx(1e-4, rel=1e-9) for status, depth in ends)
 	assert all(math.isfinite(depth) for _, depth in answers)
+
+
+def testStandInsAreMadeWhereNothingIsThrown():
+	"""Construction may also end with what no box or facet above brings about (no inscribed ball found, no memory): all is made within shapeOrNull,
+	which lets nothing out (tests/core/ShapeFactoryTest.cpp)."""
+	source = (pathlib.Path(__file__).resolve().parents[2] / 'pkg/polytope/MixedPairs.cpp').read_text()
+	assert re.findall(r'\bpartner\s*=\s*([\w:]+)', source) == ['polytope::shapeOrNull'] * 3

@@ -5,7 +5,7 @@ import csv
 import math
 
 import pytest
-from paperScripts import results, run, runHere
+from paperScripts import expectRangesOfTheWholeRun, results, run, runHere
 from yade import O
 from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.beam.limits import BeamLimits
@@ -46,6 +46,10 @@ def testCentroidIsTheClosedForm(quick):
 	assert rows['centroid: work up to the peak']['ours'] == pytest.approx(204.7, abs=0.05)
 	assert rows['centroid: energy stored at the peak']['ours'] == pytest.approx(223.0, abs=0.05)
 	assert rows['contact queries without an answer']['ours'] == 0
+
+
+def testRangesAreThoseOfTheWholeRun(quick):
+	expectRangesOfTheWholeRun(results(quick)[1], 'B')
 
 
 def testAnalyticCentre(quick):

@@ -7,7 +7,7 @@ from math import atan, degrees, radians, tan
 
 import numpy as np
 import pytest
-from paperScripts import expectRefusal, folder, results, run, runHere
+from paperScripts import expectRangesOfTheWholeRun, expectRefusal, folder, results, run, runHere
 from scenes import blockOnFloor, contact, joint, loop
 from yade import MatchMaker, O, polytope
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
@@ -35,6 +35,10 @@ def testCriticalAngleIsThatOfTheReference(quick):
 	assert row['accept'] == [pytest.approx(33.18), pytest.approx(33.28)] and content['good'] and row['good']
 	assert abs(row['ours'] - 33.23) <= 0.05
 	assert row['theory'] == pytest.approx(33.35722, abs=5e-6)
+
+
+def testRangesAreThoseOfTheWholeRun(quick):
+	expectRangesOfTheWholeRun(quick[2], 'C')
 
 
 def testAnswerDoesNotHangOnTimeStepAndStiffness(quick):

@@ -6,7 +6,7 @@ from math import atan, cos, degrees, pi, radians
 
 import numpy as np
 import pytest
-from paperScripts import expectRefusal, folder, results, run, runHere
+from paperScripts import expectRangesOfTheWholeRun, expectRefusal, folder, results, run, runHere
 from yade import O
 from boon2012.roofWedge.scene import RoofWedge
 from boon2012.wedges.blockGeometry import BlockGeometry, touchingRoofBlocks
@@ -38,6 +38,10 @@ def testCriticalAngle(quick, way, gravity, angle):
 	assert row['accept'] == [pytest.approx(angle - 0.02, abs=1e-4), pytest.approx(angle + 0.02, abs=1e-4)]
 	force = rows[f'the same against 30° + atan(W/ΣH), {name}']
 	assert force['good'] and abs(force['ours'] - force['theory']) <= 0.02
+
+
+def testRangesAreThoseOfTheWholeRun(quick):
+	expectRangesOfTheWholeRun(quick[1], 'D')
 
 
 def testAnswerDoesNotHangOnTimeStepAndStiffness(quick):

@@ -7,7 +7,7 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from paperScripts import folder, results, run, runHere
+from paperScripts import expectRangesOfTheWholeRun, folder, results, run, runHere
 from yade import O
 from boon2012.reporting.findings import Findings
 from boon2012.slope.scene import SlumpingSlope, readSlope
@@ -32,6 +32,7 @@ def testQuickVariantHoldsEveryTolerance(tmp_path):
 	assert done.returncode == 0, done.stdout + done.stderr
 	content, rows = results(tmp_path)
 	assert content['good']
+	expectRangesOfTheWholeRun(rows, 'E')
 	assert 19 <= rows['critical friction angle']['ours'] <= 22.5
 	assert rows['critical friction angle, limit analysis']['ours'] == pytest.approx(19.75, abs=0.005)
 	assert rows['least backward rotation of the lowest 5 outer blocks at failure']['ours'] > 0.1

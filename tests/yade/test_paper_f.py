@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from paperScripts import folder, results, run, runHere
+from paperScripts import expectRangesOfTheWholeRun, folder, results, run, runHere
 from yade import O
 from yade.polytope.motionRecord import MotionRecord
 from boon2012.collisions.scene import Block, Collision, readBlocks
@@ -20,6 +20,7 @@ def testQuickVariantHoldsEveryTolerance(tmp_path):
 	assert done.returncode == 0, done.stdout + done.stderr
 	content, rows = results(tmp_path)
 	assert content['good']
+	expectRangesOfTheWholeRun(rows, 'F')
 	assert rows['F1: height at rest']['ours'] == pytest.approx(0.499804, abs=1e-5)
 	assert rows['F1: lies on its face −z']['ours'] == 1
 	assert rows['F1: place of rest, distance from (0.472, 0.518)']['ours'] < 0.1

@@ -92,7 +92,7 @@ def mass(findings, quick):
 	findings.row(f'{title}: momentum after a collision, worst relative change', worst(r.momentum for _, _, r in results), accept=(0, 1e-14))
 	findings.row(f'{title}: light body’s speed after it, worst relative error', worst(r.speed for _, _, r in results), accept=(0, 1e-4))
 	errors = worst(x for _, _, r in stacks for x in (r.lowerForce, r.upperForce))
-	findings.row(f'{title}: heavy block left on a light one (paper), worst relative error of a force', errors, accept=(0, 1e-4))
+	findings.row(f'{title}: heavy block left on a light one (paper), worst relative error of a force', errors, accept=(0, 1e-7))
 	findings.text(
 		f'{title}. A cube meets another face on face, without friction and damping, at a fiftieth of √(m/k): the error of its speed is the time '
 		'step’s. And a heavy block is placed on a light one with the closed form’s overlaps, and left for 5000 steps of the light one; what the first step gave it (g Δt) swings on.'
@@ -141,6 +141,8 @@ def towers(findings, quick):
 	for model, r in last.items():
 		findings.row(f'{title}: worst relative error of a normal force ({model})', r.force, accept=(0, 5e-5))
 		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 5e-3))
+	# blocks aside tilt their joints, and the top comes down with the square of the way aside: 1e-3 of the settlement after 6000 steps, a quarter of
+	# that with half the way, 3e-13 with none; it goes on for as long as the column leans, 4.5e-3 after 30 000
 	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
 	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
 		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')

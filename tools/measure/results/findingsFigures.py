@@ -80,4 +80,19 @@ def verdicts(name):
 	return lambda folder: table(['study', 'limits met', 'missed', 'took', 'run on'], map(line, scriptsOf(folder, name)))
 
 
-figures = {'paper.rows': allRows('paper'), 'paper.verdicts': verdicts('paper'), 'accuracy.verdicts': verdicts('accuracy')}
+def speedKept(contact):
+	"""Over flush pieces at 1 m/s: the largest loss or gain of speed, over the speed, with a stiffness per contact and per area."""
+
+	def figure(folder):
+		rows = [row for script in scriptsOf(folder, 'accuracy') if script['name'] == 'surfaces' for row in script['rows']]
+		if not rows:
+			return 'not measured'
+		loss = {row['quantity']: row['ours'] for row in rows}
+		return '; '.join(short(loss[f'1 m/s over three joints: loss of speed: {contact}, per {rule}'], 2) for rule in ('contact', 'area'))
+
+	return figure
+
+
+contacts = {'default': 'default', 'paper': "paper's normal", 'conservative': 'conservative'}
+figures = {f'accuracy.speed.{name}': speedKept(contact) for name, contact in contacts.items()}
+figures |= {'paper.rows': allRows('paper'), 'paper.verdicts': verdicts('paper'), 'accuracy.verdicts': verdicts('accuracy')}
