@@ -248,13 +248,13 @@ class SurfaceStudy:
 			wide, narrow = gapHolds(contact, perArea)
 			rows.append(['gap of 0.12 m under a cube of 0.5 m: come down [m]', name, rule, wide, '', '', abs(wide) < 1e-3])
 			rows.append(['gap of 0.12 m under a cube of 0.1 m: come down [m]', name, rule, narrow, '', '', narrow > 0.04])
-			for over in (0.2, -0.2):
+			for over in (0.3, -0.2):  # of its half length of 250 mm
 				# faces with a stiffness per area: the edge is pressed in, and it takes a while to come to rest
 				pressed = perArea and not contact and over > 0
 				down = edgeCarries(contact, perArea, over=over, time=3 if pressed else 0.3)
 				where = 'inside' if over > 0 else 'outside'
 				good = abs(down / restOverEnd(over) - 1) < 0.01 if pressed else down < 1e-3 if over > 0 else down > 0.01
-				rows.append([f'end of a slab, centroid 50 mm {where}: come down [m]', name, rule, down, '', '', good])
+				rows.append([f'end of a slab, centroid {abs(over) * 250:.0f} mm {where}: come down [m]', name, rule, down, '', '', good])
 		self.findings.table(
 			'edges',
 			'What must not change: a step stops a body or lifts it (first number: how far its front is past the step’s face [m], then the '
