@@ -138,6 +138,16 @@ def testResultsWithoutARevisionAreNotTaken(root, tmp_path):
 	assert code and '--take bench' in said
 
 
+def testScriptsThatWereNotRunAgainKeepTheirResults(root, tmp_path):
+	findings(tmp_path / 'one/wedge')
+	findings(tmp_path / 'one/beam')
+	findings(tmp_path / 'two/beam', revision='abcdef0123', date='2026-11-24')
+	for run in ('one', 'two'):
+		assert results('--take', 'accuracy', tmp_path / run, '--root', root)[0] == 0
+	scripts = {script['name']: script for script in json.loads((root / 'docs/results/accuracy.json').read_text())['scripts']}
+	assert scripts['wedge']['revision'] == '0123456789' and scripts['beam']['revision'] == 'abcdef0123'
+
+
 def testResultsOfARunInWhichAScriptFailedAreNotTaken(root, tmp_path):
 	findings(tmp_path / 'found/wedge')
 	findings(tmp_path / 'found/beam')

@@ -22,6 +22,16 @@ def taken(source):
 		scripts.append({'name': path.parent.name, 'letter': found['letter'], 'title': found['title'], **about, 'good': found['good'], 'rows': found['rows']})
 	if not scripts:
 		raise ValueError(f'{source}: no */findings.json there')
+	return _written(scripts)
+
+
+def withKept(text, path):
+	"""New results with those of the scripts that were not run with them; each says its revision and date."""
+	scripts = {script['name']: script for source in ([path.read_text()] if path.exists() else []) + [text] for script in json.loads(source)['scripts']}
+	return _written([scripts[name] for name in sorted(scripts)])
+
+
+def _written(scripts):
 	return json.dumps({'scripts': scripts}, indent=' ', ensure_ascii=False) + '\n'
 
 

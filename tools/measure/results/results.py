@@ -74,8 +74,8 @@ def take(root, name, source):
 	except (OSError, KeyError, TypeError) as error:
 		raise ValueError(f'--take {name} {source}: not the results of a whole run: {type(error).__name__}: {error}') from error
 	(root / 'docs/results').mkdir(exist_ok=True)
-	if name == 'mutation':
-		text = mutationFigures.withKept(text, root / 'docs/results' / file)
+	if hasattr(module, 'withKept'):  # parts may be run apart
+		text = module.withKept(text, root / 'docs/results' / file)
 	(root / 'docs/results' / file).write_text(text)
 
 
