@@ -2,6 +2,7 @@
 """Directions and forces of a packing as diagrams: roses of contact normals and of long axes, histogram of contact forces."""
 
 import numbers
+import os
 
 import numpy as np
 
@@ -61,7 +62,7 @@ def forceHistogram(path=None, bins=40, ids=None):
 		diagram.set_yscale('log')
 		diagram.set_xlabel('normal force over its mean [-]')
 		diagram.set_ylabel('probability density [-]')
-		figure.savefig(path, dpi=120)
+		_save(figure, path)
 	return edges, density
 
 
@@ -100,7 +101,7 @@ def _rose(path, directions, weights, plane, bins, what):
 		figure, diagram = _figure(projection='polar')
 		diagram.bar(edges[:-1] + width / 2, parts, width, edgecolor='white')
 		diagram.set_title(f'{what} in {plane}')
-		figure.savefig(path, dpi=120)
+		_save(figure, path)
 	return edges, parts
 
 
@@ -109,3 +110,10 @@ def _figure(**subplot):
 
 	figure = Figure(figsize=(6.4, 4.8), layout='constrained')
 	return figure, figure.add_subplot(**subplot)
+
+
+def _save(figure, path):
+	try:
+		figure.savefig(os.fspath(path), dpi=120)
+	except (TypeError, ValueError) as error:
+		raise ValueError(f'path: must name a PNG, SVG or PDF file, got {path!r}') from error

@@ -100,7 +100,7 @@ def testAllFacesOfJointedRockAreBonded():
 def testAnUnloadedAggregateStaysAsItIs():
 	made = aggregate(12, tensileStrength=1e3, cohesion=1e3)
 	places = [(Vector3(body.state.pos), Quaternion(body.state.ori)) for body in O.bodies]
-	O.run(10000, wait=True)
+	O.run(100000, wait=True)
 	assert polytope.bonds().intactCount == made > 30
 	assert max((body.state.pos - place).norm() for body, (place, _) in zip(O.bodies, places, strict=True)) < 1e-9
 	assert max(abs((body.state.ori.conjugate() * turn).toAxisAngle()[1]) for body, (_, turn) in zip(O.bodies, places, strict=True)) < 1e-9
