@@ -3,6 +3,7 @@
 import numbers
 import os
 import pathlib
+import signal
 import sys
 import time
 
@@ -11,6 +12,10 @@ os.environ.setdefault('OMP_WAIT_POLICY', 'passive')  # waiting threads do not oc
 import pytest
 import yade
 from yade import polytope
+
+# a shell that starts the tests in the background lets them, and the programs they start, ignore ctrl-C, which some of these are sent
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+	signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Repeated in wider precisions than double, each file for what it alone compiles or computes differently there. What is left out repeats
 # double's code with other scenes (the paper's simulations, studies, theory), or counts and compares runs with each other (bounds, threads,
