@@ -13,6 +13,15 @@ YADE_PLUGIN((PolytopeBonds));
 
 namespace {
 
+	/// Of the process that computes a body, and of this one: 0 where YADE is built without MPI.
+#ifdef YADE_MPI
+	int rankOf(const Body& body) { return body.subdomain; }
+	int rankOf(const Scene& scene) { return scene.subdomain; }
+#else
+	int rankOf(const Body&) { return 0; }
+	int rankOf(const Scene&) { return 0; }
+#endif
+
 	/// Of the second body, in the period of the first.
 	Vector3r shiftOf(const PolytopeBond& bond, const Scene& scene)
 	{
@@ -68,8 +77,8 @@ void PolytopeBonds::action()
 /// and does not know the others; workers send it the forces on its own.
 bool PolytopeBonds::isOurs(const PolytopeBond& bond) const
 {
-	const auto own = [&](Body::id_t id) { return scene->bodies->exists(id) && (*scene->bodies)[id]->subdomain == scene->subdomain; };
-	return scene->subdomain == 0 ? own(bond.id1) && own(bond.id2) : own(bond.id1) || own(bond.id2);
+	const auto own = [&](Body::id_t id) { return scene->bodies->exists(id) && rankOf(*(*scene->bodies)[id]) == rankOf(*scene); };
+	return rankOf(*scene) == 0 ? own(bond.id1) && own(bond.id2) : own(bond.id1) || own(bond.id2);
 }
 
 bool PolytopeBonds::isAbsent(const PolytopeBond& bond) const
@@ -206,12 +215,12 @@ boost::python::list PolytopeBonds::bondList() const
 boost::python::list PolytopeBonds::states() const
 {
 	// of the first body's rank, or where that is rank 0, which has fixed bodies alone, of the second's
-	const auto rankOf = [&](Body::id_t id) { return scene->bodies->exists(id) ? (*scene->bodies)[id]->subdomain : Body::id_t(-1); };
+	const auto decides = [&](Body::id_t id) { return scene->bodies->exists(id) ? rankOf(*(*scene->bodies)[id]) : -1; };
 	boost::python::list all;
 	for (int k = 0; k < int(bonds.size()); ++k) {
 		const PolytopeBond& bond  = *bonds[k];
-		const int           first = rankOf(bond.id1);
-		if ((first == 0 ? rankOf(bond.id2) : first) != scene->subdomain) continue;
+		const int           first = decides(bond.id1);
+		if ((first == 0 ? decides(bond.id2) : first) != rankOf(*scene)) continue;
 		all.append(boost::python::make_tuple(k, bond.intact, bond.failure, bond.failedAt, bond.energy, bond.normalStress,
 		        bond.edgeStress, bond.shearStress,
 		        boost::python::make_tuple(bond.force, bond.moment, bond.point, bond.arm1, bond.arm2)));
