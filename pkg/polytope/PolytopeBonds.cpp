@@ -215,7 +215,7 @@ boost::python::list PolytopeBonds::bondList() const
 boost::python::list PolytopeBonds::states() const
 {
 	// of the first body's rank, or where that is rank 0, which has fixed bodies alone, of the second's
-	const auto decides = [&](Body::id_t id) { return scene->bodies->exists(id) ? rankOf(*(*scene->bodies)[id]) : -1; };
+	const auto          decides = [&](Body::id_t id) { return scene->bodies->exists(id) ? rankOf(*(*scene->bodies)[id]) : -1; };
 	boost::python::list all;
 	for (int k = 0; k < int(bonds.size()); ++k) {
 		const PolytopeBond& bond  = *bonds[k];
