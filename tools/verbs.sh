@@ -27,7 +27,8 @@ optionsOf() { # VERB
 				--time-step-fraction --vtk-every --sample-every --ipopt-every
 			;;
 		paper | accuracy) echo --quick --only --fresh --output --jobs ;;
-		tradeoff | bench) echo --quick --only --output ;;
+		tradeoff) echo --quick --only --output ;;
+		bench) echo --quick --only --output --large ;;
 		fuzz) echo --seconds --target --seed --dry-run ;;
 		sanitize) echo --only --dry-run ;;
 		search) echo --quick --pairs --seed --threads --family --trial --log ;;
@@ -39,7 +40,7 @@ optionsOf() { # VERB
 namesOf() { # VERB
 	case $1 in
 		accuracy) echo pairs scenes path surfaces collisions joints ;;
-		bench) echo kernels shapes scenes growth threads results ;;
+		bench) echo kernels shapes scenes sizes growth threads results ;;
 		fuzz) echo construction contact ;;
 		sanitize) echo core threads fuzz valgrind ;;
 		tradeoff) echo pair B C D F rest A ;;

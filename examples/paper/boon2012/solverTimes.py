@@ -4,7 +4,7 @@
 import collections
 import itertools
 
-from yade import Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop, O
+from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, O
 
 __all__ = ['StateSample', 'hasSolver']
 
@@ -46,6 +46,7 @@ class StateSample:
 		total, states = collections.Counter(), 0
 		for mark in itertools.islice(self.marks, 0, None, every):
 			O.loadTmp(mark, quiet=True)
+			next(engine for engine in O.engines if isinstance(engine, InsertionSortCollider))()  # a state has no pairs but those in contact
 			loop = next(engine for engine in O.engines if isinstance(engine, InteractionLoop))
 			functor = next(functor for functor in loop.geomDispatcher.functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom))
 			functor.timing = True
