@@ -15,6 +15,8 @@ largest = 50.0
 unitsApart = 300.0
 """Extent over the median of the bodies that can move, above which units differ: millimetres and metres differ by 1000, grains
 seldom by 100."""
+
+
 def bodyFindings(scene):
 	for one in (density, mass, size, frictionAngle, tension, elasticConstants):
 		yield from one(scene)

@@ -16,6 +16,7 @@ import yade
 from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polytope, mpy
 
 from .._ranks import eraseRanks
+from ..bonding import bonds
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'checkBonds', 'handOut', 'install', 'shareTimeStep', 'size']
@@ -87,15 +88,10 @@ def _typedEngine(name):
 	raise RuntimeError(f'O.engines: there is no {name}, which a run on several processes needs')
 
 
-def _bonds():
-	"""The engine with the scene's bonds, or None; its name begins with _ where only several processes need it."""
-	return next((engine for engine in O.engines if isinstance(engine, yade.PolytopeBonds)), None)
-
-
 def _divideBonds(divided):
-	bonds = _bonds()
-	if bonds:
-		bonds._divided, bonds._missing = divided, 0
+	engine = bonds()
+	if engine:
+		engine._divided, engine._missing = divided, 0
 
 
 def checkBonds():
@@ -103,55 +99,49 @@ def checkBonds():
 
 	:raises RuntimeError: a bond did not act, for its other body was not on its rank
 	"""
-	bonds = _bonds()
-	if mpy.comm.allreduce(bonds._missing if bonds else 0):
+	engine = bonds()
+	if mpy.comm.allreduce(engine._missing if engine else 0):
 		raise RuntimeError('O.engines: a bond joins bodies so far apart that their boxes do not meet; set a larger verletDist of the collider, or a smaller gap in polytope.bond')
 
 
 def _mergeBonds(states):
 	"""On rank 0: what the workers have found."""
-	bonds = _bonds()
-	if bonds:
+	engine = bonds()
+	if engine:
 		for state in states:
-			bonds._takeStates(state)
-		bonds._adoptBodies()
+			engine._takeStates(state)
+		engine._adoptBodies()
 
 
 def _prepared(splitScene):
-	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
-	handedOut = _handedOut(splitScene)
-
 	@functools.wraps(splitScene)
 	def split():
-		handedOut()
+		_handOutScene(splitScene)
 		_divideBonds(True)
 
 	return split
 
 
-def _handedOut(splitScene):
-
-	def split():
-		_disown()
-		if O.splittedOnce:
-			splitScene()
-			return
-		if mpy.rank != 0:
-			splitScene()
-			_takePermanentLoads(None)
-			return
-		check()
-		eraseRanks()
-		if mpy.DOMAIN_DECOMPOSITION:
-			_keepFixedBodies()
-		loads = _permanentLoads()
-		plain = O.engines
-		O.engines = _sharing(plain)
+def _handOutScene(splitScene):
+	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
+	_disown()
+	if O.splittedOnce:
 		splitScene()
-		O.initialEngines = plain  # what the merged scene gets
-		_takePermanentLoads(loads)
-
-	return split
+		return
+	if mpy.rank != 0:
+		splitScene()
+		_takePermanentLoads(None)
+		return
+	check()
+	eraseRanks()
+	if mpy.DOMAIN_DECOMPOSITION:
+		_keepFixedBodies()
+	loads = _permanentLoads()
+	plain = O.engines
+	O.engines = _sharing(plain)
+	splitScene()
+	O.initialEngines = plain  # what the merged scene gets
+	_takePermanentLoads(loads)
 
 
 def _keepFixedBodies():
@@ -244,7 +234,7 @@ def _withBodiesOfRankZero(mergeScene):
 	@functools.wraps(mergeScene)
 	def merge():
 		merges = O.splitted
-		states = mpy.comm.gather(_bonds()._states() if mpy.rank > 0 and _bonds() else []) if merges else []
+		states = mpy.comm.gather(bonds()._states() if mpy.rank > 0 and bonds() else []) if merges else []
 		mergeScene()
 		if merges:
 			_divideBonds(False)
