@@ -20,8 +20,12 @@ export YADE_PREFIX=$build/overlay # of all precisions
 cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc) # nproc takes OMP_NUM_THREADS for the number of cores
 # One thread unless asked for, as the program `yade` does: with few bodies, threads wait for each other longer than they work
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
-# YADE is built with MPI, which refuses to run as root unless told
+# YADE is built with MPI, which refuses to run as root unless told. What is set in the environment stays
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+# shared memory alone: Open MPI looks for a network interface otherwise, and waits for ever where there is none
+export OMPI_MCA_btl=${OMPI_MCA_btl:-self,sm}
+# processes that wait leave the cores to the others: there may be more processes than cores
+export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
 
 hasPrecision() { compgen -G "/usr/lib/*/yade-$1/py/yade" >/dev/null; }
 
@@ -137,17 +141,13 @@ tradeoff() {
 	exec python3 "$script" "$@"
 }
 
-# A script on several processes of this machine, more than it has cores if asked for. What is set in the environment stays.
+# A script on several processes of this machine, more than it has cores if asked for.
 mpi() { # N SCRIPT [ARGUMENTS…]
 	[[ ${1:-} =~ ^[1-9][0-9]{0,3}$ ]] || fail "mpi: the first argument must be the number of processes, from 1 to 9999, not '${1:-}'." "./run mpi 3 examples/mpi.py"
 	[ -f "${2:-}" ] || fail "mpi: the second argument must be a script; there is no file '${2:-}'." "./run mpi 3 examples/mpi.py"
 	[ "$precision" = double ] || fail "mpi: YADE's $precision is built without MPI." "Leave YADE_POLYTOPE_PRECISION away."
 	command -v mpirun >/dev/null || fail "mpi: there is no mpirun here." "Install Debian's package openmpi-bin."
 	build
-	# shared memory alone: Open MPI looks for a network interface otherwise, and waits for ever where there is none
-	export OMPI_MCA_btl=${OMPI_MCA_btl:-self,sm}
-	# waiting processes leave the cores to the others
-	export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
 	exec mpirun --oversubscribe -np "$1" "$yadeProgram" -n -x "${@:2}"
 }
 

@@ -28,20 +28,12 @@ size = 0.22
 """Of the solids of the heap [m]."""
 sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
-environment = {
-	**os.environ,
-	'OMP_NUM_THREADS': '1',
-	'OMPI_ALLOW_RUN_AS_ROOT': '1',
-	'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
-	'OMPI_MCA_btl': 'self,sm',
-	'OMPI_MCA_mpi_yield_when_idle': '1',
-}
 
 
 def launch(ranks, *command):
 	"""A command on this number of ranks, 0: without MPI."""
 	run = ['mpirun', '--oversubscribe', '-np', str(ranks)] if ranks else []
-	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True)
+	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={**os.environ, 'OMP_NUM_THREADS': '1'}, start_new_session=True)
 
 
 def under(ranks, *command, fails=False):

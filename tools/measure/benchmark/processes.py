@@ -23,14 +23,6 @@ stateBytes = 13 * 8
 perWorker = 10000
 """Bodies on each worker where the number of bodies grows with that of the workers."""
 
-environment = {
-	'OMP_NUM_THREADS': '1',
-	'OMPI_ALLOW_RUN_AS_ROOT': '1',
-	'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
-	'OMPI_MCA_btl': 'self,sm',
-	'OMPI_MCA_mpi_yield_when_idle': '1',
-}
-
 
 def timed(call):
 	begin = time.perf_counter()
@@ -68,7 +60,7 @@ def measure(bodies, steps):
 
 def launch(workers, bodies, steps):
 	command = ['mpirun', '--oversubscribe', '-np', str(workers + 1), sys.executable, __file__, '--rank', '--bodies', str(bodies), '--steps', str(steps)]
-	done = subprocess.run(command, env={**os.environ, **environment}, capture_output=True, text=True, timeout=3600)
+	done = subprocess.run(command, env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=3600)
 	lines = [line for line in done.stdout.splitlines() if line.startswith('RESULT ')]
 	if done.returncode or not lines:
 		raise SystemExit(f'{workers} workers: {(done.stdout + done.stderr)[-2000:]}')
