@@ -4,9 +4,6 @@
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
-#include <src/centre/IpoptCentre.hpp>
-#include <src/numbers/NumberText.hpp>
-
 #include "InternalFaces.hpp"
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
@@ -102,12 +99,6 @@ PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Inte
 		c->geom            = geom;
 	}
 	return static_cast<PolytopeGeom&>(*c->geom);
-}
-
-ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
-{
-	const int thread = omp_get_thread_num();
-	return counters_[thread < int(counters_.size()) ? thread : 0];
 }
 
 namespace {
@@ -228,24 +219,6 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
 	return true;
 }
 
-void Ig2_Polytope_Polytope_PolytopeGeom::count(const polytope::ContactResult& result)
-{
-	ContactCounters& count = counters();
-	++count.pairs;
-	++count.statuses[int(result.status)];
-	count.contacts += result.inContact;
-	count.dismissed += result.dismissed;
-	count.simplexPivots += result.simplexPivots;
-	count.newtonIterations += result.newtonIterations;
-	count.ipoptSolves += result.ipoptSolved;
-	count.ipoptIterations += result.ipoptIterations;
-	if (timing) {
-		count.lpNanoseconds += result.lpNanoseconds;
-		count.centreNanoseconds += result.centreNanoseconds;
-		count.timedPairs += result.newtonIterations > 0 || result.ipoptSolved;
-	}
-}
-
 bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
@@ -282,119 +255,6 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c
 	++count.statuses[int(polytope::ContactStatus::Failed)];
 	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) known->statusCode = int(polytope::ContactStatus::Failed);
 	return c->isReal();
-}
-
-namespace {
-
-	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
-
-	/// What the attribute's name stands for. `names`: as the message lists them.
-	template <class Value>
-	Value meaning(const char* attribute, const std::string& name, const std::string& names,
-	        std::initializer_list<std::pair<const char*, Value>> all)
-	{
-		for (const auto& [one, value] : all)
-			if (name == one) return value;
-		refuse(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
-	}
-
-	void requireWithin(const char* attribute, Real value, Real least, Real most, const std::string& leastIs, const std::string& of)
-	{
-		if (value >= least && value <= most) return;
-		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and "
-		        + polytope::numberText(most) + " (a fraction of " + of + ")");
-	}
-
-} // namespace
-
-polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() const
-{
-	using namespace polytope;
-	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
-	ContactSettings result;
-	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'paper' or 'conservative'",
-	        { { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative } });
-	requireWithin("barrier", barrier, limit::leastBarrier, limit::largestBarrier, "", "the smaller body's inscribed radius");
-	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
-	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
-	                { "centroid", ContactPoint::Centroid } });
-	result.normal       = meaning<NormalSource>("normal", normal, "'dualWeights' or 'innerPotential'",
-	              { { "dualWeights", NormalSource::DualWeights }, { "innerPotential", NormalSource::InnerPotential } });
-	result.solver       = meaning<CentreSolver>(
-                "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
-	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
-		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
-		       "-DPOLYTOPE_IPOPT=ON");
-	if (!(tolerance >= 0 && tolerance < 1))
-		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
-	requireWithin("newtonTolerance", newtonTolerance, limit::rounding, limit::coarsestNewton,
-	        " (the rounding of this precision's numbers)", "the overlap's own size");
-	result.tolerance       = tolerance;
-	result.newtonTolerance = newtonTolerance;
-	result.barrier         = barrier;
-	return result;
-}
-
-void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
-{
-	auto options = std::tie(contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance);
-	try {
-		settings_ = checkedSettings();
-	} catch (...) {
-		options = goodOptions_;
-		throw;
-	}
-	goodOptions_ = options;
-}
-
-boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
-{
-	ContactCounters sum;
-	for (const ContactCounters& one : counters_) {
-		sum.pairs += one.pairs;
-		sum.contacts += one.contacts;
-		sum.dismissed += one.dismissed;
-		sum.simplexPivots += one.simplexPivots;
-		sum.newtonIterations += one.newtonIterations;
-		sum.ipoptSolves += one.ipoptSolves;
-		sum.ipoptIterations += one.ipoptIterations;
-		sum.lpNanoseconds += one.lpNanoseconds;
-		sum.centreNanoseconds += one.centreNanoseconds;
-		sum.timedPairs += one.timedPairs;
-		for (int k = 0; k < polytope::contactStatusCount; ++k)
-			sum.statuses[k] += one.statuses[k];
-	}
-	using polytope::ContactStatus;
-	const auto          of = [&](ContactStatus status) { return sum.statuses[int(status)]; };
-	boost::python::dict all, statuses;
-	long                unanswered = 0;
-	for (int k = 0; k < polytope::contactStatusCount; ++k) {
-		statuses[polytope::statusName(ContactStatus(k))] = sum.statuses[k];
-		if (!polytope::answered(ContactStatus(k))) unanswered += sum.statuses[k];
-	}
-	all["pairs"]            = sum.pairs;
-	all["contacts"]         = sum.contacts;
-	all["dismissed"]        = sum.dismissed;
-	all["simplexPivots"]    = sum.simplexPivots;
-	all["newtonIterations"] = sum.newtonIterations;
-	all["ipoptSolves"]      = sum.ipoptSolves;
-	all["ipoptIterations"]  = sum.ipoptIterations;
-	all["rescued"]          = of(ContactStatus::CentreByIpopt);
-	all["fallbacks"]        = unanswered - of(ContactStatus::Failed);
-	all["failures"]         = unanswered;
-	all["statuses"]         = statuses;
-	if (timing) {
-		all["timedPairs"]    = sum.timedPairs;
-		all["lpSeconds"]     = 1e-9 * double(sum.lpNanoseconds);
-		all["centreSeconds"] = 1e-9 * double(sum.centreNanoseconds);
-	}
-	return all;
-}
-
-void Ig2_Polytope_Polytope_PolytopeGeom::resetStats()
-{
-	for (ContactCounters& one : counters_)
-		one = ContactCounters();
 }
 
 } // namespace yade

@@ -4,6 +4,7 @@
 #include "AreaUsers.hpp"
 #include "BondsOfScene.hpp"
 #include "CandidateMemory.hpp"
+#include "ContactCounters.hpp"
 #include "Polytope.hpp"
 
 #include <core/Dispatching.hpp>
@@ -64,13 +65,6 @@ REGISTER_SERIALIZABLE(PolytopeGeom);
 
 /// Weight of body 1's normal against body 2's, from the stiffnesses of their materials: 0.5 for equal ones.
 Real normalWeightOfFirst(const Body* body1, const Body* body2);
-
-/// Counters of one thread, on cache lines of its own.
-struct alignas(64) ContactCounters {
-	long pairs = 0, contacts = 0, dismissed = 0, simplexPivots = 0, newtonIterations = 0, ipoptSolves = 0, ipoptIterations = 0;
-	long statuses[polytope::contactStatusCount] = {};
-	long lpNanoseconds = 0, centreNanoseconds = 0, timedPairs = 0;
-};
 
 class Ig2_Polytope_Polytope_PolytopeGeom : public IGeomFunctor {
 public:
