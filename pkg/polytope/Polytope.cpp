@@ -110,6 +110,8 @@ vector<Vector3r> Polytope::vertices() const { return convex_ ? convex_->polyhedr
 
 Real Polytope::inscribedRadius() const { return convex_ ? convex_->inscribedRadius() : Real(0); }
 
+Real Polytope::circumscribedRadius() const { return convex_ ? convex_->boundingRadius() : Real(0); }
+
 boost::python::list Polytope::faces() const
 {
 	boost::python::list all;

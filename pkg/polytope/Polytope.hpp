@@ -36,6 +36,7 @@ public:
 	vector<Vector3r>    vertices() const;
 	boost::python::list faces() const;
 	Real                inscribedRadius() const;
+	Real                circumscribedRadius() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Polytope, Shape,
@@ -55,6 +56,7 @@ A plane that repeats another one to rounding is dropped. Planes that own no face
 		.add_property("vertices", &Polytope::vertices, "Vertices in the body's frame [m]; for drawing and bounding boxes, contacts do not use them.")
 		.add_property("faces", &Polytope::faces, "Faces as lists of indices into :yref:`vertices<Polytope.vertices>`, counter-clockwise seen from outside.")
 		.add_property("inscribedRadius", &Polytope::inscribedRadius, "Radius of the largest inscribed ball (disc for polygons) [m].")
+		.add_property("circumscribedRadius", &Polytope::circumscribedRadius, "Distance of the farthest vertex from the centroid (polygons: in their plane) [m].")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(Polytope, Shape);

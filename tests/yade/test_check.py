@@ -4,6 +4,7 @@
 Every mistake is one change of a right scene; its finding must come by that change alone.
 """
 
+import importlib
 import math
 
 import pytest
@@ -421,7 +422,7 @@ def testBodiesInTheSamePlace():
 	scene(lambda: [polytope.cuboid((0, 0, 0.55), (0.5, 0.4, 0.5), mask=2)])
 	O.bodies[0].mask = 3
 	assert not polytope.check(O)
-	for other in ((0, 0, 0.56), (0.5, 0.4, 0.5)), ((0, 0, 0.55), (0.5, 0.4, 0.45)):
+	for other in ((0, 0, 0.56), (0.5, 0.4, 0.5)), ((0, 0, 0.55), (0.5, 0.4, 0.45)), ((0, 0, 0.55), (0.25, 0.8, 0.5)):
 		scene(lambda other=other: [polytope.cuboid(*other)])
 		assert not polytope.check(O)
 
@@ -536,6 +537,29 @@ def testBodyLargerThanHalfOfAPeriodicCell():
 		else:
 			assert not polytope.check(O)
 			O.step()
+
+
+def testAPolygonThickerThanHalfOfAPeriodicCell():
+	O.materials.append(rock())
+	O.periodic = True
+	O.cell.setBox(9, 9, 1.5)
+	for k in (0, 1):
+		O.bodies.append(polytope.polygon([(k, 0), (k + 0.5, 0), (k, 0.5)]))
+	with pytest.warns(UserWarning, match='^periodic cell: 2 bodies'):
+		O.engines = polytope.engines(gravity=(0, 0, 0))
+
+
+def testSmallBodiesNeedNoCloserLook(monkeypatch):
+	"""A scene of a million bodies is checked, too: their corners are looked at where a ball round the body does not do."""
+	looks = []
+	for module, name in ('bodies', '_extent'), ('places', '_planes'):
+		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, looks.append)
+	O.materials.append(rock())
+	O.periodic = True
+	O.cell.setBox(9, 9, 9)
+	O.bodies.append([polytope.cuboid((2 * k + 1, 1, 1), (0.5, 0.4, 0.5)) for k in range(3)])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	assert not polytope.check(O) and not looks
 
 
 def testAllFaultsOfALoneBodyAreListed():

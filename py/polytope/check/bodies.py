@@ -34,12 +34,14 @@ def density(scene):
 
 
 def mass(scene):
-	free = [body for body in scene.bodies if body.dynamic and not body.isClumpMember]
-	light = [body for body in free if not 0 < float(body.state.mass) < math.inf]
+	light, heavy = [], []
+	for body in scene.bodies:
+		if body.dynamic and not body.isClumpMember:
+			(heavy if 0 < float(body.state.mass) < math.inf else light).append(body)
 	if light:
 		seen = f'{_number(light)} can move and has mass {float(light[0].state.mass):g} kg: no force accelerates it'
 		yield 'mass', seen, 'make it of a material with a density above 0, or hold it (fixed=True)'
-	turning = [body for body in free if body not in light and _turns(body) and not min(map(float, body.state.inertia)) > 0]
+	turning = [body for body in heavy if _turns(body) and not min(map(float, body.state.inertia)) > 0]
 	if turning:
 		yield (
 			'mass',
@@ -53,13 +55,13 @@ def _turns(body):
 
 
 def size(scene):
-	extents = {body.id: _extent(body) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
-	if not extents:
+	widths = {body.id: 2 * float(body.shape.circumscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
+	if not widths:
 		return
-	usual = float(np.median(list(extents.values())))
-	large = [scene.O.bodies[key] for key, extent in extents.items() if extent > largest or extent > unitsApart * usual]
+	usual = float(np.median(list(widths.values())))
+	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > largest and _extent(scene.O.bodies[key]) > largest)]
 	if large:
-		extent, mass = extents[large[0].id], float(large[0].state.mass)
+		extent, mass = _extent(large[0]), float(large[0].state.mass)
 		seen = f'{_number(large)} can move, is {extent:.3g} m across and weighs {mass:.3g} kg'
 		yield 'size', seen, 'if its mesh or dimensions are in millimetres: fromMesh(path, scale=0.001), other lengths over 1000'
 

@@ -6,6 +6,8 @@ import math
 import numpy as np
 from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
+from ..arrays import arrays
+
 __all__ = ['notNumbers', 'placeFindings']
 
 softest = 0.1
@@ -23,20 +25,15 @@ def placeFindings(scene):
 
 def notNumbers(scene):
 	"""Also of clumps, whose members follow them."""
-	names = ('pos', 'ori', 'vel', 'angVel')
-	lost = {}
-	for body in scene.O.bodies:
-		if body is not None and (wrong := [name for name in names if not _finite(getattr(body.state, name))]):
-			lost[body.id] = wrong
-	if lost:
-		key, wrong = next(iter(lost.items()))
-		more = f', and {len(lost) - 1} bodies more' if len(lost) > 1 else ''
+	bodies = arrays().bodies
+	fields = {'pos': bodies.positions, 'ori': bodies.orientations, 'vel': bodies.velocities, 'angVel': bodies.angularVelocities}
+	lost = np.array([~np.isfinite(field).all(axis=1) for field in fields.values()])
+	rows = np.flatnonzero(lost.any(axis=0))
+	if len(rows):
+		key, wrong = bodies.ids[rows[0]], [name for name, one in zip(fields, lost[:, rows[0]], strict=True) if one]
+		more = f', and {len(rows) - 1} bodies more' if len(rows) > 1 else ''
 		seen = f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
 		yield 'not a number', seen, 'give it finite values; in a run, go back to a saved state and take PolytopeTimeStepper()'
-
-
-def _finite(several):
-	return all(math.isfinite(several[k]) for k in range(len(several)))
 
 
 def coincidence(scene):
@@ -44,16 +41,21 @@ def coincidence(scene):
 	there, pairs = {}, []
 	for body in scene.bodies:
 		if isinstance(body.shape, Polytope):
-			planes = sorted(float(offset) for offset in body.shape.offsets)
-			where = (*map(float, body.state.pos), float(body.shape.volume), *planes)
-			other = there.setdefault(where, body)
-			sameClump = body.isClumpMember and other.isClumpMember and body.clumpId == other.clumpId
-			if other is not body and other.mask & body.mask and not sameClump:
-				pairs.append((other.id, body.id))
+			where = (*map(float, body.state.pos), float(body.shape.volume))
+			for other in there.setdefault(where, []):
+				sameClump = body.isClumpMember and other.isClumpMember and body.clumpId == other.clumpId
+				if other.mask & body.mask and not sameClump and _planes(other) == _planes(body):
+					pairs.append((other.id, body.id))
+					break
+			there[where].append(body)
 	if pairs:
 		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
 		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: they are shot apart, in any direction'
 		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
+
+
+def _planes(body):
+	return sorted(float(offset) for offset in body.shape.offsets)
 
 
 def spanning(scene):
@@ -65,19 +67,25 @@ def spanning(scene):
 	if not abs(np.linalg.det(cell)) > 0:
 		yield 'periodic cell', 'O.cell has no volume', 'O.cell.setBox(x, y, z) with the edges of the cell'
 		return
-	margin = 2 * max(float(collider.verletDist) for collider in colliders) / np.abs(np.linalg.norm(cell, axis=0))
+	margin = 2 * max(0.0, *(float(collider.verletDist) for collider in colliders)) / np.abs(np.linalg.norm(cell, axis=0))
+	narrowest = 1 / np.linalg.norm(np.linalg.inv(cell), axis=1).max()  # distance of two opposite sides
 	large = {}
 	for body in scene.bodies:
-		if isinstance(body.shape, Polytope):
+		if isinstance(body.shape, Polytope) and _width(body.shape) / narrowest + margin.max() > half:
 			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
 			corners = np.linalg.solve(cell, turn @ np.array(body.shape.vertices, float).reshape(-1, 3).T)  # in periods
-			share = float((np.ptp(corners, axis=1) + np.maximum(margin, 0)).max())
+			share = float((np.ptp(corners, axis=1) + margin).max())
 			if share > half:
 				large[body.id] = share
 	if large:
 		key = max(large, key=large.get)
 		seen = f"{len(large)} bodies (body {key} most) span {large[key]:.2g} of the periodic cell with the collider's verletDist: YADE ends the run"
 		yield 'periodic cell', seen, 'a larger cell, smaller bodies, or walls; for plates through the whole cell allowBiggerThanPeriod=True in the collider'
+
+
+def _width(shape):
+	"""Diameter of a ball that holds it [m]: what is small enough with it needs no closer look."""
+	return math.hypot(2 * float(shape.circumscribedRadius), float(shape.thickness) if shape.dimension == 2 else 0)
 
 
 def stiffness(scene):
@@ -87,11 +95,12 @@ def stiffness(scene):
 	]
 	if not makers or makers[0].kn:  # a MatchMaker: its values are not known here
 		return
-	deepest, worst = 0.0, None
+	deepest, worst, gravity = 0.0, None, scene.gravity()
 	for body in scene.bodies:
 		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and body.dynamic and not body.isClumpMember:
-			share = _overlap(body, makers[0].stiffnessPerArea, scene.gravity())
-			deepest, worst = max((deepest, worst), (share, body), key=lambda one: one[0])
+			share = _overlap(body, makers[0].stiffnessPerArea, gravity)
+			if share > deepest:
+				deepest, worst = share, body
 	if deepest <= softest:
 		return
 	perArea = makers[0].stiffnessPerArea
