@@ -13,12 +13,13 @@ import sys
 import traceback
 
 import yade
-from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polytope, mpy
+from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
 
 from .._ranks import eraseRanks
+from . import bonds, clumps, decomposition, permanentLoads
 from .recorders import ofWholeScene
 
-__all__ = ['check', 'checkBonds', 'handOut', 'install', 'shareTimeStep', 'size']
+__all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
 
 shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
 """What runs after a time stepper on each rank."""
@@ -41,11 +42,11 @@ def handOut():
 def assign(ranks):
 	"""Gives bodies to ranks, on rank 0.
 
-	:param dict ranks: id → rank; the others stay with rank 0
+	:param dict ranks: id → rank; the others stay with rank 0, members of clumps with their clump
 	"""
 	_ranksOfBodies.clear()
 	for body in O.bodies:
-		body.subdomain = ranks.get(body.id, 0)
+		body.subdomain = ranks.get(clumps.mover(body), 0)
 
 
 def _own():
@@ -87,36 +88,6 @@ def _typedEngine(name):
 	raise RuntimeError(f'O.engines: there is no {name}, which a run on several processes needs')
 
 
-def _bonds():
-	"""The engine with the scene's bonds, or None; its name begins with _ where only several processes need it."""
-	return next((engine for engine in O.engines if isinstance(engine, yade.PolytopeBonds)), None)
-
-
-def _divideBonds(divided):
-	bonds = _bonds()
-	if bonds:
-		bonds._divided, bonds._missing = divided, 0
-
-
-def checkBonds():
-	"""After steps, on every rank.
-
-	:raises RuntimeError: a bond did not act, for its other body was not on its rank
-	"""
-	bonds = _bonds()
-	if mpy.comm.allreduce(bonds._missing if bonds else 0):
-		raise RuntimeError('O.engines: a bond joins bodies so far apart that their boxes do not meet; set a larger verletDist of the collider, or a smaller gap in polytope.bond')
-
-
-def _mergeBonds(states):
-	"""On rank 0: what the workers have found."""
-	bonds = _bonds()
-	if bonds:
-		for state in states:
-			bonds._takeStates(state)
-		bonds._adoptBodies()
-
-
 def _prepared(splitScene):
 	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
 	handedOut = _handedOut(splitScene)
@@ -124,7 +95,7 @@ def _prepared(splitScene):
 	@functools.wraps(splitScene)
 	def split():
 		handedOut()
-		_divideBonds(True)
+		bonds.divide(True)
 
 	return split
 
@@ -138,51 +109,21 @@ def _handedOut(splitScene):
 			return
 		if mpy.rank != 0:
 			splitScene()
-			_takePermanentLoads(None)
+			permanentLoads.take(None)
 			return
 		check()
 		eraseRanks()
 		if mpy.DOMAIN_DECOMPOSITION:
-			_keepFixedBodies()
-		loads = _permanentLoads()
+			decomposition.prepare()
+		clumps.giveMaterials()
+		loads = permanentLoads.ofAll()
 		plain = O.engines
 		O.engines = _sharing(plain)
 		splitScene()
 		O.initialEngines = plain  # what the merged scene gets
-		_takePermanentLoads(loads)
+		permanentLoads.take(loads)
 
 	return split
-
-
-def _keepFixedBodies():
-	"""yade.mpy's decomposition leaves walls, boxes and facets with rank 0, and the subdomain of others to itself; fixed polytopes belong to rank 0, too."""
-	from yade.bisectionDecomposition import decompBodiesSerial  # starts to write errors to the standard output
-
-	def ofMaster(self, body):
-		return not body.dynamic or body.isSubdomain
-
-	decompBodiesSerial.checkIfMasterBody = ofMaster
-	for body in O.bodies:
-		if not body.dynamic:
-			body.subdomain = 0
-
-
-def _permanentLoads():
-	"""YADE does not send them with the scene."""
-	if not O.forces.getPermForceUsed():
-		return []
-	O.forces.f(0, sync=True)  # else those set since the last step are not seen
-	return [(body.id, tuple(O.forces.permF(body.id)), tuple(O.forces.permT(body.id))) for body in O.bodies]
-
-
-def _takePermanentLoads(loads):
-	loads = mpy.comm.bcast(loads)
-	if mpy.rank == 0:
-		return
-	for k, force, torque in loads:
-		if O.bodies[k] is not None and O.bodies[k].subdomain == mpy.rank and any(force + torque):
-			O.forces.setPermF(k, Vector3(force))
-			O.forces.setPermT(k, Vector3(torque))
 
 
 def _sharing(engines):
@@ -209,17 +150,18 @@ def check():
 		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
 	if O.trackEnergy:
 		raise RuntimeError('O.trackEnergy: must be False; contacts of two ranks would count twice. polytope.mpi.arrays() has what energies are made of')
-	if any(body.isClump for body in O.bodies):
-		raise RuntimeError('O.bodies: clumps are not supported on several processes; run this scene on one')
 	for engine in O.engines:
 		if isinstance(engine, yade.Recorder):
 			name = engine.__class__.__name__
 			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
-	moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
-	if not mpy.DOMAIN_DECOMPOSITION and all(body.subdomain == 0 for body in moving):
+	if mpy.DOMAIN_DECOMPOSITION:
+		return
+	ranks = [body.subdomain for body in clumps.movers()]
+	if not any(ranks):
 		raise RuntimeError('Body.subdomain: all bodies are with rank 0; call polytope.mpi.divide() or set mpy.DOMAIN_DECOMPOSITION')
-	if not mpy.DOMAIN_DECOMPOSITION and not all(0 < body.subdomain < size() for body in moving):
+	if not all(0 < rank < size() for rank in ranks):
 		raise RuntimeError(f'Body.subdomain: must be a rank, 1 to {size() - 1}; call polytope.mpi.divide()')
+	clumps.check()
 
 
 def _checkSettings():
@@ -244,13 +186,14 @@ def _withBodiesOfRankZero(mergeScene):
 	@functools.wraps(mergeScene)
 	def merge():
 		merges = O.splitted
-		states = mpy.comm.gather(_bonds()._states() if mpy.rank > 0 and _bonds() else []) if merges else []
+		states = bonds.states() if merges else None
 		mergeScene()
 		if merges:
-			_divideBonds(False)
+			bonds.divide(False)
 			if mpy.rank == 0:
 				_own()
-				_mergeBonds(states)
+				clumps.takeMaterials()
+				bonds.takeStates(states)
 
 	return merge
 
@@ -308,6 +251,7 @@ def install():
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
+	mpy.genLocalIntersections = clumps.wholeClumps(mpy.genLocalIntersections)
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
 	if size() > 1:
