@@ -60,3 +60,23 @@ def clumpedSliding():
 	mpi.divide()
 	mpi.run(600)
 	return state()
+
+
+def carried():
+	"""Blocks and clumps on a fixed clump that rises and moves sideways, and a plate that pushes the first of them."""
+	mpi.merge()
+	O.reset()
+	if master:
+		material()
+		floor, _ = polytope.clump([polytope.cuboid((0, 0, -0.5), (3, 1, 0.5), fixed=True), polytope.cuboid((2.5, 0, 0.5), (0.5, 1, 0.7), fixed=True)])
+		O.bodies[floor].state.vel = (0.3, 0, 0.1)
+		O.bodies.append(polytope.cuboid((-2, 0, 0.3), (0.1, 0.5, 0.2), fixed=True))
+		O.bodies[-1].state.vel = (1, 0, 0)
+		for k in range(3):
+			O.bodies.append(polytope.cuboid((1.2 * k - 1.65, 0, 0.2), (0.2, 0.2, 0.2)))
+			clumpOf(k, (1.2 * k - 1, 0, 0.14), Quaternion((0, 0, 1), k))
+		O.engines = polytope.engines(timeStepper=False)
+		O.dt = 2e-4
+	mpi.divide()
+	mpi.run(500)
+	return state()

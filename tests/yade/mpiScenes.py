@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 import yade
-from mpiClumpScenes import clumpedSliding, clumpOf, startClumps  # noqa: F401 (called by their names)
+from mpiClumpScenes import carried, clumpedSliding, clumpOf, startClumps  # noqa: F401 (called by their names)
 from mpiSceneState import folder, load, master, material, settling, solids, state, steps
 from yade import O, Quaternion, Vector3, polytope
 from yade.polytope import mpi

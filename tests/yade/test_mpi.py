@@ -32,7 +32,7 @@ sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
-moving = ['smooth', 'joints', 'bonded', 'clumpedSliding']
+moving = ['smooth', 'joints', 'bonded', 'clumpedSliding', 'carried']
 environment = {
 	**os.environ,
 	'OMP_NUM_THREADS': '1',
@@ -149,6 +149,14 @@ def testClumpsThatMoveFromOneRanksPartToTheOthers(found, ranks):
 	assert max(farthest(one['bodies'][k], several['bodies'][k]) for k in one['bodies']) < 1e-12 * size
 	assert max(farthest(one['contacts'][k][6:13], several['contacts'][k][6:13]) for k in one['contacts']) < 1e-9 * 350
 	assert sum(contact[13] for contact in one['contacts'].values()) < len(one['contacts']) - 5  # joints that have slipped
+
+
+def testFixedBodiesWithAVelocityMoveOnAllRanks(found):
+	one, several = found('carried', 1), found('carried', 3)
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
+	assert max(farthest(one['bodies'][k], several['bodies'][k]) for k in one['bodies']) < 1e-12 * size
+	pushed = [float.fromhex(x) for x in one['bodies']['4']]
+	assert pushed[2] > 0.2 + 0.9 * 0.01 and pushed[7] > 1  # carried upwards, and struck by the plate
 
 
 @pytest.mark.parametrize('name, moved', [('smooth', 400), ('joints', 80)])

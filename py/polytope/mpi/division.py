@@ -172,6 +172,7 @@ def _checkSettings():
 		('USE_CPP_MPI', True, 'its other way gives states of one rank to bodies of another where rank 0 has bodies that are touched'),
 		('OPTIMIZE_COM', True, 'it was not tested with polytopes'),
 		('MERGE_W_INTERACTIONS', True, 'merged contacts would begin anew'),
+		('MASTER_UPDATE_STATES', True, 'fixed bodies that have a velocity would stand still for the other ranks'),
 		('REALLOCATE_FREQUENCY', 0, 'a body that changes ranks during a run would lose contacts; call polytope.mpi.divide() between two runs instead'),
 		('RESET_SUBDOMAINS_WHEN_COLLIDE', False, 'contacts would begin anew; call polytope.mpi.divide() between two runs instead'),
 		('DISTRIBUTED_INSERT', False, 'polytope.mpi hands out the scene of rank 0'),
@@ -225,6 +226,18 @@ def _withIdleRanks(checkAndCollide):
 	return check
 
 
+def _withStatesOfRankZero(sendRecvStates):
+	"""Bodies of rank 0 may have a velocity. With the setting that lets rank 0 send them, it leaves out the barrier that the workers come to."""
+
+	@functools.wraps(sendRecvStates)
+	def exchange():
+		sendRecvStates()
+		if mpy.rank == 0 and mpy.MASTER_UPDATE_STATES:
+			mpy.comm.barrier()
+
+	return exchange
+
+
 def _endAll(kind, fault, trace):
 	"""An exception that ends one rank ends all: the others would wait for it for ever."""
 	traceback.print_exception(kind, fault, trace)
@@ -251,7 +264,9 @@ def install():
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
+	mpy.sendRecvStates = _withStatesOfRankZero(mpy.sendRecvStates)
 	mpy.genLocalIntersections = clumps.wholeClumps(mpy.genLocalIntersections)
+	mpy.MASTER_UPDATE_STATES = True
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
 	if size() > 1:
