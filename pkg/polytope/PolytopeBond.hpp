@@ -28,6 +28,8 @@ public:
 	/// Whether its two bodies are those between which it was made, not others that have got their numbers. A bond from a file
 	/// has those of its numbers.
 	bool hasItsBodies(const BodyContainer& bodies) const;
+	/// Whether it has been with its bodies since it was made or loaded.
+	bool knowsItsBodies() const { return !body1_.empty() && !body2_.empty(); }
 	/// Makes those of its numbers its own, where it has none yet, or anew.
 	void adoptBodies(const BodyContainer& bodies, bool anew = false);
 	/// One of its bodies is gone.

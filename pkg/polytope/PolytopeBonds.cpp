@@ -253,6 +253,13 @@ void PolytopeBonds::adoptBodies()
 		bond->adoptBodies(*scene->bodies, /*anew*/ true);
 }
 
+void PolytopeBonds::meetBodies()
+{
+	if (divided) return; // bodies of other ranks come and go
+	for (const auto& bond : bonds)
+		bond->adoptBodies(*Omega::instance().getScene()->bodies);
+}
+
 long PolytopeBonds::intactCount() const
 {
 	return std::count_if(bonds.begin(), bonds.end(), [](const auto& bond) { return bond->intact; });
@@ -261,7 +268,8 @@ long PolytopeBonds::intactCount() const
 long PolytopeBonds::intactInScene() const
 {
 	const auto& bodies = *Omega::instance().getScene()->bodies;
-	return std::count_if(bonds.begin(), bonds.end(), [&](const auto& bond) { return bond->intact && bond->hasItsBodies(bodies); });
+	return std::count_if(bonds.begin(), bonds.end(),
+	        [&](const auto& bond) { return bond->intact && bond->knowsItsBodies() && bond->hasItsBodies(bodies); });
 }
 
 bool PolytopeBonds::joins(Body::id_t id1, Body::id_t id2) const { return intactPairs_.count(key(id1, id2)) > 0; }

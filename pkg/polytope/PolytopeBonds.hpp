@@ -32,6 +32,8 @@ public:
 	long                missing = 0;     ///< times that the other body of an intact bond was not here, so that it did not act
 	/// The bodies that have the bonds' numbers now are theirs: yade.mpy replaces bodies by copies.
 	void adoptBodies();
+	/// Bonds that were loaded take the bodies of the present scene that have their ids.
+	void meetBodies();
 
 	bool        joins(Body::id_t id1, Body::id_t id2) const override;
 	bool        left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const override;
@@ -52,6 +54,7 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.def("_states", &PolytopeBonds::states)
 		.def("_takeStates", &PolytopeBonds::takeStates)
 		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
+		.def("_meetBodies", &PolytopeBonds::meetBodies)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
 		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, whether or not this engine is in O.engines.")

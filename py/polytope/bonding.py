@@ -79,7 +79,9 @@ def bond(
 	made = engine.make(bodies, -1 if gap is None else real(gap), real(angle), pattern)
 	if made == 0 and engine.intactCount == 0:
 		within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
-		warnings.warn(f'no bond was made: no two faces {within} and face each other within {float(angle):g} rad; give a larger gap or angle', stacklevel=2)
+		movable = '' if ids is not None else ' of which one can move'
+		advice = 'give a larger gap or angle' + (', or ids to bond fixed bodies' if movable else '')
+		warnings.warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}', stacklevel=2)
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
 		lastSeen[0] = engine
@@ -91,6 +93,7 @@ def bonds():
 	found = next((engine for engine in O.engines if isinstance(engine, PolytopeBonds)), None)
 	if found is not None:
 		lastSeen[0] = found
+		found._meetBodies()  # loaded bonds do not know theirs yet; in another scene they would take what has the same ids
 	return found
 
 

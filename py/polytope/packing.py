@@ -13,7 +13,7 @@ from .engines import engines
 from .grains import cloud
 from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
-from .loading.sample import between, fastestStrain
+from .loading.sample import between, fastestStrain, idsOfSample
 from .loading.servo import actOn
 from .loading.walls import WalledSample, boundaryMask, meetWalls, sixWalls, smooth, withoutEachOther
 from .measures import aabbExtrema
@@ -159,6 +159,7 @@ def _give(bodies, frictionAngle):
 
 def _boundary(ids, lower, upper, material, wallFriction, periodic, gravity):
 	"""The sample with its walls or cell, and O.engines."""
+	idsOfSample(ids)  # before anything of the scene is changed
 	if periodic:
 		if lower is not None:
 			_cell(ids, np.array(lower, float), np.array(upper, float))

@@ -12,18 +12,12 @@ import time
 
 import numpy as np
 import yade
+from mpiClumpScenes import carried, clumpedSliding, clumpOf, startClumps  # noqa: F401 (called by their names)
+from mpiSceneState import folder, load, master, material, settling, solids, state, steps
 from yade import O, Quaternion, Vector3, polytope
 from yade.polytope import mpi
 
-folder = sys.argv[1]
-solids, radius, settling, steps = 24, 0.22, 2500, 100
-master = mpi.rank() == 0
-
-
-def material():
-	O.materials.append(
-		yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5, dilationAngle=0.05)
-	)
+radius = 0.22
 
 
 def start():
@@ -39,54 +33,67 @@ def start():
 	O.save(f'{folder}/start.yade', quiet=True)
 
 
-def load(name='start'):
-	mpi.merge()
-	if master:
-		O.load(f'{folder}/{name}.yade', quiet=True)
-	mpi.divide()
-
-
-def heap():
-	load()
+def heap(start='start'):
+	load(start)
 	mpi.run(steps)
 	return state()
 
 
-def parts():
+def clumped():
+	return heap('startClumps')
+
+
+def parts(start='start'):
 	"""Merged and divided again as it was."""
-	load()
+	load(start)
 	mpi.run(steps // 2)
 	mpi.run(steps // 2)
 	return state()
 
 
-def divided():
+def clumpedParts():
+	return parts('startClumps')
+
+
+def divided(start='start'):
 	"""Divided anew along another axis; before that the fields of all ranks, against those of the merged scene."""
-	load()
+	load(start)
 	mpi.run(steps // 2, merged=False)
 	fields, stats = mpi.arrays(), mpi.stats()
 	mpi.divide(1)
 	again = polytope.arrays()
+	ranks = {body.id: (body.subdomain, body.isClumpMember) for body in O.bodies}
 	mpi.run(steps // 2)
 	if not master:
 		return None
+	pairs = [(ranks[int(one)], ranks[int(other)]) for one, other in again.contacts.ids]
 	order = np.lexsort(again.contacts.ids.T[::-1])
 	same = {
-		**{name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name)) for name in ('ids', 'positions', 'velocities', 'masses')},
+		**{name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name)) for name in ('ids', 'clumpIds', 'positions', 'velocities', 'masses')},
 		**{name: np.array_equal(getattr(fields.contacts, name), getattr(again.contacts, name)[order]) for name in ('ids', 'forces', 'points', 'areas')},
 	}
 	# force on all bodies together, fixed ones included: the contacts' own cancel
-	return {**state(), 'same': same, 'net': [float(x) for x in fields.bodies.forces.sum(axis=0)], 'push': float(abs(fields.contacts.forces).max()),
+	parts = fields.bodies.clumpIds != fields.bodies.ids
+	return {**state(), 'same': same, 'net': [float(x) for x in fields.bodies.forces[parts].sum(axis=0)], 'push': float(abs(fields.contacts.forces).max()),
+		'ofTwoRanks': sum(0 < one[0] != other[0] > 0 and one[1] and other[1] for one, other in pairs),
 		'stats': {name: stats[name] for name in ('pairs', 'failures')}, 'names': [fields.bodies.shapeNames[k] for k in fields.bodies.shapes]}
 
 
-def decomposed():
+def clumpedDivided():
+	return divided('startClumps')
+
+
+def decomposed(start='start'):
 	"""By yade.mpy's own decomposition."""
 	mpi.mpy.DOMAIN_DECOMPOSITION = True
-	load()
+	load(start)
 	mpi.run(steps)
 	mpi.mpy.DOMAIN_DECOMPOSITION = False
 	return master and {**state(), 'counts': [sum(len(b.shape.ids) for b in O.bodies if b.isSubdomain and b.subdomain == k) for k in (1, 2)]}
+
+
+def clumpedDecomposed():
+	return decomposed('startClumps')
 
 
 def recorded():
@@ -109,9 +116,13 @@ def recorded():
 	return found
 
 
-def settled():
-	load()
+def settled(start='start'):
+	load(start)
 	return state()
+
+
+def clumpedSettled():
+	return settled('startClumps')
 
 
 def sliding(pieces, number):
@@ -223,43 +234,22 @@ def refused():
 	O.engines = engines + [yade.ForceRecorder(ids=[0], file=os.devnull)]
 	saysNo('ForceRecorder')
 	O.engines = engines
-	O.bodies.appendClumped([polytope.regular(6, 0.1, (0, 0, 3)), polytope.regular(6, 0.1, (0.1, 0, 3))])
-	saysNo('clumps')
+	member = clumpOf(0, (0, 0, 3), Quaternion.Identity) - 1
+	for body in O.bodies:
+		body.subdomain = 1 if body.dynamic else 0
+	O.bodies[member].subdomain = 2
+	saysNo('Body.subdomain')
 	load()
 	O.periodic = True
 	saysNo('O.periodic')
 	return said
 
 
-def state():
-	"""Of the merged scene."""
-	if not master:
-		return None
-	whole = lambda vector: [float(x).hex() for x in vector]
-	return {
-		'iter': O.iter,
-		'time': O.time,
-		'engines': len(O.engines),
-		'coordination': polytope.coordinationNumber().mean,
-		'mass': float(polytope.arrays().bodies.masses.sum()),
-		'bodies': {
-			b.id: [*whole(b.state.pos), *whole(b.state.ori), *whole(b.state.vel), *whole(b.state.angVel)]
-			for b in O.bodies
-			if b.dynamic and not b.isSubdomain
-		},
-		'contacts': {
-			f'{i.id1} {i.id2}': [*whole(i.geom.normal), *whole(i.phys.normalForce), *whole(i.phys.shearForce), *whole(i.phys.slip), i.phys.dilation.hex(), i.phys.intact]
-			for i in O.interactions
-			if i.isReal
-		},
-	}
-
-
-def killed():
+def killed(start='start'):
 	"""Saves every 20 steps, twice, then runs on until it is killed."""
 	with open(f'{folder}/process-{mpi.rank()}', 'w') as file:
 		file.write(str(os.getpid()))
-	load()
+	load(start)
 	if master:
 		O.engines = O.engines + [polytope.checkpoint(f'{folder}/run', iterPeriod=20, onSignal=False)]
 	mpi.run(40)
@@ -267,6 +257,10 @@ def killed():
 		O.engines[-1].dead = True
 		open(f'{folder}/running', 'w').close()
 	mpi.run(10**6, merged=False)
+
+
+def clumpedKilled():
+	killed('startClumps')
 
 
 def continued():

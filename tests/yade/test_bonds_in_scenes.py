@@ -189,3 +189,23 @@ def testTwoThreadsAgreeExactly():
 	script = program[: program.index('scene, before, after')] + 'assert O.numThreads == int(sys.argv[7]), O.numThreads\n' + twoRows
 	one, two = (run('none', threads, 400, script=script) for threads in (1, 2))
 	assert one == two and 0 < one[-1] < 8
+
+
+def testLoadedBondsStayInTheirScene(tmp_path):
+	"""Loaded, looked at before any step, and left: they take nothing of the next scene, whose bodies have the same ids. Left out of the engines they are missed."""
+	name = str(tmp_path / 'bonded.yade')
+	assert row(2) == 1
+	O.save(name)
+	O.load(name, quiet=True)
+	assert polytope.bonds().intactInScene == 1
+	O.engines = [engine for engine in O.engines if type(engine).__name__ != 'PolytopeBonds']
+	assert 'whose 1 bonds were intact' in polytope.check(O)['bonds'].seen
+	O.load(name, quiet=True)
+	assert polytope.bonds().intactInScene == 1
+	O.reset()
+	joint(normalStiffness=kn, shearStiffness=ks)
+	O.bodies.append([polytope.cuboid((1.2 * k, 0, 0), (0.5, 0.5, 0.5), fixed=k == 0) for k in range(2)])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	assert polytope.bonds() is None and not polytope.check(O)
+	O.run(10, wait=True)
+	assert O.bodies[1].state.vel.norm() == 0

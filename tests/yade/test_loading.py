@@ -181,7 +181,7 @@ def testAnotherSceneIsToldOf(tmp_path):
 	test = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
 	O.save(str(tmp_path / 'test.yade.gz'))
 	O.load(str(tmp_path / 'test.yade.gz'))
-	with pytest.raises(RuntimeError, match='^sample: its bodies are not in the present scene, as after O.load'):
+	with pytest.raises(RuntimeError, match='^sample: its body 0 is not in the present scene, as after O.load'):
 		test.run(1e-4)
 	with pytest.raises(RuntimeError):
 		O.step()
@@ -337,3 +337,27 @@ def testASampleOfWhatIsThereHasTheExtentsOfItsBodies():
 		with pytest.raises(ValueError, match='^strain: must be a finite number'):
 			triaxial.run(wrong)
 	assert len(test.columns['axialStress']) == 1, 'nothing is loaded before all stages are known to be right'
+
+
+def testBondsInACellAreRefused():
+	"""YADE's measure of a cell's stress does not know them: the cell would be pressed far beyond its target, or the bonds be torn."""
+	material()
+	O.periodic = True
+	O.cell.setBox(*[4 * edge] * 3)
+	half = [edge / 2] * 3
+	O.bodies.append([polytope.cuboid([edge * (n + 0.5) for n in (i, j, k)], half) for i in range(4) for j in range(4) for k in range(4)])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	made = polytope.sample()
+	assert polytope.bond() == 192
+	with pytest.raises(RuntimeError, match='192 intact bonds'):
+		polytope.triaxial(made, stress=1e5).run(1e-4)
+	with pytest.raises(RuntimeError, match='192 intact bonds'):
+		polytope.sample()
+
+
+def testWhatIsNoSampleLeavesTheSceneAsItIs():
+	material()
+	O.bodies.append([polytope.cuboid((0, 0, 0), [edge / 2] * 3), polytope.polygon([(1, 0), (1.1, 0), (1, 0.1)])])
+	with pytest.raises(ValueError, match='^ids: .*body 1 is none'):
+		polytope.sample()
+	assert len(O.bodies) == 2

@@ -26,8 +26,13 @@ hangs = 300
 """Time after which a run is taken for one that hangs [s]; one takes some seconds."""
 size = 0.22
 """Of the solids of the heap [m]."""
+clumpedBodies = 81
+"""Of the heap of clumps: 18 of them, their 57 members and six single ones."""
 sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
+sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
+"""The same of the heap of clumps."""
+moving = ['smooth', 'joints', 'bonded', 'clumpedSliding', 'carried']
 
 
 def launch(ranks, *command):
@@ -52,9 +57,10 @@ def under(ranks, *command, fails=False):
 def found(tmp_path_factory):
 	"""What the scenes have found: found(name, ranks)."""
 	folder = tmp_path_factory.mktemp('mpi')
-	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'smooth', 'joints', 'bonded')
-	under(2, sys.executable, scenes, str(folder), 'heap')
-	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'recorded', 'smooth', 'joints', 'bonded', 'searched', 'refused')
+	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', *moving)
+	under(0, sys.executable, scenes, str(folder), 'startClumps', 'clumpedSettled', 'clumped')
+	under(2, sys.executable, scenes, str(folder), 'heap', 'clumped', 'clumpedSliding')
+	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'clumped', *sameAsClumped, 'recorded', *moving, 'searched', 'refused')
 
 	def read(name, ranks):
 		return json.loads((folder / f'{name}-{ranks}.json').read_text())
@@ -67,12 +73,12 @@ def farthest(one, other):
 	return max(abs(float.fromhex(x) - float.fromhex(y)) for x, y in zip(one, other, strict=True))
 
 
-def same(one, several):
+def same(one, several, bodies=24):
 	"""To 1e-12 of a body's size, and what contacts remember."""
 	assert one['iter'] == several['iter'] and one['engines'] == several['engines']
 	assert one['coordination'] == several['coordination'] > 1 and one['mass'] == pytest.approx(several['mass'], rel=1e-12)
 	assert one['time'] == pytest.approx(several['time'], rel=1e-13)
-	assert one['bodies'].keys() == several['bodies'].keys() and len(one['bodies']) == 24
+	assert one['bodies'].keys() == several['bodies'].keys() and len(one['bodies']) == bodies
 	assert max(farthest(one['bodies'][k][:7], several['bodies'][k][:7]) for k in one['bodies']) < 1e-12 * size
 	assert max(farthest(one['bodies'][k][7:], several['bodies'][k][7:]) for k in one['bodies']) < 1e-9
 	assert one['contacts'].keys() == several['contacts'].keys() and len(one['contacts']) > 24
@@ -88,20 +94,27 @@ def testMergedSceneIsThatOfOneProcess(found, name, ranks):
 	assert same(found('heap', 1), found(name, ranks))
 
 
-def testTheSceneMovesAndContactsRemember(found):
+@pytest.mark.parametrize('name, ranks', [('clumped', 2), ('clumped', 3), *((name, 3) for name in sameAsClumped)])
+def testMergedSceneOfClumpsIsThatOfOneProcess(found, name, ranks):
+	assert same(found('clumped', 1), found(name, ranks), clumpedBodies)
+
+
+@pytest.mark.parametrize('start, end', [('settled', 'heap'), ('clumpedSettled', 'clumped')])
+def testTheSceneMovesAndContactsRemember(found, start, end):
 	"""Else the comparison above would say nothing."""
-	before, after = found('settled', 1), found('heap', 1)
+	before, after = found(start, 1), found(end, 1)
 	assert max(farthest(before['bodies'][k][:3], after['bodies'][k][:3]) for k in before['bodies']) > 1e-7
 	contacts = after['contacts'].values()
 	assert any(float.fromhex(x) != 0 for contact in contacts for x in contact[6:9])  # shear force
 	assert any(float.fromhex(x) != 0 for contact in contacts for x in contact[9:12])  # slip
 
 
-def testFieldsOfAllRanksAreThoseOfTheMergedScene(found):
-	divided = found('divided', 3)
+@pytest.mark.parametrize('name, shapes', [('divided', {'Polytope'}), ('clumpedDivided', {'Polytope', 'Clump'})])
+def testFieldsOfAllRanksAreThoseOfTheMergedScene(found, name, shapes):
+	divided = found(name, 3)
 	assert set(divided['same'].values()) == {True}, divided['same']
 	assert max(abs(x) for x in divided['net']) < 1e-9 * divided['push'] and divided['push'] > 100
-	assert set(divided['names']) == {'Polytope'}
+	assert set(divided['names']) == shapes and (divided['ofTwoRanks'] > 5) == ('Clump' in shapes)
 	assert divided['stats']['pairs'] > 50 * len(divided['contacts']) and divided['stats']['failures'] == 0
 
 
@@ -118,6 +131,24 @@ def testRecordersWriteTheWholeSceneOnce(found):
 	assert names[0] == names[1] and {'bodies.pvd', 'bodies.2550.vtu', 'contacts.2575.vtp', 'run.yade', 'run.previous.yade'} <= set(names[0])
 	for ranks in (1, 3):
 		assert 'NumberOfCells="30"' in (found.folder / f'{ranks}/bodies.2575.vtu').read_text(errors='replace')  # six walls
+
+
+@pytest.mark.parametrize('ranks', [2, 3])
+def testClumpsThatMoveFromOneRanksPartToTheOthers(found, ranks):
+	"""They fall, roll and strike each other on a fixed clump."""
+	one, several = found('clumpedSliding', 1), found('clumpedSliding', ranks)
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys() and len(one['contacts']) > 10
+	assert max(farthest(one['bodies'][k], several['bodies'][k]) for k in one['bodies']) < 1e-12 * size
+	assert max(farthest(one['contacts'][k][6:13], several['contacts'][k][6:13]) for k in one['contacts']) < 1e-9 * 350
+	assert sum(contact[13] for contact in one['contacts'].values()) < len(one['contacts']) - 5  # joints that have slipped
+
+
+def testFixedBodiesWithAVelocityMoveOnAllRanks(found):
+	one, several = found('carried', 1), found('carried', 3)
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
+	assert max(farthest(one['bodies'][k], several['bodies'][k]) for k in one['bodies']) < 1e-12 * size
+	pushed = [float.fromhex(x) for x in one['bodies']['4']]
+	assert pushed[2] > 0.2 + 0.9 * 0.01 and pushed[7] > 1  # carried upwards, and struck by the plate
 
 
 @pytest.mark.parametrize('name, moved', [('smooth', 400), ('joints', 80)])
@@ -160,7 +191,7 @@ def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
 	('mpy.REALLOCATE_FREQUENCY', 'call polytope.mpi.divide()'),
 	('O.trackEnergy', 'polytope.mpi.arrays()'),
 	('ForceRecorder', 'polytope.mpi.merge()'),
-	('clumps', 'on one'),
+	('Body.subdomain', 'call polytope.mpi.divide()'),
 	('O.periodic', 'on one process'),
 ])
 def testWhatCannotBeHadIsRefused(found, name, remedy):
@@ -168,11 +199,13 @@ def testWhatCannotBeHadIsRefused(found, name, remedy):
 	assert said['nothing'] is None and name in said[name] and remedy in said[name]
 
 
-def testARunThatIsKilledGoesOnFromItsLastState(found):
+@pytest.mark.parametrize('name, end, bodies', [('killed', 'heap', 24), ('clumpedKilled', 'clumped', clumpedBodies)])
+def testARunThatIsKilledGoesOnFromItsLastState(found, name, end, bodies):
 	"""Saved on 3 ranks, continued on 3 and on one."""
-	process = launch(3, sys.executable, scenes, str(found.folder), 'killed')
-	end = time.monotonic() + hangs
-	while not (found.folder / 'running').exists() and process.poll() is None and time.monotonic() < end:
+	(found.folder / 'running').unlink(missing_ok=True)
+	process = launch(3, sys.executable, scenes, str(found.folder), name)
+	latest = time.monotonic() + hangs
+	while not (found.folder / 'running').exists() and process.poll() is None and time.monotonic() < latest:
 		time.sleep(0.05)
 	time.sleep(0.2)
 	assert process.poll() is None, process.communicate()[0]
@@ -181,7 +214,7 @@ def testARunThatIsKilledGoesOnFromItsLastState(found):
 	process.communicate()
 	for ranks in (3, 0):
 		under(ranks, sys.executable, scenes, str(found.folder), 'continued')
-		assert same(found('heap', 1), found('continued', ranks or 1))
+		assert same(found(end, 1), found('continued', ranks or 1), bodies)
 
 
 def testARankThatFailsEndsTheRun(tmp_path):

@@ -47,6 +47,9 @@ def testWhatIsWrittenIsReadAgain(tmp_path):
 	assert polytope.writeShapes(path, ids=[3]) == 1 and len(polytope.readShapes(path)) == 1
 	with pytest.raises(ValueError, match='^ids: body 16 is no polyhedron'):
 		polytope.writeShapes(path, ids=[16])
+	O.reset()
+	with pytest.raises(ValueError, match='^ids: the scene has no polyhedron'):
+		polytope.writeShapes(path)
 
 
 def testYadesOwnReaderTakesTheFile(tmp_path):

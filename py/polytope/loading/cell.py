@@ -6,6 +6,7 @@ import math
 import numpy as np
 from yade import Matrix3, NewtonIntegrator, O, PeriTriaxController, utils
 
+from ..bonding import bonds
 from .sample import Sample
 from .servo import massShare
 
@@ -15,11 +16,20 @@ far = 20.0
 """Logarithmic strain as the controller's goal where a direction is moved at its largest rate: never reached."""
 
 
+def _withoutBonds():
+	engine = bonds()
+	if engine and engine.intactCount:
+		raise RuntimeError(
+			f'sample: has {engine.intactCount} intact bonds, whose stress a periodic cell does not feel (YADE measures it by contacts alone); load it between walls: polytope.sample() with O.periodic = False'
+		)
+
+
 class PeriodicSample(Sample):
 	"""Bodies in O.cell; what polytope.pack(…, periodic=True) returns."""
 
 	def __init__(self, ids):
 		super().__init__(ids)
+		_withoutBonds()
 		self.shearRate = 0.0
 
 	@property
@@ -40,6 +50,7 @@ class PeriodicSample(Sample):
 		return np.diag(self.stress())
 
 	def apply(self):
+		_withoutBonds()
 		controller = self._controller()
 		goal, fastest, mask = [0.0] * 3, [0.0] * 3, 0
 		for axis in range(3):

@@ -13,7 +13,7 @@ from yade import O, Polytope, utils
 from ..heap import moverOf, partsOf, solidVolume
 from ..measures import bodyStress
 
-__all__ = ['Sample']
+__all__ = ['Sample', 'idsOfSample']
 
 stressError, restingForce = 5e-4, 5e-3
 """Relative deviation from the target stress, and YADE's unbalanced force, below which a sample counts as settled."""
@@ -30,6 +30,21 @@ quasiStatic = 1e-3
 """Inertial number of tests by default: below it the answer does not depend on the rate (GDR MiDi 2004, Eur. Phys. J. E 14:341)."""
 
 
+def idsOfSample(ids):
+	"""Of bodies and clumps that can move.
+
+	:raises ValueError: naming *ids*
+	"""
+	chosen = [k for k in dict.fromkeys(map(moverOf, ids)) if O.bodies[k].dynamic]
+	if not chosen:
+		raise ValueError('ids: the sample has no body that can move')
+	for part in (part for k in chosen for part in partsOf(k)):
+		shape = O.bodies[part].shape
+		if not isinstance(shape, Polytope) or shape.dimension != 3:
+			raise ValueError(f'ids: a sample is made of polyhedra, and body {part} is none')
+	return chosen
+
+
 class Sample:
 	"""Base of samples between walls, in a periodic cell, in a shear frame, in a shear box.
 
@@ -38,13 +53,8 @@ class Sample:
 	"""
 
 	def __init__(self, ids):
-		self.ids = [k for k in dict.fromkeys(map(moverOf, ids)) if O.bodies[k].dynamic]
-		if not self.ids:
-			raise ValueError('ids: the sample has no body that can move')
+		self.ids = idsOfSample(ids)
 		self._first = O.bodies[self.ids[0]]
-		parts = [O.bodies[part] for k in self.ids for part in partsOf(k)]
-		if not all(isinstance(body.shape, Polytope) for body in parts):
-			raise ValueError('ids: a sample is made of polytopes')
 		self.volumes = {k: solidVolume(k) for k in self.ids}
 		self.solidVolume = sum(self.volumes.values())
 		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
@@ -57,7 +67,7 @@ class Sample:
 		# a body's text has its address, which no other one has while this one is kept
 		if not k < len(O.bodies) or repr(O.bodies[k]) != repr(self._first):
 			raise RuntimeError(
-				'sample: its bodies are not in the present scene, as after O.load or O.reset; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
+				f'sample: its body {k} is not in the present scene, as after O.load, O.reset or where grains break; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
 			)
 
 	@property

@@ -9,7 +9,7 @@ from numbers import Integral
 
 from yade import O, mpy
 
-from . import division, recorders
+from . import bonds, clumps, division, recorders
 from .division import shareTimeStep
 from .fields import arrays, stats
 
@@ -30,7 +30,7 @@ def divide(axis=0):
 	"""Gives each worker an equal number of the bodies that can move, in the order of their positions along an axis; every rank has to call it.
 
 	Called again during a run, it merges the scene and divides it by the positions that the bodies have then. Contacts keep what they remember.
-	Fixed bodies stay with rank 0, which lets all workers touch them.
+	Fixed bodies stay with rank 0, which lets all workers touch them. A clump is one body, at its centre.
 
 	:param int axis: 0, 1, 2: x, y, z
 	:raises ValueError: naming *axis*
@@ -42,7 +42,7 @@ def divide(axis=0):
 	merge()
 	division.handOut()
 	if rank() == 0:
-		moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
+		moving = clumps.movers()
 		moving.sort(key=lambda body: body.state.pos[axis])
 		division.assign({body.id: 1 + k * (size() - 1) // len(moving) for k, body in enumerate(moving)})
 
@@ -68,7 +68,7 @@ def run(steps, merged=True):
 	while steps > 0:
 		piece = mpy.comm.bcast(min(int(steps), recorders.stepsToNext()) if rank() == 0 else None)
 		mpy.mpirun(piece, size())
-		division.checkBonds()
+		bonds.check()
 		steps -= piece
 		_record()
 	if merged:

@@ -13,13 +13,13 @@ import sys
 import traceback
 
 import yade
-from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, Vector3, _polytope, mpy
+from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
 
 from .._ranks import eraseRanks
-from ..bonding import bonds
+from . import bonds, clumps, decomposition, permanentLoads
 from .recorders import ofWholeScene
 
-__all__ = ['check', 'checkBonds', 'handOut', 'install', 'shareTimeStep', 'size']
+__all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
 
 shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
 """What runs after a time stepper on each rank."""
@@ -42,11 +42,11 @@ def handOut():
 def assign(ranks):
 	"""Gives bodies to ranks, on rank 0.
 
-	:param dict ranks: id → rank; the others stay with rank 0
+	:param dict ranks: id → rank; the others stay with rank 0, members of clumps with their clump
 	"""
 	_ranksOfBodies.clear()
 	for body in O.bodies:
-		body.subdomain = ranks.get(body.id, 0)
+		body.subdomain = ranks.get(clumps.mover(body), 0)
 
 
 def _own():
@@ -88,36 +88,11 @@ def _typedEngine(name):
 	raise RuntimeError(f'O.engines: there is no {name}, which a run on several processes needs')
 
 
-def _divideBonds(divided):
-	engine = bonds()
-	if engine:
-		engine._divided, engine._missing = divided, 0
-
-
-def checkBonds():
-	"""After steps, on every rank.
-
-	:raises RuntimeError: a bond did not act, for its other body was not on its rank
-	"""
-	engine = bonds()
-	if mpy.comm.allreduce(engine._missing if engine else 0):
-		raise RuntimeError('O.engines: a bond joins bodies so far apart that their boxes do not meet; set a larger verletDist of the collider, or a smaller gap in polytope.bond')
-
-
-def _mergeBonds(states):
-	"""On rank 0: what the workers have found."""
-	engine = bonds()
-	if engine:
-		for state in states:
-			engine._takeStates(state)
-		engine._adoptBodies()
-
-
 def _prepared(splitScene):
 	@functools.wraps(splitScene)
 	def split():
 		_handOutScene(splitScene)
-		_divideBonds(True)
+		bonds.divide(True)
 
 	return split
 
@@ -130,49 +105,19 @@ def _handOutScene(splitScene):
 		return
 	if mpy.rank != 0:
 		splitScene()
-		_takePermanentLoads(None)
+		permanentLoads.take(None)
 		return
 	check()
 	eraseRanks()
 	if mpy.DOMAIN_DECOMPOSITION:
-		_keepFixedBodies()
-	loads = _permanentLoads()
+		decomposition.prepare()
+	clumps.giveMaterials()
+	loads = permanentLoads.ofAll()
 	plain = O.engines
 	O.engines = _sharing(plain)
 	splitScene()
 	O.initialEngines = plain  # what the merged scene gets
-	_takePermanentLoads(loads)
-
-
-def _keepFixedBodies():
-	"""yade.mpy's decomposition leaves walls, boxes and facets with rank 0, and the subdomain of others to itself; fixed polytopes belong to rank 0, too."""
-	from yade.bisectionDecomposition import decompBodiesSerial  # starts to write errors to the standard output
-
-	def ofMaster(self, body):
-		return not body.dynamic or body.isSubdomain
-
-	decompBodiesSerial.checkIfMasterBody = ofMaster
-	for body in O.bodies:
-		if not body.dynamic:
-			body.subdomain = 0
-
-
-def _permanentLoads():
-	"""YADE does not send them with the scene."""
-	if not O.forces.getPermForceUsed():
-		return []
-	O.forces.f(0, sync=True)  # else those set since the last step are not seen
-	return [(body.id, tuple(O.forces.permF(body.id)), tuple(O.forces.permT(body.id))) for body in O.bodies]
-
-
-def _takePermanentLoads(loads):
-	loads = mpy.comm.bcast(loads)
-	if mpy.rank == 0:
-		return
-	for k, force, torque in loads:
-		if O.bodies[k] is not None and O.bodies[k].subdomain == mpy.rank and any(force + torque):
-			O.forces.setPermF(k, Vector3(force))
-			O.forces.setPermT(k, Vector3(torque))
+	permanentLoads.take(loads)
 
 
 def _sharing(engines):
@@ -199,17 +144,18 @@ def check():
 		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
 	if O.trackEnergy:
 		raise RuntimeError('O.trackEnergy: must be False; contacts of two ranks would count twice. polytope.mpi.arrays() has what energies are made of')
-	if any(body.isClump for body in O.bodies):
-		raise RuntimeError('O.bodies: clumps are not supported on several processes; run this scene on one')
 	for engine in O.engines:
 		if isinstance(engine, yade.Recorder):
 			name = engine.__class__.__name__
 			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
-	moving = [body for body in O.bodies if body.dynamic and not body.isSubdomain]
-	if not mpy.DOMAIN_DECOMPOSITION and all(body.subdomain == 0 for body in moving):
+	if mpy.DOMAIN_DECOMPOSITION:
+		return
+	ranks = [body.subdomain for body in clumps.movers()]
+	if not any(ranks):
 		raise RuntimeError('Body.subdomain: all bodies are with rank 0; call polytope.mpi.divide() or set mpy.DOMAIN_DECOMPOSITION')
-	if not mpy.DOMAIN_DECOMPOSITION and not all(0 < body.subdomain < size() for body in moving):
+	if not all(0 < rank < size() for rank in ranks):
 		raise RuntimeError(f'Body.subdomain: must be a rank, 1 to {size() - 1}; call polytope.mpi.divide()')
+	clumps.check()
 
 
 def _checkSettings():
@@ -220,6 +166,7 @@ def _checkSettings():
 		('USE_CPP_MPI', True, 'its other way gives states of one rank to bodies of another where rank 0 has bodies that are touched'),
 		('OPTIMIZE_COM', True, 'it was not tested with polytopes'),
 		('MERGE_W_INTERACTIONS', True, 'merged contacts would begin anew'),
+		('MASTER_UPDATE_STATES', True, 'fixed bodies that have a velocity would stand still for the other ranks'),
 		('REALLOCATE_FREQUENCY', 0, 'a body that changes ranks during a run would lose contacts; call polytope.mpi.divide() between two runs instead'),
 		('RESET_SUBDOMAINS_WHEN_COLLIDE', False, 'contacts would begin anew; call polytope.mpi.divide() between two runs instead'),
 		('DISTRIBUTED_INSERT', False, 'polytope.mpi hands out the scene of rank 0'),
@@ -234,13 +181,14 @@ def _withBodiesOfRankZero(mergeScene):
 	@functools.wraps(mergeScene)
 	def merge():
 		merges = O.splitted
-		states = mpy.comm.gather(bonds()._states() if mpy.rank > 0 and bonds() else []) if merges else []
+		states = bonds.states() if merges else None
 		mergeScene()
 		if merges:
-			_divideBonds(False)
+			bonds.divide(False)
 			if mpy.rank == 0:
 				_own()
-				_mergeBonds(states)
+				clumps.takeMaterials()
+				bonds.takeStates(states)
 
 	return merge
 
@@ -272,6 +220,18 @@ def _withIdleRanks(checkAndCollide):
 	return check
 
 
+def _withStatesOfRankZero(sendRecvStates):
+	"""Bodies of rank 0 may have a velocity. With the setting that lets rank 0 send them, it leaves out the barrier that the workers come to."""
+
+	@functools.wraps(sendRecvStates)
+	def exchange():
+		sendRecvStates()
+		if mpy.rank == 0 and mpy.MASTER_UPDATE_STATES:
+			mpy.comm.barrier()
+
+	return exchange
+
+
 def _endAll(kind, fault, trace):
 	"""An exception that ends one rank ends all: the others would wait for it for ever."""
 	traceback.print_exception(kind, fault, trace)
@@ -298,6 +258,9 @@ def install():
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
+	mpy.sendRecvStates = _withStatesOfRankZero(mpy.sendRecvStates)
+	mpy.genLocalIntersections = clumps.wholeClumps(mpy.genLocalIntersections)
+	mpy.MASTER_UPDATE_STATES = True
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
 	if size() > 1:

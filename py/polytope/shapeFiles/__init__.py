@@ -67,6 +67,8 @@ def writeShapes(path, ids=None):
 		shape = O.bodies[k].shape
 		if not isinstance(shape, Polytope) or shape.dimension != 3:
 			raise ValueError(f'ids: body {k} is no polyhedron')
+	if not chosen:
+		raise ValueError('ids: the scene has no polyhedron to write')
 	return yadeText.write(path, [O.bodies[k] for k in chosen])
 
 
