@@ -190,7 +190,7 @@ def testAnotherSceneIsToldOf(tmp_path):
 	assert again.sample.extents == pytest.approx(test.sample.extents, rel=1e-9) and again.sample.extents == pytest.approx(extents, rel=1e-2)
 	again.run(1e-5)
 	O.reset()
-	with pytest.raises(RuntimeError, match='^sample: its bodies are not'):
+	with pytest.raises(RuntimeError, match='^sample: its body 0 is not'):
 		again.run(1e-4)
 
 
