@@ -103,6 +103,7 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 		lower, upper = there if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
 		if not all(low < high for low, high in zip(lower, upper, strict=True)):
 			raise ValueError(f'upper: must be above lower in all three directions, got lower {lower!r}, upper {upper!r}')
+	idsOfSample(chosen)  # before anything of the scene is changed
 	for body in former:
 		O.bodies.erase(body.id)
 	material = next(O.bodies[part].material for k in chosen for part in partsOf(k))
@@ -159,7 +160,6 @@ def _give(bodies, frictionAngle):
 
 def _boundary(ids, lower, upper, material, wallFriction, periodic, gravity):
 	"""The sample with its walls or cell, and O.engines."""
-	idsOfSample(ids)  # before anything of the scene is changed
 	if periodic:
 		if lower is not None:
 			_cell(ids, np.array(lower, float), np.array(upper, float))
