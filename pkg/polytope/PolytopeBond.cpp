@@ -28,6 +28,23 @@ void PolytopeBond::adoptBodies(const BodyContainer& bodies, bool anew)
 	adopt(body2_, id2, bodies, anew);
 }
 
+polytope::BondMotion PolytopeBond::follow(const State& state1, const State& state2, const Vector3r& shift)
+{
+	const Vector3r             to1 = state1.ori * point1, to2 = state2.ori * point2;
+	const Vector3r             between = (state2.pos - state1.pos + shift) + (to2 - to1);
+	const polytope::BondMotion motion  = polytope::bondMotion(state1.ori * frame1, state2.ori * frame2, between);
+	const polytope::BondForce  now     = polytope::bondForce(motion, linearStiffness(), angularStiffness());
+	force                              = now.force;
+	moment                             = now.moment;
+	energy                             = now.energy;
+	arm1                               = to1 + between / 2;
+	arm2                               = to2 - between / 2;
+	point                              = state1.pos + arm1;
+	setStresses(motion.displacement, motion.rotation);
+	return motion;
+}
+
+/// Of a displacement and rotation (src/bond/BondSprings.hpp).
 void PolytopeBond::setStresses(const Vector3r& displacement, const Vector3r& rotation)
 {
 	Real bending = -std::numeric_limits<Real>::infinity(), farthest = 0;

@@ -21,8 +21,8 @@ public:
 		return Vector3r(twistingStiffness * (secondMoments[0] + secondMoments[1]), bendingStiffness * secondMoments[1],
 		        bendingStiffness * secondMoments[0]);
 	}
-	/// Sets the stresses of a displacement and rotation (src/bond/BondSprings.hpp).
-	void setStresses(const Vector3r& displacement, const Vector3r& rotation);
+	/// Sets force, moment, energy, their arms and the stresses from where the bodies are, body 2 in the period of body 1 by `shift`.
+	polytope::BondMotion follow(const State& state1, const State& state2, const Vector3r& shift);
 	/// Strength that these stresses exceed: "tension", "shear", or none.
 	const char* exceeded() const;
 	/// Whether its two bodies are those between which it was made, not others that have got their numbers. A bond from a file
@@ -79,6 +79,8 @@ public:
 	// clang-format on
 
 private:
+	void setStresses(const Vector3r& displacement, const Vector3r& rotation);
+
 	boost::weak_ptr<Body> body1_, body2_;
 };
 REGISTER_SERIALIZABLE(PolytopeBond);

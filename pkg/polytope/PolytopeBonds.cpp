@@ -96,23 +96,12 @@ void PolytopeBonds::act(PolytopeBond& bond) const
 		}
 		bond.adoptBodies(*scene->bodies);
 	}
-	const State &              state1 = *(*scene->bodies)[bond.id1]->state, &state2 = *(*scene->bodies)[bond.id2]->state;
-	const Vector3r             shift = shiftOf(bond, *scene), to1 = state1.ori * bond.point1, to2 = state2.ori * bond.point2;
-	const Vector3r             between = (state2.pos - state1.pos + shift) + (to2 - to1);
-	const polytope::BondMotion motion  = polytope::bondMotion(state1.ori * bond.frame1, state2.ori * bond.frame2, between);
-	const polytope::BondForce  now     = polytope::bondForce(motion, bond.linearStiffness(), bond.angularStiffness());
-	bond.force                         = now.force;
-	bond.moment                        = now.moment;
-	bond.energy                        = now.energy;
-	bond.arm1                          = to1 + between / 2;
-	bond.arm2                          = to2 - between / 2;
-	bond.point                         = state1.pos + bond.arm1;
+	bond.follow(*(*scene->bodies)[bond.id1]->state, *(*scene->bodies)[bond.id2]->state, shiftOf(bond, *scene));
 	if (!bond.isFinite()) { // as contacts: left out of this step
 		bond.force = bond.moment = Vector3r::Zero();
 		bond.energy              = 0;
 		return;
 	}
-	bond.setStresses(motion.displacement, motion.rotation);
 	if (const char* strength = bond.exceeded()) bond.failure = strength;
 	scene->forces.addForce(bond.id1, -bond.force);
 	scene->forces.addForce(bond.id2, bond.force);

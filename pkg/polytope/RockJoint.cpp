@@ -87,6 +87,12 @@ void RockJointPhys::fail()
 	if (tangensOfResidualFrictionAngle >= 0) tangensOfFrictionAngle = tangensOfResidualFrictionAngle;
 }
 
+void RockJointPhys::losesTension()
+{
+	tensileStrength = 0;
+	if (!(cohesion > 0)) fail();
+}
+
 bool RockJointPhys::bearsTension(Real force) const { return intact && force <= tensileStrength * contactArea; }
 
 Real RockJointPhys::shearStrength(Real normal) const

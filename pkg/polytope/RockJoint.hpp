@@ -7,6 +7,8 @@
 
 #include <array>
 
+#include "PolytopeBond.hpp"
+
 /// Rock joints between Polytopes: material and contact physics.
 ///
 /// Signs: forces are those on body 2 from body 1 (as everywhere in YADE), the normal points from body 1 to body 2, so a
@@ -68,6 +70,12 @@ public:
 	void slide(const Vector3r& excess);
 	/// The joint fails: peak values are replaced by residual ones.
 	void fail();
+	/// The intact joint loses its tensile strength, and fails if it has no cohesion either.
+	void losesTension();
+	/// Whether it acts as a bond of its faces, or will once they lie on each other (RockJointBond.cpp).
+	bool mayActAsBond() const { return bond || (intact && tensileStrength > 0 && normalStiffness > 0 && shearStiffness > 0); }
+	/// Moment on body 2 of the joint's own bond [N m].
+	Vector3r bondMoment() const { return bond ? bond->moment : Vector3r(Vector3r::Zero()); }
 	/// Whether the joint can carry a tensile force [N].
 	bool bearsTension(Real force) const;
 	/// Largest shear force at a normal force (positive in compression) [N].
@@ -101,6 +109,7 @@ public:
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
 		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
 		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
+		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the joint."))
 		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))
 		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
 		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))

@@ -30,6 +30,7 @@ public:
 	R"""(Elastic joint with Mohr-Coulomb strength, after [Hart1988]_ and [Boon2012]_.
 
 * Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>` $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that has lost its strength, or has slipped and dilates, is kept without force as long as the gap is smaller than the bodies, so that it regains no strength and keeps its dilation when it closes. The area is that of the last overlap while the bodies are apart.
+* An intact joint with tensile strength and a stiffness per area holds over the whole area of its two faces, however it is tilted: from the step in which the faces lie on each other it is a bond (:yref:`RockJointPhys.bond`, docs/bonds.md) without force where they are flush, whose stress at the edge, too, must stay below $\\sigma_t$ and whose shear stress below $c-\\sigma\\tan\\phi$. Where the former fails the tensile strength is lost (with it the friction angle becomes the residual one, if there is no cohesion), where the latter fails the joint does.
 * The shear force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length), then incremented by $-k_s\Delta\vec u_s$ from the relative velocity at the contact point. Stiffness per area is a bed of springs, $k_s=k_s'A$: the force of those that leave a shrinking area is lost, $\vec f_s$ falls with $A$ and the elastic displacement $\vec f_s/k_s$ is unchanged; those that join a growing area are unstrained, $\vec f_s$ is unchanged. Neither creates energy.
 * Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
 * Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again. In each step $\vec u_p$ grows by the motion along the joint less the change of elastic displacement; in an open joint all motion along it is slip.
@@ -51,6 +52,7 @@ private:
 	struct Pair;
 	struct Last;
 	struct StepWork;
+	bool     actsAsBond(Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& increment);
 	bool     limitShear(RockJointPhys& phys, Real normal, Vector3r& shear) const;
 	Real     normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const;
 	Vector3r shearDamper(const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;

@@ -139,6 +139,14 @@ namespace {
 		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
 
+	/// Of an intact joint that acts as a bond.
+	Matrix3r rotationStiffness(const PolytopeBond& bond, const Body& body1)
+	{
+		const Matrix3r axes    = (body1.state->ori * bond.frame1).toRotationMatrix();
+		const Vector3r angular = bond.angularStiffness();
+		return axes * angular.asDiagonal() * axes.transpose();
+	}
+
 	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
 	Real gyrationSquared(const Pair& pair, const RockJointPhys& phys)
 	{
@@ -207,8 +215,9 @@ namespace {
 				springs.normalStiffness = phys->kn;
 				springs.shearStiffness  = phys->ks;
 				if (const auto* ours = dynamic_cast<const PolytopeGeom*>(geom)) {
-					springs.rockingStiffness = rockingStiffness(pair, *ours, steps);
 					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
+					springs.rockingStiffness = joint && joint->bond ? rotationStiffness(*joint->bond, pair.body1)
+					                                                : rockingStiffness(pair, *ours, steps);
 					if (joint && law) addDampers(pair, *joint, *law, springs);
 				}
 				sum.add(springs, pair.arm(part));

@@ -3,15 +3,19 @@
 
 import functools
 import inspect
+import os
+import sys
+import warnings
 
 import numpy as np
 from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'rotation', 'vector', 'vectors']
+__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'rotation', 'vector', 'vectors', 'warn']
 
 infinite = float('inf')
+package = os.path.dirname(os.path.abspath(__file__)) + os.sep
 
 
 def namedArguments(function):
@@ -26,6 +30,14 @@ def namedArguments(function):
 		return function(*given, **named)
 
 	return checked
+
+
+def warn(message):
+	"""A warning at the line of the script that called this package, however deep in it the caller is."""
+	level, frame = 1, sys._getframe()
+	while frame.f_back is not None and os.path.abspath(frame.f_code.co_filename).startswith(package):
+		level, frame = level + 1, frame.f_back
+	warnings.warn(message, stacklevel=level)
 
 
 def number(value, name):

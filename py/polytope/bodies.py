@@ -22,12 +22,11 @@ import inspect
 import numbers
 import os
 import random
-import warnings
 
 import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
-from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors
+from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors, warn
 from .precision import isNumber
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
@@ -216,10 +215,10 @@ def _tellWhatTheHullHides(path, points, triangles, hull):
 	import trimesh
 	mesh = trimesh.Trimesh(points, triangles)  # joins equal vertices: STL has three for each triangle
 	if not len(triangles) or not mesh.is_watertight:
-		warnings.warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices", stacklevel=4)
+		warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices")
 	elif abs(mesh.volume) < (1 - notConvex) * hull:
 		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
-		warnings.warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts', stacklevel=4)
+		warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts')
 
 
 def readMesh(path, name):

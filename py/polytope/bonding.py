@@ -3,11 +3,10 @@
 
 import math
 import numbers
-import warnings
 
 from yade import Clump, InteractionLoop, NewtonIntegrator, O, Polytope, PolytopeBond, PolytopeBonds
 
-from .arguments import namedArguments
+from .arguments import namedArguments, warn
 from .precision import isNumber, real
 
 __all__ = ['bond', 'bonds', 'removedBonds']
@@ -81,7 +80,7 @@ def bond(
 		within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
 		movable = '' if ids is not None else ' of which one can move'
 		advice = 'give a larger gap or angle' + (', or ids to bond fixed bodies' if movable else '')
-		warnings.warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}', stacklevel=2)
+		warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}')
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
 		lastSeen[0] = engine

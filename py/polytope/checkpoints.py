@@ -12,11 +12,11 @@ import os
 import signal
 import threading
 import time
-import warnings
 
 from yade import O, PolytopeCheckpoint
 
 from ._ranks import forgetDivision
+from .arguments import warn
 
 __all__ = ['checkpoint', 'continueFrom']
 
@@ -81,7 +81,7 @@ def continueFrom(fileName='checkpoint'):
 			faults.append(f'{name}: {fault}')
 			continue
 		for fault in faults:
-			warnings.warn(f'fileName: {fault}; the state before it was loaded', stacklevel=2)
+			warn(f'fileName: {fault}; the state before it was loaded')
 		_goOn(fileName)
 		return name
 	if names:

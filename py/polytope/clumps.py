@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies that are not convex, as clumps of convex parts that may overlap: `polytope.clump(…)`. Mass and inertia are those of the union."""
 
-import warnings
-
 import numpy as np
 from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 
+from .arguments import warn
 from .bodies import isotropyTolerance
 
 __all__ = ['clump', 'union']
@@ -72,9 +71,8 @@ def _warnOfPartsApart(parts):
 				groups = [groups[k] if group == groups[j] else group for group in groups]
 	alone = [k for k, group in enumerate(groups) if group != groups[0]]
 	if alone:
-		warnings.warn(
+		warn(
 			f'parts: part {alone[0]} touches neither part 0 nor what is joined to it; the clump is rigid across the gap. If that is not meant, check center and extents of the part',
-			stacklevel=3,
 		)
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The usual engines of a scene in one line: `polytope.engines(…)`."""
 
-import warnings
-
 import yade
 from yade import (
 	Bo1_Box_Aabb,
@@ -32,7 +30,7 @@ from yade import (
 	Vector3,
 )
 
-from .arguments import namedArguments, number, vector
+from .arguments import namedArguments, number, vector, warn
 from .bonding import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
@@ -95,7 +93,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	if isinstance(made[-1], PolytopeTimeStepper):
 		O.dt = min(O.dt, firstStep)
 	for finding in checkOf(O, made):
-		warnings.warn(f'{finding.what}: {finding.seen}; {finding.advice}', stacklevel=2)
+		warn(f'{finding.what}: {finding.seen}; {finding.advice}')
 	return made
 
 

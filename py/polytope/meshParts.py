@@ -2,13 +2,12 @@
 """A mesh that is not convex as convex parts, by CoACD (Wei et al. 2022, ACM Transactions on Graphics 41:42) or as its file has them."""
 
 import numbers
-import warnings
 
 import numpy as np
 import scipy.sparse.csgraph
 from yade import Vector3
 
-from .arguments import rotation, vector
+from .arguments import rotation, vector, warn
 from .bodies import fromVertices, notConvex
 from .clumps import union
 
@@ -37,8 +36,8 @@ def convexParts(path, points, triangles, parts, body):
 	_, middle, _ = whole = union(made)
 	mesh, volume = trimesh.Trimesh(points, triangles), whole[0] / float(made[0].material.density)
 	if mesh.is_watertight and parts != 'objects' and abs(volume / abs(mesh.volume) - 1) > enough:
-		warnings.warn(
-			f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³; give more parts", stacklevel=4
+		warn(
+			f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³; give more parts"
 		)
 	_place(made, Vector3(*middle), center, orientation)
 	return made

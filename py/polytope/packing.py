@@ -13,7 +13,7 @@ from .engines import engines
 from .grains import cloud
 from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
-from .loading.sample import between, fastestStrain, idsOfSample
+from .loading.sample import between, deepest, fastestStrain, idsOfSample, tooDeep
 from .loading.servo import actOn
 from .loading.walls import WalledSample, boundaryMask, meetWalls, sixWalls, smooth, withoutEachOther
 from .measures import aabbExtrema
@@ -200,6 +200,8 @@ def _compress(made, stress, porosity):
 		made.control(rates=dict.fromkeys(range(3), min(fastestStrain, left / 200) / float(O.dt)))
 		for _ in range(between):
 			O.step()
+		if (pressed := made.overlap()) > deepest:
+			raise RuntimeError(f'porosity: {made.porosity:.3g} is reached so far, and {tooDeep(pressed)}')
 	made.control()
 	for k in made.ids:
 		state = O.bodies[k].state

@@ -17,4 +17,8 @@ constexpr Real isotropicArea = 1e-9;
 /// that are meant to touch.
 constexpr Real touchingFaces = 1e-6;
 
+/// Largest angle between two faces [rad] that a joint takes for faces lying on each other: what settling leaves between faces meant to touch, at
+/// ordinary stiffness. polytope.bond() has the same default.
+constexpr Real facingOfJoints = 0.01;
+
 } // namespace polytope::tolerance

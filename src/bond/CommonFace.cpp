@@ -145,6 +145,8 @@ std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape&
 				x -= middle;
 			turnToPrincipalAxes(common, ring, u, v);
 			common.axes << normal, u, v;
+			common.normal1 = face1.normal;
+			common.normal2 = face2.normal;
 			common.corners = std::move(ring);
 			found.push_back(std::move(common));
 		}

@@ -6,14 +6,16 @@ in tension.
 """
 
 import math
+import weakref
 
 import numpy as np
 from yade import O, Polytope, utils
 
+from ..arrays import arrays
 from ..heap import moverOf, partsOf, solidVolume
 from ..measures import bodyStress
 
-__all__ = ['Sample', 'idsOfSample']
+__all__ = ['Sample', 'deepest', 'idsOfSample', 'replaceInSamples', 'tooDeep']
 
 stressError, restingForce = 5e-4, 5e-3
 """Relative deviation from the target stress, and YADE's unbalanced force, below which a sample counts as settled."""
@@ -23,11 +25,29 @@ between, looks = 20, 10
 """Steps between two looks at it, and how many in a row must find it at rest: one alone may be a turning point."""
 unchanged, stalledLooks = 1e-9, 50
 """Relative change of the deviation between two looks, and how many such looks of a sample at rest, after which its stress will never be reached: the boundary has stopped."""
+deepest = 0.1
+"""Mean overlap over the mean size of the bodies above which they are pressed into each other as no bodies are: some thousandths are usual."""
 fastestStrain = 3e-4
 """Strain in a time step at which boundaries move at most while they look for a stress. The step follows from the grains' own periods: neighbours that
 meet at this rate overlap by some 1e-3 of their size."""
 quasiStatic = 1e-3
 """Inertial number of tests by default: below it the answer does not depend on the rate (GDR MiDi 2004, Eur. Phys. J. E 14:341)."""
+
+
+_samples = weakref.WeakSet()
+
+
+def replaceInSamples(k, pieces):
+	"""A body of the scene has been broken: its pieces take its place in the samples that it is in."""
+	for sample in _samples:
+		if k in sample.volumes and sample.isPresent:
+			sample.replace(k, pieces)
+
+
+def tooDeep(overlap):
+	"""Message where bodies are pressed into each other."""
+	seen = f'the bodies overlap by {100 * overlap:.2g} % of their size on average, which no bodies do'
+	return f'{seen}; give the material a higher normalStiffness, or a lower stress, or a larger porosity'
 
 
 def idsOfSample(ids):
@@ -60,15 +80,29 @@ class Sample:
 		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
 		self.meanSize = (self.solidVolume / len(self.ids)) ** (1 / 3)
 		self.stresses, self.rates, self.fastest = [None] * 3, [0.0] * 3, [math.inf] * 3
+		_samples.add(self)
+
+	@property
+	def isPresent(self):
+		"""Whether the scene is still the one with its bodies."""
+		k = self.ids[0]
+		# a body's text has its address, which no other one has while this one is kept
+		return k < len(O.bodies) and repr(O.bodies[k]) == repr(self._first)
 
 	def mustBePresent(self):
 		"""RuntimeError where the scene is another one by now: what moves the boundary, and all that is measured, would be of bodies that are gone."""
-		k = self.ids[0]
-		# a body's text has its address, which no other one has while this one is kept
-		if not k < len(O.bodies) or repr(O.bodies[k]) != repr(self._first):
+		if not self.isPresent:
 			raise RuntimeError(
-				f'sample: its body {k} is not in the present scene, as after O.load, O.reset or where grains break; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
+				f'sample: its body {self.ids[0]} is not in the present scene, as after O.load or O.reset; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
 			)
+
+	def replace(self, k, pieces):
+		"""Pieces take the place of a body that breaks, and fill the same volume. Call it before the body is erased."""
+		place = self.ids.index(k)
+		self.ids[place : place + 1] = pieces
+		del self.volumes[k]
+		self.volumes.update((piece, solidVolume(piece)) for piece in pieces)
+		self._first = O.bodies[self.ids[0]]
 
 	@property
 	def volume(self):
@@ -111,6 +145,12 @@ class Sample:
 		now = self.boundaryStress()
 		return max((abs(now[axis] / goal - 1) for axis, goal in enumerate(self.stresses) if goal), default=0.0)
 
+	def overlap(self):
+		"""Mean overlap of bodies in contact over their mean size [-]."""
+		depths = arrays().contacts.depths
+		depths = depths[depths > 0]
+		return float(depths.mean()) / self.meanSize if len(depths) else 0.0
+
 	def _stalled(self, deviation):
 		seen = f'the bodies are at rest, and the stress stays {100 * deviation:.2g} % off: they cannot bear it (porosity {self.porosity:.2g})'
 		return f'{seen}; give the material a higher normalStiffness, or a lower stress'
@@ -130,6 +170,8 @@ class Sample:
 			quiet = quiet + 1 if resting and self.deviation() < stressError else 0
 			if quiet == looks:
 				return
+			if (pressed := self.overlap()) > deepest:
+				raise RuntimeError(f'loading: {tooDeep(pressed)}')
 			now = self.deviation()
 			still = still + 1 if resting and now > stressError and abs(now - before) < unchanged * now else 0
 			before = now

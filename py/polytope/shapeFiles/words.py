@@ -2,9 +2,10 @@
 """A text file word by word; what is not as expected is refused with the line's number."""
 
 import math
-import warnings
 
 from yade import Vector3
+
+from ..arguments import warn
 
 __all__ = ['Words', 'warnIfNotConvex']
 
@@ -93,5 +94,5 @@ def warnIfNotConvex(name, body, points, faces):
 	near = onHull * max(arm.norm() for arm in arms)
 	for face in faces:
 		if not any(all(normal.dot(arms[k]) > offset - near for k in face) for normal, offset in planes):
-			warnings.warn(f'path: {name} is not convex; the body is its convex hull', stacklevel=5)
+			warn(f'path: {name} is not convex; the body is its convex hull')
 			return

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Scene.hpp>
+
+#include "PolytopeGeom.hpp"
+#include "RockJoint.hpp"
+#include "RockJointLaw.hpp"
+#include "ShearSpring.hpp"
+
+/// What the law of rock joints knows of one contact in one step: motion, the state before, and the work done.
+namespace yade {
+
+/// Motion of both bodies at the contact in this step.
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
+	const Interaction&  contact;
+	const PolytopeGeom& geom;
+	Scene*              scene;
+	const Body*         body1;
+	const Body*         body2;
+	const State&        state1;
+	const State&        state2;
+	Vector3r            centre2;    ///< of body 2, in the period of body 1
+	Vector3r            arm1, arm2; ///< from the centres to the contact point
+
+	Pair(const Interaction& contact_, const PolytopeGeom& geom_, Scene* scene_)
+	        : contact(contact_), geom(geom_), scene(scene_), body1(Body::byId(contact.getId1(), scene).get()),
+	          body2(Body::byId(contact.getId2(), scene).get()), state1(*body1->state), state2(*body2->state), centre2(state2.pos)
+	{
+		if (scene->isPeriodic) centre2 += scene->cell->intrShiftPos(contact.cellDist);
+		arm1 = geom.contactPoint - state1.pos;
+		arm2 = geom.contactPoint - centre2;
+	}
+	/// Velocity of body 2's centre relative to body 1's.
+	Vector3r centreVelocity() const
+	{
+		Vector3r velocity = state2.vel - state1.vel;
+		if (scene->isPeriodic) velocity += scene->cell->intrShiftVel(contact.cellDist);
+		return velocity;
+	}
+	/// The same at the contact point.
+	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
+	Vector3r spin() const { return state2.angVel - state1.angVel; }
+	/// From where body 2 is to where it is in the period of body 1.
+	Vector3r shift2() const { return centre2 - state2.pos; }
+	Real inverseMass(const Body* body) const
+	{
+		if (body->isClumpMember()) body = Body::byId(body->clumpId, scene).get();
+		return body->isDynamic() && body->state->mass > 0 ? 1 / body->state->mass : Real(0);
+	}
+	/// Critical damping of a spring between the bodies; 0 if neither can move. For a share of the full stiffness, the same
+	/// share of its damper: so several pieces damp as one does.
+	Real criticalDamping(Real stiffness) const
+	{
+		const Real inverse = inverseMass(body1) + inverseMass(body2);
+		return inverse > 0 ? 2 * math::sqrt(stiffness * geom.share / inverse) : Real(0);
+	}
+};
+
+/// State at the end of the last step, before this one changes it.
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
+	Vector3r    force, shearViscous, moment, bondMoment;
+	ShearSpring shear;
+	Real        normalViscous, elasticNormal, dilation;
+	bool        wasBond;      ///< the forces were those of a bond of PolytopeBonds, which has failed
+	bool        actedAsBond;  ///< they were those of the joint's own bond (RockJointBond.cpp)
+
+	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
+	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment), bondMoment(phys.bondMoment()),
+	          shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
+	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond), actedAsBond(phys.bond)
+	{
+	}
+};
+
+/// What a step did with energy beyond storing it [J].
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::StepWork {
+	Real plastic = 0, normalDamping = 0, shearDamping = 0, rockingDamping = 0;
+	Real stored    = 0; ///< energy of the springs afterwards
+	bool fractured = false; ///< what is missing then is the energy of fracture
+};
+
+} // namespace yade
