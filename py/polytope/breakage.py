@@ -8,6 +8,7 @@ from yade import O, Polytope, Quaternion, Vector3, _polytope
 from .arguments import namedArguments, number, vector, vectors
 from .bodies import defaultCornerFraction, isotropyTolerance
 from .bonding import bonds
+from .loading.sample import replaceInSamples
 
 __all__ = ['split']
 
@@ -45,8 +46,10 @@ def split(id, normal, point=None, smallest=None):
 	# from the body's centre: small numbers wherever it is
 	normals, offsets = [state.ori * one for one in shape.normals], list(shape.offsets)
 	pieces = [_piece(body, [*normals, side * normal], [*offsets, side * height], least) for side in (1, -1)]
+	made = tuple(O.bodies.append(piece) for piece in pieces)
+	replaceInSamples(body.id, made)
 	O.bodies.erase(body.id)
-	return tuple(O.bodies.append(piece) for piece in pieces)
+	return made
 
 
 def _bodyOf(id):

@@ -110,6 +110,9 @@ def _breakable(ids):
 		other = next((k for k in chosen if not isinstance(O.bodies[k].shape, Polytope)), None)
 		if other is not None:
 			raise ValueError(f'ids: body {other} has no Polytope shape')
+	flat = next((k for k in chosen if O.bodies[k].shape.dimension == 2), None)
+	if flat is not None:
+		raise ValueError(f'ids: body {flat} is a polygon; only polyhedra break by their stress (polytope.split breaks polygons)')
 	held = {k for bond in (bonds().bonds if bonds() else ()) if bond.intact for k in (bond.id1, bond.id2)}
 	return [k for k in chosen if k not in held]
 

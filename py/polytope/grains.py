@@ -11,7 +11,7 @@ from yade import Body, Polytope, Quaternion, Vector3, _polytope
 from .arguments import materialOf, number, vector
 from .bodies import builder, fromVertices
 
-__all__ = ['cloud', 'grains', 'randomGrain']
+__all__ = ['cloud', 'grains', 'partsOfLoose', 'randomGrain']
 
 candidates = 10
 """Of each vertex: the one farthest from those that there are is taken (Mitchell's best candidate), so that vertices are spread."""
@@ -86,7 +86,7 @@ def cloud(lower, upper, bodies, seed=None):
 	"""Places polyhedra at random inside a box, apart from each other, the largest first; their orientations stay.
 
 	:param lower, upper: opposite corners of the box [m]
-	:param bodies: list of bodies, such as grains() makes
+	:param bodies: list of bodies, such as grains() makes; the parts of a body that is not convex as a list in its place, for *clump*
 	:param int seed: of the random numbers
 	:returns: the bodies
 	:raises ValueError: naming *bodies*, or *upper* where the box is too small for them
@@ -96,9 +96,15 @@ def cloud(lower, upper, bodies, seed=None):
 		bodies = list(bodies)
 	except TypeError:
 		raise ValueError(f'bodies: must be a list of polyhedra, got {bodies!r}') from None
-	if not all(isinstance(body, Body) and isinstance(body.shape, Polytope) and body.shape.dimension == 3 for body in bodies):
-		raise ValueError('bodies: must be a list of polyhedra')
-	corners = [_corners(body) for body in bodies]
+	groups = [partsOfLoose(one) for one in bodies]
+	if not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in groups for part in parts):
+		raise ValueError('bodies: must be a list of polyhedra, or of lists of the parts of one')
+	middles = [sum((part.state.pos for part in parts), Vector3.Zero) / len(parts) for parts in groups]
+	offsets = [[part.state.pos - middle for part in parts] for parts, middle in zip(groups, middles, strict=True)]
+	corners = [
+		np.concatenate([_corners(part) + np.array(offset, float) for part, offset in zip(parts, aside, strict=True)])
+		for parts, aside in zip(groups, offsets, strict=True)
+	]
 	radii = [float(np.linalg.norm(points, axis=1).max()) for points in corners]
 	random, placed = np.random.default_rng(seed), _Placed(min(radii, default=1))
 	for k in sorted(range(len(bodies)), key=lambda k: -radii[k]):
@@ -106,15 +112,21 @@ def cloud(lower, upper, bodies, seed=None):
 		if not (begin <= end).all():
 			raise ValueError(f'upper: the box is smaller than the largest body, which is {np.ptp(corners[k], axis=0).max():.3g} m')
 		for place in random.uniform(begin, end, (tries, 3)):
-			bodies[k].state.pos = Vector3(*place)
-			if placed.free(place, radii[k], bodies[k]):
+			for part, offset in zip(groups[k], offsets[k], strict=True):
+				part.state.pos = Vector3(*place) + offset
+			if placed.free(place, radii[k], groups[k]):
 				break
 		else:
 			raise ValueError(f'upper: {placed.number} of {len(bodies)} bodies have a place in this box without overlap; take a larger one')
-		placed.add(place, radii[k], bodies[k])
-	for body in bodies:
+		placed.add(place, radii[k], groups[k])
+	for body in (part for parts in groups for part in parts):
 		body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
 	return bodies
+
+
+def partsOfLoose(one):
+	"""Bodies of an entry of such a list: parts of a clump, or the body itself."""
+	return list(one) if isinstance(one, (list, tuple)) and one else [one]
 
 
 class _Placed:
@@ -126,29 +138,30 @@ class _Placed:
 	def _reach(self, level):
 		return 2 * self.smallest * 2**level
 
-	def add(self, place, radius, body):
+	def add(self, place, radius, parts):
 		level = int(math.log2(max(radius / self.smallest, 1)))
 		width = 2 * self._reach(level)
 		cell = tuple((place // width).astype(int).tolist())
-		self.levels.setdefault(level, {}).setdefault(cell, []).append((place.tolist(), radius, body))
+		self.levels.setdefault(level, {}).setdefault(cell, []).append((place.tolist(), radius, parts))
 		self.number += 1
 
-	def free(self, place, radius, body):
-		"""Whether nothing touches the body there."""
+	def free(self, place, radius, parts):
+		"""Whether nothing touches the body of these parts there."""
 		for level, cells in self.levels.items():
 			width, reach = 2 * self._reach(level), radius + self._reach(level)
 			first, last = ((place - reach) // width).astype(int).tolist(), ((place + reach) // width).astype(int).tolist()
 			for x in range(first[0], last[0] + 1):
 				for y in range(first[1], last[1] + 1):
 					for z in range(first[2], last[2] + 1):
-						if any(_touch(place, radius, body, one) for one in cells.get((x, y, z), ())):
+						if any(_touch(place, radius, parts, one) for one in cells.get((x, y, z), ())):
 							return False
 		return True
 
 
-def _touch(place, radius, body, other):
-	where, reach, neighbour = other
-	return math.dist(where, place) < radius + reach and _polytope.contact(body, neighbour).inContact
+def _touch(place, radius, parts, other):
+	where, reach, neighbours = other
+	near = math.dist(where, place) < radius + reach
+	return near and any(_polytope.contact(part, neighbour).inContact for part in parts for neighbour in neighbours)
 
 
 def _corners(body):

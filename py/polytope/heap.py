@@ -7,9 +7,9 @@ import numbers
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import O, Polytope, Vector3, _polytope
+from yade import O, Polytope, Sphere, Vector3, _polytope
 
-from .arguments import numbersOf, vectors
+from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
 from .bonding import bonds
 
@@ -27,13 +27,16 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	surface there is less. In a periodic cell every image of a body counts with its part in the box.
 
 	:param lower, upper: opposite corners of an axis-parallel box [m], 3 numbers each
-	:param ids: of the bodies that count, a clump's for all its members; None: all free polytopes
+	:param ids: of the bodies that count, a clump's for all its members; None: all free polytopes, with a warning where there are free spheres
 	:param region: (normals, offsets), half-spaces a·x ≤ d [m] as for fromHalfSpaces, in place of a box. Without box and region, in a
 	    periodic scene: the whole cell, whatever its tilt
 	:returns: [-]
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
 	solids = [[O.bodies[part] for part in partsOf(k)] for k in namedBodies(ids)]
+	spheres = sum(isinstance(body.shape, Sphere) and O.bodies[moverOf(body.id)].dynamic for body in O.bodies if body) if ids is None else 0
+	if spheres:
+		warn(f'ids: the volume of {spheres} free spheres is not counted, only that of polytopes; give ids to say that this is meant')
 	if lower is None and upper is None and region is None:
 		if not O.periodic:
 			raise ValueError('lower: give the corners of a box, or a region; only a periodic cell has a volume of its own')

@@ -88,7 +88,8 @@ def _longAxes(ids):
 	for k in _polytopes(ids):
 		body = O.bodies[k]
 		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-		axes.append(turn[:, int(np.argmin(np.array(body.shape.inertia, float)))])
+		# of a polygon in its plane, in which its thickness has no part
+		axes.append(turn[:, int(np.argmin(np.array(body.shape.inertia, float)[: body.shape.dimension]))])
 	return np.array(axes)
 
 
@@ -115,11 +116,14 @@ def sizeDistribution(sieves=None, ids=None):
 	A polytope's size is the intermediate one of its extents along its principal axes.
 
 	:param sieves: openings [m]; None: the sizes of the bodies themselves, in order
-	:param ids: of polytopes; None: all free ones that are in no clump
+	:param ids: of polyhedra; None: all free ones that are in no clump
 	:returns: (openings, passing), arrays [m], [-]
 	:raises ValueError: naming *ids*, or *sieves* if they are no lengths
 	"""
 	chosen = _polytopes(ids)
+	flat = next((k for k in chosen if O.bodies[k].shape.dimension == 2), None)
+	if flat is not None:
+		raise ValueError(f'ids: body {flat} is a polygon, which no sieve has an opening for; name polyhedra')
 	sizes = np.array([np.sort(np.ptp(np.array(O.bodies[k].shape.vertices, float).reshape(-1, 3), axis=0))[1] for k in chosen])
 	masses = np.array([float(O.bodies[k].shape.volume * O.bodies[k].material.density) for k in chosen])
 	try:

@@ -5,12 +5,13 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
-from yade import Body, O, Wall
+from yade import Body, O, Polytope, Vector3, Wall
 
 from ._scene import geometryFunctors
-from .arguments import namedArguments, number, vector
+from .arguments import namedArguments, number, vector, warn
 from .engines import engines
-from .grains import cloud
+from .clumps import clump
+from .grains import cloud, partsOfLoose
 from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
 from .loading.sample import between, deepest, fastestStrain, idsOfSample, tooDeep
@@ -36,7 +37,8 @@ def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodi
 	stress is the same on all sides and the bodies rest, or until the porosity is reached; or bodies fall and the box stays as it is.
 	O.engines become polytope.engines(), unless there are some with contacts of polytopes: those stay.
 
-	:param bodies: list of bodies, such as grains() makes, not yet in the scene
+	:param bodies: list of bodies, such as grains() makes, not yet in the scene; the parts of a body that is not convex as a list in its place, of
+	    which a clump is made
 	:param lower, upper: opposite corners of the box at the beginning [m], large enough for a cloud: five times the bodies' volume
 	:param float stress: to compress to [Pa], positive
 	:param float porosity: to compress to, between 0 and 1; the stress is what follows
@@ -59,11 +61,12 @@ def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodi
 		gravity = vector(gravity, 'gravity')
 		if periodic or not (gravity[2] < 0 and gravity[0] == gravity[1] == 0):
 			raise ValueError('gravity: must point along −z, and needs walls (periodic=False)')
-	bodies = _loose(bodies)
+	loose = _loose(bodies)
+	bodies = [part for one in loose for part in partsOfLoose(one)]
 	if periodic:
-		_largeEnough(bodies, lower, upper, porosity)
-	cloud(lower, upper, bodies, seed=seed)
-	ids = O.bodies.append(bodies)
+		_largeEnough(loose, lower, upper, porosity)
+	cloud(lower, upper, loose, seed=seed)
+	ids = [O.bodies.append(one) if isinstance(one, Body) else clump(one)[0] for one in loose]
 	material = bodies[0].material
 	usual = material.frictionAngle
 	if friction is not None:
@@ -83,9 +86,9 @@ def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodi
 def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	"""The bodies that are in the scene, as a sample for triaxial() and the other tests; for samples that pack() did not make, or after O.load.
 
-	:param ids: of the bodies; default all that can move
 	Walls and plates of a sample that the scene had before, as after O.load, are replaced.
 
+	:param ids: of the bodies; default all that can move
 	:param lower, upper: corners of the box at which walls are made [m]; without them where such walls are, or at the extents of the bodies; in a
 	    periodic scene its cell
 	:param float wallFriction: angle between bodies and walls [rad]
@@ -104,6 +107,8 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 		if not all(low < high for low, high in zip(lower, upper, strict=True)):
 			raise ValueError(f'upper: must be above lower in all three directions, got lower {lower!r}, upper {upper!r}')
 	idsOfSample(chosen)  # before anything of the scene is changed
+	if any(isinstance(body.shape, Polytope) for body in former):
+		warn('ids: the plates of a shear test are replaced by walls round the bodies; what the test had reached is not continued')
 	for body in former:
 		O.bodies.erase(body.id)
 	material = next(O.bodies[part].material for k in chosen for part in partsOf(k))
@@ -132,25 +137,33 @@ def _angle(value, name):
 
 
 def _loose(bodies):
-	bodies = list(bodies) if isinstance(bodies, Iterable) else []
+	loose = list(bodies) if isinstance(bodies, Iterable) else []
+	bodies = [part for one in loose for part in partsOfLoose(one)]
 	if not bodies or not all(isinstance(body, Body) and body.id < 0 for body in bodies):
-		raise ValueError('bodies: must be a list of bodies that are not in the scene yet, such as polytope.grains makes')
+		raise ValueError('bodies: must be a list of bodies that are not in the scene yet, such as polytope.grains makes, or of lists of the parts of one')
 	if len({body.material.id for body in bodies}) > 1:
 		raise ValueError('bodies: must be of one material')
 	if not hasattr(bodies[0].material, 'frictionAngle'):
 		raise ValueError('bodies: their material must have a frictionAngle, as RockJointMat and FrictMat')
-	return bodies
+	return loose
 
 
-def _largeEnough(bodies, lower, upper, porosity):
+def _largeEnough(loose, lower, upper, porosity):
 	"""YADE's collider needs bodies that are smaller than half of the cell, in the end."""
 	extents = np.array(upper, float) - np.array(lower, float)
 	filled = 1 - (densest if porosity is None else porosity)
-	shrunk = extents * (sum(float(body.shape.volume) for body in bodies) / filled / float(np.prod(extents))) ** (1 / 3)
-	longest = max(2 * float(corner.norm()) for body in bodies for corner in body.shape.vertices)
+	groups = [partsOfLoose(one) for one in loose]
+	shrunk = extents * (sum(float(part.shape.volume) for parts in groups for part in parts) / filled / float(np.prod(extents))) ** (1 / 3)
+	longest = max(_length(parts) for parts in groups)
 	if not float(shrunk.min()) > 2 * longest:
-		seen = f'bodies: {len(bodies)} make a cell of {shrunk.min():.3g} m, and the largest is {longest:.3g} m'
+		seen = f'bodies: {len(loose)} make a cell of {shrunk.min():.3g} m, and the largest is {longest:.3g} m'
 		raise ValueError(f'{seen}; a periodic cell must be more than twice as long: take more, or smaller ones, or walls')
+
+
+def _length(parts):
+	"""Of a body of these parts, at most [m]."""
+	middle = sum((part.state.pos for part in parts), Vector3.Zero) / len(parts)
+	return 2 * max(float((part.state.pos - middle).norm()) + float(corner.norm()) for part in parts for corner in part.shape.vertices)
 
 
 def _give(bodies, frictionAngle):
@@ -183,8 +196,8 @@ def _cell(ids, lower, upper):
 	"""YADE's cell begins at the origin."""
 	O.periodic = True
 	O.cell.setBox(*(upper - lower).tolist())
-	for k in ids:
-		O.bodies[k].state.pos -= type(O.bodies[k].state.pos)(*lower.tolist())
+	for k in dict.fromkeys(part for own in ids for part in (own, *partsOf(own))):
+		O.bodies[k].state.pos -= Vector3(*lower.tolist())
 		O.bodies[k].state.refPos = O.bodies[k].state.pos
 
 

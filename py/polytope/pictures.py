@@ -19,6 +19,7 @@ import numpy as np
 from yade import NewtonIntegrator, O, Polytope
 
 from ._faces import collect, localVertices, reachOfWalls, worldVertices
+from .arguments import namedArguments
 
 __all__ = ['picture', 'collect']
 
@@ -39,6 +40,7 @@ timeLimit = 300
 """Seconds after which drawing a picture is aborted."""
 
 
+@namedArguments
 def picture(
         path,
         bodies=None,
@@ -75,8 +77,11 @@ def picture(
 	:param background: RGB
 	:param bool edges: draw the edges of the faces
 	:param fixedColor: RGB of bodies that cannot move where colours follow a value, or 'own': each one's own
+	:raises ValueError: naming the argument
 	:raises RuntimeError: with the drawing program's message, if there is no picture
 	"""
+	if os.path.splitext(os.fspath(path))[1].lower() not in ('', '.png'):
+		raise ValueError(f'path: pictures are PNG files, their names end in .png, got {os.fspath(path)!r}')
 	drawn = [b for b in (O.bodies if bodies is None else bodies) if b and b.shape]
 	flat = {b.shape.dimension for b in drawn if isinstance(b.shape, Polytope)} == {2}
 	view, up = _axes(view, up, flat)

@@ -197,22 +197,31 @@ def pixelsOf(window, width, height):
 	grab.ReadFrontBufferOff()
 	grab.Update()
 	values = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
-	return values.reshape(height, width, -1)[:, :, :3].astype(np.float32)
+	return values.reshape(height, width, -1)[:, :, :3]
+
+
+def reduced(pixels):
+	"""The mean of each square of *supersampling* pixels a side."""
+	total = np.zeros([n // supersampling for n in pixels.shape[:2]] + [3], np.uint16)
+	for row in range(supersampling):
+		for column in range(supersampling):
+			total += pixels[row::supersampling, column::supersampling]
+	return total.astype(np.float32) / supersampling**2
 
 
 def shadingOf(renderer, window, settings):
 	"""Factor in 0…1 for each pixel of the picture: the small picture with the shading over the one without."""
 	width, height = settings['size']
 	small = -(-width // shadingReduction), -(-height // shadingReduction)
-	plain = pixelsOf(window, *small).sum(axis=2)
+	plain = pixelsOf(window, *small).sum(axis=2, dtype=np.float32)
 	renderer.SetPass(shadingPass(settings['shadeRadius']))
-	shaded = pixelsOf(window, *small).sum(axis=2)
-	factor = np.clip(shaded / np.maximum(plain, 1), 0, 1)
+	shaded = pixelsOf(window, *small).sum(axis=2, dtype=np.float32)
+	factor = np.clip(shaded / np.maximum(plain, 1), 0, 1).astype(np.float32)
 	rows, columns = (np.clip((np.arange(n) + 0.5) / shadingReduction - 0.5, 0, m - 1) for n, m in ((height, small[1]), (width, small[0])))
 	for axis, places in enumerate((rows, columns)):  # linear between pixels
 		low = np.minimum(places.astype(int), factor.shape[axis] - 1)
 		high = np.minimum(low + 1, factor.shape[axis] - 1)
-		share = np.expand_dims(places - low, 1 - axis)
+		share = np.expand_dims(places - low, 1 - axis).astype(np.float32)
 		factor = (1 - share) * factor.take(low, axis) + share * factor.take(high, axis)
 	return factor[:, :, None]
 
@@ -244,8 +253,7 @@ def draw(meshes, settings, path):
 	window.OffScreenRenderingOn()
 	window.SetMultiSamples(0)
 	window.AddRenderer(renderer)
-	large = pixelsOf(window, supersampling * width, supersampling * height)
-	pixels = large.reshape(height, supersampling, width, supersampling, 3).mean(axis=(1, 3))
+	pixels = reduced(pixelsOf(window, supersampling * width, supersampling * height))
 	if settings['shade']:
 		if legend:
 			renderer.RemoveViewProp(legend)  # which would shade the scene, in the size of another picture

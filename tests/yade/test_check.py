@@ -44,6 +44,7 @@ from yade import (
 	PolytopeTimeStepper,
 	RockJointMat,
 	RotationEngine,
+	TriaxialStressController,
 	polytope,
 	utils,
 )
@@ -364,7 +365,8 @@ def testMeshInMillimetres(tmp_path):
 	scene()
 	O.bodies.erase(1)
 	O.bodies.append(polytope.fromMesh(path))
-	found = onlyFinding('size')
+	assert [one.what for one in polytope.check(O)] == ['size', 'overlap']  # the floor lies in it
+	found = polytope.check(O)['size']
 	assert '100 m across and weighs 2.6e+09 kg' in found.seen and 'scale=0.001' in found.advice
 	scene()
 	O.bodies.append([polytope.fromMesh(path, scale=0.001), polytope.fromMesh(path, scale=0.001, center=(1, 0, 2))])
@@ -424,7 +426,7 @@ def testBodiesInTheSamePlace():
 	assert not polytope.check(O)
 	for other in ((0, 0, 0.56), (0.5, 0.4, 0.5)), ((0, 0, 0.55), (0.5, 0.4, 0.45)), ((0, 0, 0.55), (0.25, 0.8, 0.5)):
 		scene(lambda other=other: [polytope.cuboid(*other)])
-		assert not polytope.check(O)
+		onlyFinding('overlap')
 
 
 def testFrictionAngleInDegrees():
@@ -443,8 +445,49 @@ def testFrictionAngleInDegrees():
 
 def testTensileStrengthOfAJointIsNoGlue():
 	scene(material=rock(tensileStrength=1e5))
+	assert not polytope.check(O)  # with a stiffness per area it is (test_joint_tension.py)
+	scene(material=rock(tensileStrength=1e5), physics=[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)])
 	found = onlyFinding('tension')
 	assert '1e+05 Pa' in found.seen and 'polytope.bond()' in found.advice
+
+
+@pytest.mark.parametrize('distance, deep', [(0.1, True), (0.5, True), (0.8, False), (1.1, False)])
+def testBlocksPlacedIntoEachOther(distance, deep):
+	"""Cubes of edge 1: at 0.1 they overlap by nine tenths."""
+	scene(lambda: [polytope.cuboid((3 + k * distance, 0, 2), (0.5, 0.5, 0.5)) for k in range(2)])
+	if not deep:
+		assert not polytope.check(O)
+		return
+	found = onlyFinding('overlap')
+	assert 'body 2 and body 3' in found.seen and 'cloud' in found.advice
+	O.bodies[3].mask = 2
+	assert not polytope.check(O)
+
+
+def testPartsOfAClumpMayOverlap():
+	scene()
+	polytope.clump([polytope.cuboid((3, 0, 2), (0.5, 0.5, 0.5)), polytope.cuboid((3.1, 0, 2), (0.5, 0.4, 0.5))])
+	assert not polytope.check(O)
+
+
+def testABoxWithoutThickness():
+	scene(lambda: [utils.box((0, 0, -2), (3, 3, 0), fixed=True)])
+	assert 'without a thickness' in onlyFinding('size').seen
+
+
+def testEnginesThatAreThereTwice():
+	scene()
+	O.engines = [*O.engines, NewtonIntegrator()]
+	assert '2 NewtonIntegrators' in onlyFinding('engines').seen
+	scene()
+	O.engines = [*O.engines[:3], O.engines[2], *O.engines[3:]]
+	assert '2 InteractionLoops' in onlyFinding('engines').seen
+
+
+def testYadesTriaxialControllerKnowsSpheresOnly():
+	scene()
+	O.engines = [*O.engines, TriaxialStressController(dead=False)]
+	assert 'polytope.triaxial' in onlyFinding('engines').advice
 
 
 

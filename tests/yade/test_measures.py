@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measures of packings against closed forms."""
 
+import warnings
+
 import numpy as np
 import pytest
 from scenes import rowInAPeriodicCell
@@ -157,3 +159,28 @@ def testYadesOwnFunctionsAreAsThePageSays():
 	assert abs(utils.bodyStressTensors()[1][2, 2]) > 4 * weight
 	assert np.isnan(utils.porosity()) and np.isnan(utils.aabbExtrema()[0][0])
 	assert utils.unbalancedForce() < 1e-3
+
+
+def testPolygonsHaveLongAxesAndNoSieves():
+	"""A thick plate of polygon: its thickness is no length of it."""
+	O.reset()
+	O.materials.append(RockJointMat())
+	O.bodies.append(polytope.polygon([(0, 0), (1, 0), (1, 3), (0, 3)], thickness=20))
+	assert np.diag(polytope.particleFabric()) == pytest.approx([0, 1, 0], abs=1e-12)
+	with pytest.raises(ValueError, match='ids: body 0 is a polygon'):
+		polytope.sizeDistribution()
+	with pytest.raises(ValueError, match='ids: body 0 is a polygon'):
+		polytope.breakGrains(tension=1)
+
+
+def testFreeSpheresAreNotLeftOutOfPorositySilently():
+	O.reset()
+	O.materials.append(RockJointMat())
+	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)))
+	O.bodies.append(utils.sphere((0, 0, 2), 0.5))
+	with pytest.warns(UserWarning, match='ids: the volume of 1 free spheres') as told:
+		assert polytope.porosity((-1, -1, -1), (1, 1, 1)) == pytest.approx(7 / 8)
+	assert told[0].filename == __file__
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		assert polytope.porosity((-1, -1, -1), (1, 1, 1), ids=[0]) == pytest.approx(7 / 8)

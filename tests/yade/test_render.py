@@ -172,6 +172,10 @@ def testRefusals(tmp_path, monkeypatch):
 		picture(str(tmp_path / 'a.png'), colorBy='beauty')
 	with pytest.raises(ValueError, match='fixed'):
 		picture(str(tmp_path / 'a.png'), fixed='invisible')
+	with pytest.raises(ValueError, match="path: pictures are PNG files, .* 'a.jpg'"):
+		picture('a.jpg')
+	with pytest.raises(TypeError, match="picture: there is no argument 'colour'; it takes path, bodies, colorBy"):
+		picture(str(tmp_path / 'a.png'), colour='height')
 	monkeypatch.setenv('PATH', str(tmp_path))
 	with pytest.raises(RuntimeError, match='install the package xvfb'):
 		picture(str(tmp_path / 'a.png'))

@@ -4,7 +4,7 @@
 import math
 
 import numpy as np
-from yade import FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
 from ..bonding import bonds
 
@@ -18,7 +18,7 @@ seldom by 100."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, frictionAngle, tension, elasticConstants):
+	for one in (density, mass, size, flatBoxes, frictionAngle, tension, elasticConstants):
 		yield from one(scene)
 
 
@@ -66,6 +66,13 @@ def size(scene):
 		yield 'size', seen, 'if its mesh or dimensions are in millimetres: fromMesh(path, scale=0.001), other lengths over 1000'
 
 
+def flatBoxes(scene):
+	flat = [body for body in scene.bodies if isinstance(body.shape, Box) and not min(map(float, body.shape.extents)) > 0]
+	if flat:
+		seen = f'{_number(flat)} is a Box with extents {tuple(map(float, flat[0].shape.extents))}: without a thickness nothing rests on it'
+		yield 'size', seen, 'give it a thickness, or take a Wall or Facets'
+
+
 def _extent(body):
 	corners = np.array(body.shape.vertices, float).reshape(-1, 3)[:, : body.shape.dimension]
 	return float(np.ptp(corners, axis=0).max())
@@ -81,12 +88,17 @@ def frictionAngle(scene):
 
 
 def tension(scene):
-	if bonds() and bonds().bonds:
+	"""With a stiffness per area such a joint is a bond of its faces."""
+	if (bonds() and bonds().bonds) or all(makers.stiffnessPerArea for makers in _jointMakers(scene)):
 		return
 	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
 		if material.tensileStrength > 0:
-			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint pulls at one point and does not resist bending'
-			yield 'tension', seen, 'polytope.bond() after O.engines is set: faces that touch then hold with the material\'s strength over their whole area'
+			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint with a stiffness per contact pulls at one point and does not resist bending'
+			yield 'tension', seen, 'stiffnessPerArea=True, or polytope.bond() after O.engines is set: faces then hold over their whole area'
+
+
+def _jointMakers(scene):
+	return [one for loop in scene.loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
 
 
 def elasticConstants(scene):

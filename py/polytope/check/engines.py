@@ -1,7 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of O.engines and of the settings of functors, of polytope.check(). Each yields (what, seen, advice)."""
 
-from yade import ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, PolytopeBonds
+from yade import (
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	InteractionLoop,
+	NewtonIntegrator,
+	Polytope,
+	PolytopeBonds,
+	TriaxialStressController,
+)
 
 from .._scene import notConservative, stiffnessesPerArea
 from ..bonding import removedBonds
@@ -10,7 +19,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, order, bonds, contactModels, conservativeWithArea):
+	for one in (missing, twice, order, spheresOnly, bonds, contactModels, conservativeWithArea):
 		yield from one(scene)
 
 
@@ -34,6 +43,24 @@ def missing(scene):
 		)
 	if not scene.those(ForceResetter):
 		yield 'engines', 'O.engines has no ForceResetter: forces add up from step to step', 'put ForceResetter() first'
+
+
+def twice(scene):
+	"""Engines that must act once a step."""
+	for kind, what in ((InteractionLoop, 'contact forces are computed and added once by each'), (NewtonIntegrator, 'each moves all bodies by a step')):
+		several = scene.those(kind)
+		if len(several) > 1:
+			name = kind.__name__
+			advice = 'keep one, with all functors in it' if kind is InteractionLoop else 'keep one'
+			yield 'engines', f'O.engines has {len(several)} {name}s: {what}', advice
+
+
+def spheresOnly(scene):
+	"""Controllers of YADE that count the volume of spheres alone."""
+	for engine in scene.those(TriaxialStressController):
+		if any(isinstance(body.shape, Polytope) for body in scene.bodies):
+			seen = f'{type(engine).__name__} knows spheres only: its porosity is wrong for polytopes, as is what it controls by it'
+			yield 'engines', seen, 'polytope.pack and polytope.triaxial, or PeriTriaxController in a periodic cell (docs/loading.md)'
 
 
 def order(scene):

@@ -4,7 +4,8 @@
 import math
 
 import numpy as np
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+import scipy  # loads its packages at their first use: half a second
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
 
 from ..arrays import arrays
 
@@ -18,8 +19,12 @@ half = 0.5
 """Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
 
 
+deep = 0.3
+"""Overlap over the sum of both inscribed radii above which two bodies were placed into each other: their contact shoots them apart."""
+
+
 def placeFindings(scene):
-	for one in (coincidence, spanning, stiffness):
+	for one in (coincidence, overlaps, spanning, stiffness):
 		yield from one(scene)
 
 
@@ -52,6 +57,47 @@ def coincidence(scene):
 		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
 		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: they are shot apart, in any direction'
 		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
+
+
+def overlaps(scene):
+	"""Polytopes that lie deep in each other: of pairs whose inscribed balls do. Of flat bodies those are few."""
+	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
+	if len(bodies) < 2:
+		return
+	radii = np.array([float(body.shape.inscribedRadius) for body in bodies])
+	places = np.array([np.array(body.state.pos, float) for body in bodies])
+	largestFirst = np.argsort(-radii)
+	tree, pairs = scipy.spatial.cKDTree(places), []
+	near = tree.query_ball_point(places, 2 * (1 - deep) * radii)
+	rank = np.empty(len(bodies), int)
+	rank[largestFirst] = np.arange(len(bodies))
+	for i, others in enumerate(near):
+		for j in others:
+			if rank[j] <= rank[i]:
+				continue
+			one, other = bodies[i], bodies[j]
+			reach = radii[i] + radii[j]
+			if np.linalg.norm(places[i] - places[j]) < (1 - deep) * reach and _meet(scene, one, other) and _depth(one, other) > deep * reach:
+				pairs.append(tuple(sorted((one.id, other.id))))
+	if pairs:
+		first = min(pairs)
+		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
+		seen = f'body {first[0]} and body {first[1]} lie deep in each other{more}: they are shot apart'
+		yield 'overlap', seen, 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
+
+
+def _meet(scene, one, other):
+	"""Whether they may have a contact: not the same place, which coincidence() finds."""
+	sameClump = one.isClumpMember and other.isClumpMember and one.clumpId == other.clumpId
+	samePlace = (one.state.pos - other.state.pos).norm() == 0 and _planes(one) == _planes(other)
+	return one.mask & other.mask and not sameClump and not samePlace and (scene.moves(one) or scene.moves(other))
+
+
+def _depth(one, other):
+	try:
+		return float(_polytope.contact(one, other).depth)
+	except ValueError:  # a polygon and a polyhedron
+		return 0.0
 
 
 def _planes(body):

@@ -8,6 +8,10 @@ from .sample import quasiStatic
 __all__ = ['Triaxial', 'triaxial']
 
 
+largest = 1.0
+"""Logarithmic strain up to which a test is run: more is a percentage that was not divided by 100."""
+
+
 class Triaxial(LoadingTest):
 	"""What polytope.triaxial() returns. Columns of the record: *axialStrain*, *volumetricStrain* [-], *axialStress*, *lateralStress* (mean of
 	both), *deviator* [Pa], *porosity* [-]."""
@@ -46,6 +50,8 @@ class Triaxial(LoadingTest):
 	def run(self, strain):
 		"""Shortens the sample to this axial strain since the start of the test (negative: extension; less than now: unloading), then stands still."""
 		checkGoal(strain, 'strain')
+		if not abs(strain) <= largest:
+			raise ValueError(f'strain: must be at most {largest:g}, a shortening to a third (0.02 is 2 %), got {strain!r}')
 		now = self.strains()[self.axis]
 		lateral = dict.fromkeys(self.lateral, self.stress)
 		self.sample.control(stresses=lateral, rates={self.axis: self.rate if strain > now else -self.rate})
