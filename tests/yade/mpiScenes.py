@@ -144,6 +144,60 @@ def sliding(pieces, number):
 	return state()
 
 
+def reallocated(scene, atRandom=False):
+	"""The same with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both ranks know."""
+	def once():
+		mpy, counts, dice = mpi.mpy, [], random.Random(mpi.rank())
+		byPlace, collide = mpy.REALLOCATE_FILTER, mpy.checkAndCollide
+
+		def choose(own, other, surplus):
+			chosen = [k for k in O.subD.intersections[other] if dice.random() < 0.4] if atRandom else byPlace(own, other, surplus)
+			counts.append(len(chosen))
+			return chosen
+
+		def often():
+			if O.iter % 5 == 0:
+				mpy.typedEngine('NewtonIntegrator').maxVelocitySq = 2  # by which yade.mpy judges whether bodies have left their boxes
+			return collide()
+
+		mpy.REALLOCATE_FREQUENCY, mpy.REALLOCATE_FILTER = 1, choose
+		if atRandom:
+			mpy.checkAndCollide = often
+		found = scene()
+		mpy.REALLOCATE_FREQUENCY, mpy.REALLOCATE_FILTER, mpy.checkAndCollide = 0, byPlace, collide
+		moved = mpi.mpy.comm.allreduce(sum(counts)) if mpi.size() > 1 else 0
+		return dict(found, moved=moved) if master else None
+
+	return once
+
+
+def crossing():
+	"""Stacks of two blocks, and blocks with a clump on them, that pass each other on a floor in two rows, from one half to the other."""
+	mpi.merge()
+	O.reset()
+	if master:
+		O.materials.append(yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.1, dilationAngle=0.05))
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 1, 0.5), fixed=True))
+		for k in range(6):
+			way = 1 if k % 2 else -1
+			place = Vector3(-way * (0.4 + 0.3 * k), 0.26 * way, 0.15)
+			O.bodies.append(polytope.cuboid(place, (0.2, 0.2, 0.15)))
+			if k < 4:
+				O.bodies.append(polytope.cuboid(place + Vector3(0, 0, 0.25), (0.15, 0.15, 0.1)))
+				above = O.bodies[-1]
+			else:
+				above = O.bodies[clumpOf(2, place + Vector3(0, 0, 0.25), Quaternion.Identity)]
+			for body in (O.bodies[-1], O.bodies[-2], above):
+				body.state.vel = (6 * way, 0, 0)
+		O.engines = polytope.engines(timeStepper=False)
+		O.dt = 2e-4
+	mpi.divide()
+	mpi.run(300, merged=False)
+	mpi.run(300)
+	mpi.run(300)
+	return state()
+
+
 def smooth():
 	return sliding(1, 400)
 
@@ -222,7 +276,7 @@ def refused():
 
 	saysNo('nothing')
 	mpy = mpi.mpy
-	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_FREQUENCY', 1), ('MERGE_W_INTERACTIONS', False), ('USE_CPP_MPI', False)):
+	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_MINIMAL', True), ('MERGE_W_INTERACTIONS', False), ('USE_CPP_MPI', False)):
 		former = getattr(mpy, name)
 		setattr(mpy, name, value)
 		saysNo(f'mpy.{name}')
@@ -273,6 +327,9 @@ def continued():
 	mpi.run(steps - 40)
 	return state()
 
+
+reallocatedCrossing = reallocated(crossing)
+reallocatedHeap, reallocatedSmooth, reallocatedBonded, reallocatedStacks = (reallocated(scene, atRandom=True) for scene in (heap, smooth, bonded, crossing))
 
 for name in sys.argv[2:]:
 	begin = time.perf_counter()

@@ -57,10 +57,12 @@ def under(ranks, *command, fails=False):
 def found(tmp_path_factory):
 	"""What the scenes have found: found(name, ranks)."""
 	folder = tmp_path_factory.mktemp('mpi')
-	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', *moving)
+	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'crossing', *moving)
 	under(0, sys.executable, scenes, str(folder), 'startClumps', 'clumpedSettled', 'clumped')
 	under(2, sys.executable, scenes, str(folder), 'heap', 'clumped', 'clumpedSliding')
 	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'clumped', *sameAsClumped, 'recorded', *moving, 'searched', 'refused')
+	under(3, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap', 'Smooth', 'Bonded')))
+	under(4, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap')))
 
 	def read(name, ranks):
 		return json.loads((folder / f'{name}-{ranks}.json').read_text())
@@ -162,6 +164,26 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
 
 
+@pytest.mark.parametrize('name, ranks, least', [
+	('reallocatedCrossing', 3, 2),
+	('reallocatedStacks', 3, 100),
+	('reallocatedHeap', 3, 100),
+	('reallocatedSmooth', 3, 50),
+	('reallocatedBonded', 3, 100),
+	('reallocatedCrossing', 4, 2),
+	('reallocatedStacks', 4, 100),
+	('reallocatedHeap', 4, 100),
+])
+def testBodiesThatChangeRanksInARunKeepTheirContacts(found, name, ranks, least):
+	"""mpy.REALLOCATE_FREQUENCY: those beyond the middle between two ranks; in the others any that both know, every five steps, so most of them."""
+	one = found({'reallocatedStacks': 'crossing'}.get(name, name.removeprefix('reallocated').lower()), 1)
+	several = found(name, ranks)
+	assert several['moved'] >= least
+	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
+	assert max(farthest(one['bodies'][k][:3], several['bodies'][k][:3]) for k in one['bodies']) < 1e-12 * size
+	assert max(farthest(one['contacts'][k][3:13], several['contacts'][k][3:13]) for k in one['contacts']) < 1e-9 * 2000
+
+
 def testBondsBetweenRanksActAndFailAsOnOne(found):
 	"""Also those with a fixed body, which is rank 0's; the joint that follows the bond of two ranks is on both."""
 	one, several = found('bonded', 1), found('bonded', 3)
@@ -188,7 +210,7 @@ def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
 	('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
 	('mpy.MERGE_W_INTERACTIONS', 'must be True'),
 	('mpy.USE_CPP_MPI', 'must be True'),
-	('mpy.REALLOCATE_FREQUENCY', 'call polytope.mpi.divide()'),
+	('mpy.REALLOCATE_MINIMAL', 'must be False'),
 	('O.trackEnergy', 'polytope.mpi.arrays()'),
 	('ForceRecorder', 'polytope.mpi.merge()'),
 	('Body.subdomain', 'call polytope.mpi.divide()'),

@@ -5,7 +5,7 @@ from yade import mpy
 
 from .. import bonding
 
-__all__ = ['check', 'divide', 'states', 'takeStates']
+__all__ = ['check', 'divide', 'share', 'states', 'takeStates']
 
 
 def divide(divided):
@@ -25,6 +25,14 @@ def check():
 		raise RuntimeError(
 			'O.engines: a bond joins bodies so far apart that their boxes do not meet; set a larger verletDist of the collider, or a smaller gap in polytope.bond'
 		)
+
+
+def share():
+	"""Every rank gets what the others have found, before bodies change ranks; every rank has to call it."""
+	bonds = bonding.bonds()
+	for found in mpy.comm.allgather(bonds._states() if mpy.rank > 0 and bonds else []):
+		if bonds and mpy.rank > 0:
+			bonds._takeStates(found)
 
 
 def states():

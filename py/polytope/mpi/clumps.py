@@ -10,7 +10,7 @@ import functools
 
 from yade import O, mpy
 
-__all__ = ['check', 'followClumps', 'giveMaterials', 'mover', 'movers', 'takeMaterials', 'wholeClumps']
+__all__ = ['check', 'followClumps', 'giveMaterials', 'mover', 'movers', 'parts', 'takeMaterials', 'wholeClumps']
 
 
 def mover(body):
@@ -21,6 +21,12 @@ def mover(body):
 def movers():
 	"""Bodies that forces can move; of a clump its own body alone."""
 	return [body for body in O.bodies if body.dynamic and not body.isSubdomain and not body.isClumpMember]
+
+
+def parts(number):
+	"""Ids of all that a mover moves: of a clump and its members, or of a body alone."""
+	body = O.bodies[number]
+	return [*body.shape.ids, number] if body.isClump else [number]
 
 
 def followClumps():
@@ -70,9 +76,5 @@ def wholeClumps(genLocalIntersections):
 def _withClumps(ids):
 	all = {}  # in their order, each once
 	for k in ids:
-		body = O.bodies[k]
-		if body.isClumpMember:
-			all.update(dict.fromkeys([*O.bodies[body.clumpId].shape.ids, body.clumpId]))
-		else:
-			all[k] = None
+		all.update(dict.fromkeys(parts(mover(O.bodies[k]))))
 	return list(all)

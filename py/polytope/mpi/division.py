@@ -16,7 +16,7 @@ import yade
 from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
 
 from .._ranks import eraseRanks
-from . import bonds, clumps, decomposition, permanentLoads
+from . import bonds, clumps, decomposition, permanentLoads, reallocation
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
@@ -167,7 +167,7 @@ def _checkSettings():
 		('OPTIMIZE_COM', True, 'it was not tested with polytopes'),
 		('MERGE_W_INTERACTIONS', True, 'merged contacts would begin anew'),
 		('MASTER_UPDATE_STATES', True, 'fixed bodies that have a velocity would stand still for the other ranks'),
-		('REALLOCATE_FREQUENCY', 0, 'a body that changes ranks during a run would lose contacts; call polytope.mpi.divide() between two runs instead'),
+		('REALLOCATE_MINIMAL', False, 'bodies would be left out that others touch'),
 		('RESET_SUBDOMAINS_WHEN_COLLIDE', False, 'contacts would begin anew; call polytope.mpi.divide() between two runs instead'),
 		('DISTRIBUTED_INSERT', False, 'polytope.mpi hands out the scene of rank 0'),
 		('MERGE_SPLIT', False, 'polytope.mpi.run() merges where it is needed'),
@@ -175,6 +175,21 @@ def _checkSettings():
 	):
 		if getattr(mpy, name) != wanted:
 			raise RuntimeError(f'mpy.{name}: must be {wanted!r}; {why}')
+
+
+def _withNeighboursOfBoth(genLocalIntersections):
+	"""A worker is a neighbour where either of both finds it so: their searches for pairs differ where boxes just meet, and one would wait for the other's
+	message for ever."""
+
+	@functools.wraps(genLocalIntersections)
+	def generate(subdomains):
+		lists, own = genLocalIntersections(subdomains), mpy.rank
+		for other, found in enumerate(mpy.comm.allgather(lists[own])):
+			if 0 < other != own > 0 and own in found and other not in lists[own]:
+				lists[own].append(other)
+		return lists
+
+	return generate
 
 
 def _withBodiesOfRankZero(mergeScene):
@@ -259,7 +274,8 @@ def install():
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
 	mpy.sendRecvStates = _withStatesOfRankZero(mpy.sendRecvStates)
-	mpy.genLocalIntersections = clumps.wholeClumps(mpy.genLocalIntersections)
+	mpy.genLocalIntersections = _withNeighboursOfBoth(clumps.wholeClumps(mpy.genLocalIntersections))
+	mpy.reallocateBodiesToSubdomains, mpy.REALLOCATE_FILTER = reallocation.reallocate, reallocation.beyondTheMiddle
 	mpy.MASTER_UPDATE_STATES = True
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True

@@ -3,7 +3,7 @@
 
 from yade import O, Vector3, mpy
 
-__all__ = ['ofAll', 'take']
+__all__ = ['ofAll', 'passOn', 'take']
 
 
 def ofAll():
@@ -11,7 +11,7 @@ def ofAll():
 	if not O.forces.getPermForceUsed():
 		return []
 	O.forces.f(0, sync=True)  # else those set since the last step are not seen
-	return [(body.id, tuple(O.forces.permF(body.id)), tuple(O.forces.permT(body.id))) for body in O.bodies]
+	return [_of(body.id) for body in O.bodies]
 
 
 def take(loads):
@@ -21,5 +21,28 @@ def take(loads):
 		return
 	for k, force, torque in loads:
 		if O.bodies[k] is not None and O.bodies[k].subdomain == mpy.rank and any(force + torque):
-			O.forces.setPermF(k, Vector3(force))
-			O.forces.setPermT(k, Vector3(torque))
+			_set(k, force, torque)
+
+
+def passOn(moved):
+	"""Those of bodies that have changed ranks; every rank has to call it.
+
+	:param moved: ids for each rank
+	"""
+	used = O.forces.getPermForceUsed()
+	for loads in mpy.comm.alltoall([[_of(k) for k in ids] if used else [] for ids in moved]):
+		for k, force, torque in loads:
+			_set(k, force, torque)
+	if used:
+		for ids in moved:
+			for k in ids:
+				_set(k, Vector3.Zero, Vector3.Zero)
+
+
+def _of(k):
+	return k, tuple(O.forces.permF(k)), tuple(O.forces.permT(k))
+
+
+def _set(k, force, torque):
+	O.forces.setPermF(k, Vector3(force))
+	O.forces.setPermT(k, Vector3(torque))
