@@ -23,8 +23,8 @@ namespace {
 	}
 
 	/// Unstrained where the faces are flush, but for `slide`, the displacement of body 2 along them from there.
-	shared_ptr<PolytopeBond> bondOf(const polytope::CommonFace& face, const Interaction& contact, const State& state1, const State& state2,
-	        const Vector3r& shift, const Vector3r& slide)
+	shared_ptr<PolytopeBond> bondOf(const polytope::CommonFace& face, const Interaction& contact, const State& state1,
+	        const State& state2, const Vector3r& shift, const Vector3r& slide)
 	{
 		auto              bond   = shared_ptr<PolytopeBond>(new PolytopeBond);
 		const Vector3r    normal = face.axes.col(0), half = (face.gap * normal + slide) / 2;
@@ -53,15 +53,16 @@ namespace {
 	}
 
 	/// The bond of the two faces that lie on each other, if they do so all over; else null.
-	shared_ptr<PolytopeBond> bondOfFaces(
-	        const Interaction& contact, const Body& body1, const Body& body2, const Vector3r& shift, const Vector3r& normal, const RockJointPhys& phys, const Vector3r& shear)
+	shared_ptr<PolytopeBond> bondOfFaces(const Interaction& contact, const Body& body1, const Body& body2, const Vector3r& shift,
+	        const Vector3r& normal, const RockJointPhys& phys, const Vector3r& shear)
 	{
 		const auto *shape1 = convexOf(body1), *shape2 = convexOf(body2);
 		if (!shape1 || !shape2) return nullptr;
 		const State &state1 = *body1.state, &state2 = *body2.state;
-		const Real   touching = Real(polytope::tolerance::touchingFaces) * math::min(shape1->boundingRadius(), shape2->boundingRadius());
-		const auto   faces    = polytope::commonFaces({ *shape1, state1.pos, state1.ori.toRotationMatrix() },
-                        { *shape2, state2.pos + shift, state2.ori.toRotationMatrix() }, touching, polytope::tolerance::facingOfJoints);
+		const Real   touching
+		        = Real(polytope::tolerance::touchingFaces) * math::min(shape1->boundingRadius(), shape2->boundingRadius());
+		const auto                  faces   = polytope::commonFaces({ *shape1, state1.pos, state1.ori.toRotationMatrix() },
+		                           { *shape2, state2.pos + shift, state2.ori.toRotationMatrix() }, touching, polytope::tolerance::facingOfJoints);
 		const polytope::CommonFace* largest = nullptr;
 		for (const auto& face : faces)
 			if (face.axes.col(0).dot(normal) > 0 && (!largest || face.area > largest->area)) largest = &face;
@@ -83,7 +84,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	const Vector3r shift = pair.shift2();
 	if (!phys.intact || !(phys.tensileStrength > 0)) phys.bond.reset(); // a script has changed them
 	else if (!phys.bond)
-		phys.bond = bondOfFaces(contact, *pair.body1, *pair.body2, shift, geom.normal, phys, last.shear.force - last.shear.stiffness * increment);
+		phys.bond = bondOfFaces(
+		        contact, *pair.body1, *pair.body2, shift, geom.normal, phys, last.shear.force - last.shear.stiffness * increment);
 	if (!phys.bond) return false;
 
 	PolytopeBond& bond = *phys.bond;
@@ -94,9 +96,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	phys.contactArea       = bond.area;
 	phys.setStiffnesses(1);
 	// what rounding of positions leaves is no shear: a joint without cohesion has no strength against it when pulled
-	const Real shown      = Real(polytope::tolerance::rounding) * phys.shearStiffness * math::min(geom.refR1, geom.refR2);
-	const bool parted     = !(bond.edgeStress <= phys.tensileStrength);
-	const bool sheared    = !(bond.shearStress <= math::max(phys.shearStrength(elastic) / bond.area, shown));
+	const Real shown   = Real(polytope::tolerance::rounding) * phys.shearStiffness * math::min(geom.refR1, geom.refR2);
+	const bool parted  = !(bond.edgeStress <= phys.tensileStrength);
+	const bool sheared = !(bond.shearStress <= math::max(phys.shearStrength(elastic) / bond.area, shown));
 	if (parted || sheared) {
 		if (sheared) phys.fail();
 		else phys.losesTension();
@@ -105,14 +107,14 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	}
 	geom.normal       = normal;
 	geom.contactPoint = bond.point;
-	const Pair atBond(contact, geom, scene);
-	const Real viscous = normalDamping > 0 ? normalDamper(atBond, phys, elastic) : Real(0);
+	const Pair     atBond(contact, geom, scene);
+	const Real     viscous      = normalDamping > 0 ? normalDamper(atBond, phys, elastic) : Real(0);
 	const Vector3r shearViscous = shearDamping > 0 ? shearDamper(atBond, phys, elastic + viscous, shear) : Vector3r::Zero();
-	phys.isSliding     = false;
-	phys.normalViscous = viscous * normal;
-	phys.normalForce   = (elastic + viscous) * normal;
-	phys.shearViscous  = shearViscous;
-	phys.shearForce    = shear + shearViscous;
+	phys.isSliding              = false;
+	phys.normalViscous          = viscous * normal;
+	phys.normalForce            = (elastic + viscous) * normal;
+	phys.shearViscous           = shearViscous;
+	phys.shearForce             = shear + shearViscous;
 	if (rockingDamping > 0) phys.rockingMoment = rockingDamper(atBond, phys, std::numeric_limits<Real>::infinity());
 	if (!apply(atBond, phys)) return true;
 

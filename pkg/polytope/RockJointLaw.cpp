@@ -48,7 +48,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	turnWithContact(geom, elasticShear);
 	turnWithContact(geom, phys.slip);
 	const Last last(phys, elasticShear, geom.normal);
-	phys.followsBond = false;
+	phys.followsBond         = false;
 	const Vector3r increment = geom.shearIncrement();
 	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, increment)) return true;
 
@@ -76,7 +76,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	phys.normalForce   = normal * geom.normal;
 	phys.shearViscous  = shearViscous;
 	phys.shearForce    = shear + shearViscous;
-	if (rockingDamping > 0 || last.moment != Vector3r::Zero()) phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
+	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
+		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
 	if (!apply(pair, phys)) return true;
 
 	if (!scene->trackEnergy) phys.lastStored = -1;

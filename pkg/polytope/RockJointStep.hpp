@@ -43,7 +43,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
 	/// From where body 2 is to where it is in the period of body 1.
 	Vector3r shift2() const { return centre2 - state2.pos; }
-	Real inverseMass(const Body* body) const
+	Real     inverseMass(const Body* body) const
 	{
 		if (body->isClumpMember()) body = Body::byId(body->clumpId, scene).get();
 		return body->isDynamic() && body->state->mass > 0 ? 1 / body->state->mass : Real(0);
@@ -62,13 +62,14 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 	Vector3r    force, shearViscous, moment, bondMoment;
 	ShearSpring shear;
 	Real        normalViscous, elasticNormal, dilation;
-	bool        wasBond;      ///< the forces were those of a bond of PolytopeBonds, which has failed
-	bool        actedAsBond;  ///< they were those of the joint's own bond (RockJointBond.cpp)
+	bool        wasBond;     ///< the forces were those of a bond of PolytopeBonds, which has failed
+	bool        actedAsBond; ///< they were those of the joint's own bond (RockJointBond.cpp)
 
 	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
-	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment), bondMoment(phys.bondMoment()),
-	          shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
-	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond), actedAsBond(phys.bond)
+	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment),
+	          bondMoment(phys.bondMoment()), shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
+	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond),
+	          actedAsBond(phys.bond)
 	{
 	}
 };
@@ -76,7 +77,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
 /// What a step did with energy beyond storing it [J].
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::StepWork {
 	Real plastic = 0, normalDamping = 0, shearDamping = 0, rockingDamping = 0;
-	Real stored    = 0; ///< energy of the springs afterwards
+	Real stored    = 0;     ///< energy of the springs afterwards
 	bool fractured = false; ///< what is missing then is the energy of fracture
 };
 

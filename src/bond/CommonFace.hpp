@@ -13,10 +13,10 @@ struct CommonFace {
 	Vector3              centroid; ///< of the area, half way between the two faces
 	Matrix3              axes;     ///< columns: normal from the first body to the second, principal axes of the area; right-handed
 	Vector3              normal1, normal2; ///< outward, of the first body's face and of the second's
-	Real                 area;     ///< [m²]
-	Vector2              second;   ///< ∫ y² dA and ∫ z² dA along axes 1 and 2, from the centroid [m⁴]
-	Real                 gap;      ///< between the faces at the centroid; negative: overlap [m]
-	std::vector<Vector2> corners;  ///< (y, z) from the centroid, counter-clockwise about the normal
+	Real                 area;             ///< [m²]
+	Vector2              second;           ///< ∫ y² dA and ∫ z² dA along axes 1 and 2, from the centroid [m⁴]
+	Real                 gap;              ///< between the faces at the centroid; negative: overlap [m]
+	std::vector<Vector2> corners;          ///< (y, z) from the centroid, counter-clockwise about the normal
 };
 
 /// All pairs of faces that look at each other within `angle` [rad] and are not farther apart than `gap` (nor overlap by more than a contact does,
