@@ -17,8 +17,8 @@ __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'size
 
 
 def bodyStress(ids=None):
-	"""Mean stress of each body, from its contact forces and their arms: σ = 1/V Σ f ⊗ (x − c), with its own volume V and centre c. Bonds count with
-	their force and with the first moments of the stresses of bending and twisting over their area.
+	"""Mean stress of each body, from its contact forces and their arms: σ = 1/V Σ f ⊗ (x − c), with its own volume V and centre c. Bonds, and joints
+	with tensile strength that act as bonds, count with their force and with the first moments of the stresses of bending and twisting over their area.
 
 	The mean of a body in equilibrium; gravity has no part in it about the centroid. Not symmetric where the body is not in equilibrium of
 	moments. A clump is one body, its volume what its parts fill together (with spheres among them: the sum).
@@ -29,6 +29,9 @@ def bodyStress(ids=None):
 	"""
 	stress = {k: np.zeros((3, 3)) for k in _massive(ids)}
 	for contact in _bearing():
+		if (own := getattr(contact.phys, 'bond', None)) is not None:  # a joint in tension
+			_addBond(stress, own)
+			continue
 		force = np.array(contact.phys.normalForce + contact.phys.shearForce, float)
 		point = np.array(contact.geom.contactPoint, float)
 		shift = np.array(O.cell.hSize * contact.cellDist, float) if O.periodic else 0

@@ -217,3 +217,52 @@ def testItsTimeStepFollowsItsBending():
 	inertia = np.array([state.mass, state.inertia[1]], float)
 	omega = math.sqrt(max(np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(inertia, inertia)))))
 	assert float(O.dt) < 1 / omega
+
+
+def cantilever(number, **strength):
+	"""Cubes in a row along x, of which the first is fixed; pressed together by a millionth of their size."""
+	joint(normalStiffness=1e10, shearStiffness=4e9, **dict(dict(tensileStrength=1e9, cohesion=1e9), **strength))
+	O.bodies.append([polytope.cuboid((k * (0.1 - 1e-7), 0, 0), (0.05, 0.05, 0.05), fixed=k == 0) for k in range(number + 1)])
+	O.engines = polytope.engines(gravity=(0, 0, 0), damping=0.5)
+	O.run(50, wait=True)
+	return O.bodies[number]
+
+
+def testACantileverOfBlocksBendsAsABeam():
+	"""The deflection of docs/bonds.md, by ordinary joints."""
+	number, load = 5, 10.
+	last = cantilever(number)
+	start = float(last.state.pos[2])
+	O.forces.setPermF(number, (0, 0, -load))
+	O.run(15000, wait=True)
+	second, area = 0.1**4 / 12, 0.01
+	deflection = load * 0.1**2 / (1e10 * second) * (number**3 / 3 - number / 12) + number * load / (4e9 * area)
+	assert start - last.state.pos[2] == pytest.approx(deflection, rel=1e-5)
+
+
+def testStressOfABlockInACantileverIsThatOfBonds():
+	"""Mean of the stress by shear and bending."""
+	found = []
+	for bonded in (False, True):
+		O.reset()
+		cantilever(3)
+		if bonded:
+			polytope.bond()
+		O.forces.setPermF(3, (0, 0, -10))
+		O.run(12000, wait=True)
+		found.append(polytope.bodyStress([2])[2])
+	assert abs(found[1][2, 0]) == pytest.approx(10 / 0.01, rel=1e-3)
+	assert found[0] == pytest.approx(found[1], abs=1e-2 * 10 / 0.01)
+
+
+def testACantileverOfBlocksBreaksAtTheStressOfItsOutermostFibre():
+	number, strength = 5, 1e6
+	cantilever(number, tensileStrength=strength)
+	expected = strength * (0.1**4 / 12 / 0.05) / (0.1 * (number - 0.5))
+	load = 0
+	while (held := O.interactions.has(0, 1) and O.interactions[0, 1].phys.bond) and load < 1.2 * expected:
+		load += expected / 200  # slowly
+		O.forces.setPermF(number, (0, 0, -load))
+		O.run(1000, wait=True)
+	assert not held
+	assert load == pytest.approx(expected, rel=1e-2)
