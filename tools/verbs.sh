@@ -40,7 +40,7 @@ optionsOf() { # VERB
 namesOf() { # VERB
 	case $1 in
 		accuracy) echo pairs scenes path surfaces collisions joints ;;
-		bench) echo kernels shapes scenes sizes growth threads results ;;
+		bench) echo kernels shapes scenes sizes scale growth threads results ;;
 		fuzz) echo construction contact ;;
 		sanitize) echo core threads fuzz valgrind ;;
 		tradeoff) echo pair B C D F rest A ;;

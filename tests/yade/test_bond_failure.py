@@ -213,7 +213,6 @@ def hung(offset, size=(0.1, 0.1, 0.1), **strength):
 	O.bodies.append(polytope.cuboid((0, 0, size[2]), half, fixed=True))
 	O.bodies.append(polytope.cuboid((offset, 0, 0), half))
 	newton = loop(True, damping=0.5)
-	assert ('tension' in [found.what for found in polytope.check(O)]) == (strength.get('tensileStrength', 0) > 0)
 	assert polytope.bond() == 1 and 'tension' not in [found.what for found in polytope.check(O)]
 	stepper()
 	width = size[0] - offset
@@ -222,7 +221,7 @@ def hung(offset, size=(0.1, 0.1, 0.1), **strength):
 
 
 def testAJointOfItsMaterialsStrengthHoldsABrickOffCentre():
-	"""By 1 mm, with 390 times the weight: what falls without a bond, for an ordinary joint pulls at a point."""
+	"""By 1 mm, with 390 times the weight. The faces only touch: there is no contact yet that could hold (test_joint_tension.py)."""
 	newton, stress = hung(0.001, tensileStrength=390 * 2600 * gravity * 0.1, cohesion=1e9)
 	newton.gravity = (0, 0, -gravity)
 	O.run(20000, wait=True)

@@ -65,12 +65,11 @@ def overlaps(scene):
 	if len(bodies) < 2:
 		return
 	radii = np.array([float(body.shape.inscribedRadius) for body in bodies])
-	places = np.array([np.array(body.state.pos, float) for body in bodies])
-	largestFirst = np.argsort(-radii)
-	tree, pairs = scipy.spatial.cKDTree(places), []
-	near = tree.query_ball_point(places, 2 * (1 - deep) * radii)
-	rank = np.empty(len(bodies), int)
-	rank[largestFirst] = np.arange(len(bodies))
+	rows = arrays().bodies
+	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
+	pairs, rank = [], np.empty(len(bodies), int)
+	rank[np.argsort(-radii)] = np.arange(len(bodies))  # the larger one of a pair looks for the other
+	near = scipy.spatial.cKDTree(places).query_ball_point(places, 2 * (1 - deep) * radii)
 	for i, others in enumerate(near):
 		for j in others:
 			if rank[j] <= rank[i]:

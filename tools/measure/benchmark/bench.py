@@ -23,13 +23,14 @@ import kernels
 import memory
 import plots
 import results
+import scale
 import scenes
 import shapes
 import targets
 from tabulate import tabulate
 
 here = pathlib.Path(__file__).resolve().parent
-groups = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'growth', 'threads')
+groups = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
 outputs = (
         'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
         'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
@@ -39,7 +40,7 @@ outputs = (
 def arguments():
 	parser = argparse.ArgumentParser(prog='./run bench', description=__doc__.split('\n\n')[1].replace('\n', ' '))
 	parser.add_argument('--quick', action='store_true', help='smaller heaps, fewer pairs and repetitions: some minutes')
-	parser.add_argument('--large', action='store_true', help='the settled heaps by size also with 100 000 bodies: some hours')
+	parser.add_argument('--large', action='store_true', help='settled heaps of 100 000 bodies, and a million bodies, as well: some hours')
 	parser.add_argument('--only', choices=groups, help='one group of measurements alone')
 	parser.add_argument('--output', metavar='DIR', help='where results and pictures go (default: output/bench, -quick, -GROUP)')
 	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # ./run's: only check the options
@@ -213,6 +214,19 @@ def sizeGroup(run):
 	return targets.sizeRows(found)
 
 
+def scaleGroup(run):
+	found = scale.measure(run.quick, run.large)
+	run.results['scale'] = found
+	for one in found['bodies']:
+		run.say(f"{one['bodies']} flying bodies: {one['before']:.2f} µs a body and step, {one['after']:.2f} after loading; {one['seconds']:.0f} s and {one['gigabytes']:.2f} GB in all")
+	for workers, seconds in found['workers'].items():
+		run.say(f"{found['cubes']} cubes, {workers} worker processes and rank 0: {1e3 * seconds:.1f} ms a step")
+	run.say('')
+	if not run.large:
+		run.note('scale without --large: a million bodies are left out.')
+	return targets.scaleRows(found)
+
+
 def growthGroup(run):
 	found, memory = run.scenes.growth()
 	describe(run, [('cubes', one) for one in found.values()])
@@ -263,7 +277,7 @@ def main():
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
 	rows, interrupted = [], False
-	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, growthGroup, threadGroup), strict=True):
+	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:

@@ -6,6 +6,7 @@ faces in any orientation, start on a lattice on which they just do not touch, an
 neighbours. --number 100000 makes a tenth of them, for comparison.
 """
 import argparse
+import json
 import os
 import random
 import tempfile
@@ -97,7 +98,9 @@ def main():
 		parts.done('loaded', f'{len(O.bodies)} bodies, step {O.iter}')
 	run(1, parts, 'first step')
 	after = run(max(1, options.steps // 2), parts, 'continued')
-	print(f'in all {time.perf_counter() - parts.begin:.0f} s; a body and step {before:.2f} µs, after loading {after:.2f} µs')
+	seconds = time.perf_counter() - parts.begin
+	print(f'in all {seconds:.0f} s; a body and step {before:.2f} µs, after loading {after:.2f} µs')
+	print('RESULT', json.dumps({'bodies': options.number, 'seconds': seconds, 'gigabytes': memory('VmHWM'), 'before': before, 'after': after}), flush=True)
 	os._exit(0)  # YADE's own clean-up at exit is not measured
 
 

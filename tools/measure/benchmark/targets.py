@@ -149,6 +149,19 @@ def sizeRows(found):
 	return rows
 
 
+def scaleRows(found):
+	small, large = found['bodies'][0], found['bodies'][-1]
+	rows = []
+	if large is not small:
+		for name, when in (('before', 'flying bodies'), ('after', 'flying bodies, saved and loaded')):
+			rows.append(atMost(f"time per body and step, {large['bodies']} {when}", 1.3, f"that of {small['bodies']}", large[name], small[name]))
+	if large['bodies'] >= 1e6:
+		what = 'a million bodies (made; 200 steps; saved; loaded; 100 steps)'
+		rows += [below(f'{what}: time', 30, large['seconds'] / 60, 'min'), below(f'{what}: memory', 24, large['gigabytes'], 'GB')]
+	one, two = (1e3 * found['workers'][workers] for workers in (1, 2))
+	return [*rows, atLeast(f"time of a step, workers 1 → 2, {found['cubes']} cubes on several processes", 1.6, 'one worker', two, one, '{:.1f} ms')]
+
+
 def growthRows(found, memory):
 	numbers = sorted(found)
 	first = numbers[0]

@@ -8,7 +8,7 @@ import re
 from text import bold, origin, paragraph, short, table
 
 file = 'bench.json'
-ofScenes = ('InteractionLoop', 'time per body', 'time per contact', 'memory', 'polytope.arrays', 'PolytopeVTKRecorder', 'O.save', 'O.load', 'checkpoint')
+ofScenes = ('InteractionLoop', 'time per body', 'time per contact', 'time of a step', 'a million bodies', 'memory', 'polytope.arrays', 'PolytopeVTKRecorder', 'O.save', 'O.load', 'checkpoint')
 ofBodies = ('body of', 'jointedRock')
 
 
