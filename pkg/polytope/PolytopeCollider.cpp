@@ -3,8 +3,9 @@
 
 #include <core/Dispatching.hpp>
 #include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
 
-#include <src/numbers/Tolerances.hpp>
+#include "Polytope.hpp"
 
 #include <limits>
 
@@ -12,73 +13,134 @@ namespace yade {
 
 YADE_PLUGIN((PolytopeCollider));
 
-const Body* PolytopeCollider::bodyOf(std::size_t id) const
+bool PolytopeCollider::mustRunForAll() const
 {
-	const Body::id_t known = Body::id_t(id); // bodies may have been erased since
-	return scene->bodies->exists(known) ? (*scene->bodies)[known].get() : nullptr;
+	return !hasSearched_ || !(verletDist > 0) || !newton || scene->interactions->dirty || scene->doSort || scene->bodies->size() != bodies_;
 }
 
-Real PolytopeCollider::way(const Turn& turn, const Body& body)
+bool PolytopeCollider::isActivated()
 {
-	const Real sine = (body.state->ori.conjugate() * turn.from).vec().norm(); // of half the angle
-	return sine <= polytope::tolerance::noTurn ? Real(0) : 2 * turn.radius * sine;
+	if (scene->isPeriodic) return InsertionSortCollider::isActivated() || !room_.outside(*scene, false).empty();
+	outside_.clear();
+	if (mustRunForAll()) return true;
+	fastestBodyMaxDist = newton->maxVelocitySq;
+	outside_           = room_.outside(*scene, true);
+	return !outside_.empty();
 }
 
-bool PolytopeCollider::turnedOutOfBox() const
+template <class Make> void PolytopeCollider::withRooms(const Make& make)
 {
-	for (std::size_t id = 0; id < turns_.size(); ++id) {
-		const Turn& turn = turns_[id];
-		if (!(rooms_[id] < std::numeric_limits<Real>::infinity()) || !(turn.radius > 0)) continue;
-		const Body* body = bodyOf(id);
-		if (body && !(way(turn, *body) <= rooms_[id])) return true; // also an orientation that is no number
-	}
-	return false;
-}
-
-void PolytopeCollider::makeRoom()
-{
-	const Real              most = math::max(verletDist, Real(0)), least = minSweepDistFactor * most;
-	const bool              again  = scene->iter == madeAt_; // yade.mpy runs it twice in a step: no body has turned since
-	const std::vector<Real> before = again ? rooms_ : std::vector<Real>();
-	madeAt_                        = scene->iter;
-	turns_.resize(scene->bodies->size());
-	rooms_.assign(turns_.size(), 0);
-	for (std::size_t id = 0; id < turns_.size(); ++id) {
-		const Body* body     = bodyOf(id);
-		Turn&       turn     = turns_[id];
-		const auto* polytope = body ? dynamic_cast<const Polytope*>(body->shape.get()) : nullptr;
-		if (!polytope || !polytope->convex()) {
-			turn = Turn();
-			continue;
-		}
-		const bool known = turn.radius > 0;
-		if (known && id < before.size() && turn.from.coeffs() == body->state->ori.coeffs()) {
-			rooms_[id] = before[id];
-			continue;
-		}
-		turn.radius = polytope->convex()->boundingRadius();
-		// twice the last interval's: so it does not run at each step, nor keep boxes enlarged for a rotation that has ended
-		const Real wanted = known ? 2 * way(turn, *body) : most;
-		turn.from         = body->state->ori;
-		if (mayTurn(body)) rooms_[id] = wanted <= most ? math::max(least, wanted) : std::numeric_limits<Real>::infinity();
-	}
-}
-
-void PolytopeCollider::action()
-{
-	makeRoom();
-	const auto give = [&](const std::vector<Real>* given) {
+	const auto give = [&](const std::vector<Real>* rooms) {
 		for (const auto& functor : boundDispatcher->functors)
-			if (auto* own = dynamic_cast<Bo1_Polytope_Aabb*>(functor.get())) own->rooms = given;
+			if (auto* own = dynamic_cast<Bo1_Polytope_Aabb*>(functor.get())) own->rooms = rooms;
 	};
-	give(&rooms_);
+	give(&room_.rooms());
 	try {
-		InsertionSortCollider::action();
+		make();
 	} catch (...) {
 		give(nullptr);
 		throw;
 	}
 	give(nullptr);
+}
+
+/// As InsertionSortCollider: where it is negative, that part of the smallest sphere's radius; none without spheres.
+void PolytopeCollider::findVerletDist()
+{
+	if (!(verletDist < 0)) return;
+	Real smallest = std::numeric_limits<Real>::infinity();
+	for (const auto& body : *scene->bodies)
+		if (const auto* sphere = body ? dynamic_cast<const Sphere*>(body->shape.get()) : nullptr)
+			smallest = math::min(smallest, sphere->radius);
+	verletDist = math::isinf(smallest) ? Real(0) : math::abs(verletDist) * smallest;
+}
+
+/// As InsertionSortCollider, for which the integrator measures displacements.
+void PolytopeCollider::findNewton()
+{
+	if (!(verletDist > 0)) return;
+	for (const auto& engine : scene->engines)
+		if (!newton) newton = YADE_PTR_DYN_CAST<NewtonIntegrator>(engine);
+	if (!newton) throw std::runtime_error("PolytopeCollider.verletDist: above 0 it needs a NewtonIntegrator in O.engines");
+	newton->updatingDispFactor = updatingDispFactor;
+}
+
+BoxRoom::Limits PolytopeCollider::limits() const
+{
+	const Real most = math::max(verletDist, Real(0));
+	return { most, minSweepDistFactor * most, targetInterv };
+}
+
+void PolytopeCollider::prepareBoxes()
+{
+	boundDispatcher->scene              = scene;
+	boundDispatcher->sweepDist          = math::max(verletDist, Real(0));
+	boundDispatcher->minSweepDistFactor = minSweepDistFactor;
+	boundDispatcher->targetInterv       = targetInterv;
+	boundDispatcher->updatingDispFactor = updatingDispFactor;
+}
+
+void PolytopeCollider::searchAll()
+{
+	scene->forces.addMaxId(scene->bodies->size());
+	findNewton();
+	prepareBoxes();
+	withRooms([&] { boundDispatcher->action(); });
+	room_.takeFromAll(*scene);
+	pairs_.ofAll(*scene, *this, verletDist > 0); // in each step visiting pairs that are apart takes less time than judging them
+	hasSearched_ = true;
+	bodies_      = scene->bodies->size();
+	divided_     = false;
+	for (const auto& body : *scene->bodies)
+		divided_ = divided_ || (body && body->getIsSubdomain());
+
+	// as InsertionSortCollider leaves them
+	keepListsShort = scene->bodies->useRedirection;
+	scene->doSort = doSort = scene->interactions->dirty = false;
+	scene->bodies->checkedByCollider                    = true;
+	scene->bodies->insertedBodies.clear();
+	scene->bodies->erasedBodies.clear();
+}
+
+void PolytopeCollider::searchSome()
+{
+	prepareBoxes();
+	boundDispatcher->updateScenePtr();
+	const long number = long(outside_.size());
+	withRooms([&] {
+#pragma omp parallel for schedule(static)
+		for (long k = 0; k < number; ++k)
+			boundDispatcher->processBody((*scene->bodies)[outside_[k]]);
+	});
+	room_.take(*scene, outside_);
+	pairs_.ofSome(*scene, *this, outside_);
+}
+
+void PolytopeCollider::action()
+{
+	if (scene->isPeriodic) {
+		hasSearched_ = false;
+		room_.makeForAll(*scene, limits());
+		withRooms([&] { InsertionSortCollider::action(); });
+		room_.takeFromAll(*scene);
+		return;
+	}
+	numAction++;
+	scene->interactions->iterColliderLastRun = -1; // pairs are deleted here, not by the InteractionLoop
+	if (mustRunForAll() || outside_.empty() || divided_ || pairs_.areMany(outside_.size())) {
+		findVerletDist();
+		room_.makeForAll(*scene, limits());
+		searchAll();
+	} else {
+		room_.make(*scene, outside_, limits());
+		searchSome();
+	}
+	outside_.clear();
+}
+
+vector<Body::id_t> PolytopeCollider::probeBoundingVolume(const Bound& bound)
+{
+	return scene->isPeriodic ? InsertionSortCollider::probeBoundingVolume(bound) : pairs_.overlapping(bound, *scene);
 }
 
 } // namespace yade

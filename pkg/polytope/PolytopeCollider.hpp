@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Polytope.hpp"
+#include "BoxRoom.hpp"
+#include "PairSearch.hpp"
 
 #include <pkg/common/InsertionSortCollider.hpp>
 
@@ -9,33 +10,40 @@ namespace yade {
 
 class PolytopeCollider : public InsertionSortCollider {
 public:
-	bool isActivated() override { return InsertionSortCollider::isActivated() || turnedOutOfBox(); }
+	bool isActivated() override;
 	void action() override;
+
+	/// As InsertionSortCollider's.
+	vector<Body::id_t> probeBoundingVolume(const Bound& bound) override;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC(PolytopeCollider, InsertionSortCollider,
-	R"""(:yref:`InsertionSortCollider` that also takes account of rotations, so that :yref:`Polytopes<Polytope>` get tight boxes: fewer pairs whose boxes overlap though they are apart (two of five fewer in a settled heap of cubes). Used in place of the other, with the same attributes. A box is enlarged for twice the rotation between the collider's last two runs, up to a displacement of :yref:`verletDist<InsertionSortCollider.verletDist>` at its farthest vertex; the collider runs again before the body has turned farther than that. A body that turns faster than that gets the box of its circumscribed ball, which contains it in every orientation. Bodies of other shapes are treated as by InsertionSortCollider, which takes account of translation only.)""");
+	R"""(Collider for scenes with :yref:`Polytopes<Polytope>`. Used in place of :yref:`InsertionSortCollider`, with the same attributes, but other methods:
+
+It takes account of rotations, so that polytopes get tight boxes: a box is enlarged for the rotation of the next :yref:`targetInterv<InsertionSortCollider.targetInterv>` steps, up to a displacement of :yref:`verletDist<InsertionSortCollider.verletDist>` at its farthest vertex, and made anew before the body has turned farther than that. A body that turns so far in four steps gets the box of its circumscribed ball, which contains it in every orientation. Boxes, facets and other shapes of YADE's get new boxes in each step in which they turn.
+
+It finds boxes that overlap by a grid, with all threads, in a time that grows as the number of bodies. When some bodies have moved out of their boxes, these alone get new ones, and partners. Two free polytopes whose boxes overlap, but which stay apart while they are in them (their linear program says so), have no :yref:`Interaction` until then. In periodic cells pairs are those of InsertionSortCollider, and found by it.)""");
 	// clang-format on
 
 private:
-	/// Orientation from which a polytope's rotation is measured.
-	struct Turn {
-		Quaternionr from   = Quaternionr::Identity(); ///< orientation when the box was made
-		Real        radius = 0;                       ///< of the circumscribed ball; 0: no polytope
-	};
+	/// Whether all boxes have to be made anew.
+	bool mustRunForAll() const;
+	BoxRoom::Limits limits() const;
+	/// Boxes whose sizes the bodies' functors know, room for rotation included.
+	template <class Make> void withRooms(const Make& make);
+	void prepareBoxes();
+	void findVerletDist();
+	void findNewton();
+	void searchAll();
+	void searchSome();
 
-	/// Displacement of the farthest vertex by the rotation (the chord).
-	static Real way(const Turn& turn, const Body& body);
-
-	const Body* bodyOf(std::size_t id) const;
-
-	void makeRoom();
-	bool turnedOutOfBox() const;
-
-	// by body id; not saved: after loading the first step makes all boxes anew
-	std::vector<Turn> turns_;
-	std::vector<Real> rooms_;       ///< displacement of the farthest vertex that the box allows for
-	long              madeAt_ = -1; ///< step in which they were made
+	// not saved: after loading the first step makes all boxes anew
+	BoxRoom                 room_;
+	PairSearch              pairs_ { room_ };
+	std::vector<Body::id_t> outside_;             ///< bodies that are out of their boxes, as isActivated() has found them
+	bool                    hasSearched_ = false; ///< for all
+	bool                    divided_     = false; ///< the scene is one of several processes': all of them search together
+	std::size_t             bodies_      = 0;     ///< length of the list of bodies then
 };
 REGISTER_SERIALIZABLE(PolytopeCollider);
 

@@ -171,11 +171,11 @@ POLYTOPE_INLINE void contactKernel(
 	publishProgram<R, D>(in, f, planes, basis, lp, limits, memory, dual, out);
 	timer.end(out.lpNanoseconds);
 	const bool touching = basis.infeasibility < -limits.tolerance;
-	if (!touching && !settings.geometryAcrossGap) {
+	out.inContact       = touching;
+	if (settings.programAlone || (!touching && !settings.geometryAcrossGap)) {
 		rememberWeights<D>(basis.weight, memory);
 		return;
 	}
-	out.inContact        = touching;
 	out.hasGeometry      = true;
 	memory.dualDirection = out.dualDirection;
 

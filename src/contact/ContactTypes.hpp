@@ -78,6 +78,8 @@ struct ContactSettings {
 	DepthRule depthRule = DepthRule::Chord;
 	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
+	/// End after the linear program: s*, and whether it is a contact, without point, normal and depth.
+	bool programAlone = false;
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
 	/// ends it.
 	bool geometryAcrossGap = false;

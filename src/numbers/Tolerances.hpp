@@ -224,6 +224,15 @@ constexpr int internalFacesEvery = 16;
 /// adds as many again. What stays below moves no vertex by more than a few roundings of the body's size.
 constexpr Real noTurn = 8 * rounding;
 
+/// Widths of a box grid's levels below the middle one, in halves: boxes a million times smaller than most share cells.
+constexpr int boxLevels = 20;
+
+/// Coordinate over the width of a cell from which on boxes have no cell: their numbers in double differ by 2⁻¹² of a width there.
+constexpr double farthestCell = powerOfTwo(40);
+
+/// × width of a cell: how far below a box the lowest corners may be of boxes that overlap with it, rounding up to `farthestCell` included.
+constexpr double cellRoom = 1 + powerOfTwo(-10);
+
 /// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;

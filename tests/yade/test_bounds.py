@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A body that turns in place meets its neighbour however rarely the collider runs; boxes are tight where the collider takes account of
 rotation."""
+import ctypes
 import math
 
 import numpy as np
@@ -79,9 +80,31 @@ def testBoxesOfPolytopeColliderAreTightWithRoomToTurn(verletDist):
 	O.step()
 	ball = math.sqrt(14)
 	assert list(fixed.bound.max) == pytest.approx([3 + verletDist, 2 + verletDist, 1 + verletDist])
-	# as much for the turn as for the way, and never more than the circumscribed ball
-	assert list(free.bound.max) == pytest.approx([x + verletDist for x in (12 + min(3 + verletDist, ball), min(2 + verletDist, ball), min(1 + verletDist, ball))])
-	assert list(free.bound.min) == pytest.approx([x - verletDist for x in (12 - min(3 + verletDist, ball), -min(2 + verletDist, ball), -min(1 + verletDist, ball))])
+	# a tenth of it for the turn of a body at rest, and never more than the circumscribed ball
+	turn = 0.1 * verletDist
+	assert list(free.bound.max) == pytest.approx([x + verletDist for x in (12 + min(3 + turn, ball), min(2 + turn, ball), min(1 + turn, ball))])
+	assert list(free.bound.min) == pytest.approx([x - verletDist for x in (12 - min(3 + turn, ball), -min(2 + turn, ball), -min(1 + turn, ball))])
+
+
+def testRoomToTurnIsThatOfAHundredSteps():
+	joint()
+	loop()
+	collider(PolytopeCollider, 0.2)
+	radius = math.sqrt(14)
+	slow, fast = polytope.cuboid((0, 0, 0), (3, 2, 1)), polytope.cuboid((12, 0, 0), (3, 2, 1))
+	O.bodies.append([slow, fast])
+	driven(slow, angularVelocity=(0, 0, 0.1 / radius))
+	driven(fast, angularVelocity=(0, 0, 6 / radius))  # the Verlet distance in 3.3 steps: the circumscribed ball's box
+	O.dt = 0.01
+	O.step()
+	assert list(slow.bound.max) == pytest.approx([3 + 0.1 + 0.2, 2 + 0.1 + 0.2, 1 + 0.1 + 0.2])
+	assert list(fast.bound.max) == pytest.approx([12 + radius + 0.2, radius + 0.2, radius + 0.2])
+	before = O.engines[1].numAction
+	O.run(95, True)
+	assert O.engines[1].numAction == before
+	O.run(10, True)
+	assert O.engines[1].numAction == before + 1  # its box alone is made anew, with room from its rotation since
+	assert slow.bound.max[2] == pytest.approx(1 + 0.1, rel=1e-3) and list(fast.bound.max) == pytest.approx([12 + radius, radius, radius])
 
 
 def testBodySpinningInPlaceDoesNotKeepTheColliderBusy():
@@ -170,7 +193,7 @@ def tightBoxes():
 
 
 def missed():
-	"""Pairs that may meet and whose tight boxes overlap, and that the collider has not found."""
+	"""How many pairs may meet and have tight boxes that overlap; and those whose bodies do, and that the collider has not found."""
 	boxes = tightBoxes()
 	found = {(min(one.id1, one.id2), max(one.id1, one.id2)) for one in O.interactions.all()}
 	ids, pairs = sorted(boxes), 0
@@ -182,7 +205,7 @@ def missed():
 				continue
 			if (boxes[i][0] <= boxes[j][1]).all() and (boxes[j][0] <= boxes[i][1]).all():
 				pairs += 1
-				if (i, j) not in found:
+				if (i, j) not in found and polytope.contact(one, two).inContact:
 					lost.append((i, j))
 	return pairs, lost
 
@@ -229,6 +252,130 @@ def testAfterLoadingNoPairIsMissed(tmp_path):
 		O.run(40, True)
 		pairs, lost = missed()
 		assert pairs > 20 and not lost
+
+
+def faces(gap, verletDist):
+	"""Two cubes whose faces, at 45° to the axes, are so far apart, so that their boxes overlap."""
+	joint()
+	loop()
+	collider(PolytopeCollider, verletDist)
+	turned = Quaternion((0, 0, 1), math.pi / 4)
+	way = (1 + gap) / math.sqrt(2)
+	O.bodies.append([polytope.cuboid((0, 0, 0), (.5, .5, .5), turned), polytope.cuboid((way, way, 0), (.5, .5, .5), turned)])
+	O.dt = 1e-3
+	return O.bodies
+
+
+def testPairsThatStayApartHaveNoInteraction():
+	one, other = faces(gap=0.1, verletDist=0.01)
+	O.step()
+	assert len(O.interactions) == 0
+	# s* is half the gap; without room for a way all are pairs whose boxes overlap
+	O.engines[1].verletDist = 0
+	O.step()
+	assert len(O.interactions) == 1 and O.interactions.countReal() == 0
+	# a piece of a rigid support keeps its pairs: internal faces are searched for among them
+	O.engines[1].verletDist = 0.01
+	one.dynamic = False
+	O.engines[1]()
+	assert len(O.interactions) == 1
+	one.dynamic = True
+	O.engines[1]()
+	assert len(O.interactions) == 0
+
+
+@pytest.mark.parametrize('speed', [0.01, 1, 20])
+def testPairThatComesNearIsFoundBeforeItTouches(speed):
+	one, other = faces(gap=0.1, verletDist=0.01)
+	other.state.vel = Vector3(-1, -1, 0) / math.sqrt(2) * speed
+	O.dt = 1e-3 / speed
+	began = None
+	for _ in range(200):
+		O.step()
+		if began is None and O.interactions.all(onlyReal=False):
+			began = O.iter
+		if O.interactions.countReal():
+			break
+	gap = math.sqrt(2) * (other.state.pos - one.state.pos)[0] - 1
+	assert O.interactions[0, 1].isReal and gap > -2e-3
+	assert 30 < began < O.iter or speed == 20  # not before it was near, and not with the contact
+
+
+def testPairThatTurnsTogetherIsFoundBeforeItTouches():
+	"""Translation is zero: the rotation alone brings them together."""
+	joint()
+	loop()
+	collider(PolytopeCollider, 0.01)
+	rod, block = polytope.cuboid((0, 0, 0), (1, .1, .1)), polytope.cuboid((.8, .75, 0), (.3, .3, .3))
+	O.bodies.append([rod, block])
+	driven(rod, angularVelocity=(0, 0, .2))
+	O.dt = 1e-3
+	O.step()
+	assert len(O.interactions) == 0
+	while not O.interactions.countReal() and O.iter < 10000:
+		O.step()
+	assert 0 < O.interactions[0, 1].geom.penetrationDepth < 4e-4
+
+
+def testFewBoxesAreMadeAnew():
+	"""One body moves among many at rest: the others keep their boxes, and its pairs come and go."""
+	joint()
+	loop()
+	collider(PolytopeCollider, 0.02)
+	O.bodies.append([polytope.cuboid((1.2 * (k % 20), 1.2 * (k // 20), 0), (.5, .5, .5), fixed=k % 2 == 0) for k in range(400)])
+	runner = polytope.cuboid((0, 0, 1.01), (.5, .5, .5))
+	O.bodies.append(runner)
+	driven(runner)
+	runner.state.vel = (3, 3, 0)
+	O.dt = 1e-3
+	O.step()
+	seen, made = set(), [body.bound.lastUpdateIter for body in O.bodies]
+	for _ in range(7000):
+		O.step()
+		mine = {min(pair.id1, pair.id2) for pair in O.interactions.all(onlyReal=False) if runner.id in (pair.id1, pair.id2)}
+		seen |= mine
+		assert len(mine) <= 4 + 5
+	assert [body.bound.lastUpdateIter for body in O.bodies][:400] == made[:400]
+	assert seen >= {21 * k for k in range(0, 18, 2)}  # the fixed ones on the diagonal keep their pairs while boxes overlap
+	assert len(O.interactions) < 8
+
+
+def testManyThreadsFindTheSamePairsInTheSameOrder():
+	"""The loop's order decides in which order forces are added up."""
+	order = []
+	openMp = ctypes.CDLL('libgomp.so.1')
+	for threads in (1, 2, 3):
+		scene = FallingPolyhedra(faces=[6, 20], number=120, seed=4)
+		scene.build()
+		O.run(2500, True)
+		assert O.interactions.countReal() > 60
+		O.interactions.clear()
+		openMp.omp_set_num_threads(threads)
+		try:
+			O.engines[1]()
+		finally:
+			openMp.omp_set_num_threads(1)
+		order.append([(pair.id1, pair.id2) for pair in O.interactions.all(onlyReal=False)])
+	assert len(order[0]) > 60 and order[1] == order[0] and order[2] == order[0]
+
+
+def testBladeOfAnyShapeThatTurnsInPlaceIsSeen():
+	"""Boxes and facets have no room to turn: their boxes follow in each step."""
+	from yade import utils
+	for make, where in ((utils.box, ((0, 0, 0), (1, .02, .2))), (utils.facet, ([(-1, 0, -.2), (1, 0, -.2), (0, 0, .4)], ))):
+		O.reset()
+		joint()
+		block = polytope.cuboid((0, .8, -.2), (.2, .2, .2))
+		blade = make(*where, fixed=True)
+		O.bodies.append([blade, block])
+		O.engines = polytope.engines(gravity=(0, 0, 0), timeStepper=False)
+		blade.state.angVel = (0, 0, 2)
+		O.dt = 1e-3
+		for _ in range(2000):
+			O.step()
+			if O.interactions.countReal():
+				break
+		assert O.interactions.countReal() == 1 and 0.9 < O.iter * O.dt * 2 < 1.3
 
 
 def testPeriodicCellThatShearsMissesNoContact():

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Body.hpp>
+#include <core/Scene.hpp>
+
+#include <src/shape/ConvexShape.hpp>
+
+#include <memory>
+
+namespace yade {
+
+/// How far bodies may move within their boxes, and which of them have moved out.
+///
+/// A box is made for the pose that its body has then, with room for both its ways: a sweep length along each axis for its centre, and for
+/// a polytope the displacement of its farthest vertex by rotation. As YADE's BoundDispatcher finds the first, so the second: from the motion since the
+/// box was made before, enough for `targetInterv` steps. Other shapes than balls and polytopes have no room to turn.
+class BoxRoom {
+public:
+	/// Of one body: what its box was made for.
+	struct Reference {
+		shared_ptr<State> state; ///< of the body; none if it has no box
+		Vector3r          position    = Vector3r::Zero();
+		Quaternionr       orientation = Quaternionr::Identity();
+		Real              sweep       = 0; ///< along each axis
+		Real              radius      = 0; ///< of the ball about the centre in which it turns; zero: a turn needs no room
+		/// Its own: the body's shape may be exchanged.
+		std::shared_ptr<const polytope::ConvexShape> convex;
+	};
+
+	/// What a box may be enlarged by for a rotation [m], and for how many steps it should last.
+	struct Limits {
+		Real most, least;
+		int  targetInterv;
+	};
+
+	/// By body id; a room is infinite where the box holds the body in every orientation.
+	const std::vector<Real>&      rooms() const { return rooms_; }
+	const std::vector<Reference>& references() const { return references_; }
+
+	/// Before boxes are made, of all bodies or of these: room to turn.
+	void makeForAll(const Scene& scene, const Limits& limits);
+	void make(const Scene& scene, const std::vector<Body::id_t>& ids, const Limits& limits);
+
+	/// After they have been made.
+	void takeFromAll(const Scene& scene);
+	void take(const Scene& scene, const std::vector<Body::id_t>& ids);
+
+	/// Ids of bodies that are out of their boxes, in ascending order; by translation: unless the caller knows that there are none.
+	std::vector<Body::id_t> outside(const Scene& scene, bool byTranslation) const;
+
+private:
+	void makeOne(const Scene& scene, std::size_t id, const Limits& limits);
+	void takeOne(const Scene& scene, std::size_t id);
+	bool isOutside(std::size_t id, bool byTranslation) const;
+
+	std::vector<Reference> references_;
+	std::vector<Real>      rooms_;
+};
+
+} // namespace yade
