@@ -81,6 +81,27 @@ void PairSearch::makeGrid(const Scene& scene)
 		places_[grid_.boxes()[place].id] = std::uint32_t(place);
 }
 
+void PairSearch::sortPairs(Scene& scene) const
+{
+	InteractionContainer& pairs = *scene.interactions;
+	struct Entry {
+		std::uint32_t           lower, upper; ///< places of the bodies
+		shared_ptr<Interaction> pair;
+		bool operator<(const Entry& other) const { return lower < other.lower || (lower == other.lower && upper < other.upper); }
+	};
+	std::vector<Entry> entries;
+	entries.reserve(pairs.size());
+	for (auto& pair : pairs) {
+		const auto [lower, upper] = std::minmax({ places_[pair->getId1()], places_[pair->getId2()] });
+		entries.push_back({ lower, upper, std::move(pair) });
+	}
+	std::stable_sort(entries.begin(), entries.end());
+	for (std::size_t k = 0; k < entries.size(); ++k) {
+		pairs[k]        = std::move(entries[k].pair);
+		pairs[k]->linIx = int(k);
+	}
+}
+
 /// Into the second grid.
 void PairSearch::move(const Scene& scene, const std::vector<Body::id_t>& ids)
 {
@@ -138,7 +159,7 @@ template <class Find> void PairSearch::insertFound(Scene& scene, long number, co
 			scene.interactions->insert(boost::make_shared<Interaction>(id1, id2)); // nothing where it is known
 }
 
-void PairSearch::ofAll(Scene& scene, Collider& collider, bool judge)
+void PairSearch::ofAll(Scene& scene, Collider& collider, bool judge, bool sort)
 {
 	judge_ = judge;
 	makeGrid(scene);
@@ -150,6 +171,7 @@ void PairSearch::ofAll(Scene& scene, Collider& collider, bool judge)
 			if (isNew(scene, collider, body, *bodies[box.id])) add(body.id, box.id);
 		});
 	});
+	if (sort) sortPairs(scene);
 }
 
 void PairSearch::erasePairsOf(Scene& scene, const std::vector<Body::id_t>& ids) const
@@ -169,7 +191,8 @@ void PairSearch::erasePairsOf(Scene& scene, const std::vector<Body::id_t>& ids) 
 
 void PairSearch::ofSome(Scene& scene, Collider& collider, const std::vector<Body::id_t>& ids)
 {
-	if (areMany(movedIds_.size() + ids.size())) makeGrid(scene);
+	const bool anew = areMany(movedIds_.size() + ids.size());
+	if (anew) makeGrid(scene);
 	else
 		move(scene, ids);
 	erasePairsOf(scene, ids);
@@ -184,6 +207,7 @@ void PairSearch::ofSome(Scene& scene, Collider& collider, const std::vector<Body
 		grid_.forOverlaps(boxOf(*body), visit);
 		moved_.forOverlaps(boxOf(*body), visit);
 	});
+	if (anew) sortPairs(scene);
 }
 
 std::vector<Body::id_t> PairSearch::overlapping(const Bound& bound, const Scene& scene) const

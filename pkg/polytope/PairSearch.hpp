@@ -11,8 +11,8 @@ namespace yade {
 
 /// Gives an Interaction to each pair of bodies that may touch while they are in their boxes, and takes it from those that may not.
 ///
-/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel; pairs come in the order of its cells, so that the InteractionLoop meets
-/// neighbours one after the other, and in the same order with any number of threads. When some bodies have got new boxes, only their pairs are
+/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When it is made anew in a run, all pairs are put into the order of its cells:
+/// the InteractionLoop meets neighbours one after the other, whose bodies it has in the cache. The order is the same with any number of threads. When some bodies have got new boxes, only their pairs are
 /// searched for: they leave the grid of all for a smaller one, until they are so many that the first is made anew.
 ///
 /// Of two polytopes whose boxes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
@@ -22,8 +22,9 @@ class PairSearch {
 public:
 	explicit PairSearch(const BoxRoom& room) : room_(room) { }
 
-	/// Of all bodies. `judge`: by the linear program, too.
-	void ofAll(Scene& scene, Collider& collider, bool judge);
+	/// Of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
+	/// last digits of sums.
+	void ofAll(Scene& scene, Collider& collider, bool judge, bool sort);
 	/// Of these, whose boxes are new.
 	void ofSome(Scene& scene, Collider& collider, const std::vector<Body::id_t>& ids);
 
@@ -43,6 +44,7 @@ private:
 	static constexpr std::size_t part = 4;
 
 	void makeGrid(const Scene& scene);
+	void sortPairs(Scene& scene) const;
 	void move(const Scene& scene, const std::vector<Body::id_t>& ids);
 	void erasePairsOf(Scene& scene, const std::vector<Body::id_t>& ids) const;
 	bool staysApart(const Body& one, const Body& other) const;

@@ -87,7 +87,8 @@ void PolytopeCollider::searchAll()
 	prepareBoxes();
 	withRooms([&] { boundDispatcher->action(); });
 	room_.takeFromAll(*scene);
-	pairs_.ofAll(*scene, *this, verletDist > 0); // in each step visiting pairs that are apart takes less time than judging them
+	const bool judge = verletDist > 0; // else in each step, and visiting pairs that are apart takes less time than judging them
+	pairs_.ofAll(*scene, *this, judge, hasSearched_);
 	hasSearched_ = true;
 	bodies_      = scene->bodies->size();
 	divided_     = false;
