@@ -155,7 +155,7 @@ def resultGroup(run):
 	        f"{found['bodies']} bodies, {found['contacts']} contacts among {found['pairs']} pairs, saved in {found['bytes'] / 1e6:.0f} MB, "
 	        f"by a checkpoint in {found['checkpointBytes'] / 1e6:.0f} MB; {found['spheres']['contacts']} contacts of spheres\n"
 	)
-	names = ('arrays', 'snapshot', 'picture', 'save', 'load', 'checkpoint', 'loadCheckpoint')
+	names = ('arrays', 'snapshot', 'bodySnapshot', 'picture', 'save', 'load', 'checkpoint', 'loadCheckpoint')
 	rows = [[name, found[name]['processor'], found[name]['clock']] for name in names]
 	run.say(tabulate(rows, ['', 'processor, s', 'clock, s'], floatfmt='.3f') + '\n')
 	used = memory.run(run.core, run.quick)

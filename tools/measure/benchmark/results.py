@@ -74,7 +74,12 @@ def median(call, repeats):
 
 def mean(call, repeats):
 	"""The same of a call that is short against the hundredths of a second in which the system counts."""
-	together = median(lambda: [call() for _ in range(repeats)], 1)
+
+	def many():
+		for _ in range(repeats):
+			call()
+
+	together = median(many, 1)
 	return {name: seconds / repeats for name, seconds in together.items()}
 
 
@@ -82,10 +87,11 @@ def ofSpheres(number, folder):
 	from yade import O, VTKRecorder
 
 	spheres(number)
-	recorder = VTKRecorder(fileName=f'{folder}/spheres-', recorders=['spheres', 'velocity', 'intr'], compress=True, iterPeriod=1)
+	fields = ['spheres', 'id', 'velocity', 'mass', 'mask']
+	recorder = VTKRecorder(fileName=f'{folder}/spheres-', recorders=fields, compress=True, iterPeriod=1)
 	return {
 	        'contacts': O.interactions.countReal(),
-	        'snapshot': median(recorder, 3),
+	        'bodySnapshot': median(recorder, 3),
 	        'save': median(lambda: O.save(f'{folder}/spheres.yade', quiet=True), 1),
 	        'load': median(lambda: O.load(f'{folder}/spheres.yade', quiet=True), 1),
 	}
@@ -100,6 +106,7 @@ def measure(quick):
 	found['arrays'] = mean(polytope.arrays, 20)
 	with tempfile.TemporaryDirectory() as folder:
 		found['snapshot'] = median(PolytopeVTKRecorder(fileName=f'{folder}/', recorders=['bodies', 'contacts'], iterPeriod=1), 3)
+		found['bodySnapshot'] = median(PolytopeVTKRecorder(fileName=f'{folder}/', recorders=['bodies'], iterPeriod=1), 3)
 		found['picture'] = median(lambda: polytope.picture(f'{folder}/picture.png'), 1)
 		engine = polytope.checkpoint(f'{folder}/run', iterPeriod=1, onSignal=False)
 		found['save'] = median(lambda: O.save(f'{folder}/scene.yade', quiet=True), 1)

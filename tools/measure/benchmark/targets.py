@@ -122,7 +122,7 @@ def resultRows(found):
 		row('polytope.picture', 20, 'picture'),
 		row('O.save', 5, 'save'),
 		row('checkpoint', 5, 'checkpoint'),
-		beside('PolytopeVTKRecorder against VTKRecorder', 'snapshot'),
+		beside('PolytopeVTKRecorder, bodies alone', 'bodySnapshot'),
 		beside('O.save', 'save'),
 		beside('O.load', 'load'),
 	]
