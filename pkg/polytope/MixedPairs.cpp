@@ -77,18 +77,18 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const s
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
 	if (wall.axis >= convex->dimension()) return failed(c); // parallel to a polygon's plane: it has no edge there
-	auto& geom = geometry(c);
-	if (!geom.partner) {
+	StandIn& standIn = geometry(c).standIn.make();
+	if (!standIn.partner) {
 		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
-		geom.partner    = polytope::shapeOrNull([&] {
-                        return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
-                });
+		standIn.partner = polytope::shapeOrNull([&] {
+			return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+		});
 	}
-	if (!geom.partner) return failed(c);
+	if (!standIn.partner) return failed(c);
 	// the wall's point nearest to the polytope's centre
 	Body1Frame foot { state2.pos + shift2, Matrix3r::Identity() };
 	foot.origin[wall.axis] = state1.pos[wall.axis];
-	return query(*geom.partner, foot, *convex, state1, state2, shift2, force, c);
+	return query(*standIn.partner, foot, *convex, state1, state2, shift2, force, c);
 }
 
 bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
@@ -96,12 +96,12 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	auto&       geom = geometry(c);
-	const auto& box  = static_cast<const Box&>(*shape1);
+	StandIn&    standIn = geometry(c).standIn.make();
+	const auto& box     = static_cast<const Box&>(*shape1);
 	// scripts may change the extents of a box in a run
-	if (!geom.partner || !isBox(*geom.partner, box)) geom.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
-	if (!geom.partner) return failed(c);
-	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+	if (!standIn.partner || !isBox(*standIn.partner, box)) standIn.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
+	if (!standIn.partner) return failed(c);
+	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
 bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
@@ -110,18 +110,18 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const 
 	const auto& facet  = static_cast<const Facet&>(*shape1);
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	auto& geom = geometry(c);
-	if (!geom.partner || !c->isReal()) {
+	StandIn& standIn = geometry(c).standIn.make();
+	if (!standIn.partner || !c->isReal()) {
 		// the side is settled when the contact begins, and kept while it lasts
 		const Vector3r centre = state1.ori.conjugate() * (state2.pos + shift2 - state1.pos);
-		geom.side             = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
+		standIn.side          = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
 	}
 	// nor need its corners be the same as in the step before
-	const auto planes = facetPlanes(facet, *convex, geom.side);
-	if (!geom.partner || !isFacet(*geom.partner, planes))
-		geom.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
-	if (!geom.partner) return failed(c);
-	return query(*geom.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+	const auto planes = facetPlanes(facet, *convex, standIn.side);
+	if (!standIn.partner || !isFacet(*standIn.partner, planes))
+		standIn.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
+	if (!standIn.partner) return failed(c);
+	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
 bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,

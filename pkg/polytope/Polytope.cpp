@@ -5,6 +5,8 @@
 #include <core/Scene.hpp>
 #include <core/State.hpp>
 
+#include <boost/make_shared.hpp>
+
 #include <sstream>
 
 namespace yade {
@@ -43,8 +45,19 @@ namespace {
 
 } // namespace
 
+void Polytope::forgetPlanes()
+{
+	vector<Vector3r>().swap(normals);
+	vector<Real>().swap(offsets);
+	string().swap(planesText);
+}
+
+void Polytope::postSave(Polytope&) { forgetPlanes(); }
+
 void Polytope::preSave(Polytope&)
 {
+	normals = unitNormals();
+	offsets = planeOffsets();
 	if (!planesAsText) return;
 	planesText.clear();
 	for (size_t i = 0; i < normals.size(); ++i)
@@ -65,6 +78,7 @@ void Polytope::postLoad(Polytope&)
 	}
 	if (normals.empty() && offsets.empty() && !convex_) return; // Polytope(): the planes are loaded from an archive afterwards
 	if (convex_) {                                              // the corner radius is the only attribute that can have changed
+		forgetPlanes();
 		try {
 			adopt(convex_->withCornerRadius(cornerRadius));
 		} catch (const std::invalid_argument&) {
@@ -79,8 +93,7 @@ void Polytope::postLoad(Polytope&)
 	planes.dimension = dimension;
 	// a repeated plane would count twice in the analytic centre; once built there are none
 	adopt(polytope::ConvexShape::shared(polytope::withoutDuplicates(polytope::normalised(planes)), cornerRadius, thickness));
-	normals = convex_->planes().normals;
-	offsets = convex_->planes().offsets;
+	forgetPlanes();
 }
 
 void Polytope::adopt(const std::shared_ptr<const polytope::ConvexShape>& convex)
@@ -92,14 +105,24 @@ void Polytope::adopt(const std::shared_ptr<const polytope::ConvexShape>& convex)
 
 shared_ptr<Polytope> Polytope::of(const std::shared_ptr<const polytope::ConvexShape>& convex)
 {
-	auto shape = shared_ptr<Polytope>(new Polytope);
+	auto shape = boost::make_shared<Polytope>(); // with its counts in one piece of memory
 	shape->adopt(convex);
-	shape->normals      = convex->planes().normals;
-	shape->offsets      = convex->planes().offsets;
 	shape->cornerRadius = convex->cornerRadius();
 	shape->dimension    = convex->dimension();
 	shape->thickness    = convex->thickness();
 	return shape;
+}
+
+vector<Vector3r> Polytope::unitNormals() const { return convex_ ? convex_->planes().normals : vector<Vector3r>(); }
+
+vector<Real> Polytope::planeOffsets() const { return convex_ ? convex_->planes().offsets : vector<Real>(); }
+
+boost::python::dict Polytope::pyDictCustom() const
+{
+	boost::python::dict planes;
+	planes["normals"] = unitNormals();
+	planes["offsets"] = planeOffsets();
+	return planes;
 }
 
 Real Polytope::volume() const { return convex_ ? convex_->mass().volume : Real(0); }

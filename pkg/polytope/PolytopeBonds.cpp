@@ -229,7 +229,7 @@ void PolytopeBonds::takeStates(const boost::python::list& states)
 		Real* const     numbers[]        = { &bond.energy, &bond.normalStress, &bond.edgeStress, &bond.shearStress };
 		Vector3r* const places[]         = { &bond.force, &bond.moment, &bond.point, &bond.arm1, &bond.arm2 };
 		for (int k = 0; k < 4; ++k)
-			*numbers[k] = extract<Real>(state[4 + k]);
+			*numbers[k] = extract<Real>(state[4 + k])();
 		for (int k = 0; k < 5; ++k)
 			*places[k] = extract<Vector3r>(vectors[k]);
 	}

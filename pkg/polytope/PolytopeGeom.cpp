@@ -8,6 +8,10 @@
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
 
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+
 namespace yade {
 
 YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
@@ -15,31 +19,33 @@ YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
 polytope::PairMemory PolytopeGeom::memory() const
 {
 	polytope::PairMemory memory;
-	for (int k = 0; k < 4; ++k)
-		memory.basis[k] = basis[k];
-	memory.hasBasis      = basis[4];
-	memory.hasPoint      = basis[5];
-	memory.weights       = weights;
-	memory.point         = { point1, point2 };
-	memory.level         = level;
-	memory.dualDirection = dual;
+	std::copy(basis.begin(), basis.end(), memory.basis.begin());
+	memory.hasBasis                                    = hasBasis;
+	memory.hasPoint                                    = hasPoint;
+	(hasPoint ? memory.dualDirection : memory.weights) = direction;
+	memory.point                                       = { point1, point2 };
+	memory.level                                       = level;
 	return memory;
 }
 
 void PolytopeGeom::remember(const polytope::PairMemory& memory)
 {
-	basis << memory.basis[0], memory.basis[1], memory.basis[2], memory.basis[3], memory.hasBasis, memory.hasPoint;
-	point1  = memory.point[0];
-	point2  = memory.point[1];
-	level   = memory.level;
-	dual    = memory.dualDirection;
-	weights = memory.weights;
+	constexpr int most = std::numeric_limits<std::uint16_t>::max();
+	const bool    fits = std::all_of(memory.basis.begin(), memory.basis.end(), [](int code) { return code >= 0 && code <= most; });
+	hasBasis           = memory.hasBasis && fits;
+	hasPoint           = memory.hasPoint && fits;
+	if (fits) std::copy(memory.basis.begin(), memory.basis.end(), basis.begin());
+	point1    = memory.point[0];
+	point2    = memory.point[1];
+	level     = memory.level;
+	direction = hasPoint ? memory.dualDirection : memory.weights;
 }
 
 polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 {
 	polytope::InternalPlanes planes;
-	for (int code : internalFaces) {
+	if (!internalFaces.get()) return planes;
+	for (int code : *internalFaces.get()) {
 		const int body                           = code & 1;
 		planes.plane[body][planes.count[body]++] = code >> 1;
 	}
@@ -51,7 +57,7 @@ void PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 	internalFaces.clear();
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < planes.count[body]; ++k)
-			internalFaces.push_back(2 * planes.plane[body][k] + body);
+			internalFaces.make().push_back(2 * planes.plane[body][k] + body);
 }
 
 namespace {
@@ -94,7 +100,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, con
 PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Interaction>& c)
 {
 	if (!c->geom) {
-		auto geom          = shared_ptr<PolytopeGeom>(new PolytopeGeom);
+		auto geom          = boost::make_shared<PolytopeGeom>(); // with its counts in one piece of memory
 		geom->normalWeight = normalWeightOfFirst(Body::byId(c->getId1(), scene).get(), Body::byId(c->getId2(), scene).get());
 		c->geom            = geom;
 	}
@@ -169,7 +175,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
-	if (!fit(geom.internalFaces, convex1, convex2)) geom.internalFaces.clear();
+	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.internalFaces.clear();
 	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
 	polytope::InternalPlanes internal = geom.internalPlanes();
@@ -178,7 +184,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 		if ((turn || !geom.internalKnown || !wasReal)
 		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene))
 			settings.bounding = &bounding;
-		settings.internal = geom.internalFaces.empty() ? nullptr : &internal;
+		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
@@ -186,12 +192,12 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 		const auto &material1 = Body::byId(c->getId1(), scene)->material, &material2 = Body::byId(c->getId2(), scene)->material;
 		const StiffnessRule rule
 		        = material1 && material2 ? stiffnessRuleOfNew(*scene, *material1, *material2) : StiffnessRule::Unknown;
-		geom.stiffnessRule = int(rule);
+		geom.stiffnessRule = std::int8_t(rule);
 		settings.depthRule = depthRule(settings, rule);
 		if (settings.depthRule != polytope::DepthRule::Chord)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
-	if (result.inContact && (settings.bounding || !geom.internalFaces.empty())) {
+	if (result.inContact && (settings.bounding || geom.internalFaces.get())) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal,
 			-result.infeasibility };
@@ -224,7 +230,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 {
 	count(result);
 	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) {
-		known->statusCode    = int(result.status);
+		known->statusCode    = std::int8_t(result.status);
 		known->infeasibility = result.infeasibility;
 	}
 
@@ -233,7 +239,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	if (!result.inContact && !wasReal && !force) return false;
 
 	auto& geom           = geometry(c);
-	geom.statusCode      = int(result.status);
+	geom.statusCode      = std::int8_t(result.status);
 	geom.infeasibility   = result.infeasibility;
 	geom.contactArea     = result.area;
 	geom.barrierValue    = result.barrierValue;
@@ -253,7 +259,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c
 	ContactCounters& count = counters();
 	++count.pairs;
 	++count.statuses[int(polytope::ContactStatus::Failed)];
-	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) known->statusCode = int(polytope::ContactStatus::Failed);
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) known->statusCode = std::int8_t(polytope::ContactStatus::Failed);
 	return c->isReal();
 }
 

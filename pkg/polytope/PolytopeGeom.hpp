@@ -5,29 +5,47 @@
 #include "BondsOfScene.hpp"
 #include "CandidateMemory.hpp"
 #include "ContactCounters.hpp"
+#include "FlatArchive.hpp"
 #include "Polytope.hpp"
+#include "Seldom.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 #include <src/contact/ContactQuery.hpp>
 
+#include <boost/serialization/array.hpp>
+
+#include <array>
+#include <cstdint>
 #include <tuple>
 
 namespace yade {
 
 struct TouchingPair;
 
+/// Half-spaces that represent YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side.
+struct StandIn {
+	std::shared_ptr<const polytope::ConvexShape> partner;
+	int                                          side = 0;
+};
+
+/// There is one for each contact, so what few contacts have is apart (Seldom) and small numbers lie next to each other.
 class PolytopeGeom : public ScGeom {
 public:
 	virtual ~PolytopeGeom() = default;
 
-	/// Half-spaces that represent YADE's own shape in a mixed pair (MixedPairs.hpp), and a facet's side; made when first needed.
-	std::shared_ptr<const polytope::ConvexShape> partner;
-	int                                          side = 0;
+	/// 2 × plane + body, of each plane of a basis.
+	using BasisCodes = std::array<std::uint16_t, 4>;
+	/// 2 × plane + body.
+	using PlaneCodes = Seldom<std::vector<int>>;
+
+	/// Made when first needed; not saved.
+	Seldom<StandIn> standIn;
 
 	polytope::PairMemory memory() const;
-	void                 remember(const polytope::PairMemory& memory);
+	/// A basis of planes beyond the 32767th is not kept: the next step starts without one.
+	void remember(const polytope::PairMemory& memory);
 	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
 	polytope::InternalPlanes internalPlanes() const;
 	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
@@ -38,22 +56,23 @@ public:
 	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: the contact point is the analytic centre of all half-spaces of both bodies, the :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2) the direction on which the linear program's weights of both bodies agree (or the average of the gradients of their inner potential particles, see :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>`), the :yref:`penetrationDepth<ScGeom.penetrationDepth>` the chord along it. Rock joints (:yref:`RockJointPhys`) press on each other all over the overlap: theirs is the mean depth, the overlap's volume over :yref:`contactArea<PolytopeGeom.contactArea>`, at its centroid (per contact: on faces; docs/contact-force.md). Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2* are the distances from the bodies' centres to the contact point.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
 		((Real, contactArea, 0, Attr::readonly, "Area in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. Computed for rock joints, where a law needs it, or if :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
-		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
+		((std::int8_t, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
+		((bool, hasBasis, false, (Attr::readonly | Attr::hidden), "Whether the basis is known"))
+		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`; set when they are made. A law that uses it for all contacts is found by the geometry functor."))
+		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
+		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
+		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
 		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *conservative* contacts $2\\Phi^2$; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 for others, whose energy is half the square of the depth."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
-		((int, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
-		((vector<int>, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
-		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, the next step's warm-start value"))
-		((Vector3r, dual, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program, if the points are known"))
-		((Vector3r, weights, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Weights of the basis' first planes, if the points are not known"))
-		((int, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
-		((Vector6i, basis, Vector6i::Zero(), (Attr::readonly | Attr::hidden), "The linear program's last basis (2 × plane + body), whether it is stored, and whether the points are"))
+		((Vector3r, direction, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program if the points are known, otherwise the weights of the basis' first planes"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
+		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
+		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
@@ -62,6 +81,12 @@ public:
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);
 };
 REGISTER_SERIALIZABLE(PolytopeGeom);
+
+} // namespace yade
+
+POLYTOPE_SAVED_FLAT_WITH_ITS_OWNER(PolytopeGeom)
+
+namespace yade {
 
 /// Weight of body 1's normal against body 2's, from the stiffnesses of their materials: 0.5 for equal ones.
 Real normalWeightOfFirst(const Body* body1, const Body* body2);

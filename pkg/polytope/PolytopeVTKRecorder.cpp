@@ -3,8 +3,10 @@
 
 #include "PolytopeVTKRecorder.hpp"
 
+#include "ExactClass.hpp"
 #include "Polytope.hpp"
 #include "PolytopeGeom.hpp"
+#include "RockJoint.hpp"
 #include "VtkFiles.hpp"
 
 #include <core/Scene.hpp>
@@ -174,12 +176,13 @@ void PolytopeVTKRecorder::writeContacts(const string& file) const
 
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
-		const auto* const geom = dynamic_cast<const PolytopeGeom*>(interaction->geom.get());
+		const auto* const geom = exactly<PolytopeGeom>(interaction->geom.get()); // no class is derived from it
 		if (!geom) continue;
-		const auto body1 = Body::byId(interaction->getId1(), scene), body2 = Body::byId(interaction->getId2(), scene);
+		const auto &body1 = Body::byId(interaction->getId1(), scene), &body2 = Body::byId(interaction->getId2(), scene);
 		if (!body1 || !body2 || !(recorded(*body1) || recorded(*body2))) continue;
-		const auto* const phys  = dynamic_cast<const NormShearPhys*>(interaction->phys.get());
-		const vtkIdType   point = points->GetNumberOfPoints();
+		const NormShearPhys* phys = exactly<RockJointPhys>(interaction->phys.get());
+		if (!phys) phys = dynamic_cast<const NormShearPhys*>(interaction->phys.get());
+		const vtkIdType point = points->GetNumberOfPoints();
 		append(points, insideCell(*scene, geom->contactPoint));
 		vertices->InsertNextCell(1, &point);
 		id1->InsertNextValue(interaction->getId1());

@@ -7,7 +7,9 @@
 
 #include <array>
 
+#include "FlatArchive.hpp"
 #include "PolytopeBond.hpp"
+#include "Seldom.hpp"
 
 /// Rock joints between Polytopes: material and contact physics.
 ///
@@ -55,9 +57,24 @@ private:
 };
 REGISTER_SERIALIZABLE(RockJointMat);
 
+/// What the law remembers of a joint's last step where energies are tracked.
+struct LastStepOfJoint {
+	Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero(); ///< from the bodies' centres to the contact point
+	Real     stored = -1;                                      ///< energy; negative: was not tracked
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		archive& BOOST_SERIALIZATION_NVP(arm1);
+		archive& BOOST_SERIALIZATION_NVP(arm2);
+		archive& BOOST_SERIALIZATION_NVP(stored);
+	}
+};
+
 class RockJointPhys : public FrictPhys {
 public:
 	virtual ~RockJointPhys() = default;
+
+	using LastStep = Seldom<LastStepOfJoint>;
 
 	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact times the share that
 	/// the contact has of it (PolytopeGeom::share).
@@ -99,21 +116,19 @@ public:
 		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
-		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none and are never intact."))
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))
 		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`. Where a bond has failed (:yref:`PolytopeBonds`): minus the overlap with which it was made."))
 		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than the bodies have moved."))
-		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
 		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
 		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
 		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the joint."))
+		((LastStep, lastStep, , (Attr::readonly | Attr::hidden), "Kept with O.trackEnergy; none: was not tracked"))
+		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none and are never intact."))
+		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))
-		((Vector3r, lastArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the last step's contact point (kept with O.trackEnergy)"))
-		((Vector3r, lastArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
-		((Real, lastStored, -1, (Attr::readonly | Attr::hidden), "Stored energy of the last step (kept with O.trackEnergy; -1: was not tracked)"))
 		, /*ctor*/ createIndex();
 		, /*py*/
 		.add_property("kn", &RockJointPhys::getKn, &RockJointPhys::setKn, "Present normal stiffness [N/m].")
@@ -125,3 +140,5 @@ public:
 REGISTER_SERIALIZABLE(RockJointPhys);
 
 } // namespace yade
+
+POLYTOPE_SAVED_FLAT_WITH_ITS_OWNER(RockJointPhys)

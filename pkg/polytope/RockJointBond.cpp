@@ -119,7 +119,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	if (!apply(atBond, phys)) return true;
 
 	geom.energyPerStiffness = (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn;
-	if (!scene->trackEnergy) phys.lastStored = -1;
+	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
 		StepWork work;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * normal.dot(atBond.velocity()) * scene->dt;

@@ -20,17 +20,18 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nameEnergies()
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work)
 {
 	if (!energiesNamed_) nameEnergies();
-	const Vector3r force = phys.normalForce + phys.shearForce;
-	const Real     given = scene->dt / 2
+	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
+	const Vector3r        force  = phys.normalForce + phys.shearForce;
+	const Real            given  = scene->dt / 2
 	        * ((last.force + force).dot(pair.centreVelocity())
-	                + (phys.lastArm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
-	                - (phys.lastArm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel)
+	                + (before.arm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
+	                - (before.arm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel)
 	                + (last.bondMoment + phys.bondMoment()).dot(pair.spin()));
 	// a contact that was there before tracking was switched on has no last step to compare with
-	const bool known = phys.lastStored >= 0 || pair.contact.iterMadeReal == scene->iter;
+	const bool known = before.stored >= 0 || pair.contact.iterMadeReal == scene->iter;
 	Real       rest  = 0;
 	if (known)
-		rest = -given - (work.stored - math::max(phys.lastStored, Real(0))) - work.plastic - work.normalDamping - work.shearDamping;
+		rest = -given - (work.stored - math::max(before.stored, Real(0))) - work.plastic - work.normalDamping - work.shearDamping;
 
 	const auto add = [&](Energy kind, Real value) { scene->energy->add(value, "", energyIds_[kind], kind == elastic); };
 	add(elastic, work.stored);
@@ -38,9 +39,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	add(normalViscosity, work.normalDamping + work.rockingDamping);
 	add(shearViscosity, work.shearDamping);
 	add(work.fractured ? fracture : nonconservative, rest);
-	phys.lastArm1   = pair.arm1;
-	phys.lastArm2   = pair.arm2;
-	phys.lastStored = work.stored;
+	phys.lastStep.make() = { pair.arm1, pair.arm2, work.stored };
 }
 
 } // namespace yade

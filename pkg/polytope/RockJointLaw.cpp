@@ -80,7 +80,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
 	if (!apply(pair, phys)) return true;
 
-	if (!scene->trackEnergy) phys.lastStored = -1;
+	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
 		StepWork   work;
 		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
@@ -178,7 +178,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding                                                                                   = false;
 	if (scene->trackEnergy) book(pair, phys, last, work);
-	else phys.lastStored = -1;
+	else phys.lastStep.clear();
 	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
 }
 

@@ -42,10 +42,11 @@ namespace {
 		phys.shearForce       = bond.force - phys.normalForce;
 		phys.followsBond      = true;
 		if (!scene.trackEnergy) return;
-		phys.lastArm1 = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;
-		phys.lastArm2 = bond.point - (*scene.bodies)[contact.getId2()]->state->pos;
-		if (scene.isPeriodic) phys.lastArm2 -= scene.cell->intrShiftPos(contact.cellDist);
-		phys.lastStored = bond.energy;
+		LastStepOfJoint& last = phys.lastStep.make();
+		last.arm1             = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;
+		last.arm2             = bond.point - (*scene.bodies)[contact.getId2()]->state->pos;
+		if (scene.isPeriodic) last.arm2 -= scene.cell->intrShiftPos(contact.cellDist);
+		last.stored = bond.energy;
 	}
 
 } // namespace
@@ -69,7 +70,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
 	const Real shear  = of(ks, m1.shearStiffness, m2.shearStiffness, seriesStiffness(m1.shearStiffness, m2.shearStiffness));
 
-	auto phys = shared_ptr<RockJointPhys>(new RockJointPhys);
+	auto phys = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
 	phys->tangensOfFrictionAngle
 	        = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
 	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
@@ -84,7 +85,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	}
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
-		geom->stiffnessRule = int(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
+		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
 		geom->needsArea     = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;

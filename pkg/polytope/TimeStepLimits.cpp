@@ -120,7 +120,7 @@ namespace {
 			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.criticalDamping(pair.phys.kn) / 2);
 			return (force + growth) * geom.rockingArm * across(geom.normal);
 		}
-		const polytope::ConvexShape* shape1 = geom.partner ? geom.partner.get() : shapeOf(pair.body1);
+		const polytope::ConvexShape* shape1 = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
 		const polytope::ConvexShape* shape2 = shapeOf(pair.body2);
 		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
 		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;

@@ -104,7 +104,7 @@ def arrays():
 
 def _arraysOf(columns):
 	made = {}
-	for name, (memory, kind, width) in columns.items():
-		flat = np.frombuffer(memory, kind)
+	for name, (memory, kind, count, offset, width) in columns.items():
+		flat = np.frombuffer(memory, kind, count, offset)
 		made[name] = flat if width == 1 else flat.reshape(-1, width)
 	return made

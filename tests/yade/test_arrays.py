@@ -136,6 +136,22 @@ def testTypesShapesAndAnEmptyScene():
 	assert tuple(O.bodies[3].state.pos) == before
 
 
+def testLargeColumnsHaveAllRows():
+	"""Each begins with a large page of memory of its own; arrays that are kept stay as they are when the scene goes on."""
+	O.materials.append(RockJointMat(density=2600))
+	O.bodies.append([polytope.cuboid((2 * k, 0.5 * k, -k), (0.5, 0.5, 0.5), velocity=(0, k, 1)) for k in range(25000)])
+	first = polytope.arrays().bodies
+	assert first.positions.nbytes > 2**19 and first.positions.flags.c_contiguous
+	k = np.arange(25000)
+	assert (first.ids == k).all() and (first.positions == np.stack([2 * k, 0.5 * k, -k], axis=1)).all()
+	assert (first.velocities == np.stack([0 * k, k, 0 * k + 1], axis=1)).all() and (first.orientations == (0, 0, 0, 1)).all()
+	for body in (0, 24999):
+		O.bodies[body].state.pos = (7, 7, 7)
+	assert (polytope.arrays().bodies.positions[[0, -1]] == 7).all()
+	first.positions[0] += 1
+	assert first.positions[0].tolist() == [1, 1, 1] and first.positions[-1].tolist() == [49998, 12499.5, -24999]
+
+
 def testNoLoopInPython():
 	"""The number of Python's calls does not grow with the scene."""
 	import sys

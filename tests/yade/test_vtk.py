@@ -130,6 +130,35 @@ def testContactsComeBackWithTheirForces(tmp_path):
 		assert names.GetValue(int(arrays['status'][k])) == contact.geom.status
 
 
+def testBlocksOfALargeSceneComeBackBitForBit(tmp_path):
+	"""So many bodies that columns are compressed in several blocks; the file names a compressor that every reader knows."""
+	joint()
+	for k in range(4096):
+		place = (0.999 * (k % 16), 1.01 * (k // 16 % 16), k // 256)
+		O.bodies.append(polytope.cuboid(place, (0.5, 0.5, 0.5), velocity=(k, 0, 1 / (k + 1))))
+	loop()
+	O.dt = 1e-7
+	O.run(2, True)
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/')()
+	files = [tmp_path / f'{name}.{O.iter}.{kind}' for name, kind in (('bodies', 'vtu'), ('contacts', 'vtp'))]
+	assert all(b'compressor="vtkZLibDataCompressor"' in file.read_bytes()[:300] for file in files)
+	bodies, contacts = polytope.arrays()
+	grid = readBodies(files[0])
+	data = arraysOf(grid.GetCellData())
+	for name, column in (('id', bodies.ids), ('velocity', bodies.velocities), ('angularVelocity', bodies.angularVelocities)):
+		assert (data[name] == column).all(), name
+	corners = vtk_to_numpy(grid.GetPoints().GetData())
+	assert corners.nbytes > 2 * 2**18 and grid.GetNumberOfCells() == 4096
+	assert corners.reshape(4096, 8, 3).mean(axis=1) == pytest.approx(bodies.positions, abs=1e-12)
+	data = readContacts(files[1])
+	assert data.GetNumberOfPoints() == len(contacts.ids) > 3000
+	assert (vtk_to_numpy(data.GetPoints().GetData()) == contacts.points).all()
+	fields = arraysOf(data.GetPointData())
+	columns = [('id1', contacts.ids[:, 0]), ('normal', contacts.normals), ('depth', contacts.depths)]
+	for name, column in (*columns, ('normalForce', contacts.normalForces), ('shearForce', contacts.shearForces)):
+		assert (fields[name] == column).all(), name
+
+
 def seriesIn(path):
 	"""[(time, file)] of a .pvd list."""
 	return [(float(e.get('timestep')), e.get('file')) for e in xml.etree.ElementTree.parse(path).iter('DataSet')]

@@ -152,9 +152,12 @@ def resultGroup(run):
 	found = results.run(run.core, run.quick)
 	run.results['results'] = found
 	run.say(
-	        f"{found['bodies']} bodies, {found['contacts']} contacts, saved in {found['bytes'] / 1e6:.0f} MB, by a checkpoint in "
-	        f"{found['checkpointBytes'] / 1e6:.0f} MB, which O.load reads in {found['loadCheckpoint']:.2f} s\n"
+	        f"{found['bodies']} bodies, {found['contacts']} contacts among {found['pairs']} pairs, saved in {found['bytes'] / 1e6:.0f} MB, "
+	        f"by a checkpoint in {found['checkpointBytes'] / 1e6:.0f} MB; {found['spheres']['contacts']} contacts of spheres\n"
 	)
+	names = ('arrays', 'snapshot', 'bodySnapshot', 'picture', 'save', 'load', 'checkpoint', 'loadCheckpoint')
+	rows = [[name, found[name]['processor'], found[name]['clock']] for name in names]
+	run.say(tabulate(rows, ['', 'processor, s', 'clock, s'], floatfmt='.3f') + '\n')
 	used = memory.run(run.core, run.quick)
 	run.results['memory'] = used
 	return targets.resultRows(found) + targets.memoryRows(used)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bytes of a body of a known shape, of a pair whose boxes overlap but whose bodies do not touch, and of a contact.
+"""Bytes of a body of a known shape, of a pair whose boxes overlap but whose bodies do not touch, and of a contact; YADE's spheres beside them.
 
 As a program (bench.py runs it in a process of its own) it prints them as JSON. Each is the difference between two scenes of as many bodies in
 the same order, one with pairs and one without, so what engines and lists of bodies need is not in it.
@@ -46,6 +46,29 @@ def cubes(places, turn):
 	return each
 
 
+def spheres(places):
+	"""As cubes(), of YADE's spheres of diameter 1."""
+	from yade import (
+	        Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop,
+	        Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, utils
+	)
+
+	O.reset()
+	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
+	before = memoryInUse()
+	for place in places:
+		O.bodies.append(utils.sphere(place, .5))
+	each = (memoryInUse() - before) / len(places)
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0),
+	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+	        NewtonIntegrator(),
+	]
+	O.dt = 1e-6
+	return each
+
+
 def bytesOfFirstStep():
 	from yade import O
 
@@ -54,14 +77,14 @@ def bytesOfFirstStep():
 	return memoryInUse() - before
 
 
-def perPair(near, far, turn, touching):
-	"""Bytes that each pair takes of the bodies at the places *near*; at the places *far* they have none."""
+def perPair(near, far, build, touching):
+	"""Bytes that each pair takes of the bodies that *build* puts at the places *near*; at the places *far* they have none."""
 	from yade import O
 
-	cubes(far, turn)
+	build(far)
 	without = bytesOfFirstStep()
 	assert len(O.interactions) == 0
-	cubes(near, turn)
+	build(near)
 	bytesOfAll = bytesOfFirstStep()
 	assert len(O.interactions) > 0 and O.interactions.countReal() == (len(O.interactions) if touching else 0)
 	return (bytesOfAll - without) / len(O.interactions)
@@ -71,16 +94,26 @@ def measure(quick):
 	from yade import Quaternion
 
 	side, number = (60, 3000) if quick else (200, 30000)
-	straight, turned = Quaternion((0, 0, 1), 0), Quaternion((0, 0, 1), math.pi / 4)
+
+	def straight(places):
+		return cubes(places, Quaternion((0, 0, 1), 0))
+
+	def turned(places):
+		return cubes(places, Quaternion((0, 0, 1), math.pi / 4))
+
 	# turned by 45° on the squares of one colour of a board: boxes overlap and faces are 0.06 m apart
 	board = [(x, y, 0) for x in range(side) for y in range(x % 2, side, 2)]
 	near, far = ([(spacing * x, spacing * y, 0) for x, y, _ in board] for spacing in (0.75, 2))
 	# one above the other in twos
 	touching, apart = ([(2 * k, 0, z) for k in range(number) for z in (0, distance)] for distance in (0.999, 2))
 	return {
-	        'body': cubes(far, turned),
+	        'body': turned(far),
 	        'pair apart': perPair(near, far, turned, touching=False),
 	        'contact': perPair(touching, apart, straight, touching=True),
+	        'spheres': {
+	                'body': spheres(far),
+	                'contact': perPair(touching, apart, spheres, touching=True)
+	        },
 	}
 
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A million polytopes of five kinds in a box: made, 200 steps, saved, loaded, continued (`./run python tools/measure/benchmark/million.py`).
+"""A million polytopes of five kinds in a box: made, 200 steps, recorded, saved, loaded, continued.
+
+./run python tools/measure/benchmark/million.py
 
 Prints the time and memory of each part as it ends, and of a body's step with the share of each engine. The bodies, regular solids of 4, 6, 8, 12 and 20
 faces in any orientation, start on a lattice on which they just do not touch, and fly in all directions: in 200 steps each has met some of its
@@ -83,7 +85,7 @@ def main():
 	parser.add_argument('--steps', type=int, default=200, help='before the state is saved; half as many after it is loaded')
 	parser.add_argument('--folder', help='where the state is written, some GB (default: a temporary folder)')
 	options = parser.parse_args()
-	from yade import O, polytope
+	from yade import O, PolytopeVTKRecorder, polytope
 
 	parts = Parts()
 	build(options.number)
@@ -91,6 +93,11 @@ def main():
 	run(1, parts, 'first step')
 	before = run(options.steps, parts, f'{options.steps} steps')
 	with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+		used = time.process_time()
+		PolytopeVTKRecorder(fileName=folder + '/')()
+		used = time.process_time() - used
+		size = sum(os.path.getsize(f'{folder}/{name}') for name in os.listdir(folder))
+		parts.done('snapshot', f'{size / 1e9:.2f} GB for ParaView, {used:.1f} s of the processor')
 		engine = polytope.checkpoint(folder + '/million', iterPeriod=10**9, onSignal=False)
 		engine.write()
 		parts.done('saved', f'{os.path.getsize(folder + "/million.yade") / 1e9:.2f} GB')
@@ -100,7 +107,8 @@ def main():
 	after = run(max(1, options.steps // 2), parts, 'continued')
 	seconds = time.perf_counter() - parts.begin
 	print(f'in all {seconds:.0f} s; a body and step {before:.2f} µs, after loading {after:.2f} µs')
-	print('RESULT', json.dumps({'bodies': options.number, 'seconds': seconds, 'gigabytes': memory('VmHWM'), 'before': before, 'after': after}), flush=True)
+	found = {'bodies': options.number, 'seconds': seconds, 'gigabytes': memory('VmHWM'), 'before': before, 'after': after, 'snapshot': used}
+	print('RESULT', json.dumps(found), flush=True)
 	os._exit(0)  # YADE's own clean-up at exit is not measured
 
 
