@@ -18,13 +18,16 @@ import tempfile
 import numpy as np
 from yade import NewtonIntegrator, O, Polytope
 
-from ._faces import collect, localVertices, reachOfWalls, worldVertices
+from ._faces import collect, localVertices, reachOfWalls, rows, worldVertices
 from .arguments import namedArguments
 
 __all__ = ['picture', 'collect']
 
 colorMap = ['#1d4e79', '#3380a8', '#86bcbb', '#f0e4ba', '#f2a541', '#c8451b']
 """Low to high; dark to light to warm, so that it is readable in grey and for colour-blind readers as well."""
+
+shades = 256
+"""Of the map that are told apart."""
 
 usualFixedColor = (0.86, 0.86, 0.84)
 viewAngle = 24
@@ -125,7 +128,7 @@ def _colors(bodies, colorBy, valueRange, up, fixedColor):
 	"""Ends of the scale, and the function from a body to its colour."""
 	if colorBy == 'color':
 		return 0, 1, lambda body: body.shape.color
-	known = {**_values, 'height': lambda body: float(np.dot(up, np.array(body.state.pos, float)))}
+	known = {**_values, 'height': lambda body: sum(float(u * x) for u, x in zip(up.tolist(), body.state.pos, strict=True))}
 	value = colorBy if callable(colorBy) else known.get(colorBy)
 	if value is None:
 		raise ValueError(f"colorBy: must be 'color', a function, or one of {sorted(known)}, not {colorBy!r}")
@@ -135,16 +138,23 @@ def _colors(bodies, colorBy, valueRange, up, fixedColor):
 	low, high = valueRange or (min(values), max(values))
 	if valueRange is None and 0 < low < 0.1 * high:
 		low = 0
-	from matplotlib.colors import LinearSegmentedColormap
-	scale = LinearSegmentedColormap.from_list('polytope', colorMap)
-	span = high - low or 1
+	scale, span = _shades(), high - low or 1
 
 	def colorOf(body):
 		if body.dynamic:
-			return scale((value(body) - low) / span)[:3]
+			share = (value(body) - low) / span
+			return scale[round(min(1, max(0, share)) * (shades - 1))]  # what is not a number: the lowest
 		return body.shape.color if isinstance(fixedColor, str) else fixedColor
 
 	return low, high, colorOf
+
+
+def _shades():
+	"""The colour map at so many values, as tuples."""
+	known = np.array([[int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)] for color in colorMap])
+	at = np.linspace(0, 1, shades)
+	places = np.linspace(0, 1, len(known))
+	return list(zip(*(np.interp(at, places, channel).tolist() for channel in known.T), strict=True))
 
 
 def _against(flat):
@@ -175,10 +185,10 @@ def _styles(bodies, fixed, view, up):
 		raise ValueError(f"fixed: must be 'auto', 'solid', 'glass', 'wire', 'hidden' or a function, not {fixed!r}")
 	if fixed != 'auto':
 		return lambda body: 'solid' if body.dynamic else fixed
-	moving = [body.state.pos for body in bodies if body.dynamic]
-	if not moving:
+	moving = rows(body.state.pos for body in bodies if body.dynamic)
+	if not len(moving):
 		return lambda body: 'solid'
-	middle = np.median(np.array(moving, float), axis=0)  # one that has fallen off does not count
+	middle = np.median(moving, axis=0)  # one that has fallen off does not count
 	room = reachOfWalls(bodies)
 
 	def style(body):
@@ -199,7 +209,12 @@ def _styles(bodies, fixed, view, up):
 def _typicalRadius(bodies):
 	"""Median of the half-extent of the moving bodies (of all, if none moves): the reach of the soft shading."""
 	several = [body for body in bodies if body.dynamic] or bodies
-	return float(np.median([np.linalg.norm(localVertices(body.shape), axis=1).max(initial=0) for body in several])) or 1.0
+	return float(np.median([_reach(body.shape) for body in several])) or 1.0
+
+
+def _reach(shape):
+	"""Distance of the farthest vertex from the body's position [m]."""
+	return float(shape.circumscribedRadius) if isinstance(shape, Polytope) else np.linalg.norm(localVertices(shape), axis=1).max(initial=0)
 
 
 def _camera(points, view, up, aspect, zoom, flat, free):

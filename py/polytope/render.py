@@ -195,6 +195,7 @@ def pixelsOf(window, width, height):
 	grab = vtkWindowToImageFilter()
 	grab.SetInput(window)
 	grab.ReadFrontBufferOff()
+	grab.ShouldRerenderOff()  # it would draw everything a second time
 	grab.Update()
 	values = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
 	return values.reshape(height, width, -1)[:, :, :3]
