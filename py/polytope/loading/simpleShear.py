@@ -48,7 +48,10 @@ class SimpleShear(LoadingTest):
 		}
 
 	def run(self, strain):
-		"""Shears to this strain (displacement over height) since the start of the test, back if it is less than now, then stands still."""
+		"""Shears to this strain, then stands still.
+
+		:param float strain: displacement over height (0.3 is 30 %), counted from the start of the test, not from the last run; less than now: back
+		"""
 		checkGoal(strain, 'strain')
 		if not abs(strain) <= self.largest:
 			raise ValueError(f'strain: between plates at most {self.largest:g}, got {strain!r}; for more take a periodic cell')
