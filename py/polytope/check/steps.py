@@ -3,7 +3,7 @@
 
 import math
 
-from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeBonds, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
+from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeBonds, PolytopeCollider, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
 
 from ..requirements.checks import safe, usual
 from ..timeStep import safeTimeStep
@@ -69,16 +69,37 @@ def _size(body):
 
 def turningUnnoticed(scene):
 	"""Boxes of bodies are made anew after translations; PolytopeCollider notices rotations of polytopes alone."""
-	if not any(float(collider.verletDist) != 0 for collider in scene.colliders):
+	unseeing = [collider for collider in scene.colliders if float(collider.verletDist) != 0]
+	if not unseeing:
 		return
 	driven = {key for engine in scene.those(RotationEngine) if float(engine.angularVelocity) != 0 for key in engine.ids}
-	turning = [body for body in scene.bodies if _leavesItsBox(body) and (body.id in driven or float(body.state.angVel.norm()) > 0)]
-	if turning:
-		name = type(turning[0].shape).__name__
-		seen = f'body {turning[0].id}, a {name}, turns, which the collider does not notice: it can pass through resting bodies'
-		instead = 'a thin polytope' if isinstance(turning[0].shape, Facet) else 'polytope.cuboid(…)'
-		yield 'turning bodies', seen, f'{instead} with PolytopeCollider, or verletDist=0 in the collider'
+	body = next((one for one in scene.bodies if type(one.shape).__name__ in ('Box', 'Facet') and _turns(scene, one, driven)), None)
+	if body is not None:
+		instead = 'a thin polytope' if isinstance(body.shape, Facet) else 'polytope.cuboid(…)'
+		yield 'turning bodies', _passes(body), f'{instead} with PolytopeCollider, or verletDist=0 in the collider'
+	if all(isinstance(collider, PolytopeCollider) for collider in unseeing):
+		return
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope) and body.id in driven and _seemsToRest(body):
+			advice = 'PolytopeCollider in its place, or give the body its angVel before the first step'
+			yield 'turning bodies', _passes(body), advice
+			return
 
 
-def _leavesItsBox(body):
-	return type(body.shape).__name__ in ('Box', 'Facet')
+def _passes(body):
+	return f'body {body.id}, a {type(body.shape).__name__}, turns, which the collider does not notice: it can pass through resting bodies'
+
+
+def _turns(scene, body, driven):
+	"""Or may turn, pushed by others; a member turns with its clump."""
+	whole = scene.O.bodies[body.clumpId] if body.isClumpMember else body
+	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not _held(whole))
+
+
+def _held(body):
+	return set('XYZ') <= set(body.state.blockedDOFs)
+
+
+def _seemsToRest(body):
+	"""When its box is made: Bo1_Polytope_Aabb gives it a tight one."""
+	return not body.isClumpMember and _held(body) and not float(body.state.angVel.norm()) > 0
