@@ -68,6 +68,20 @@ def testColoursFollowTheValueAskedFor(tmp_path):
 	assert difference[1].max() > 0.1 and difference[1].min() > -0.1, 'fast: red'
 
 
+@pytest.mark.parametrize('size, speeds', [((1600, 1100), 4), ((1200, 1000), 0.0159)])
+def testTextOfTheLegendDoesNotLieOverItsColours(tmp_path, size, speeds):
+	"""Dark text; the darkest colour is that of the lowest value."""
+	for k in range(2):
+		O.bodies.append(polytope.regular(8, 0.5, center=(2 * k, 0, 0), velocity=(speeds * k, 0, 0)))
+	image = drawn(tmp_path / 'a.png', colorBy='speed', view=(0, -1, 0), legend='speed [m/s]', size=size)
+	bar = image[: size[1] // 8]
+	colours = np.ptp(bar, axis=2) > 0.15
+	rows, columns = np.nonzero(colours.mean(axis=1) > 0.25)[0], np.nonzero(colours.any(axis=0))[0]
+	inside = bar[rows.min() : rows.max() + 1, columns.min() + 1 : columns.max()]
+	assert len(rows) > 2 and (inside.max(axis=2) > 0.4).all(), 'nothing darker than the scale'
+	assert (bar[rows.max() + 1 :].max(axis=2) < 0.4).any(), 'the text is below'
+
+
 def testFixedBodiesInFrontDoNotHideTheOthers(tmp_path):
 	O.bodies.append(polytope.regular(12, 0.5, color=red))
 	O.bodies.append(polytope.cuboid((0, -1, 0), (1, 0.1, 1), fixed=True, color=(0.5, 0.5, 0.5)))
