@@ -330,6 +330,7 @@ def testLawsThatNeverToppleABody(material, physics, law):
 	scene(material=material(density=2600), physics=[physics()], laws=[law()])
 	found = onlyFinding('laws')
 	assert law.__name__ in found.seen and 'never topples' in found.seen and 'docs/making-bodies.md' in found.advice
+	assert 'take ' in found.advice, 'there is none for these physics that could be added'
 
 
 # ------------------------------------------------------------------------------------------------ bodies and materials
