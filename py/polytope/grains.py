@@ -8,6 +8,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion, Vector3, _polytope
 
+from ._faces import localVertices
 from .arguments import materialOf, number, randomOf, vector
 from .bodies import builder, fromVertices
 
@@ -178,7 +179,7 @@ def _touch(place, radius, parts, other):
 
 def _corners(body):
 	"""Of the body, relative to its centre, in world axes."""
-	return np.array(body.shape.vertices, float).reshape(-1, 3) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
+	return localVertices(body.shape) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
 
 
 def _points(random, vertices, elongation, flatness):

@@ -9,6 +9,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import O, Polytope, Sphere, Vector3, _polytope
 
+from ._faces import localVertices
 from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
 from .bonding import bonds
@@ -140,7 +141,7 @@ def volumeInside(body, normals, offsets):
 	"""
 	volume, shape, state, planes = _whole(body), body.shape, body.state, (normals, offsets)
 	turn, position = np.array(state.ori.toRotationMatrix(), float), np.array(state.pos, float)
-	corners = np.array(shape.vertices, float) @ turn.T + position
+	corners = localVertices(shape) @ turn.T + position
 	outside = corners @ normals.T - offsets
 	if (outside <= 0).all():
 		return volume
