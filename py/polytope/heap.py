@@ -35,6 +35,8 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
 	solids = [[O.bodies[part] for part in partsOf(k)] for k in namedBodies(ids)]
+	if ids is None:  # what is no polytope in a clump is warned of, too
+		solids = [[part for part in parts if isinstance(part.shape, Polytope)] for parts in solids]
 	spheres = sum(isinstance(body.shape, Sphere) and O.bodies[moverOf(body.id)].dynamic for body in O.bodies if body) if ids is None else 0
 	if spheres:
 		warn(f'ids: the volume of {spheres} free spheres is not counted, only that of polytopes; give ids to say that this is meant')
