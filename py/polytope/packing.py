@@ -103,8 +103,8 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	former = [body for body in O.bodies if body is not None and body.mask == boundaryMask and not body.dynamic]
 	plates = any(isinstance(body.shape, Polytope) for body in former)
 	if plates and lower is None:
-		seen = 'lower: the scene has the plates of a shear test, and how far they had moved is not known after O.load: it cannot go on'
-		raise ValueError(f'{seen}; give lower and upper, a box of walls about the bodies, which takes their place')
+		seen = 'lower: the scene has the plates of a shear test, which is not to be continued so: what it had reached is not known after O.load'
+		raise ValueError(f'{seen}; give lower and upper, corners of a box of walls about the bodies, which takes their place')
 	if not O.periodic:
 		there = _corners(former) or aabbExtrema(chosen)
 		lower, upper = there if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
