@@ -38,9 +38,8 @@ def convexParts(path, points, triangles, parts, body):
 	_, middle, _ = whole = union(made)
 	mesh, volume = trimesh.Trimesh(points, triangles), whole[0] / float(made[0].material.density)
 	if mesh.is_watertight and parts != 'objects' and abs(volume / abs(mesh.volume) - 1) > enough:
-		warn(
-			f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³; give more parts, or cut the mesh with another program and take parts='objects'"
-		)
+		seen = f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³"
+		warn(f"{seen}; give more parts, or cut the mesh with another program and take parts='objects'")
 	_place(made, Vector3(*middle), center, orientation)
 	return made
 
@@ -76,7 +75,8 @@ def _decomposed(path, points, triangles, most):
 		remedy = "install it with 'pip install coacd' (it is optional), or cut the mesh with another program and take parts='objects'"
 		raise ImportError(f"parts: needs CoACD, which is not installed; {remedy}") from error
 	coacd.set_log_level('error')
-	mesh = trimesh.Trimesh(points, triangles)  # joins equal vertices: of an STL file CoACD makes a closed mesh of its own, slowly and too large
+	# joins equal vertices: of those of an STL file CoACD makes a closed mesh of its own, slowly and too large
+	mesh = trimesh.Trimesh(points, triangles)
 	best, least = None, np.inf
 	for concavity in concavities:
 		found = coacd.run_coacd(coacd.Mesh(mesh.vertices, mesh.faces), threshold=concavity, max_convex_hull=most, seed=0)

@@ -19,7 +19,15 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkExtractEdges, vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (
+	vtkActor,
+	vtkLight,
+	vtkPolyDataMapper,
+	vtkRenderer,
+	vtkRenderWindow,
+	vtkTextActor,
+	vtkWindowToImageFilter,
+)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
 supersampling = 2

@@ -263,7 +263,9 @@ def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):
 		asked.append((*given, threshold))
 		return [(np.array([(x, y, z) for x in (0, length) for y in (0, 1) for z in (0, 1)]), None) for length in lengths[threshold]]
 
-	stand = types.SimpleNamespace(Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None)
+	stand = types.SimpleNamespace(
+		Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None
+	)
 	monkeypatch.setitem(sys.modules, 'coacd', stand)
 	volume = abs(trimesh.Trimesh(corners, faces).volume)
 	for key in lengths:

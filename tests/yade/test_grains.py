@@ -88,7 +88,9 @@ def testTooFewGrainsForTheCurveAreRefused():
 
 def testMoreGrainsThanAnyMemoryHoldsAreRefused():
 	"""A mass in milligrams, sizes in metres: it went on without end."""
-	with pytest.raises(ValueError, match=r'^mass: 1e\+09 kg of these sizes are more than .* grains; at most 10,000,000 are made \(sizes in m, mass in kg\)'):
+	with pytest.raises(
+		ValueError, match=r'^mass: 1e\+09 kg of these sizes are more than .* grains; at most 10,000,000 are made \(sizes in m, mass in kg\)'
+	):
 		polytope.grains([(0.01, 0), (0.02, 1)], 1e9)
 
 

@@ -3,7 +3,17 @@
 
 import math
 
-from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeBonds, PolytopeCollider, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
+from yade import (
+	Facet,
+	GlobalStiffnessTimeStepper,
+	Polytope,
+	PolytopeBonds,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	RotationEngine,
+	Sphere,
+	TimeStepper,
+)
 
 from ..requirements.checks import safe, usual
 from ..timeStep import safeTimeStep

@@ -103,9 +103,8 @@ class Sample:
 			)
 		gone = next((k for k, body in self._boundary.items() if not _isThere(k, body)), None)
 		if gone is not None:
-			raise RuntimeError(
-				f'sample: body {gone}, of its walls or plates, is no longer in the scene; a shear test, and polytope.sample(), put others in their place: go on with the sample that these made (test.sample), or make one anew: polytope.sample(lower=…, upper=…)'
-			)
+			seen = f'sample: body {gone}, of its walls or plates, is no longer in the scene; a shear test, and polytope.sample(), put others there'
+			raise RuntimeError(f'{seen}: go on with their sample (test.sample), or make one anew: polytope.sample(lower=…, upper=…)')
 
 	def replace(self, k, pieces):
 		"""Pieces take the place of a body that breaks, and fill the same volume. Call it before the body is erased."""
