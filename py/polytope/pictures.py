@@ -134,7 +134,7 @@ def _colors(bodies, colorBy, valueRange, up, fixedColor):
 		raise ValueError(f"colorBy: must be 'color', a function, or one of {sorted(known)}, not {colorBy!r}")
 	if isinstance(fixedColor, str) and fixedColor != 'own':
 		raise ValueError(f"fixedColor: must be RGB or 'own', not {fixedColor!r}")
-	values = [value(body) for body in bodies if body.dynamic] or [0, 1]
+	values = [float(value(body)) for body in bodies if body.dynamic] or [0, 1]
 	low, high = valueRange or (min(values), max(values))
 	if valueRange is None and 0 < low < 0.1 * high:
 		low = 0
@@ -142,7 +142,7 @@ def _colors(bodies, colorBy, valueRange, up, fixedColor):
 
 	def colorOf(body):
 		if body.dynamic:
-			share = (value(body) - low) / span
+			share = (float(value(body)) - low) / span
 			return scale[round(min(1, max(0, share)) * (shades - 1))]  # what is not a number: the lowest
 		return body.shape.color if isinstance(fixedColor, str) else fixedColor
 
