@@ -36,9 +36,10 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 		faces = _wallFaces(body, room) if isinstance(body.shape, Wall) else _localFaces(body.shape, rings)
 		if len(faces[1]) == 0:
 			continue
+		turn = _quaternion(body)
 		if isinstance(body.shape, Sphere):
-			style = 'smooth'
-		parts.setdefault(style, []).append((*faces, _place(body), _quaternion(body), tuple(colorOf(body)), body.id))
+			style, turn = 'smooth', unturned
+		parts.setdefault(style, []).append((*faces, _place(body), turn, tuple(colorOf(body)), body.id))
 	return {style: _joined(*zip(*several, strict=True)) for style, several in parts.items()}
 
 
@@ -75,12 +76,15 @@ def _quaternion(body):
 def _turned(points, quaternions):
 	"""Points (n, 3), each by its quaternion (x, y, z, w), or all by one."""
 	axis, scalar = quaternions[..., :3], quaternions[..., 3:]
+	if not axis.any():
+		return points
 	twice = 2 * np.cross(axis, points)
 	return points + scalar * twice + np.cross(axis, twice)
 
 
 boxCorners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
 boxFaces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
+unturned = 0.0, 0.0, 0.0, 1.0
 noFaces = np.empty((0, 3)), np.empty(0, int), np.empty(0, int)
 
 

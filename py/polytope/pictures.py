@@ -36,6 +36,9 @@ viewAngle = 24
 legendShare = 0.12
 """Share of the picture's height kept free for the legend, above the scene."""
 
+centred = 1e-6
+"""Of the distance of the camera: by so much the picture may be off its middle, less than a hundredth of a pixel."""
+
 alongUp = 1e-6
 """Sine of the angle between view and up below which up says nothing."""
 
@@ -235,7 +238,10 @@ def _camera(points, view, up, aspect, zoom, flat, free):
 		seen = local - middle
 		distance = max((margin * np.abs(seen[:, :2]) / reach + seen[:, 2:]).max(), 1e-12)
 		inPicture = seen[:, :2] / (distance - seen[:, 2:])
-		middle[:2] += distance * (inPicture.min(axis=0) + inPicture.max(axis=0)) / 2
+		shift = distance * (inPicture.min(axis=0) + inPicture.max(axis=0)) / 2
+		middle[:2] += shift
+		if np.abs(shift).max() < centred * distance:
+			break
 	middle[1] += free * slope * distance
 	return _cameraAt(middle, distance, axes, {'viewAngle': viewAngle})
 
