@@ -142,7 +142,13 @@ def volumeInside(body, normals, offsets):
 	:raises ValueError: naming *ids* for a body that is no polyhedron
 	"""
 	volume, shape, state, planes = _whole(body), body.shape, body.state, (normals, offsets)
-	turn, position = np.array(state.ori.toRotationMatrix(), float), np.array(state.pos, float)
+	position, reach = np.array([float(x) for x in state.pos]), float(shape.circumscribedRadius)
+	distances = normals @ position - offsets
+	if (distances <= -reach).all():  # most bodies, which need no closer look
+		return volume
+	if (distances >= reach).any():
+		return 0.0
+	turn = np.array(state.ori.toRotationMatrix(), float)
 	corners = localVertices(shape) @ turn.T + position
 	outside = corners @ normals.T - offsets
 	if (outside <= 0).all():
