@@ -74,8 +74,9 @@ def moved(friction, seconds):
 	"""Largest way of a block [m] after so much time with a friction angle, and the number of blocks that have moved by 5 cm."""
 	setFrictionAngle(friction)
 	start = [body.state.pos for body in O.bodies]
-	O.stopAtTime = O.time + seconds
-	O.run(wait=True)
+	O.stopAtTime = end = O.time + seconds
+	while O.time < end:  # Ctrl-C ends it between two calls of O.run
+		O.run(200, wait=True)
 	ways = [(body.state.pos - origin).norm() for body, origin in zip(O.bodies, start, strict=True)]
 	return max(ways), sum(way > 0.05 for way in ways)
 

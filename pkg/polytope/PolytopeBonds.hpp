@@ -58,7 +58,7 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
 		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, whether or not this engine is in O.engines.")
-		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a :yref:`PolytopeBond`; see *polytope.bond*, which calls it.")
+		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a *PolytopeBond*; see *polytope.bond*, which calls it.")
 	);
 	// clang-format on
 

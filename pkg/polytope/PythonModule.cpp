@@ -67,6 +67,30 @@ py::dict polyhedron(const yade::Vectors& normals, const py::object& offsets)
 	return result;
 }
 
+template <class Number> py::object bytesOf(const std::vector<Number>& numbers)
+{
+	return py::object(py::handle<>(
+	        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(numbers.data()), Py_ssize_t(numbers.size() * sizeof(Number)))));
+}
+
+/// A shape's vertices and faces as memory of NumPy arrays: as lists, of a number for each coordinate, they take a hundred times as long.
+py::tuple packedFaces(const yade::Polytope& shape)
+{
+	std::vector<double> coordinates;
+	std::vector<int>    counts, corners;
+	if (shape.convex()) {
+		const auto& hull = shape.convex()->polyhedron();
+		for (const auto& vertex : hull.vertices)
+			for (int axis = 0; axis < 3; ++axis)
+				coordinates.push_back(double(vertex[axis]));
+		for (const auto& face : hull.faces) {
+			counts.push_back(int(face.size()));
+			corners.insert(corners.end(), face.begin(), face.end());
+		}
+	}
+	return py::make_tuple(bytesOf(coordinates), bytesOf(counts), bytesOf(corners));
+}
+
 /// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
 boost::shared_ptr<yade::Body> bodyOf(const py::object& given, const char* name)
 {
@@ -198,6 +222,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "stats() does not count), as a dictionary.");
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
+	py::def("packedFaces", &packedFaces, py::arg("shape"),
+	        "Of a Polytope, as bytes of NumPy arrays: vertices (n, 3) float64 in the body's frame, number of corners of each face, "
+	        "int32, and the corners of all faces one after another, int32.");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "

@@ -1,10 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Faces of bodies as arrays, for pictures."""
+"""Faces of bodies as arrays, for pictures.
+
+Faces of one shape are three arrays: vertices (n, 3) in its own frame, the number of corners of each face, and the corners of all
+faces one after another, as rows of the vertices.
+"""
+
+import functools
+import math
 
 import numpy as np
-from yade import Box, Facet, O, Polytope, Sphere, Wall
+from yade import Box, Facet, O, Polytope, Sphere, Wall, _polytope
 
-__all__ = ['collect', 'localVertices', 'reachOfWalls', 'worldVertices']
+__all__ = ['collect', 'localVertices', 'reachOfWalls', 'rows', 'worldVertices']
+
+mostRings, fewestRings = 24, 4
+"""Between the poles of a sphere that is drawn."""
+mostSphereFaces = 2_500_000
+"""Of all spheres together, above which they get fewer rings: so many are each a few pixels large."""
 
 
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):
@@ -16,47 +28,78 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 	    spheres are of the style 'smooth'
 	"""
 	parts, room = {}, reachOfWalls(bodies)
+	rings = _rings(sum(isinstance(body.shape, Sphere) for body in bodies))
 	for body in bodies:
 		style = styleOf(body)
 		if style == 'hidden':
 			continue
-		vertices, faces = _localFaces(body.shape) if not isinstance(body.shape, Wall) else _wallFaces(body, room)
-		if len(faces) == 0:
+		faces = _wallFaces(body, room) if isinstance(body.shape, Wall) else _localFaces(body.shape, rings)
+		if len(faces[1]) == 0:
 			continue
+		turn = _quaternion(body)
 		if isinstance(body.shape, Sphere):
-			style = 'smooth'
-		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-		position = O.cell.wrap(body.state.pos) if O.periodic else body.state.pos
-		color = np.round(255 * np.clip(np.array(colorOf(body), float), 0, 1)).astype(np.uint8)
-		parts.setdefault(style, []).append((vertices @ turn.T + np.array(position, float), faces, color, body.id))
-	return {style: _joined(several) for style, several in parts.items()}
+			style, turn = 'smooth', unturned
+		parts.setdefault(style, []).append((*faces, _place(body), turn, tuple(colorOf(body)), body.id))
+	return {style: _joined(*zip(*several, strict=True)) for style, several in parts.items()}
 
 
-def _joined(parts):
-	first = np.cumsum([0] + [len(points) for points, *_ in parts[:-1]])
-	faces = [[shift + v for v in face] for (_, bodyFaces, *_), shift in zip(parts, first, strict=True) for face in bodyFaces]
-	counts = [len(bodyFaces) for _, bodyFaces, *_ in parts]
+def _joined(vertices, counts, corners, places, quaternions, colors, ids):
+	"""Of each of these one for a body."""
+	own = [len(one) for one in vertices]
+	first = np.cumsum([0, *own[:-1]])
+	points = _turned(np.concatenate(vertices), np.repeat(np.array(quaternions), own, axis=0))
+	faces = [len(one) for one in counts]
 	return {
-		'points': np.concatenate([points for points, *_ in parts]),
-		'offsets': np.cumsum([0] + [len(face) for face in faces]),
-		'connectivity': np.concatenate(faces),
-		'colors': np.repeat([color for _, _, color, _ in parts], counts, axis=0),
-		'ids': np.repeat([number for *_, number in parts], counts),
+		'points': points + np.repeat(np.array(places), own, axis=0),
+		'offsets': np.concatenate([[0], np.cumsum(np.concatenate(counts))]),
+		'connectivity': np.concatenate(corners) + np.repeat(first, [len(one) for one in corners]),
+		'colors': np.repeat(np.round(255 * np.clip(np.array(colors, float), 0, 1)).astype(np.uint8), faces, axis=0),
+		'ids': np.repeat(ids, faces),
 	}
 
 
-def _localFaces(shape):
+def rows(vectors):
+	"""(n, 3) array of YADE's vectors: numpy.array() of them takes ten times as long."""
+	return np.array([(float(v[0]), float(v[1]), float(v[2])) for v in vectors]).reshape(-1, 3)
+
+
+def _place(body):
+	position = O.cell.wrap(body.state.pos) if O.periodic else body.state.pos
+	return float(position[0]), float(position[1]), float(position[2])
+
+
+def _quaternion(body):
+	ori = body.state.ori
+	return float(ori[0]), float(ori[1]), float(ori[2]), float(ori[3])
+
+
+def _turned(points, quaternions):
+	"""Points (n, 3), each by its quaternion (x, y, z, w), or all by one."""
+	axis, scalar = quaternions[..., :3], quaternions[..., 3:]
+	if not axis.any():
+		return points
+	twice = 2 * np.cross(axis, points)
+	return points + scalar * twice + np.cross(axis, twice)
+
+
+boxCorners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+boxFaces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
+unturned = 0.0, 0.0, 0.0, 1.0
+noFaces = np.empty((0, 3)), np.empty(0, int), np.empty(0, int)
+
+
+def _localFaces(shape, rings=mostRings):
 	if isinstance(shape, Polytope):
-		return np.array(shape.vertices, float).reshape(-1, 3), shape.faces
+		vertices, counts, corners = _polytope.packedFaces(shape)
+		return np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(counts, np.int32), np.frombuffer(corners, np.int32)
 	if isinstance(shape, Box):
-		signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-		faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-		return signs * np.array(shape.extents, float), faces
+		return boxCorners * rows([shape.extents]), np.full(6, 4), boxFaces
 	if isinstance(shape, Facet):
-		return np.array(shape.vertices, float), [(0, 1, 2)]
+		return rows(shape.vertices), np.array([3]), np.arange(3)
 	if isinstance(shape, Sphere):
-		return _sphereFaces(shape.radius)
-	return np.empty((0, 3)), []
+		vertices, counts, corners = _sphereFaces(rings)
+		return float(shape.radius) * vertices, counts, corners
+	return noFaces
 
 
 def reachOfWalls(bodies):
@@ -77,35 +120,37 @@ def worldVertices(body, room=None):
 	"""Vertices in world coordinates; of a wall those of its rectangle across the *room*, none without it."""
 	if isinstance(body.shape, Wall):
 		return _wallFaces(body, room)[0] + np.array(body.state.pos, float)
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	position = O.cell.wrap(body.state.pos) if O.periodic else body.state.pos
-	return _localFaces(body.shape)[0] @ turn.T + np.array(position, float)
+	return _turned(localVertices(body.shape), np.array(_quaternion(body))) + np.array(_place(body))
 
 
 def _wallFaces(body, room):
 	"""A rectangle across the room, relative to the wall's position."""
 	if room is None:
-		return np.empty((0, 3)), []
+		return noFaces
 	axis = body.shape.axis
 	first, second = (axis + 1) % 3, (axis + 2) % 3
 	corners = np.zeros((4, 3))
 	corners[:, axis] = float(body.state.pos[axis])
 	corners[:, first] = [room[k][first] for k in (0, 1, 1, 0)]
 	corners[:, second] = [room[k][second] for k in (0, 0, 1, 1)]
-	return corners - np.array(body.state.pos, float), [(0, 1, 2, 3)]
+	return corners - np.array(body.state.pos, float), np.array([4]), np.arange(4)
 
 
-def _sphereFaces(radius, rings=24):
-	"""Quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
+def _rings(spheres):
+	"""How many each of so many spheres has."""
+	return int(min(mostRings, max(fewestRings, math.sqrt(mostSphereFaces / (2 * spheres))))) if spheres else mostRings
+
+
+@functools.lru_cache
+def _sphereFaces(rings):
+	"""Of radius 1: quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
 	around = 2 * rings
 	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, around, endpoint=False), indexing='ij')
-	points = radius * np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
-	faces = []
-	for k in range(rings):
-		for i in range(around):
-			here, next = k * around + i, k * around + (i + 1) % around
-			faces.append((here, here + around, next + around, next))
-	return points.reshape(-1, 3), faces
+	points = np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
+	here = np.arange(rings * around).reshape(rings, around)
+	beside = np.roll(here, -1, axis=1)
+	faces = np.stack([here, here + around, beside + around, beside], axis=-1)
+	return points.reshape(-1, 3), np.full(rings * around, 4), faces.ravel()
 
 
 def localVertices(shape):

@@ -12,7 +12,7 @@ from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'rotation', 'vector', 'vectors', 'warn']
+__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
 
 infinite = float('inf')
 package = os.path.dirname(os.path.abspath(__file__)) + os.sep
@@ -50,6 +50,16 @@ def flag(value, name):
 	if not isinstance(value, (bool, np.bool_)):
 		raise ValueError(f'{name}: must be True or False, got {value!r}')
 	return bool(value)
+
+
+def randomOf(seed):
+	"""A generator of random numbers; of others at each call, for None."""
+	try:
+		if not isinstance(seed, bool):
+			return np.random.default_rng(seed)
+	except (TypeError, ValueError):
+		pass
+	raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
 
 
 def numbersOf(values, name):

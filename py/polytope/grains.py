@@ -8,7 +8,8 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion, Vector3, _polytope
 
-from .arguments import materialOf, number, vector
+from ._faces import localVertices
+from .arguments import materialOf, number, randomOf, vector
 from .bodies import builder, fromVertices
 
 __all__ = ['cloud', 'grains', 'partsOfLoose', 'randomGrain']
@@ -17,6 +18,8 @@ candidates = 10
 """Of each vertex: the one farthest from those that there are is taken (Mitchell's best candidate), so that vertices are spread."""
 curveError = 0.01
 """Deviation from the sieve curve, over the whole mass, above which a sample is refused."""
+mostGrains = 10_000_000
+"""Of one call: of so many kilograms a script asks by a mistake in its units."""
 tries = 500
 """Random places for each body of a cloud."""
 fewestVertices, mostVertices = 4, 200
@@ -36,7 +39,7 @@ def randomGrain(size, elongation=1, flatness=1, vertices=14, seed=None, **body):
 	size = number(size, 'size')
 	if not 0 < size < math.inf:
 		raise ValueError(f'size: must be positive and finite, got {size!r}')
-	random = np.random.default_rng(seed)
+	random = randomOf(seed)
 	points = _points(
 		random, _vertices(vertices), *(_share(value, name) for value, name in ((elongation, 'elongation'), (flatness, 'flatness')))
 	)
@@ -66,7 +69,8 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, **body
 	density = float(materialOf(body.get('material', -1)).density)
 	if not density > 0:
 		raise ValueError('material: needs a density above 0')
-	random, made, owed, masses = np.random.default_rng(seed), [], 0.0, np.zeros(len(sizes))
+	_notTooMany(sizes, passing, float(mass), density)
+	random, made, owed, masses = randomOf(seed), [], 0.0, np.zeros(len(sizes))
 	for k, (least, largest) in enumerate(zip(sizes, sizes[1:], strict=False)):
 		owed += float(mass) * (passing[k + 1] - passing[k])
 		shapes, diameters = _fraction(
@@ -80,6 +84,15 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, **body
 	if off > curveError:
 		raise ValueError(f'mass: {float(mass):.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %); take more')
 	return made
+
+
+def _notTooMany(sizes, passing, mass, density):
+	"""Each as heavy as a cube of the fraction's upper sieve: there are more of them."""
+	expected = sum(mass * (high - low) / (density * size**3) for size, low, high in zip(sizes[1:], passing, passing[1:], strict=False))
+	if expected > mostGrains:
+		raise ValueError(
+			f'mass: {mass:.3g} kg of these sizes are more than {expected:.2g} grains; at most {mostGrains:,} are made (sizes in m, mass in kg)'
+		)
 
 
 def cloud(lower, upper, bodies, seed=None):
@@ -106,7 +119,7 @@ def cloud(lower, upper, bodies, seed=None):
 		for parts, aside in zip(groups, offsets, strict=True)
 	]
 	radii = [float(np.linalg.norm(points, axis=1).max()) for points in corners]
-	random, placed = np.random.default_rng(seed), _Placed(min(radii, default=1))
+	random, placed = randomOf(seed), _Placed(min(radii, default=1))
 	for k in sorted(range(len(bodies)), key=lambda k: -radii[k]):
 		begin, end = low - corners[k].min(axis=0), high - corners[k].max(axis=0)
 		if not (begin <= end).all():
@@ -166,7 +179,7 @@ def _touch(place, radius, parts, other):
 
 def _corners(body):
 	"""Of the body, relative to its centre, in world axes."""
-	return np.array(body.shape.vertices, float).reshape(-1, 3) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
+	return localVertices(body.shape) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
 
 
 def _points(random, vertices, elongation, flatness):

@@ -9,6 +9,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import O, Polytope, Sphere, Vector3, _polytope
 
+from ._faces import localVertices
 from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
 from .bonding import bonds
@@ -34,6 +35,8 @@ def porosity(lower=None, upper=None, ids=None, region=None):
 	:raises ValueError: naming *upper* where the box has no volume, *region*, or *ids* for a body that is no polyhedron, not there or named twice
 	"""
 	solids = [[O.bodies[part] for part in partsOf(k)] for k in namedBodies(ids)]
+	if ids is None:  # what is no polytope in a clump is warned of, too
+		solids = [[part for part in parts if isinstance(part.shape, Polytope)] for parts in solids]
 	spheres = sum(isinstance(body.shape, Sphere) and O.bodies[moverOf(body.id)].dynamic for body in O.bodies if body) if ids is None else 0
 	if spheres:
 		warn(f'ids: the volume of {spheres} free spheres is not counted, only that of polytopes; give ids to say that this is meant')
@@ -139,8 +142,14 @@ def volumeInside(body, normals, offsets):
 	:raises ValueError: naming *ids* for a body that is no polyhedron
 	"""
 	volume, shape, state, planes = _whole(body), body.shape, body.state, (normals, offsets)
-	turn, position = np.array(state.ori.toRotationMatrix(), float), np.array(state.pos, float)
-	corners = np.array(shape.vertices, float) @ turn.T + position
+	position, reach = np.array([float(x) for x in state.pos]), float(shape.circumscribedRadius)
+	distances = normals @ position - offsets
+	if (distances <= -reach).all():  # most bodies, which need no closer look
+		return volume
+	if (distances >= reach).any():
+		return 0.0
+	turn = np.array(state.ori.toRotationMatrix(), float)
+	corners = localVertices(shape) @ turn.T + position
 	outside = corners @ normals.T - offsets
 	if (outside <= 0).all():
 		return volume

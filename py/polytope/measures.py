@@ -9,7 +9,7 @@ import math
 import numpy as np
 from yade import O, Polytope, Sphere, Vector3
 
-from ._faces import worldVertices
+from ._faces import localVertices, worldVertices
 from .bonding import bonds
 from .heap import namedBodies, solidVolume
 
@@ -127,7 +127,7 @@ def sizeDistribution(sieves=None, ids=None):
 	flat = next((k for k in chosen if O.bodies[k].shape.dimension == 2), None)
 	if flat is not None:
 		raise ValueError(f'ids: body {flat} is a polygon, which no sieve has an opening for; name polyhedra')
-	sizes = np.array([np.sort(np.ptp(np.array(O.bodies[k].shape.vertices, float).reshape(-1, 3), axis=0))[1] for k in chosen])
+	sizes = np.array([np.sort(np.ptp(localVertices(O.bodies[k].shape), axis=0))[1] for k in chosen])
 	masses = np.array([float(O.bodies[k].shape.volume * O.bodies[k].material.density) for k in chosen])
 	try:
 		openings = np.sort(sizes) if sieves is None else np.array([float(opening) for opening in sieves])

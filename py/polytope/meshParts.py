@@ -15,6 +15,8 @@ __all__ = ['convexParts']
 
 enough = 0.01
 """Relative difference of the volumes of the mesh and of its parts above which there is a warning: such parts are another body."""
+concavities = 0.05, 0.02, 0.01
+"""Of a part that CoACD cuts no further (its *threshold*): the usual one, and finer ones, down to its least, while the volume is not met."""
 
 
 def convexParts(path, points, triangles, parts, body):
@@ -36,9 +38,8 @@ def convexParts(path, points, triangles, parts, body):
 	_, middle, _ = whole = union(made)
 	mesh, volume = trimesh.Trimesh(points, triangles), whole[0] / float(made[0].material.density)
 	if mesh.is_watertight and parts != 'objects' and abs(volume / abs(mesh.volume) - 1) > enough:
-		warn(
-			f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³; give more parts"
-		)
+		seen = f"path: '{path}' has {abs(mesh.volume):.3g} m³, its {len(made)} convex parts {volume:.3g} m³"
+		warn(f"{seen}; give more parts, or cut the mesh with another program and take parts='objects'")
 	_place(made, Vector3(*middle), center, orientation)
 	return made
 
@@ -65,15 +66,27 @@ def _objects(path, points, triangles):
 
 
 def _decomposed(path, points, triangles, most):
+	"""Points of the parts that come nearest to the mesh's volume: with CoACD's usual concavity it may stop far below so many parts."""
+	import trimesh
+
 	try:
 		import coacd
 	except ImportError as error:
 		remedy = "install it with 'pip install coacd' (it is optional), or cut the mesh with another program and take parts='objects'"
 		raise ImportError(f"parts: needs CoACD, which is not installed; {remedy}") from error
 	coacd.set_log_level('error')
-	return [
-		np.asarray(corners, float).tolist() for corners, _ in coacd.run_coacd(coacd.Mesh(points, triangles), max_convex_hull=most, seed=0)
-	]
+	# joins equal vertices: of those of an STL file CoACD makes a closed mesh of its own, slowly and too large
+	mesh = trimesh.Trimesh(points, triangles)
+	best, least = None, np.inf
+	for concavity in concavities:
+		found = coacd.run_coacd(coacd.Mesh(mesh.vertices, mesh.faces), threshold=concavity, max_convex_hull=most, seed=0)
+		pieces = [np.asarray(corners, float) for corners, _ in found]
+		excess = abs(sum(trimesh.convex.convex_hull(piece).volume for piece in pieces) / abs(mesh.volume) - 1) if mesh.is_watertight else 0
+		if excess < least:
+			best, least = pieces, excess
+		if excess <= enough or len(pieces) >= most:
+			break
+	return [piece.tolist() for piece in best]
 
 
 def _place(made, middle, center, orientation):

@@ -86,7 +86,7 @@ def pack(bodies, lower, upper, stress=None, porosity=None, gravity=None, periodi
 def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	"""The bodies that are in the scene, as a sample for triaxial() and the other tests; for samples that pack() did not make, or after O.load.
 
-	Walls and plates of a sample that the scene had before, as after O.load, are replaced.
+	Walls that the scene had before, as after O.load, are replaced at their places; plates of a shear test by walls at *lower* and *upper*.
 
 	:param ids: of the bodies; default all that can move
 	:param lower, upper: corners of the box at which walls are made [m]; without them where such walls are, or at the extents of the bodies; in a
@@ -101,13 +101,17 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	if (lower is None) != (upper is None) or (O.periodic and lower is not None):
 		raise ValueError('lower: give both corners of the box, or neither; in a periodic scene neither')
 	former = [body for body in O.bodies if body is not None and body.mask == boundaryMask and not body.dynamic]
+	plates = any(isinstance(body.shape, Polytope) for body in former)
+	if plates and lower is None:
+		seen = 'lower: the scene has the plates of a shear test, which is not to be continued so: what it had reached is not known after O.load'
+		raise ValueError(f'{seen}; give lower and upper, corners of a box of walls about the bodies, which takes their place')
 	if not O.periodic:
 		there = _corners(former) or aabbExtrema(chosen)
 		lower, upper = there if lower is None else (vector(lower, 'lower'), vector(upper, 'upper'))
 		if not all(low < high for low, high in zip(lower, upper, strict=True)):
 			raise ValueError(f'upper: must be above lower in all three directions, got lower {lower!r}, upper {upper!r}')
 	idsOfSample(chosen)  # before anything of the scene is changed
-	if any(isinstance(body.shape, Polytope) for body in former):
+	if plates:
 		warn('ids: the plates of a shear test are replaced by walls round the bodies; what the test had reached is not continued')
 	for body in former:
 		O.bodies.erase(body.id)

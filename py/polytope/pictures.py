@@ -18,7 +18,7 @@ import tempfile
 import numpy as np
 from yade import NewtonIntegrator, O, Polytope
 
-from ._faces import collect, localVertices, reachOfWalls, worldVertices
+from ._faces import collect, localVertices, reachOfWalls, rows, worldVertices
 from .arguments import namedArguments
 
 __all__ = ['picture', 'collect']
@@ -26,12 +26,18 @@ __all__ = ['picture', 'collect']
 colorMap = ['#1d4e79', '#3380a8', '#86bcbb', '#f0e4ba', '#f2a541', '#c8451b']
 """Low to high; dark to light to warm, so that it is readable in grey and for colour-blind readers as well."""
 
+shades = 256
+"""Of the map that are told apart."""
+
 usualFixedColor = (0.86, 0.86, 0.84)
 viewAngle = 24
 """Vertical opening of the camera [degrees]; small, so that bodies of equal size appear equal."""
 
 legendShare = 0.12
 """Share of the picture's height kept free for the legend, above the scene."""
+
+centred = 1e-6
+"""Of the distance of the camera: by so much the picture may be off its middle, less than a hundredth of a pixel."""
 
 alongUp = 1e-6
 """Sine of the angle between view and up below which up says nothing."""
@@ -125,26 +131,33 @@ def _colors(bodies, colorBy, valueRange, up, fixedColor):
 	"""Ends of the scale, and the function from a body to its colour."""
 	if colorBy == 'color':
 		return 0, 1, lambda body: body.shape.color
-	known = {**_values, 'height': lambda body: float(np.dot(up, np.array(body.state.pos, float)))}
+	known = {**_values, 'height': lambda body: sum(float(u * x) for u, x in zip(up.tolist(), body.state.pos, strict=True))}
 	value = colorBy if callable(colorBy) else known.get(colorBy)
 	if value is None:
 		raise ValueError(f"colorBy: must be 'color', a function, or one of {sorted(known)}, not {colorBy!r}")
 	if isinstance(fixedColor, str) and fixedColor != 'own':
 		raise ValueError(f"fixedColor: must be RGB or 'own', not {fixedColor!r}")
-	values = [value(body) for body in bodies if body.dynamic] or [0, 1]
+	values = [float(value(body)) for body in bodies if body.dynamic] or [0, 1]
 	low, high = valueRange or (min(values), max(values))
 	if valueRange is None and 0 < low < 0.1 * high:
 		low = 0
-	from matplotlib.colors import LinearSegmentedColormap
-	scale = LinearSegmentedColormap.from_list('polytope', colorMap)
-	span = high - low or 1
+	scale, span = _shades(), high - low or 1
 
 	def colorOf(body):
 		if body.dynamic:
-			return scale((value(body) - low) / span)[:3]
+			share = (float(value(body)) - low) / span
+			return scale[round(min(1, max(0, share)) * (shades - 1))]  # what is not a number: the lowest
 		return body.shape.color if isinstance(fixedColor, str) else fixedColor
 
 	return low, high, colorOf
+
+
+def _shades():
+	"""The colour map at so many values, as tuples."""
+	known = np.array([[int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)] for color in colorMap])
+	at = np.linspace(0, 1, shades)
+	places = np.linspace(0, 1, len(known))
+	return list(zip(*(np.interp(at, places, channel).tolist() for channel in known.T), strict=True))
 
 
 def _against(flat):
@@ -175,10 +188,10 @@ def _styles(bodies, fixed, view, up):
 		raise ValueError(f"fixed: must be 'auto', 'solid', 'glass', 'wire', 'hidden' or a function, not {fixed!r}")
 	if fixed != 'auto':
 		return lambda body: 'solid' if body.dynamic else fixed
-	moving = [body.state.pos for body in bodies if body.dynamic]
-	if not moving:
+	moving = rows(body.state.pos for body in bodies if body.dynamic)
+	if not len(moving):
 		return lambda body: 'solid'
-	middle = np.median(np.array(moving, float), axis=0)  # one that has fallen off does not count
+	middle = np.median(moving, axis=0)  # one that has fallen off does not count
 	room = reachOfWalls(bodies)
 
 	def style(body):
@@ -199,7 +212,12 @@ def _styles(bodies, fixed, view, up):
 def _typicalRadius(bodies):
 	"""Median of the half-extent of the moving bodies (of all, if none moves): the reach of the soft shading."""
 	several = [body for body in bodies if body.dynamic] or bodies
-	return float(np.median([np.linalg.norm(localVertices(body.shape), axis=1).max(initial=0) for body in several])) or 1.0
+	return float(np.median([_reach(body.shape) for body in several])) or 1.0
+
+
+def _reach(shape):
+	"""Distance of the farthest vertex from the body's position [m]."""
+	return float(shape.circumscribedRadius) if isinstance(shape, Polytope) else np.linalg.norm(localVertices(shape), axis=1).max(initial=0)
 
 
 def _camera(points, view, up, aspect, zoom, flat, free):
@@ -220,7 +238,10 @@ def _camera(points, view, up, aspect, zoom, flat, free):
 		seen = local - middle
 		distance = max((margin * np.abs(seen[:, :2]) / reach + seen[:, 2:]).max(), 1e-12)
 		inPicture = seen[:, :2] / (distance - seen[:, 2:])
-		middle[:2] += distance * (inPicture.min(axis=0) + inPicture.max(axis=0)) / 2
+		shift = distance * (inPicture.min(axis=0) + inPicture.max(axis=0)) / 2
+		middle[:2] += shift
+		if np.abs(shift).max() < centred * distance:
+			break
 	middle[1] += free * slope * distance
 	return _cameraAt(middle, distance, axes, {'viewAngle': viewAngle})
 

@@ -15,12 +15,19 @@ import sys
 import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  text of the legend
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkExtractEdges, vtkPolyDataNormals
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (
+	vtkActor,
+	vtkLight,
+	vtkPolyDataMapper,
+	vtkRenderer,
+	vtkRenderWindow,
+	vtkTextActor,
+	vtkWindowToImageFilter,
+)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
 supersampling = 2
@@ -35,6 +42,12 @@ styleOpacity = {'solid': 1.0, 'smooth': 1.0, 'glass': 0.16, 'wire': 0.0}
 edgeColor = (0.10, 0.12, 0.15)
 edgeWidth = 1.1
 """In pixels of the finished picture."""
+
+
+scalePlace = 0.05, 0.40, 0.955, 0.979
+"""Left, right, bottom and top of the colour scale, in shares of the picture."""
+labelsOfScale, labelShare, titleShare = 4, 0.021, 0.024
+"""Numbers below it; sizes of text over the picture's height."""
 
 
 @contextlib.contextmanager
@@ -147,34 +160,37 @@ def placeCamera(renderer, settings):
 	renderer.ResetCameraClippingRange()
 
 
-def addLegend(renderer, legend, height):
-	table = vtkLookupTable()
-	colors = [[int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)] for color in legend['colors']]
-	table.SetNumberOfTableValues(256)
-	for k in range(256):
-		rgb = [np.interp(k / 255, np.linspace(0, 1, len(colors)), [color[c] for color in colors]) for c in range(3)]
-		table.SetTableValue(k, *rgb, 1)
-	table.SetTableRange(legend['low'], legend['high'])
-	bar = vtkScalarBarActor()
-	bar.SetLookupTable(table)
-	bar.SetTitle(legend['text'])
-	bar.SetNumberOfLabels(4)
-	bar.SetLabelFormat('%.3g')
-	bar.UnconstrainedFontSizeOn()
-	for text, share in ((bar.GetTitleTextProperty(), 0.024), (bar.GetLabelTextProperty(), 0.021)):
-		text.SetColor(*edgeColor)
-		text.SetFontSize(int(share * height))
-		text.BoldOff()
-		text.ItalicOff()
-		text.ShadowOff()
-	bar.SetOrientationToHorizontal()
-	bar.SetPosition(0.05, 0.88)
-	bar.SetPosition2(0.35, 0.10)
-	bar.SetBarRatio(0.22)
-	bar.SetTextPositionToPrecedeScalarBar()
-	bar.SetVerticalTitleSeparation(int(0.01 * height))
-	renderer.AddViewProp(bar)
-	return bar
+def addLegend(renderer, legend, width, height):
+	"""Text of the colour scale, in a picture of this size; drawScale() draws the colours. Returns the actors.
+
+	VTK's own scalar bar puts its text over the colours in some pictures, and elsewhere when it is drawn a second time.
+	"""
+	left, right, bottom, _ = (share * length for share, length in zip(scalePlace, (width, width, height, height), strict=True))
+	values, places = np.linspace(legend['low'], legend['high'], labelsOfScale), np.linspace(left, right, labelsOfScale)
+	labels = [(f'{value:.3g}', place, bottom, labelShare) for value, place in zip(values, places, strict=True)]
+	titleTop = bottom - 1.5 * labelShare * height
+	actors = []
+	for text, x, y, share in [*labels, (legend['text'], (left + right) / 2, titleTop, titleShare)]:
+		actor = vtkTextActor()
+		actor.SetInput(text)
+		actor.SetPosition(x, y - 0.25 * share * height)
+		look = actor.GetTextProperty()
+		look.SetColor(*edgeColor)
+		look.SetFontSize(round(share * height))
+		look.SetJustificationToCentered()
+		look.SetVerticalJustificationToTop()
+		renderer.AddViewProp(actor)
+		actors.append(actor)
+	return actors
+
+
+def drawScale(pixels, legend):
+	"""Into the finished picture, an array as pixelsOf() gives it."""
+	height, width, _ = pixels.shape
+	left, right, bottom, top = (round(share * length) for share, length in zip(scalePlace, (width, width, height, height), strict=True))
+	colors = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in legend['colors']], np.float32)
+	at, places = np.linspace(0, 1, right - left), np.linspace(0, 1, len(colors))
+	pixels[bottom:top, left:right] = np.stack([np.interp(at, places, channel) for channel in colors.T], axis=-1)
 
 
 def shadingPass(radius):
@@ -195,6 +211,7 @@ def pixelsOf(window, width, height):
 	grab = vtkWindowToImageFilter()
 	grab.SetInput(window)
 	grab.ReadFrontBufferOff()
+	grab.ShouldRerenderOff()  # it would draw everything a second time
 	grab.Update()
 	values = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
 	return values.reshape(height, width, -1)[:, :, :3]
@@ -248,17 +265,20 @@ def draw(meshes, settings, path):
 		renderer.AddActor(actorOf(style, mesh, settings['edges']))
 	addLights(renderer, settings['camera'])
 	placeCamera(renderer, settings['camera'])
-	legend = addLegend(renderer, settings['legend'], supersampling * height) if settings['legend'] else None
+	legend = settings['legend']
+	texts = addLegend(renderer, legend, supersampling * width, supersampling * height) if legend else []
 	window = vtkRenderWindow()
 	window.OffScreenRenderingOn()
 	window.SetMultiSamples(0)
 	window.AddRenderer(renderer)
 	pixels = reduced(pixelsOf(window, supersampling * width, supersampling * height))
 	if settings['shade']:
-		if legend:
-			renderer.RemoveViewProp(legend)  # which would shade the scene, in the size of another picture
+		for text in texts:
+			renderer.RemoveViewProp(text)  # which would shade the scene, in the size of another picture
 		pixels *= shadingOf(renderer, window, settings)
 	window.Finalize()  # before the display ends
+	if legend:
+		drawScale(pixels, legend)
 	write(pixels, path)
 
 

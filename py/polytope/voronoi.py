@@ -14,7 +14,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import _polytope
 
-from .arguments import flag, namedArguments, numbersOf, rows, vectors
+from .arguments import flag, namedArguments, numbersOf, randomOf, rows, vectors
 
 __all__ = ['VoronoiCells', 'voronoi']
 
@@ -104,7 +104,7 @@ def _region(region):
 def _random(cells, normals, offsets, lower, upper, seed):
 	if isinstance(cells, bool) or not isinstance(cells, numbers.Integral) or cells < 1:
 		raise ValueError(f'cells: must be a whole number, at least 1, got {cells!r}')
-	random, found = np.random.default_rng(seed), np.empty((0, 3))
+	random, found = randomOf(seed), np.empty((0, 3))
 	for _ in range(mostTries):
 		points = random.uniform(lower, upper, (cells, 3))
 		found = np.concatenate([found, points[(points @ normals.T < offsets).all(axis=1)]])

@@ -27,6 +27,7 @@ from yade import (
 	Ig2_Sphere_Sphere_ScGeom,
 	Ig2_Wall_Polytope_PolytopeGeom,
 	Ig2_Wall_Sphere_ScGeom,
+	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_FrictMat_FrictMat_FrictPhys,
 	Ip2_FrictMat_FrictMat_MindlinPhys,
@@ -329,6 +330,7 @@ def testLawsThatNeverToppleABody(material, physics, law):
 	scene(material=material(density=2600), physics=[physics()], laws=[law()])
 	found = onlyFinding('laws')
 	assert law.__name__ in found.seen and 'never topples' in found.seen and 'docs/making-bodies.md' in found.advice
+	assert 'take ' in found.advice, 'there is none for these physics that could be added'
 
 
 # ------------------------------------------------------------------------------------------------ bodies and materials
@@ -545,19 +547,58 @@ def testBodyThatMovesFartherThanItsSizeInAStep():
 	assert [one.what for one in found] == ['stiffness', 'speed'] and 'body 1: 5e+04 m/s' in found['speed'].seen
 
 
+def yadesCollider():
+	O.engines = O.engines[:1] + [InsertionSortCollider([one() for one in bounds], verletDist=0.02)] + O.engines[2:]
+
+
 @pytest.mark.parametrize('shape', ['box', 'facet'])
 def testBladeThatTurnsInPlace(shape):
 	facet = [(-1, 0, 3), (1, 0, 3), (0, 0, 4)]
 	scene(lambda: [utils.box((0, 0, 3), (0.3, 0.01, 0.05), fixed=True) if shape == 'box' else utils.facet(facet)])
-	assert not polytope.check(O)
 	O.engines = O.engines[:3] + [RotationEngine(ids=[2], angularVelocity=1.5, rotationAxis=(0, 0, 1))] + O.engines[3:]
+	assert not polytope.check(O)  # PolytopeCollider sees it
+	yadesCollider()
 	assert 'body 2' in onlyFinding('turning bodies').seen
 	O.engines[1].verletDist = 0
 	assert not polytope.check(O)
 	O.engines[1].verletDist = 0.02
 	O.engines = O.engines[:3] + O.engines[4:]
 	O.bodies[2].state.angVel = (0, 0, 1)
-	assert 'verletDist=0' in onlyFinding('turning bodies').advice
+	advice = onlyFinding('turning bodies').advice
+	assert 'PolytopeCollider' in advice and 'verletDist=0' in advice
+
+
+def testBladeThatTurnsAsAPartOfAClump():
+	scene()
+	yadesCollider()
+	number, members = O.bodies.appendClumped([utils.box((0, 0, 3), (0.3, 0.01, 0.05)), utils.box((0, 0, 3), (0.01, 0.3, 0.05))])
+	O.bodies[number].state.blockedDOFs = 'xyzXYZ'
+	assert not polytope.check(O)
+	O.bodies[number].state.angVel = (0, 0, 1)
+	assert f'body {members[0]}' in onlyFinding('turning bodies').seen
+	O.bodies[number].state.angVel = (0, 0, 0)
+	O.engines = O.engines[:3] + [RotationEngine(ids=[number], angularVelocity=1.5, rotationAxis=(0, 0, 1))] + O.engines[3:]
+	assert f'body {members[0]}' in onlyFinding('turning bodies').seen
+
+
+def testBoxThatOthersMayTurn():
+	scene(lambda: [utils.box((0, 0, 3), (0.3, 0.01, 0.05))])
+	yadesCollider()
+	assert 'body 2' in onlyFinding('turning bodies').seen
+	O.bodies[2].state.blockedDOFs = 'XYZ'
+	assert not polytope.check(O)
+
+
+def testPolytopeThatAnEngineTurnsUnnoticed():
+	"""YADE's own collider makes the box of a body that seems to rest, before the engine turns it."""
+	engine = RotationEngine(ids=[2], angularVelocity=1.5, rotationAxis=(0, 0, 1))
+	scene(lambda: [polytope.cuboid((0, 0, 3), (0.3, 0.01, 0.05), fixed=True)])
+	O.engines = O.engines[:3] + [engine] + O.engines[3:]
+	assert not polytope.check(O)
+	yadesCollider()
+	assert 'body 2, a Polytope' in onlyFinding('turning bodies').seen
+	O.bodies[2].state.angVel = (0, 0, 1.5)
+	assert not polytope.check(O)
 
 
 def testBodyLargerThanHalfOfAPeriodicCell():

@@ -245,11 +245,43 @@ def testCoacdsPartsMakeAClump(mesh, monkeypatch):
 	stand = types.SimpleNamespace(Mesh=lambda points, triangles: len(triangles), run_coacd=run, set_log_level=lambda level: None)
 	monkeypatch.setitem(sys.modules, 'coacd', stand)
 	number, _ = polytope.clump(polytope.fromMesh(mesh, scale=0.01, parts=7))
-	assert asked == {'max_convex_hull': 7, 'seed': 0, 'volume': 20}
+	assert asked == {'threshold': 0.05, 'max_convex_hull': 7, 'seed': 0, 'volume': 20}
 	assertEqual(properties(number), sums([(1, (0, 0, 0), (3, 1, 1)), (1, (0, 1, 0), (1, 2, 1))]), 3)
 	stand.run_coacd = lambda given, **settings: [(np.array(corners, float), None)]
 	with pytest.warns(UserWarning, match=r"has 4 m³, its 1 convex parts 5 m³; give more parts"):
 		polytope.fromMesh(mesh, scale=0.01, parts=1)
+
+
+def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):
+	"""Of a mesh with three vertices for each triangle, as STL has, it gets the joined ones. What is nearest to the volume is taken."""
+	import trimesh
+
+	asked, lengths = [], {0.05: (1.5, 0.7), 0.02: (0.7, 0.7, 0.02), 0.01: (0.7, 0.7, 3)}
+	trimesh.Trimesh(corners, faces).export(tmp_path / 'l.stl')
+
+	def run(given, threshold, max_convex_hull, seed):
+		asked.append((*given, threshold))
+		return [(np.array([(x, y, z) for x in (0, length) for y in (0, 1) for z in (0, 1)]), None) for length in lengths[threshold]]
+
+	stand = types.SimpleNamespace(
+		Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None
+	)
+	monkeypatch.setitem(sys.modules, 'coacd', stand)
+	volume = abs(trimesh.Trimesh(corners, faces).volume)
+	for key in lengths:
+		lengths[key] = tuple(volume * length / 1.41 for length in lengths[key])
+	with pytest.warns(UserWarning):  # the stand-in's parts lie in each other
+		made = polytope.fromMesh(tmp_path / 'l.stl', parts=4)
+	assert asked == [(len(corners), len(faces), threshold) for threshold in (0.05, 0.02)] and len(made) == 3
+	asked.clear()
+	lengths[0.02] = lengths[0.05]
+	with pytest.warns(UserWarning):
+		made = polytope.fromMesh(tmp_path / 'l.stl', parts=4)
+	assert [threshold for *_, threshold in asked] == [0.05, 0.02, 0.01] and len(made) == 2
+	asked.clear()
+	with pytest.warns(UserWarning):
+		polytope.fromMesh(tmp_path / 'l.stl', parts=2)
+	assert len(asked) == 1, 'no more parts are allowed'
 
 
 def testCoacdItself(mesh):

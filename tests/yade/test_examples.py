@@ -50,6 +50,15 @@ def testEveryExampleIsRun():
 	assert all(f"runs('{name}'" in tests or f"run_path(str(folder / '{name}.py'))" in tests for name in here)
 
 
+def testExamplesCanBeInterrupted():
+	"""Ctrl-C is seen between two calls of O.run: none of them may run to the end of a simulation."""
+	calls = {path.name: re.findall(r'\bO\.run\(([^)]*)\)', path.read_text()) for path in (*folder.glob('*.py'), *folder.glob('peers/*.py'))}
+	assert sum(map(len, calls.values())) > 25
+	for name, several in calls.items():
+		for given in several:
+			assert re.match(r'\d{1,4}\b|steps\b|[a-z]+Steps\b', given), f'{name}: O.run({given}) cannot be interrupted'
+
+
 def testBondedCubeBreaksInPart(runs, capsys):
 	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
 	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])

@@ -86,6 +86,27 @@ def testTooFewGrainsForTheCurveAreRefused():
 		polytope.grains(curve, 0.001, seed=1)
 
 
+def testMoreGrainsThanAnyMemoryHoldsAreRefused():
+	"""A mass in milligrams, sizes in metres: it went on without end."""
+	with pytest.raises(
+		ValueError, match=r'^mass: 1e\+09 kg of these sizes are more than .* grains; at most 10,000,000 are made \(sizes in m, mass in kg\)'
+	):
+		polytope.grains([(0.01, 0), (0.02, 1)], 1e9)
+
+
+@pytest.mark.parametrize('seed', ['x', -1, 1.5, True])
+def testSeedThatIsNoneIsNamed(seed):
+	one = [polytope.cuboid((0, 0, 0), (0.1, 0.1, 0.1))]
+	for make in (
+		lambda: polytope.randomGrain(1, seed=seed),
+		lambda: polytope.grains(curve, 0.5, seed=seed),
+		lambda: polytope.cloud((0, 0, 0), (1, 1, 1), one, seed=seed),
+		lambda: polytope.voronoi(((0, 0, 0), (1, 1, 1)), 3, seed=seed),
+	):
+		with pytest.raises(ValueError, match='^seed: must be a whole number from 0 on, got '):
+			make()
+
+
 def testHundredThousandGrainsAMinute():
 	"""Time of a processor for 300, three of a thousand."""
 	began = time.process_time()

@@ -370,8 +370,59 @@ def testPackingThatWouldPressBodiesIntoEachOtherIsRefused():
 
 def testAStrainInPercentIsQuestioned():
 	test = polytope.triaxial(packed(), stress=1e5)
-	with pytest.raises(ValueError, match='strain: must be at most 1'):
-		test.run(2)
+	for wrong in (2, 1, -1):
+		with pytest.raises(ValueError, match='strain: must be at most 0.7'):
+			test.run(wrong)
+	test.run(1e-4)
+	test.run(2e-4)
+	assert test.columns['axialStrain'][-1] == pytest.approx(2e-4, abs=1e-5), 'a total, not what is added'
+
+
+@pytest.mark.parametrize('kind', ['simpleShear', 'shearBox'])
+def testAShearTestThatIsLoadedIsNotReplacedUnasked(tmp_path, kind):
+	"""A box of walls took the place of its plates, about the extents of bodies that a tilted frame had held."""
+	make = getattr(polytope, kind)
+	test = make(packed(), stress=1e5, inertialNumber=2e-2)
+	test.run(0.02 * (test.sample.extents[0] if kind == 'shearBox' else 1))
+	O.save(str(tmp_path / 'test.yade.gz'))
+	O.load(str(tmp_path / 'test.yade.gz'))
+	there = [body.id for body in O.bodies if body is not None]
+	with pytest.raises(ValueError, match='^lower: the scene has the plates of a shear test, .* not known after O.load; give lower and upper'):
+		polytope.sample()
+	assert [body.id for body in O.bodies if body is not None] == there, 'nothing is changed'
+	low, high = polytope.aabbExtrema([body.id for body in O.bodies if body is not None and body.dynamic])
+	with pytest.warns(UserWarning, match='plates of a shear test are replaced'):
+		sample = polytope.sample(lower=low, upper=high)
+	assert sum(isinstance(body.shape, Wall) for body in O.bodies if body is not None) == 6 and sample.extents == pytest.approx(high - low)
+
+
+def testASampleWhoseWallsWereReplacedIsToldOf():
+	"""By the plates of a shear test: its servos moved walls that were not there, until bodies had been pressed into each other."""
+	sample = packed()
+	test = polytope.simpleShear(sample, stress=1e5, inertialNumber=2e-2)
+	for make in (polytope.triaxial, polytope.shearBox, polytope.simpleShear):
+		with pytest.raises(RuntimeError, match='^sample: body .*, of its walls or plates, is no longer in the scene; a shear test'):
+			make(sample, stress=1e5)
+	test.run(0.01)
+	again = polytope.simpleShear(test.sample, stress=1e5, inertialNumber=2e-2)
+	with pytest.raises(ValueError, match='^strain: between plates at most 1 after 0.01 of an earlier test, got 0.995'):
+		again.run(0.995)
+	again.run(0.001)
+	assert again.columns['normalStress'][-1] == pytest.approx(1e5, rel=2e-2)
+	low, high = polytope.aabbExtrema(sample.ids)
+	with pytest.warns(UserWarning, match='plates of a shear test'):
+		polytope.sample(lower=low, upper=high)
+	with pytest.raises(RuntimeError, match='^sample: body .*, of its walls or plates'):
+		again.run(0.002)
+
+
+def testEnginesThatHaveLostTheirIntegratorAreToldOf():
+	"""Also where the engine that moves the walls is there: it stepped 200 000 times."""
+	sample = packed()
+	polytope.triaxial(sample, stress=1e5)
+	O.engines = [engine for engine in O.engines if not isinstance(engine, NewtonIntegrator)]
+	with pytest.raises(ValueError, match='^engines: O.engines must have a NewtonIntegrator'):
+		polytope.triaxial(sample, stress=1e5)
 
 
 def cross(length=0.006):

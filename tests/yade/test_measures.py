@@ -173,6 +173,17 @@ def testPolygonsHaveLongAxesAndNoSieves():
 		polytope.breakGrains(tension=1)
 
 
+def testPolytopesOfAClumpWithASphereCount():
+	"""The sphere is warned of; its clump was refused by the number of a body that nobody had named."""
+	O.bodies.appendClumped([utils.sphere((0, 0, 1), 0.5), polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))])
+	for region in ({'lower': (-1, -1, -1), 'upper': (1, 1, 1)}, {'lower': (-1, -1, 0), 'upper': (1, 1, 1)}):
+		with pytest.warns(UserWarning, match='ids: the volume of 1 free spheres is not counted'):
+			found = polytope.porosity(**region)
+		assert found == pytest.approx(7 / 8, rel=1e-12)
+	with pytest.raises(ValueError, match='^ids: body 0 is no polyhedron'):
+		polytope.porosity((-1, -1, -1), (1, 1, 1), ids=[2])
+
+
 def testFreeSpheresAreNotLeftOutOfPorositySilently():
 	O.reset()
 	O.materials.append(RockJointMat())

@@ -186,6 +186,8 @@ def _lawFor(geom, phys):
 		return 'add Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()'
 	if isinstance(geom, PolytopeGeom) and isinstance(phys, yade.MindlinPhys):
 		return 'take Law2_ScGeom_MindlinPhys_Mindlin()'
+	if isinstance(geom, PolytopeGeom) and isinstance(phys, yade.JCFpmPhys):
+		return 'take RockJointMat, whose cohesion and tensileStrength do the same, with its Ip2 and Law2, or polytope.bond()'
 	if isinstance(geom, yade.ScGeom) and isinstance(phys, yade.FrictPhys):
 		return f'add Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies={not isinstance(geom, PolytopeGeom)})'
 	return f'add a law for {type(geom).__name__} and {type(phys).__name__}'

@@ -3,7 +3,16 @@
 
 import math
 
-from yade import Facet, GlobalStiffnessTimeStepper, Polytope, PolytopeBonds, PolytopeTimeStepper, RotationEngine, Sphere, TimeStepper
+from yade import (
+	GlobalStiffnessTimeStepper,
+	Polytope,
+	PolytopeBonds,
+	PolytopeCollider,
+	PolytopeTimeStepper,
+	RotationEngine,
+	Sphere,
+	TimeStepper,
+)
 
 from ..requirements.checks import safe, usual
 from ..timeStep import safeTimeStep
@@ -68,17 +77,31 @@ def _size(body):
 
 
 def turningUnnoticed(scene):
-	"""Boxes of bodies are made anew after translations; PolytopeCollider notices rotations of polytopes alone."""
-	if not any(float(collider.verletDist) != 0 for collider in scene.colliders):
+	"""YADE's own collider makes boxes anew after translations alone."""
+	if all(isinstance(collider, PolytopeCollider) or float(collider.verletDist) == 0 for collider in scene.colliders):
 		return
 	driven = {key for engine in scene.those(RotationEngine) if float(engine.angularVelocity) != 0 for key in engine.ids}
-	turning = [body for body in scene.bodies if _leavesItsBox(body) and (body.id in driven or float(body.state.angVel.norm()) > 0)]
-	if turning:
-		name = type(turning[0].shape).__name__
-		seen = f'body {turning[0].id}, a {name}, turns, which the collider does not notice: it can pass through resting bodies'
-		instead = 'a thin polytope' if isinstance(turning[0].shape, Facet) else 'polytope.cuboid(…)'
-		yield 'turning bodies', seen, f'{instead} with PolytopeCollider, or verletDist=0 in the collider'
+	for body in scene.bodies:
+		blade = type(body.shape).__name__ in ('Box', 'Facet') and _turns(scene, body, driven)
+		if blade or (isinstance(body.shape, Polytope) and body.id in driven and _seemsToRest(body)):
+			yield 'turning bodies', _passes(body), 'PolytopeCollider in its place, or verletDist=0 in the collider'
+			return
 
 
-def _leavesItsBox(body):
-	return type(body.shape).__name__ in ('Box', 'Facet')
+def _passes(body):
+	return f'body {body.id}, a {type(body.shape).__name__}, turns, which the collider does not notice: it can pass through resting bodies'
+
+
+def _turns(scene, body, driven):
+	"""Or may turn, pushed by others; a member turns with its clump."""
+	whole = scene.O.bodies[body.clumpId] if body.isClumpMember else body
+	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not _held(whole))
+
+
+def _held(body):
+	return set('XYZ') <= set(body.state.blockedDOFs)
+
+
+def _seemsToRest(body):
+	"""When its box is made: Bo1_Polytope_Aabb gives it a tight one."""
+	return not body.isClumpMember and _held(body) and not float(body.state.angVel.norm()) > 0

@@ -45,6 +45,7 @@ class LoadingTest:
 	def __init__(self, sample, rate=None, inertialNumber=quasiStatic, stress=None):
 		if not isinstance(sample, Sample):
 			raise ValueError(f'sample: must be what polytope.pack returns, or polytope.sample(), got {sample!r}')
+		sample.mustBePresent()
 		self.sample, self.record = sample, {}
 		if rate is not None and not (isNumber(rate) and 0 < rate < math.inf):
 			raise ValueError(f'rate: must be a strain rate above 0 [1/s], got {rate!r}')

@@ -35,6 +35,11 @@ quasiStatic = 1e-3
 _samples = weakref.WeakSet()
 
 
+def _isThere(k, body):
+	"""Whether the scene's body k is this one: its text has its address, which no other one has while this one is kept."""
+	return k < len(O.bodies) and repr(O.bodies[k]) == repr(body)
+
+
 def replaceInSamples(k, pieces):
 	"""A body of the scene has been broken: its pieces take its place in the samples that it is in."""
 	for sample in _samples:
@@ -78,14 +83,17 @@ class Sample:
 		self.mass = sum(float(O.bodies[k].state.mass) for k in self.ids)
 		self.meanSize = (self.solidVolume / len(self.ids)) ** (1 / 3)
 		self.stresses, self.rates, self.fastest = [None] * 3, [0.0] * 3, [math.inf] * 3
+		self._boundary = {}
 		_samples.add(self)
 
 	@property
 	def isPresent(self):
 		"""Whether the scene is still the one with its bodies."""
-		k = self.ids[0]
-		# a body's text has its address, which no other one has while this one is kept
-		return k < len(O.bodies) and repr(O.bodies[k]) == repr(self._first)
+		return _isThere(self.ids[0], self._first)
+
+	def hold(self, ids):
+		"""These bodies are its walls or plates."""
+		self._boundary.update((k, O.bodies[k]) for k in ids)
 
 	def mustBePresent(self):
 		"""RuntimeError where the scene is another one by now: what moves the boundary, and all that is measured, would be of bodies that are gone."""
@@ -93,6 +101,10 @@ class Sample:
 			raise RuntimeError(
 				f'sample: its body {self.ids[0]} is not in the present scene, as after O.load or O.reset; make it, and the test, anew: polytope.sample(lower=…, upper=…)'
 			)
+		gone = next((k for k, body in self._boundary.items() if not _isThere(k, body)), None)
+		if gone is not None:
+			seen = f'sample: body {gone}, of its walls or plates, is no longer in the scene; a shear test, and polytope.sample(), put others there'
+			raise RuntimeError(f'{seen}: go on with their sample (test.sample), or make one anew: polytope.sample(lower=…, upper=…)')
 
 	def replace(self, k, pieces):
 		"""Pieces take the place of a body that breaks, and fill the same volume. Call it before the body is erased."""

@@ -36,6 +36,8 @@ def eased(now, goal):
 
 def actOn(boundary):
 	"""From now on its move() is called in each step, between InteractionLoop and NewtonIntegrator, where forces are known; None: nothing is moved."""
+	if boundary is not None and not any(isinstance(engine, NewtonIntegrator) for engine in O.engines):
+		raise ValueError('engines: O.engines must have a NewtonIntegrator, as those of polytope.engines() do')
 	known, acting[0] = acting[0], boundary
 	if (
 		boundary is not None
@@ -45,9 +47,7 @@ def actOn(boundary):
 		return
 	engines = [engine for engine in O.engines if not (isinstance(engine, PyRunner) and engine.command == command)]
 	if boundary is not None:
-		place = next((k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator)), None)
-		if place is None:
-			raise ValueError('engines: O.engines must have a NewtonIntegrator, as those of polytope.engines() do')
+		place = next(k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator))
 		engines.insert(place, PyRunner(command=command, iterPeriod=1, initRun=True))
 	O.engines = engines
 

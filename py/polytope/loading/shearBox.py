@@ -48,7 +48,10 @@ class ShearBox(LoadingTest):
 		}
 
 	def run(self, displacement):
-		"""Moves the upper half to this displacement [m] along x, back if it is less than now, then stops it."""
+		"""Moves the upper half along x to this displacement, then stops it.
+
+		:param float displacement: [m], counted from the start of the test, not from the last run; less than now: back
+		"""
 		checkGoal(displacement, 'displacement')
 		if not abs(displacement) <= self.sample.longest:
 			seen = (

@@ -40,6 +40,7 @@ class ShearFrame(Sample):
 			plate(low - reach - (self.thick, 0, 0), [low[0], *(high + reach)[1:]], smooth),
 			plate([high[0], *(low - reach)[1:]], high + reach + (self.thick, 0, 0), smooth),
 		]
+		self.hold([*sample.walls[1], self.bottom, self.top, *self.sides])
 		self.servo, self.tilt, self.rate = Servo(self.mass), 0.0, 0.0
 
 	@property

@@ -26,7 +26,7 @@ class SimpleShear(LoadingTest):
 	def __init__(self, sample, stress, rate, inertialNumber):
 		super().__init__(sample, rate, inertialNumber, stress)
 		self.sample = ShearFrame(sample) if isinstance(sample, WalledSample) else sample
-		self.largest = self.sample.steepest if isinstance(sample, WalledSample) else math.inf
+		self.largest = self.sample.steepest if isinstance(self.sample, ShearFrame) else math.inf
 		self.sample.control(stresses={2: stress})
 		self.sample.settle()
 		self.begin()
@@ -48,10 +48,14 @@ class SimpleShear(LoadingTest):
 		}
 
 	def run(self, strain):
-		"""Shears to this strain (displacement over height) since the start of the test, back if it is less than now, then stands still."""
+		"""Shears to this strain, then stands still.
+
+		:param float strain: displacement over height (0.3 is 30 %), counted from the start of the test, not from the last run; less than now: back
+		"""
 		checkGoal(strain, 'strain')
-		if not abs(strain) <= self.largest:
-			raise ValueError(f'strain: between plates at most {self.largest:g}, got {strain!r}; for more take a periodic cell')
+		if not abs(self.begun + strain) <= self.largest:
+			before = f' after {self.begun:.3g} of an earlier test' if self.begun else ''
+			raise ValueError(f'strain: between plates at most {self.largest:g}{before}, got {strain!r}; for more take a periodic cell')
 		self.sample.shear(self.rate if strain > self.strain() else -self.rate)
 		self.until(self.strain, strain)
 		self.sample.shear(0.0)

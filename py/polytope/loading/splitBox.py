@@ -38,6 +38,7 @@ class SplitBox(Sample):
 		self.lowerSides = _sides(low, high, thick, outer[0][2], middle - half, smooth)
 		self.upperSides = _sides(low, high, thick, middle + half, above, smooth)
 		self.top = plate([*outer[0][:2], high[2]], [*outer[1][:2], high[2] + self.longest], rough)
+		self.hold([self.bottom, self.top, *self.lowerSides, *self.upperSides])
 		self.places = {k: np.array(O.bodies[k].state.pos, float) for k in (*self.upperSides, self.top)}
 		self.servo, self.speed, self.present = Servo(self.mass), 0.0, 0.0
 		self.displacement, self.rise = 0.0, 0.0

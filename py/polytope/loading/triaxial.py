@@ -8,8 +8,8 @@ from .sample import quasiStatic
 __all__ = ['Triaxial', 'triaxial']
 
 
-largest = 1.0
-"""Logarithmic strain up to which a test is run: more is a percentage that was not divided by 100."""
+largest = 0.7
+"""Logarithmic strain up to which a test is run: more, 1 as well, is a percentage that was not divided by 100."""
 
 
 class Triaxial(LoadingTest):
@@ -48,10 +48,14 @@ class Triaxial(LoadingTest):
 		}
 
 	def run(self, strain):
-		"""Shortens the sample to this axial strain since the start of the test (negative: extension; less than now: unloading), then stands still."""
+		"""Shortens the sample to this axial strain, then stands still.
+
+		:param float strain: 0.02 is 2 %, counted from the start of the test, not from the last run: run(0.01) and then run(0.02) end at 2 %.
+		    Negative: extension; less than now: unloading. At most 0.7
+		"""
 		checkGoal(strain, 'strain')
 		if not abs(strain) <= largest:
-			raise ValueError(f'strain: must be at most {largest:g}, a shortening to a third (0.02 is 2 %), got {strain!r}')
+			raise ValueError(f'strain: must be at most {largest:g}, a shortening to half (0.02 is 2 %), got {strain!r}')
 		now = self.strains()[self.axis]
 		lateral = dict.fromkeys(self.lateral, self.stress)
 		self.sample.control(stresses=lateral, rates={self.axis: self.rate if strain > now else -self.rate})

@@ -27,6 +27,7 @@ class WalledSample(Sample):
 	def __init__(self, ids, walls):
 		super().__init__(ids)
 		self.walls = walls
+		self.hold(k for pair in walls for k in pair if k is not None)
 		self.servos = [Servo(self.mass) for _ in range(3)]
 		self._states = [[None if k is None else O.bodies[k].state for k in pair] for pair in walls]
 
@@ -65,6 +66,7 @@ class WalledSample(Sample):
 			place = Vector3(*((self.lower + self.upper) / 2)[:2], self.upper[2])
 			material = O.bodies[self.walls[0][0]].material
 			above = O.bodies.append(utils.wall(place, 2, sense=-1, material=material, mask=boundaryMask))
+			self.hold([above])
 			self.walls[2], self._states[2][1] = (self.walls[2][0], above), O.bodies[above].state
 
 	def apply(self):
