@@ -30,6 +30,8 @@ namespace {
 
 	/// A body that would leave its largest box by rotation within so many steps gets the box of its circumscribed ball.
 	constexpr int fewSteps = 4;
+	/// Where targetInterv is 0, as yade.mpy sets it: YADE's default.
+	constexpr int usualSteps = 100;
 
 } // namespace
 
@@ -56,7 +58,7 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	if (reference.convex != polytope->convex()) reference.convex = polytope->convex();
 	reference.radius      = polytope->convex()->boundingRadius();
 	reference.orientation = body->state->ori;
-	const Real wanted     = limits.targetInterv > 0 ? way * limits.targetInterv : limits.most;
+	const Real wanted     = way * (limits.targetInterv > 0 ? limits.targetInterv : usualSteps);
 	rooms_[id]            = !mayTurn(body) ? Real(0)
 	                   : way * fewSteps > limits.most ? std::numeric_limits<Real>::infinity()
 	                                                  : math::max(limits.least, math::min(limits.most, wanted));

@@ -158,17 +158,6 @@ namespace {
 		return chord;
 	}
 
-	/// Whether the body `mover` of the pair reaches beyond a plane. Only then is a neighbour there one that it may touch, and surely in its list of
-	/// pairs, however large boxes are: what is found does not depend on them.
-	bool reachesBeyond(const TouchingPair& pair, int mover, const Vector3r& normal, Real slack)
-	{
-		const auto& vertices = pair.convex[mover]->polyhedron().vertices;
-		if (vertices.empty()) return true; // a wall
-		const Vector3r own    = pair.rotation[mover].transpose() * normal;
-		const Real     centre = normal.dot(pair.centre[mover] - pair.point);
-		return std::any_of(vertices.begin(), vertices.end(), [&](const Vector3r& vertex) { return own.dot(vertex) + centre > slack; });
-	}
-
 	/// Pairs of a plane i near the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps the
 	/// contact point's height below it.
 	std::vector<Candidate> candidatesOf(
@@ -185,7 +174,6 @@ namespace {
 				const Vector3r& normal = normals[piece][i];
 				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²
 				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
-				if (!reachesBeyond(pair, 1 - piece, normal, bounding.slack[piece][i])) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
 				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
 				        bounding.slack[piece][j], chord.plane, false });

@@ -25,7 +25,7 @@ bool PolytopeCollider::isActivated()
 	if (mustRunForAll()) return true;
 	fastestBodyMaxDist = newton->maxVelocitySq;
 	outside_           = room_.outside(*scene, true);
-	return !outside_.empty();
+	return !outside_.empty() || fastestBodyMaxDist >= 1; // which a script may have set
 }
 
 template <class Make> void PolytopeCollider::withRooms(const Make& make)
