@@ -30,8 +30,6 @@ namespace {
 
 	/// A body that would leave its largest box by rotation within so many steps gets the box of its circumscribed ball.
 	constexpr int fewSteps = 4;
-	/// Where targetInterv is 0, as yade.mpy sets it: YADE's default.
-	constexpr int usualSteps = 100;
 
 } // namespace
 
@@ -50,15 +48,15 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 		return;
 	}
 	const bool known = bool(reference.convex) && body->bound;
-	const long steps = known ? scene.iter - body->bound->lastUpdateIter : 0;
-	if (known && steps == 0 && reference.orientation.coeffs() == body->state->ori.coeffs()) return; // yade.mpy runs the collider twice in a step
+	const long since = known ? scene.iter - body->bound->lastUpdateIter : 0;
+	if (known && since == 0 && reference.orientation.coeffs() == body->state->ori.coeffs()) return; // yade.mpy runs the collider twice in a step
 	// in each step; not yet known: as its velocity says
-	const Real way = known && steps > 0 ? turned(reference, body->state->ori) / steps
+	const Real way = known && since > 0 ? turned(reference, body->state->ori) / since
 	                                    : body->state->angVel.norm() * polytope->convex()->boundingRadius() * scene.dt;
 	if (reference.convex != polytope->convex()) reference.convex = polytope->convex();
 	reference.radius      = polytope->convex()->boundingRadius();
 	reference.orientation = body->state->ori;
-	const Real wanted     = way * (limits.targetInterv > 0 ? limits.targetInterv : usualSteps);
+	const Real wanted     = way * steps(limits.targetInterv);
 	rooms_[id]            = !mayTurn(body) ? Real(0)
 	                   : way * fewSteps > limits.most ? std::numeric_limits<Real>::infinity()
 	                                                  : math::max(limits.least, math::min(limits.most, wanted));

@@ -34,6 +34,9 @@ public:
 		int  targetInterv;
 	};
 
+	/// For how many steps boxes should last: where targetInterv is 0, as yade.mpy sets it, YADE's default.
+	static int steps(int targetInterv) { return targetInterv > 0 ? targetInterv : 100; }
+
 	/// By body id; a room is infinite where the box holds the body in every orientation.
 	const std::vector<Real>&      rooms() const { return rooms_; }
 	const std::vector<Reference>& references() const { return references_; }

@@ -88,8 +88,9 @@ void PolytopeCollider::searchAll()
 	withRooms([&] { boundDispatcher->action(); });
 	room_.takeFromAll(*scene);
 	const bool judge = verletDist > 0; // else in each step, and visiting pairs that are apart takes less time than judging them
-	pairs_.ofAll(*scene, *this, judge, hasSearched_);
+	pairs_.ofAll(*scene, *this, judge, hasSearched_ && pairs_.areMany(outside_.size()));
 	hasSearched_ = true;
+	searchedAt_  = scene->iter;
 	bodies_      = scene->bodies->size();
 	divided_     = false;
 	for (const auto& body : *scene->bodies)
@@ -128,7 +129,9 @@ void PolytopeCollider::action()
 	}
 	numAction++;
 	scene->interactions->iterColliderLastRun = -1; // pairs are deleted here, not by the InteractionLoop
-	if (mustRunForAll() || outside_.empty() || divided_ || pairs_.areMany(outside_.size())) {
+	// from time to time for all: a script may have changed sizes, or what is fixed
+	const bool old = scene->iter - searchedAt_ >= BoxRoom::steps(targetInterv);
+	if (mustRunForAll() || outside_.empty() || divided_ || old || pairs_.areMany(outside_.size())) {
 		findVerletDist();
 		room_.makeForAll(*scene, limits());
 		searchAll();
