@@ -342,6 +342,26 @@ def testFewBoxesAreMadeAnew():
 	assert len(O.interactions) < 8
 
 
+def testShapeChangedInPlaceIsSeen():
+	"""At once if the collider is told; else when boxes of all bodies are made anew, while one of them moves."""
+	for told in (True, False):
+		O.reset()
+		joint()
+		loop()
+		collider(PolytopeCollider, 0.02)
+		O.bodies.append([polytope.cuboid((0, 0, 0), (.5, .5, .5), fixed=True), polytope.cuboid((0, 0, 1.2), (.5, .5, .5))])
+		O.bodies.append([polytope.cuboid((9 + 2 * k, 0, 0), (.5, .5, .5)) for k in range(8)])
+		driven(O.bodies[1])
+		O.bodies[9].state.vel = (0, 0, 3)
+		O.dt = 1e-3
+		O.run(3, True)
+		assert len(O.interactions) == 0
+		O.bodies[1].shape = polytope.cuboid((0, 0, 0), (.8, .8, .8)).shape
+		O.engines[1].doSort = told
+		O.run(1 if told else 120, True)
+		assert O.interactions.countReal() == 1 and not O.engines[1].doSort
+
+
 def testManyThreadsFindTheSamePairsInTheSameOrder():
 	"""The loop's order decides in which order forces are added up."""
 	order = []

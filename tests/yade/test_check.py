@@ -486,6 +486,12 @@ def testEnginesThatAreThereTwice():
 	assert '2 InteractionLoops' in onlyFinding('engines').seen
 
 
+def testTwoColliders():
+	scene()
+	O.engines = O.engines[:2] + [InsertionSortCollider([one() for one in bounds], verletDist=0.02)] + O.engines[2:]
+	assert '2 colliders, PolytopeCollider and InsertionSortCollider' in onlyFinding('engines').seen
+
+
 def testYadesTriaxialControllerKnowsSpheresOnly():
 	scene()
 	O.engines = [*O.engines, TriaxialStressController(dead=False)]

@@ -47,6 +47,9 @@ def missing(scene):
 
 def twice(scene):
 	"""Engines that must act once a step."""
+	if len(scene.colliders) > 1:
+		names = ' and '.join(type(one).__name__ for one in scene.colliders)
+		yield 'engines', f'O.engines has {len(scene.colliders)} colliders, {names}: each takes away pairs that the other one keeps', 'keep one'
 	for kind, what in ((InteractionLoop, 'contact forces are computed and added once by each'), (NewtonIntegrator, 'each moves all bodies by a step')):
 		several = scene.those(kind)
 		if len(several) > 1:

@@ -5,7 +5,7 @@
 
 Prints the time and memory of each part as it ends, and of a body's step with the share of each engine. The bodies, regular solids of 4, 6, 8, 12 and 20
 faces in any orientation, start on a lattice on which they just do not touch, and fly in all directions: in 200 steps each has met some of its
-neighbours. --number 100000 makes a tenth of them, for comparison.
+neighbours. --number 100000 makes a tenth of them, for comparison; with --yades-collider YADE's InsertionSortCollider finds the pairs.
 """
 import argparse
 import json
@@ -38,8 +38,8 @@ class Parts:
 		self.last = now
 
 
-def build(number):
-	from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, polytope
+def build(number, yadesCollider):
+	from yade import Bo1_Polytope_Aabb, InsertionSortCollider, Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, polytope
 
 	O.materials.append(RockJointMat(density=density, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
 	chance, side = random.Random(1), round(number**(1 / 3))
@@ -59,6 +59,9 @@ def build(number):
 		body.state.vel = [chance.uniform(-speed, speed) for _ in range(3)]
 		O.bodies.append(body)
 	O.engines = polytope.engines(timeStepper=False, physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+	if yadesCollider:
+		reach = O.engines[1].verletDist
+		O.engines = [O.engines[0], InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=reach), *O.engines[2:]]
 	lightest = min(body.state.mass for body in O.bodies if body.dynamic)
 	O.dt = 0.2 * (lightest / stiffness)**0.5
 
@@ -83,12 +86,13 @@ def main():
 	parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
 	parser.add_argument('--number', type=int, default=1000000, help='of bodies')
 	parser.add_argument('--steps', type=int, default=200, help='before the state is saved; half as many after it is loaded')
+	parser.add_argument('--yades-collider', action='store_true', help='in place of PolytopeCollider, for comparison')
 	parser.add_argument('--folder', help='where the state is written, some GB (default: a temporary folder)')
 	options = parser.parse_args()
 	from yade import O, PolytopeVTKRecorder, polytope
 
 	parts = Parts()
-	build(options.number)
+	build(options.number, options.yades_collider)
 	parts.done('made', f'{len(O.bodies)} bodies, {O.numThreads} threads')
 	run(1, parts, 'first step')
 	before = run(options.steps, parts, f'{options.steps} steps')
