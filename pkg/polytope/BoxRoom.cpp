@@ -49,7 +49,8 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	}
 	const bool known = bool(reference.convex) && body->bound;
 	const long since = known ? scene.iter - body->bound->lastUpdateIter : 0;
-	if (known && since == 0 && reference.orientation.coeffs() == body->state->ori.coeffs()) return; // yade.mpy runs the collider twice in a step
+	if (known && since == 0 && reference.orientation.coeffs() == body->state->ori.coeffs())
+		return; // yade.mpy runs the collider twice in a step
 	// in each step; not yet known: as its velocity says
 	const Real way = known && since > 0 ? turned(reference, body->state->ori) / since
 	                                    : body->state->angVel.norm() * polytope->convex()->boundingRadius() * scene.dt;
@@ -57,7 +58,7 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	reference.radius      = polytope->convex()->boundingRadius();
 	reference.orientation = body->state->ori;
 	const Real wanted     = way * steps(limits.targetInterv);
-	rooms_[id]            = !mayTurn(body) ? Real(0)
+	rooms_[id]            = !mayTurn(body)            ? Real(0)
 	                   : way * fewSteps > limits.most ? std::numeric_limits<Real>::infinity()
 	                                                  : math::max(limits.least, math::min(limits.most, wanted));
 }

@@ -14,7 +14,7 @@ namespace yade {
 
 /// What pairs without a contact remember from step to step: the basis of the linear program and its weights, by which most are dismissed.
 ///
-/// Two of three pairs of a settled heap do not touch. Their boxes overlap, so YADE has an Interaction for each (0.35 kB); here it gets 48 bytes
+/// A pair that may touch soon has an Interaction of YADE's (0.35 kB); here it gets 48 bytes
 /// more, while a PolytopeGeom (0.5 kB, and saved with the scene) is made when the bodies come into contact. The records lie in the order
 /// in which the InteractionLoop visits the pairs, by Interaction::linIx. When YADE's collider deletes a pair, the last one takes its place in that
 /// order: it finds a record of another pair there, and starts once without memory. Memory makes answers cheaper, never different: a new

@@ -120,7 +120,8 @@ void PairSearch::move(const Scene& scene, const std::vector<Body::id_t>& ids)
 bool PairSearch::staysApart(const Body& one, const Body& other) const
 {
 	const auto &reference1 = room_.references()[one.id], &reference2 = room_.references()[other.id];
-	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension()) return false;
+	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
+		return false;
 	for (const Body* body : { &one, &other })
 		if (body->isClumpMember() || !body->isDynamic()) return false;
 	// along each axis a body moves by less than its sweep length
@@ -193,8 +194,7 @@ void PairSearch::ofSome(Scene& scene, Collider& collider, const std::vector<Body
 {
 	const bool anew = areMany(movedIds_.size() + ids.size());
 	if (anew) makeGrid(scene);
-	else
-		move(scene, ids);
+	else move(scene, ids);
 	erasePairsOf(scene, ids);
 	const BodyContainer& bodies = *scene.bodies;
 	insertFound(scene, long(ids.size()), [&](long k, const auto& add) {

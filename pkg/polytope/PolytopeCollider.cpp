@@ -15,7 +15,8 @@ YADE_PLUGIN((PolytopeCollider));
 
 bool PolytopeCollider::mustRunForAll() const
 {
-	return !hasSearched_ || !(verletDist > 0) || !newton || scene->interactions->dirty || scene->doSort || doSort || scene->bodies->size() != bodies_;
+	return !hasSearched_ || !(verletDist > 0) || !newton || scene->interactions->dirty || scene->doSort || doSort
+	        || scene->bodies->size() != bodies_;
 }
 
 bool PolytopeCollider::isActivated()

@@ -27,15 +27,15 @@ It finds boxes that overlap by a grid, with all threads, in a time that grows as
 
 private:
 	/// Whether all boxes have to be made anew.
-	bool mustRunForAll() const;
+	bool            mustRunForAll() const;
 	BoxRoom::Limits limits() const;
 	/// Boxes whose sizes the bodies' functors know, room for rotation included.
 	template <class Make> void withRooms(const Make& make);
-	void prepareBoxes();
-	void findVerletDist();
-	void findNewton();
-	void searchAll();
-	void searchSome();
+	void                       prepareBoxes();
+	void                       findVerletDist();
+	void                       findNewton();
+	void                       searchAll();
+	void                       searchSome();
 
 	// not saved: after loading the first step makes all boxes anew
 	BoxRoom                 room_;

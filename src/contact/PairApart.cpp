@@ -19,7 +19,7 @@ bool staysApart(const ConvexShape& shape1, const Matrix3& rotation1, const Conve
 	settings.warmStart    = false;
 	settings.programAlone = true;
 	// the linear program ends as soon as s* > −tolerance × size is certain
-	settings.tolerance    = -way / std::min<Real>(shape1.boundingRadius(), shape2.boundingRadius());
+	settings.tolerance = -way / std::min<Real>(shape1.boundingRadius(), shape2.boundingRadius());
 	PairMemory    memory;
 	ContactResult result;
 	contactQuery(shape1, rotation1, shape2, rotation2, centre2, settings, memory, workspace, result);

@@ -38,7 +38,7 @@ namespace {
 		if (widths.empty()) return 1;
 		const auto middle = widths.begin() + widths.size() / 2;
 		std::nth_element(widths.begin(), middle, widths.end());
-		const double most = 2 * *middle;
+		const double most  = 2 * *middle;
 		double       found = *middle;
 		for (const double width : widths)
 			if (width <= most) found = std::max(found, width);
@@ -68,14 +68,13 @@ namespace {
 void BoxGrid::reset(std::vector<Box> boxes)
 {
 	boxes.erase(std::remove_if(boxes.begin(), boxes.end(), [](const Box& box) { return !isBox(box); }), boxes.end());
-	const double                        middle = middleWidth(boxes);
+	const double                    middle = middleWidth(boxes);
 	std::map<int, std::vector<Box>> byLevel;
-	std::vector<Box>                    everywhere;
+	std::vector<Box>                everywhere;
 	for (const Box& box : boxes) {
 		const int level = widest(box) < infinity ? levelOf(box, middle) : 0;
 		if (hasCell(box, std::ldexp(middle, level))) byLevel[level].push_back(box);
-		else
-			everywhere.push_back(box);
+		else everywhere.push_back(box);
 	}
 	boxes_.clear();
 	boxes_.reserve(boxes.size());
@@ -92,10 +91,7 @@ void BoxGrid::reset(std::vector<Box> boxes)
 	levels_.back().begins.assign(2, 0);
 }
 
-void BoxGrid::remove(std::size_t place)
-{
-	boxes_[place].low.fill(std::numeric_limits<double>::quiet_NaN());
-}
+void BoxGrid::remove(std::size_t place) { boxes_[place].low.fill(std::numeric_limits<double>::quiet_NaN()); }
 
 void BoxGrid::fill(Level& level, std::vector<Box>& boxes)
 {

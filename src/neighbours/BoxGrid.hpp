@@ -56,7 +56,7 @@ private:
 	struct Level {
 		double                     width = 0; ///< of a cell
 		std::array<std::size_t, 3> stride { { 1, 1, 1 } };
-		std::vector<std::uint32_t> begins;     ///< first box of each entry of the list, and the end; 2^k + 1
+		std::vector<std::uint32_t> begins;             ///< first box of each entry of the list, and the end; 2^k + 1
 		std::size_t                first = 0, end = 0; ///< places of the level's boxes
 
 		Cell        cellOf(const std::array<double, 3>& corner) const;
@@ -64,7 +64,7 @@ private:
 		std::size_t entries() const { return begins.size() - 1; }
 	};
 
-	void fill(Level& level, std::vector<Box>& boxes);
+	void                        fill(Level& level, std::vector<Box>& boxes);
 	template <class Visit> void visitLevel(const Level& level, const Box& box, std::size_t from, const Visit& visit) const;
 	template <class Visit> void visitPlaces(std::size_t from, std::size_t end, const Box& box, const Visit& visit) const;
 
@@ -112,9 +112,10 @@ template <class Visit> void BoxGrid::visitLevel(const Level& level, const Box& b
 	Cell       cell;
 	for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
 		for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
-			cell[0]                       = low[0];
-			const std::size_t entry       = level.entryOf(cell), past = entry + std::size_t(high[0] - low[0]) + 1, all = level.entries();
-			const auto        ofThisRow   = [&](const Box& other) {
+			cell[0]                 = low[0];
+			const std::size_t entry = level.entryOf(cell), past = entry + std::size_t(high[0] - low[0]) + 1,
+			                  all = level.entries();
+			const auto ofThisRow  = [&](const Box& other) {
                                 const Cell own = level.cellOf(other.low);
                                 if (own[1] == cell[1] && own[2] == cell[2] && own[0] >= low[0] && own[0] <= high[0]) visit(other);
 			};

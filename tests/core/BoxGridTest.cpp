@@ -63,10 +63,7 @@ std::vector<Box> randomBoxes(int number, double edge, double least, double most,
 
 } // namespace
 
-TEST(BoxGrid, FindsAllPairsOfBoxesOfOneSize)
-{
-	EXPECT_GT(expectAllPairs(randomBoxes(3000, 12, 0.9, 1.1, 1)), 3000u);
-}
+TEST(BoxGrid, FindsAllPairsOfBoxesOfOneSize) { EXPECT_GT(expectAllPairs(randomBoxes(3000, 12, 0.9, 1.1, 1)), 3000u); }
 
 TEST(BoxGrid, FindsAllPairsOfBoxesOfAllSizes)
 {
