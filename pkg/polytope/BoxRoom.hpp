@@ -49,7 +49,7 @@ public:
 	void takeFromAll(const Scene& scene);
 	void take(const Scene& scene, const std::vector<Body::id_t>& ids);
 
-	/// Ids of bodies that are out of their boxes, in ascending order; by translation: unless the caller knows that there are none.
+	/// Ids of bodies that are out of their boxes, in ascending order; by translation, too: in periodic cells YADE's own collider looks for those.
 	std::vector<Body::id_t> outside(const Scene& scene, bool byTranslation) const;
 
 private:
