@@ -16,7 +16,7 @@ import yade
 from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
 
 from .._ranks import eraseRanks
-from . import bonds, clumps, decomposition, permanentLoads, reallocation
+from . import bonds, clumps, decomposition, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
@@ -68,6 +68,7 @@ def _disown():
 def shareTimeStep():
 	"""Every rank takes the smallest of the time steps that the ranks have found; where none has found a limit, each keeps its own."""
 	if size() > 1 and O.splitted:
+		waiting.forAll()
 		least = mpy.comm.allreduce(O.dt if _limitsTheStep() else math.inf, op=mpy.MPI.MIN)
 		if least < math.inf:
 			O.dt = least
@@ -100,6 +101,7 @@ def _prepared(splitScene):
 def _handOutScene(splitScene):
 	"""The scene as yade.mpy needs it, when it is handed out to all ranks."""
 	_disown()
+	waiting.agree()
 	if O.splittedOnce:
 		splitScene()
 		return
@@ -240,6 +242,7 @@ def _withStatesOfRankZero(sendRecvStates):
 
 	@functools.wraps(sendRecvStates)
 	def exchange():
+		waiting.forAll()
 		sendRecvStates()
 		if mpy.rank == 0 and mpy.MASTER_UPDATE_STATES:
 			mpy.comm.barrier()
@@ -276,6 +279,7 @@ def install():
 	mpy.sendRecvStates = _withStatesOfRankZero(mpy.sendRecvStates)
 	mpy.genLocalIntersections = _withNeighboursOfBoth(clumps.wholeClumps(mpy.genLocalIntersections))
 	mpy.reallocateBodiesToSubdomains, mpy.REALLOCATE_FILTER = reallocation.reallocate, reallocation.beyondTheMiddle
+	mpy.receiveForces = waiting.forForces(mpy.receiveForces)
 	mpy.MASTER_UPDATE_STATES = True
 	mpy.AUTO_COLOR = False  # colours of bodies are the user's
 	mpy.bodiesAreOurs = True
