@@ -4,13 +4,16 @@
 //
 // When yade.mpy divides a scene, each worker deletes the bodies of all other ranks, gets those back that are near its own, and searches for
 // contacts anew. So the contacts between two ranks, and all contacts with fixed bodies, which are with rank 0, begin without the shear
-// force, slip and strength that they had. A worker takes these contacts from the whole scene before, and puts them back afterwards.
+// force, slip and strength that they had. A worker takes these contacts from the whole scene before, and puts them back afterwards. Later searches
+// would delete the bodies of open joints: their ids are what a worker asks the others for.
 #include "WorkerContacts.hpp"
 
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
 #include <boost/python.hpp>
+
+#include <set>
 
 namespace py = boost::python;
 
@@ -38,7 +41,16 @@ namespace {
 				copy->iterMadeReal = pair->iterMadeReal;
 				copy->iterBorn     = pair->iterBorn;
 				pairs_.push_back(copy);
+				partners_.insert(body1->subdomain == scene.subdomain ? pair->getId2() : pair->getId1());
 			}
+		}
+
+		py::list partners() const
+		{
+			py::list ids;
+			for (const Body::id_t id : partners_)
+				ids.append(id);
+			return ids;
 		}
 
 		/// Puts them in place of those found since, where both bodies are here.
@@ -57,6 +69,7 @@ namespace {
 
 	private:
 		std::vector<shared_ptr<Interaction>> pairs_;
+		std::set<Body::id_t>                 partners_; ///< of other ranks
 	};
 
 } // namespace
@@ -65,6 +78,7 @@ void defineWorkerContacts()
 {
 	py::class_<WorkerContacts>("WorkerContacts",
 	        "Contacts of this rank's bodies with those of other ranks, as they are when the object is made; used by yade.polytope.mpi.")
+	        .def("partners", &WorkerContacts::partners, "Ids of the bodies of other ranks, ascending.")
 	        .def("put", &WorkerContacts::put, "Puts them back where both bodies are here; returns how many.");
 }
 #else

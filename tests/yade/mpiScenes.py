@@ -236,6 +236,45 @@ def bonded():
 	return found
 
 
+def opened():
+	"""Blocks that slip over each other, part by half their size and meet again: pairs of two ranks, and with a fixed block."""
+	mpi.merge()
+	O.reset()
+	if master:
+		O.materials.append(yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3, dilationAngle=0.05))
+		O.bodies.append(polytope.cuboid((0, 0, 0), (0.2, 0.2, 0.2), fixed=True))
+		for k in range(1, 5):
+			O.bodies.append(polytope.cuboid((0.3999 * k, 0, 0), (0.2, 0.2, 0.2)))
+		O.engines = polytope.engines(timeStepper=False, gravity=(0, 0, 0))
+		O.dt = 1e-4
+	found = []
+	for velocity, number in (((0, 0.5, 0), 60), ((5, 0, 0), 400), ((-5, 0, 0), 415)):
+		if master:
+			for k in range(1, 5):
+				O.bodies[k].state.vel, O.bodies[k].state.angVel = k * Vector3(velocity), (0, 0, 0)
+		mpi.divide()
+		mpi.run(number)
+		found.append(state())
+	return master and dict(found[2], apart=found[1])
+
+
+def shaken():
+	"""The heap, thrown up in four ways, 250 steps later: [mean height, speed, contacts] of each."""
+	found = []
+	for seed in range(4):
+		load()
+		if master:
+			dice = np.random.default_rng(seed)
+			for body in O.bodies:
+				if body.dynamic and not body.isSubdomain:
+					body.state.vel, body.state.angVel = dice.uniform((-1, -1, 0), (1, 1, 3)), dice.uniform(-5, 5, 3)
+		mpi.run(250)
+		if master:
+			free = [body.state for body in O.bodies if body.dynamic and not body.isSubdomain]
+			found.append([float(np.mean([state.pos[2] for state in free])), float(np.mean([state.vel.norm() for state in free])), O.interactions.countReal()])
+	return found
+
+
 def searched():
 	"""How often each rank has searched for pairs in twenty steps of cubes at rest side by side, with a fixed one and without."""
 	found = {}

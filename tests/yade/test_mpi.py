@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 from yade import polytope
 
@@ -32,7 +33,7 @@ sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
-moving = ['smooth', 'joints', 'bonded', 'clumpedSliding', 'carried']
+moving = ['smooth', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken']
 
 
 def launch(ranks, *command):
@@ -162,6 +163,27 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	places = [float.fromhex(body[0]) for body in one['bodies'].values()]
 	assert min(place - (0.7 * k - 3) for k, place in enumerate(places)) > 3e-4 * moved
 	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
+
+
+def testOpenJointsOfTwoRanksRememberTheirSlip(found):
+	"""Between workers, and with a fixed block: while they are open by half a block, and when they touch again."""
+	one, several = found('opened', 1), found('opened', 3)
+	pairs = {'0 1', '1 2', '2 3', '3 4'}
+	assert one['apart']['contacts'].keys() == several['apart']['contacts'].keys() == one['contacts'].keys() == several['contacts'].keys() == pairs
+	gaps = np.diff([0.0, *(float.fromhex(body[0]) for body in several['apart']['bodies'].values())]) - 0.4
+	assert min(gaps) > 0.19
+	for pair in pairs:
+		assert float.fromhex(one['contacts'][pair][3]) > 1e5 and float.fromhex(one['contacts'][pair][12]) > 1e-4  # N; dilation
+		assert farthest(one['contacts'][pair][3:9], several['contacts'][pair][3:9]) < 1e-9 * 2.5e5
+		assert farthest(one['contacts'][pair][9:13], several['contacts'][pair][9:13]) < 1e-12 * 0.4
+
+
+def testLongerRunsAgreeInTheMean(found):
+	"""Body by body they do not: forces are added up in another order, and collisions enlarge what that changes."""
+	one, several = np.array(found('shaken', 1)), np.array(found('shaken', 3))
+	uncertainty = np.sqrt((one.var(axis=0, ddof=1) + several.var(axis=0, ddof=1)) / len(one))
+	assert (abs(one.mean(axis=0) - several.mean(axis=0)) < 2 * uncertainty).all(), (one, several)
+	assert (uncertainty < 0.1 * one.mean(axis=0)).all()  # so that it says something
 
 
 @pytest.mark.parametrize('name, ranks, least', [

@@ -13,10 +13,10 @@ import sys
 import traceback
 
 import yade
-from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, _polytope, mpy
+from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
 
 from .._ranks import eraseRanks
-from . import bonds, clumps, decomposition, permanentLoads, reallocation, waiting
+from . import bonds, clumps, decomposition, joints, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
@@ -214,10 +214,10 @@ def _withCollider(parallelCollide):
 	@functools.wraps(parallelCollide)
 	def collide():
 		mpy.collider = _typedEngine('InsertionSortCollider')
-		divided = mpy.rank > 0 and not O.splitted  # this worker still has the whole scene
-		contacts = _polytope.WorkerContacts() if divided else None
+		divided = not O.splitted  # each worker still has the whole scene
+		contacts = joints.remember()
 		parallelCollide()
-		if contacts:
+		if divided and contacts:
 			contacts.put()
 
 	return collide
@@ -277,7 +277,7 @@ def install():
 	mpy.parallelCollide = _withCollider(mpy.parallelCollide)
 	mpy.checkAndCollide = _withIdleRanks(mpy.checkAndCollide)
 	mpy.sendRecvStates = _withStatesOfRankZero(mpy.sendRecvStates)
-	mpy.genLocalIntersections = _withNeighboursOfBoth(clumps.wholeClumps(mpy.genLocalIntersections))
+	mpy.genLocalIntersections = _withNeighboursOfBoth(clumps.wholeClumps(joints.keptByRanks(mpy.genLocalIntersections)))
 	mpy.reallocateBodiesToSubdomains, mpy.REALLOCATE_FILTER = reallocation.reallocate, reallocation.beyondTheMiddle
 	mpy.receiveForces = waiting.forForces(mpy.receiveForces)
 	mpy.MASTER_UPDATE_STATES = True

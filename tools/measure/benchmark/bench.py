@@ -202,7 +202,7 @@ def showExtras(run):
 
 
 def sizeGroup(run):
-	found = run.scenes.sizes(run.large)
+	found = run.scenes.sizes(run.large, run.output / 'settled')
 	describe(run, [(method, one) for methods in found.values() for method, one in methods.items()])
 	rows = []
 	for number, methods in found.items():

@@ -266,15 +266,15 @@ def main(request):
 	scene = heap(request)
 	empty = memoryInUse()
 	scene.build()
+	if request.method == 'spheres':
+		replaceBySpheres(scene)
 	if request.load:
 		loadState(request.load)
 	if request.method == 'potentialBlock':
 		empty = replaceByPeer(scene, toPotentialBlock, potentialBlockLoop)
 	elif request.method == 'polyhedra':
 		empty = replaceByPeer(scene, toPolyhedra, polyhedraLoop)
-	elif request.method == 'spheres':
-		replaceBySpheres(scene)
-	else:
+	elif request.method == 'ours':
 		askFor(scene, request)
 	bodies = memoryInUse()
 	started = time.perf_counter()

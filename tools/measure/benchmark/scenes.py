@@ -104,13 +104,22 @@ class Scenes:
 		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
-	def sizes(self, large):
-		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}}."""
+	def sizes(self, large, folder):
+		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}}.
+
+		:param folder: where the settled heaps are kept, so that a second run need not settle them
+		"""
 		numbers = (500, ) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
 		found = {}
+		folder.mkdir(exist_ok=True)
 		for number in tqdm(numbers, desc='settled heaps by size'):
-			heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True, 'settle': 8000, 'steps': 100 if number < 1e5 else 50}
-			found[number] = {method: self.run(method=method, **heap) for method in ('ours', 'spheres')}
+			heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True}
+			states = {method: folder / f'{number}-{method}.npz' for method in ('ours', 'spheres')}
+			for method, state in states.items():
+				if not state.exists():
+					self.run(threads=os.cpu_count(), method=method, settle=8000, save=str(state), steps=10, **heap)
+			# 300 steps: joints and pairs find what a saved state has not
+			found[number] = {method: self.run(method=method, settle=300, load=str(state), steps=100, **heap) for method, state in states.items()}
 		return found
 
 	def extras(self):
