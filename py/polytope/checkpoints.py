@@ -85,7 +85,7 @@ def continueFrom(fileName='checkpoint'):
 		_goOn(fileName)
 		return name
 	if names:
-		raise RuntimeError('fileName: no state can be read. ' + '; '.join(faults))
+		raise RuntimeError('fileName: no state can be read (one that another version of yade-polytope has written cannot be). ' + '; '.join(faults))
 	return None
 
 
