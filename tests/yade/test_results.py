@@ -157,9 +157,11 @@ def testResultsOfARunInWhichAScriptFailedAreNotTaken(root, tmp_path):
 
 
 def benchmark(folder):
-	"""results.json as `./run bench` writes it."""
+	"""results.json as `./run bench` writes it, of three groups; those that were kept before would stay beside them."""
+	(folder / 'docs/results/bench.json').unlink(missing_ok=True)
 	def target(measure, bound, ratio, met, ours='0.26 µs', peer='0.37 µs'):
-		return {'measure': measure, 'target': bound, 'ours': ours, 'peer': peer, 'ratio': ratio, 'met': met}
+		group = 'shapes' if measure.startswith('body') else 'scenes' if '200 falling' in measure else 'kernels'
+		return {'group': group, 'measure': measure, 'target': bound, 'ours': ours, 'peer': peer, 'ratio': ratio, 'met': met}
 
 	rows = [target('touching, warm, cube', '≤ 0.4 × libccd MPR', 0.39, True), target('touching, warm, octahedron', '≤ 0.4 × libccd MPR (2 wrong)', 0.57, False)]
 	rows += [target(f'conservative model, warm, {name}', 'reported, × paper\'s model', k, None) for name, k in (('cube', 1.44), ('sliver', 1.96), ('cube apart', 1), ('heap (4 % in contact)', 9))]
@@ -169,7 +171,7 @@ def benchmark(folder):
 	machine.update(loadAverage=[0.1, 0.1, 0.1], instructionSet='AVX-512', flags=[])
 	kernel = {'method': 'ours', 'set': 'cube', 'times': [1, 2, 3], 'median': 2, 'spread': 0.1, 'wrong': 0, 'pairs': 9, 'pivots': 1, 'iterations': 2, 'contacts': 1}
 	features = {'bodies': 2000, 'microseconds': {'nothing': 100, 'contact area': 130}}
-	found = {'quick': False, 'machine': machine, 'notes': ['coal is missing.'], 'targets': rows, 'kernels': {'measurements': [kernel]}, 'features': features}
+	found = {'groups': ['kernels', 'shapes', 'scenes'], 'quick': False, 'machine': machine, 'notes': ['coal is missing.'], 'targets': rows, 'kernels': {'measurements': [kernel]}, 'features': features}
 	(folder / 'results.json').write_text(json.dumps(found))
 
 
@@ -186,6 +188,24 @@ def testTheBenchmarkIsWrittenWithTheTargetsThatAreMissed(root, tmp_path):
 	assert 'before results were kept' not in text and 'not measured since' not in text
 	assert '83 to 214 times faster' in (root / 'README.md').read_text()
 	assert '"times"' not in (root / 'docs/results/bench.json').read_text()
+
+
+def testAGroupOfTheBenchmarkThatIsMeasuredAgainTakesThePlaceOfItsRows(root, tmp_path):
+	benchmark(tmp_path)
+	assert results('--take', 'bench', tmp_path, '--root', root)[0] == 0
+	found = json.loads((tmp_path / 'results.json').read_text())
+	row = {'group': 'shapes', 'measure': 'body of a known shape, cube', 'target': '< 15 µs here', 'ours': '12 µs', 'peer': '', 'ratio': None, 'met': True}
+	for part in ('kernels', 'features'):
+		del found[part]
+	found.update(groups=['shapes'], targets=[row], notes=[], machine={**found['machine'], 'revision': 'abcdef0123', 'date': '2026-11-25T08:00:00+00:00', 'instructionSet': None})
+	(tmp_path / 'results.json').write_text(json.dumps(found))
+	assert results('--take', 'bench', tmp_path, '--root', root)[0] == 0
+	text = (root / 'docs/performance.md').read_text()
+	assert '| body of a known shape: cube | < 15 µs here | 12 µs |  |  | 1 of 1 |' in text and '16 µs' not in text
+	assert '| touching, cold: stacked |' in text and '| contact area | +30 % |' in text
+	joined = ' '.join(text.split())
+	assert '4 of 5 targets met' in joined and 'Kernels, scenes: a machine, 2 cores; 2026-11-24; revision fedcba9' in joined
+	assert 'Shapes: a machine, 2 cores; 2026-11-25; revision abcdef0' in joined
 
 
 def testTheTradeOffIsWritten(root, tmp_path):

@@ -279,26 +279,30 @@ def main():
 	load = about['loadAverage'][0]
 	if load > 0.5:
 		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
-	rows, interrupted = [], False
+	rows, measured, interrupted = [], [], False
 	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup), strict=True):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:
-				rows += group(run)
+				rows += [dict(group=name, **dataclasses.asdict(row)) for row in group(run)]
+				measured.append(name)
 			except KeyboardInterrupt:
 				interrupted = True
 				run.note(f'interrupted in {name}: the results are those of what was measured before.')
 				break
-	table = [[row.measure, row.target, row.ours, row.peer, '' if math.isnan(row.ratio) else f'{row.ratio:.3g}', {True: 'yes', False: 'NO', None: ''}[row.met]] for row in rows]
+	table = [
+	        [row['measure'], row['target'], row['ours'], row['peer'], '' if math.isnan(row['ratio']) else f"{row['ratio']:.3g}", {True: 'yes', False: 'NO', None: ''}[row['met']]]
+	        for row in rows
+	]
 	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
-	judged = [row for row in rows if row.met is not None]
-	run.say(f'\n{sum(row.met for row in judged)} of {len(judged)} targets met')
+	judged = [row for row in rows if row['met'] is not None]
+	run.say(f'\n{sum(row["met"] for row in judged)} of {len(judged)} targets met')
 	for note in run.notes:
 		run.say('Note: ' + note)
-	run.results.update(targets=[dataclasses.asdict(row) for row in rows], notes=run.notes)
+	run.results.update(groups=measured, targets=rows, notes=run.notes)
 	(run.output / 'results.json').write_text(json.dumps(run.results, indent='\t', ensure_ascii=False, default=float).replace('NaN', 'null'))
 	(run.output / 'results.txt').write_text('\n'.join(run.text) + '\n')
-	writeCsv(run.output / 'targets.csv', [dataclasses.asdict(row) for row in rows])
+	writeCsv(run.output / 'targets.csv', rows)
 	writeCsv(
 	        run.output / 'heaps.csv', [
 	                {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of `./run bench`: all targets with what was measured, missed ones in bold, and what features cost."""
+"""Figures of `./run bench`: all targets with what was measured, missed ones in bold, and what features cost. Groups may be measured apart."""
 
 import itertools
 import json
@@ -10,21 +10,43 @@ from text import bold, origin, paragraph, short, table
 file = 'bench.json'
 ofScenes = ('InteractionLoop', 'time per body', 'time per contact', 'time of a step', 'a million bodies', 'memory', 'polytope.arrays', 'PolytopeVTKRecorder', 'O.save', 'O.load', 'checkpoint')
 ofBodies = ('body of', 'jointedRock')
+order = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
+"""Of the groups of `./run bench`."""
 
 
 def taken(source):
 	"""What is kept of the folder of a run: targets, medians, what features cost; not each repetition."""
 	found = json.loads((source / 'results.json').read_text())
 	machine = found['machine']
-	about = {
-	        'revision': machine['revision'] + '-dirty' * machine['changed'], 'date': machine['date'][:10], 'machine': machine['processor'],
+	run = {
+	        'groups': found['groups'], 'revision': machine['revision'] + '-dirty' * machine['changed'], 'date': machine['date'][:10], 'machine': machine['processor'],
 	        'cores': machine['cores'], 'load': round(machine['loadAverage'][0], 2), 'system': machine['system'], 'compiler': machine['compiler'],
 	        'instructionSet': machine.get('instructionSet'), 'quick': found['quick'], 'notes': found['notes'],
 	}
 	kept = ('method', 'set', 'median', 'spread', 'wrong', 'pairs', 'pivots', 'iterations', 'contacts')
 	kernels = [{key: one[key] for key in kept} for one in found.get('kernels', {}).get('measurements', [])]
-	parts = {'targets': found['targets'], 'kernels': kernels}
-	text = json.dumps({**about, 'features': found.get('features'), 'shapes': found.get('shapes')}, indent=' ', ensure_ascii=False)[:-2]
+	return _written({'features': found.get('features'), 'shapes': found.get('shapes'), 'runs': [run], 'targets': found['targets'], 'kernels': kernels})
+
+
+def withKept(text, path):
+	"""New results with those of the groups that were not measured with them; each run says its revision and date."""
+	new = json.loads(text)
+	if not path.exists():
+		return text
+	old, groups = json.loads(path.read_text()), new['runs'][0]['groups']
+	runs = [{**run, 'groups': [group for group in run['groups'] if group not in groups]} for run in old['runs']]
+	new['runs'] = [run for run in runs if run['groups']] + new['runs']
+	new['targets'] = [row for row in old['targets'] if row['group'] not in groups] + new['targets']
+	new['targets'].sort(key=lambda row: order.index(row['group']))
+	for name, group in (('features', 'scenes'), ('shapes', 'shapes'), ('kernels', 'kernels')):
+		if group not in groups:
+			new[name] = old[name]
+	return _written(new)
+
+
+def _written(found):
+	parts = {name: found[name] for name in ('runs', 'targets', 'kernels')}
+	text = json.dumps({name: found[name] for name in ('features', 'shapes')}, indent=' ', ensure_ascii=False)[:-2]
 	for name, rows in parts.items():
 		text += f',\n "{name}": [\n' + ',\n'.join('  ' + json.dumps(row, ensure_ascii=False) for row in rows) + '\n ]'
 	return text + '\n}\n'
@@ -98,11 +120,15 @@ def isPair(measure):
 
 
 def verdict(folder):
-	"""How many targets are met, on what machine, and what the run itself notes."""
+	"""How many targets are met, when and on what machine each group was measured, and what the runs themselves note."""
 	found = read(folder)
 	judged = [row for row in found['targets'] if row['met'] is not None]
-	notes = ''.join(f' {note[0].upper()}{note[1:]}' for note in found['notes'])
-	return paragraph(f'{sum(row["met"] for row in judged)} of {len(judged)} targets met; ratios that miss are **bold** ({origin(found)}; {found["compiler"]}; {found["instructionSet"]}; `docs/results/bench.json`).{notes}')
+	said = [f'{sum(row["met"] for row in judged)} of {len(judged)} targets met; ratios that miss are **bold** (`docs/results/bench.json`).']
+	for run in found['runs']:
+		about = '; '.join(filter(None, (origin(run), run['compiler'], run['instructionSet'])))
+		notes = ''.join(f' {note[0].upper()}{note[1:]}' for note in run['notes'])
+		said.append(f'{", ".join(run["groups"]).capitalize()}: {about}.{notes}')
+	return '\n\n'.join(map(paragraph, said))
 
 
 def faster(peer):
