@@ -9,13 +9,13 @@
 
 debianKeyring=/usr/share/keyrings/debian-archive-keyring.gpg
 
-# Runs a command in a namespace where mounts are its own and, for an ordinary user, where it is root over its own files.
-inNamespace() {
-	if [ "$(id -u)" -eq 0 ]; then
-		unshare --mount --propagation private "$@"
-	else
-		unshare --user --map-root-user --map-auto --mount --propagation private "$@"
-	fi
+# Runs a command in a namespace where mounts are its own and, for an ordinary user, where it is root over its own files. After `exec` in place of
+# this program.
+inNamespace() { # [exec] COMMAND ARGS…
+	local way=() user=()
+	if [ "$1" = exec ]; then way=(exec) && shift; fi
+	[ "$(id -u)" -eq 0 ] || user=(--user --map-root-user --map-auto)
+	"${way[@]}" unshare "${user[@]}" --mount --propagation private "$@"
 }
 
 # What making and entering a root needs; ends the run with the remedy where something is missing.
@@ -119,5 +119,5 @@ installInDebianRoot() {
 	APT_WAY=$(aptWay) inNamespace bash "$project/tools/installInRoot.sh" "$@"
 }
 
-# inDebianRoot FOLDER COMMAND ARGS…: in the same working folder, with the same paths
-inDebianRoot() { inNamespace bash "$project/tools/enterRoot.sh" "$@"; }
+# inDebianRoot FOLDER COMMAND ARGS…: in the same working folder, with the same paths, and in place of this program, so that a signal reaches the command
+inDebianRoot() { inNamespace exec bash "$project/tools/enterRoot.sh" "$@"; }

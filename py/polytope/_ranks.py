@@ -3,7 +3,16 @@
 
 from yade import O
 
-__all__ = ['eraseRanks', 'forgetDivision']
+__all__ = ['eraseRanks', 'forgetDivision', 'refuseDivided']
+
+
+def refuseDivided():
+	"""Before bodies are erased or made: yade.mpy ends with an error of its own if one rank does so alone.
+
+	:raises RuntimeError: the scene is divided on several processes
+	"""
+	if getattr(O, 'splitted', False):  # which yade.mpy sets
+		raise RuntimeError('O.bodies: the scene is divided on several processes; bodies break on rank 0, after polytope.mpi.merge()')
 
 
 def forgetDivision():

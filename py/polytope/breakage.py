@@ -5,6 +5,7 @@ import numbers
 
 from yade import O, Polytope, Quaternion, Vector3, _polytope
 
+from ._ranks import refuseDivided
 from .arguments import namedArguments, number, vector, vectors
 from .bodies import defaultCornerFraction, isotropyTolerance
 from .bonding import bonds
@@ -31,6 +32,7 @@ def split(id, normal, point=None, smallest=None):
 	:param float smallest: least inscribed radius of a piece [m]; default a thousandth of the body's
 	:returns: (id of the piece below the plane, id of the one on the side to which the normal points)
 	:raises ValueError: naming the argument and the remedy; then nothing is changed
+	:raises RuntimeError: the scene is divided on several processes (docs/mpi.md)
 	"""
 	body = _bodyOf(id)
 	normal, state, shape = vector(normal, 'normal'), body.state, body.shape
@@ -43,6 +45,7 @@ def split(id, normal, point=None, smallest=None):
 	least = thinnest * shape.inscribedRadius if smallest is None else number(smallest, 'smallest')
 	if not 0 <= least < float('inf'):
 		raise ValueError(f'smallest: must be a length, at least 0 [m], got {smallest!r}')
+	refuseDivided()
 	# from the body's centre: small numbers wherever it is
 	normals, offsets = [state.ori * one for one in shape.normals], list(shape.offsets)
 	pieces = [_piece(body, [*normals, side * normal], [*offsets, side * height], least) for side in (1, -1)]

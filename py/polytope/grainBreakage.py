@@ -7,6 +7,7 @@ import numbers
 import numpy as np
 from yade import O, Polytope
 
+from ._ranks import refuseDivided
 from .arguments import namedArguments, number, vector
 from .bonding import bonds
 from .breakage import split
@@ -53,6 +54,7 @@ def breakGrains(
 	:param float smallest: least inscribed radius of a piece [m]: grains that would leave a smaller one do not break; default as of split
 	:returns: dictionary: number of each grain that broke → numbers of its pieces
 	:raises ValueError: naming the argument
+	:raises RuntimeError: the scene is divided on several processes (docs/mpi.md)
 	"""
 	limits = np.array(
 		[_strength(value, name) for value, name in zip((tension, compression, shear, octahedral, vonMises), strengths, strict=True)]
@@ -60,6 +62,7 @@ def breakGrains(
 	if np.isinf(limits).all():
 		raise ValueError(f'tension: give at least one strength, of {", ".join(strengths)}')
 	factor = _sizeEffect(volume, modulus, probability, seed)
+	refuseDivided()
 	broken = {}
 	for k, stress in bodyStress(_breakable(ids)).items():
 		values, axes = np.linalg.eigh((stress + stress.T) / 2)

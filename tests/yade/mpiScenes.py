@@ -9,6 +9,7 @@ import os
 import random
 import sys
 import time
+import warnings
 
 import numpy as np
 import yade
@@ -91,7 +92,8 @@ def decomposed(start='start'):
 	load(start)
 	mpi.run(steps)
 	mpi.mpy.DOMAIN_DECOMPOSITION = False
-	return master and {**state(), 'counts': [sum(len(b.shape.ids) for b in O.bodies if b.isSubdomain and b.subdomain == k) for k in (1, 2)]}
+	ranks = list(mpi.division._ranksOfBodies.values())
+	return master and {**state(), 'counts': [ranks.count(k) for k in (1, 2)]}
 
 
 def clumpedDecomposed():
@@ -275,6 +277,34 @@ def shaken():
 	return found
 
 
+def edited():
+	"""Changed on rank 0 between two runs: a body is erased, one gets another velocity and a force, gravity another direction; then one is appended."""
+	load()
+	mpi.run(20)
+	if master:
+		free = [body for body in O.bodies if body.dynamic]
+		O.bodies.erase(free[3].id)
+		free[5].state.vel = (0.3, 0.2, 0.1)
+		O.forces.setPermF(free[7].id, Vector3(0, 0, 200))
+		next(engine for engine in O.engines if isinstance(engine, yade.NewtonIntegrator)).gravity = (1, 0, -9.81)
+		with warnings.catch_warnings():
+			warnings.simplefilter('error')
+			polytope.check(O)
+	mpi.run(20)
+	if master:
+		O.bodies.append(polytope.regular(6, radius, (0, 0, 1.6)))
+	mpi.divide()
+	mpi.run(20)
+	mpi.run(1, merged=False)
+	limit = mpi.leastOfRanks(polytope.stableTimeStep(default=1))
+	mpi.merge()
+	found = state()
+	if master:
+		found['bodies'] = dict(enumerate(found['bodies'].values()))  # the appended one's id depends on the number of ranks
+		found['limit'] = limit
+	return found
+
+
 def searched():
 	"""How often each rank has searched for pairs in twenty steps of cubes at rest side by side, with a fixed one and without."""
 	found = {}
@@ -334,7 +364,7 @@ def refused():
 		body.subdomain = 1 if body.dynamic else 0
 	O.bodies[member].subdomain = 2
 	saysNo('Body.subdomain')
-	load()
+	O.load(f'{folder}/start.yade', quiet=True)
 	O.periodic = True
 	saysNo('O.periodic')
 	return said

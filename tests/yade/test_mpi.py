@@ -33,7 +33,7 @@ sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
-moving = ['smooth', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken']
+moving = ['smooth', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
 
 def launch(ranks, *command):
@@ -266,6 +266,32 @@ def testARankThatFailsEndsTheRun(tmp_path):
 	script.write_text('from yade import *\nfrom yade import polytope\nfrom yade.polytope import mpi\n'
 	                  'if mpi.rank() == 1:\n\traise ValueError("on purpose")\nmpi.mpy.comm.barrier()\nmpi.mpy.comm.recv(source=1, tag=99)\n')
 	assert 'on purpose' in under(2, 'yade', '-n', '-x', str(script), fails=True)
+
+
+def testChangesOnRankZeroBetweenRunsAreHandedOut(found):
+	"""And a check of the merged scene finds nothing that would not be there on one process."""
+	one, several = found('edited', 1), found('edited', 3)
+	assert one['bodies'].keys() == several['bodies'].keys() and len(one['bodies']) == 24
+	assert max(farthest(one['bodies'][k][:7], several['bodies'][k][:7]) for k in one['bodies']) < 1e-12 * size
+	assert len(one['contacts']) == len(several['contacts'])
+	assert one['limit'] == pytest.approx(several['limit'], rel=1e-9) and 0 < one['limit'] < 0.1
+
+
+@pytest.mark.parametrize('program', [sys.executable, 'yade'])
+@pytest.mark.parametrize('script, says', [
+	('mpi.divide()\nif mpi.rank() == 0:\n\tmpi.run(5)\n', 'rank 0: polytope.mpi.run; rank 1: the end of the script'),
+	('mpi.divide()\nmpi.run(2)\nif mpi.rank() == 1:\n\tmpi.merge()\n', 'rank 0: the end of the script; rank 1: polytope.mpi.merge'),
+	('if mpi.rank() == 0:\n\tO.bodies[0].dynamic = False\nmpi.divide()\nmpi.run(2)\n', 'no body can move'),
+	('mpi.divide()\nO.engines = O.engines + [PyRunner(command="O.bodies.erase(0)", iterPeriod=3)]\nmpi.run(5)\n', 'on rank 0, after polytope.mpi.merge()'),
+	('mpi.divide()\nmpi.run(2)\nif mpi.rank() == 0:\n\tO.bodies.append(polytope.regular(6, 1, (5, 0, 0)))\nmpi.run(5)\n', 'call polytope.mpi.divide()'),
+])
+def testWhatWouldWaitOrCrashEndsWithAMessage(tmp_path, program, script, says):
+	name = tmp_path / 'script.py'
+	name.write_text('from yade import *\nfrom yade import O, PyRunner, RockJointMat, polytope\nfrom yade.polytope import mpi\n'
+	                'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
+	                '\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines(timeStepper=False)\n\tO.dt = 1e-4\n' + script)
+	options = ['-n', '-x'] if program == 'yade' else []
+	assert says in ' '.join(under(2, program, *options, str(name), fails=True).split())
 
 
 def testASceneThatIsNotDividedIsRefused(tmp_path):

@@ -9,7 +9,8 @@ from numbers import Integral
 
 from yade import O, mpy
 
-from . import bonds, clumps, division, recorders
+from .._ranks import eraseRanks
+from . import bonds, clumps, division, meeting, recorders
 from .division import shareTimeStep
 from .fields import arrays, stats
 
@@ -39,8 +40,9 @@ def divide(axis=0):
 		raise ValueError(f'axis: must be 0, 1 or 2, got {axis!r}')
 	if size() == 1:
 		return
+	meeting.at('polytope.mpi.divide')
 	merge()
-	division.handOut()
+	division.handOut()  # also one that was never divided
 	if rank() == 0:
 		moving = clumps.movers()
 		moving.sort(key=lambda body: body.state.pos[axis])
@@ -51,7 +53,7 @@ def run(steps, merged=True):
 	"""Runs steps on all ranks; every rank has to call it. With one process it is O.run(steps, wait=True).
 
 	PolytopeVTKRecorder, VTKRecorder and PolytopeCheckpoint in O.engines are called on rank 0 with the merged scene, between two steps, when their
-	periods have passed. A scene that was changed on rank 0 after a merge in a way that took steps (O.step, O.load) is handed out anew.
+	periods have passed. A merged scene is handed out anew, with all that was changed on rank 0.
 
 	:param int steps: how many
 	:param bool merged: whether rank 0 has the whole scene afterwards, to be measured, drawn and saved; takes time
@@ -62,8 +64,7 @@ def run(steps, merged=True):
 	if size() == 1:
 		O.run(int(steps), wait=True)
 		return
-	if not O.splitted and len(set(mpy.comm.allgather(O.iter))) > 1:
-		division.handOut()
+	meeting.at('polytope.mpi.run')
 	_record()
 	while steps > 0:
 		piece = mpy.comm.bcast(min(int(steps), recorders.stepsToNext()) if rank() == 0 else None)
@@ -80,15 +81,22 @@ def _record():
 	due = recorders.due() if rank() == 0 else None
 	if not mpy.comm.bcast(bool(due)):
 		return
-	merge()
+	if O.splitted:
+		mpy.mergeScene()  # workers keep their part, and go on with it
 	if rank() == 0:
 		recorders.record(due)
 
 
 def merge():
-	"""Brings the whole scene to rank 0; every rank has to call it. The next run() divides it again as it was."""
-	if size() > 1 and O.splitted:
-		mpy.mergeScene()
+	"""Brings the whole scene to rank 0; every rank has to call it. The next run() hands it out again: each body to the rank that it had, where that is not
+	changed by divide()."""
+	meeting.at('polytope.mpi.merge')
+	if size() == 1 or not O.splitted:
+		return
+	mpy.mergeScene()
+	division.handOut()
+	if rank() == 0:
+		eraseRanks()
 
 
 def sumOfRanks(number):
@@ -97,8 +105,9 @@ def sumOfRanks(number):
 
 
 def leastOfRanks(number):
-	"""The smallest of each rank's number, on every rank; every rank has to call it: ``mpi.leastOfRanks(polytope.stableTimeStep(O))``."""
+	"""The smallest of each rank's number, on every rank; every rank has to call it: ``mpi.leastOfRanks(polytope.stableTimeStep(default=1))``."""
 	return mpy.comm.allreduce(number, op=mpy.MPI.MIN) if size() > 1 else number
 
 
 division.install()
+meeting.install()

@@ -150,6 +150,8 @@ def check():
 		if isinstance(engine, yade.Recorder):
 			name = engine.__class__.__name__
 			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
+	if not clumps.movers():
+		raise RuntimeError('O.bodies: no body can move; a run on several processes divides those that can')
 	if mpy.DOMAIN_DECOMPOSITION:
 		return
 	ranks = [body.subdomain for body in clumps.movers()]
@@ -194,10 +196,19 @@ def _withNeighboursOfBoth(genLocalIntersections):
 	return generate
 
 
+def _refuseErased():
+	"""On a worker, before a merge: yade.mpy would send a body that is not there."""
+	erased = [k for k in O.subD.ids if O.bodies[k] is None]
+	if erased:
+		raise RuntimeError(f'O.bodies: body {erased[0]} was erased while the scene was divided; erase and append bodies on rank 0, after polytope.mpi.merge()')
+
+
 def _withBodiesOfRankZero(mergeScene):
 	@functools.wraps(mergeScene)
 	def merge():
 		merges = O.splitted
+		if merges and mpy.rank > 0:
+			_refuseErased()
 		states = bonds.states() if merges else None
 		mergeScene()
 		if merges:
@@ -271,6 +282,7 @@ def install():
 	"""Sets the functions of yade.mpy, once."""
 	if hasattr(mpy, 'bodiesAreOurs'):
 		return
+	vars(sys.modules['__main__']).setdefault('sys', sys)  # commands of yade.mpy's engines are run among the script's names, and need it
 	mpy.typedEngine = _typedEngine
 	mpy.splitScene = _prepared(mpy.splitScene)
 	mpy.mergeScene = _withBodiesOfRankZero(mpy.mergeScene)

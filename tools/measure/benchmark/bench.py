@@ -202,8 +202,17 @@ def showExtras(run):
 
 
 def sizeGroup(run):
-	found = run.scenes.sizes(run.large, run.output / 'settled')
-	describe(run, [(method, one) for methods in found.values() for method, one in methods.items()])
+	settled, loaded = run.scenes.sizes(run.large)
+	for name, found in (('', settled), (', loaded', loaded)):
+		describe(run, [(method + name, one) for methods in found.values() for method, one in methods.items()])
+		run.say(engineTable('settled bodies' + name, found) + '\n')
+	if not run.large:
+		run.note('sizes without --large: heaps of 100 000 are left out.')
+	return targets.sizeRows(settled, loaded)
+
+
+def engineTable(title, found):
+	"""What each engine takes, {number: {method: result}}."""
 	rows = []
 	for number, methods in found.items():
 		each = {method: {name: [row['engines'][name] for row in one['rows']] for name in one['rows'][0]['engines']} for method, one in methods.items()}
@@ -211,10 +220,7 @@ def sizeGroup(run):
 		for (name, ours), (peer, spheres) in zip(each['ours'].items(), each['spheres'].items(), strict=True):
 			cost = [1e6 * statistics.fmean(times) / methods[method]['bodies'] for method, times in (('ours', ours), ('spheres', spheres))]
 			rows.append([number, name if name == peer else f'{name}, {peer}', *cost, cost[0] / cost[1]])
-	run.say(tabulate(rows, ['settled bodies', 'engine', 'cubes, µs/body and step', 'spheres', 'ratio'], floatfmt='.3f') + '\n')
-	if not run.large:
-		run.note('sizes without --large: heaps of 100 000 are left out.')
-	return targets.sizeRows(found)
+	return tabulate(rows, [title, 'engine', 'cubes, µs/body and step', 'spheres', 'ratio'], floatfmt='.3f')
 
 
 def scaleGroup(run):

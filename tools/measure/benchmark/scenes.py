@@ -104,23 +104,19 @@ class Scenes:
 		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
-	def sizes(self, large, folder):
-		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}}.
-
-		:param folder: where the settled heaps are kept, so that a second run need not settle them
-		"""
+	def sizes(self, large):
+		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}} twice. First in the run in which they have settled:
+		contacts that came and went lie anywhere in memory. Then loaded by a new process, where they lie one after the other."""
 		numbers = (500, ) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
-		found = {}
-		folder.mkdir(exist_ok=True)
-		for number in tqdm(numbers, desc='settled heaps by size'):
-			heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True}
-			states = {method: folder / f'{number}-{method}.npz' for method in ('ours', 'spheres')}
-			for method, state in states.items():
-				if not state.exists():
-					self.run(threads=os.cpu_count(), method=method, settle=8000, save=str(state), steps=10, **heap)
-			# 300 steps: joints and pairs find what a saved state has not
-			found[number] = {method: self.run(method=method, settle=300, load=str(state), steps=100, **heap) for method, state in states.items()}
-		return found
+		settled, loaded = {}, {}
+		with tempfile.TemporaryDirectory() as folder:
+			for number in tqdm(numbers, desc='settled heaps by size'):
+				heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True, 'steps': 100}
+				states = {method: f'{folder}/{number}-{method}.npz' for method in ('ours', 'spheres')}
+				settled[number] = {method: self.run(method=method, settle=8000, save=state, **heap) for method, state in states.items()}
+				# 300 steps: joints and pairs find what a saved state has not
+				loaded[number] = {method: self.run(method=method, settle=300, load=state, **heap) for method, state in states.items()}
+		return settled, loaded
 
 	def extras(self):
 		"""The settled cubes once more from the same state, with optional features: {what: result}."""

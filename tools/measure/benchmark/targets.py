@@ -155,14 +155,19 @@ def settledRows(found):
 	return [atMost(f'InteractionLoop per contact, settled heap of {number} cubes', 4, "YADE's spheres", ours, spheres)]
 
 
-def sizeRows(found):
+def sizeRows(settled, loaded):
 	rows = []
-	for number, methods in found.items():
-		ours, spheres = (1e6 * median(methods[key]['perBody']) for key in ('ours', 'spheres'))
-		rows.append(atMost(f'time per body and step, settled heap of {number} cubes', 1.5, "YADE's spheres", ours, spheres))
+	for number, methods in settled.items():
+		rows.append(atMost(f'time per body and step, settled heap of {number} cubes', 1.5, "YADE's spheres", *perBody(methods)))
 		ours, spheres = (1e6 * median([row['step'] / row['contacts'] for row in methods[key]['rows']]) for key in ('ours', 'spheres'))
 		rows.append(reported(f'time per contact and step, settled heap of {number} cubes', "YADE's spheres", ours, spheres))
+	rows += [reported(f'time per body and step, heap of {number} cubes as loaded', "YADE's spheres", *perBody(methods)) for number, methods in loaded.items()]
 	return rows
+
+
+def perBody(methods):
+	"""Ours and the spheres' [µs]."""
+	return [1e6 * median(methods[key]['perBody']) for key in ('ours', 'spheres')]
 
 
 def scaleRows(found):
