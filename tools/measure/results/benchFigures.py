@@ -126,16 +126,16 @@ def verdict(folder):
 	said = [f'{sum(row["met"] for row in judged)} of {len(judged)} targets met; ratios that miss are **bold** (`docs/results/bench.json`).']
 	for run in found['runs']:
 		about = '; '.join(filter(None, (origin(run), run['compiler'], run['instructionSet'])))
-		notes = ''.join(f' {note[0].upper()}{note[1:]}' for note in run['notes'])
+		notes = ''.join(f' {note[0].upper()}{note[1:]}' for note in run['notes'] if 'the machine was busy' not in note)  # origin says so
 		said.append(f'{", ".join(run["groups"]).capitalize()}: {about}.{notes}')
 	return '\n\n'.join(map(paragraph, said))
 
 
 def faster(peer):
-	"""Times faster than YADE's shape, for each pair of 200 falling solids: least to most."""
+	"""Times faster than YADE's shape, the loop of 200 falling solids: least to most."""
 
 	def figure(folder):
-		rows = [row for row in read(folder)['targets'] if row['measure'].startswith('InteractionLoop per pair, 200 falling') and row['target'].endswith(peer)]
+		rows = [row for row in read(folder)['targets'] if row['measure'].startswith('InteractionLoop per step, 200 falling') and row['target'].endswith(peer)]
 		if not rows:
 			raise ValueError(f'{file}: no comparison with {peer}: run all groups of ./run bench')
 		return f'{min(row["ratio"] for row in rows):.0f} to {max(row["ratio"] for row in rows):.0f} times faster'
