@@ -45,4 +45,6 @@ def environment(precision):
 	"""Environment of a process in which `import yade` is YADE in this precision; one thread unless OMP_NUM_THREADS says more."""
 	package, _ = _folders(precision)
 	others = [path for path in os.environ.get('PYTHONPATH', '').split(os.pathsep) if path and pathlib.Path(path).parent.name[:5] != 'yade-']
-	return {'OMP_NUM_THREADS': '1', **os.environ, 'PYTHONPATH': os.pathsep.join([str(package), *others])}
+	# started by a rank of mpirun, it must not take itself for that rank
+	own = {name: value for name, value in os.environ.items() if not name.startswith(('OMPI_', 'PMIX_', 'PRTE_', 'PMI_'))}
+	return {'OMP_NUM_THREADS': '1', **own, 'PYTHONPATH': os.pathsep.join([str(package), *others])}
