@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeGeom.hpp"
 
+#include <src/numbers/Rotation.hpp>
+
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
@@ -39,6 +41,20 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point2    = memory.point[1];
 	level     = memory.level;
 	direction = hasPoint ? memory.dualDirection : memory.weights;
+}
+
+boost::python::list PolytopeGeom::outlineCorners() const
+{
+	boost::python::list corners;
+	const Real          n[3] = { normal[0], normal[1], normal[2] };
+	const auto          axes = polytope::axesAround<Real, 3>(n);
+	for (int k = 0; k < outline.count(); ++k) {
+		Vector3r corner = contactPoint;
+		for (int i = 0; i < 3; ++i)
+			corner[i] += outline.corners()[k][0] * axes.m[0][i] + outline.corners()[k][1] * axes.m[1][i];
+		corners.append(corner);
+	}
+	return corners;
 }
 
 polytope::InternalPlanes PolytopeGeom::internalPlanes() const
@@ -167,7 +183,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 
 	auto&                     geom     = geometry(c);
 	polytope::ContactSettings settings = settingsOfLoop();
-	settings.section   = computeArea || geom.needsArea || areaUsers_.in(*scene) || !wasReal; // a new contact's physics may need it now
+	settings.section   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.outline   = geom.needsArea || !wasReal;
 	settings.depthRule = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;
@@ -244,6 +261,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea     = result.area;
 	geom.barrierValue    = result.barrierValue;
 	geom.rockingArm      = result.rockingArm;
+	geom.outline.set(result.outline, result.outlineCount);
 	const bool hasEnergy = settings_.contactModel == polytope::ContactModel::Conservative
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "AreaUsers.hpp"
+#include "StiffnessRules.hpp"
 #include "BondsOfScene.hpp"
 #include "CandidateMemory.hpp"
 #include "ContactCounters.hpp"
 #include "FlatArchive.hpp"
 #include "Polytope.hpp"
 #include "Seldom.hpp"
+#include "StoredOutline.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -42,6 +43,8 @@ public:
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
+	/// Of the contact area, for rock joints between polyhedra.
+	StoredOutline outline;
 
 	polytope::PairMemory memory() const;
 	/// A basis of planes beyond the 32767th is not kept: the next step starts without one.
@@ -49,6 +52,8 @@ public:
 	/// Planes that neighbours cover (InternalFaces.hpp), as internalFaces has them.
 	polytope::InternalPlanes internalPlanes() const;
 	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
+	/// Corners of the outline in the world.
+	boost::python::list      outlineCorners() const;
 	std::string              statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
@@ -59,7 +64,7 @@ public:
 		((std::int8_t, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
 		((bool, hasBasis, false, (Attr::readonly | Attr::hidden), "Whether the basis is known"))
 		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
-		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`; set when they are made. A law that uses it for all contacts is found by the geometry functor."))
+		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as those of rock joints do; set when they are made."))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of a stiffness per contact that this contact has [-]: less than 1 where the other body is one of several pieces of a rigid support that lie flush (fixed bodies, members of a clump), by the areas on each piece. A stiffness per area does not need it."))
@@ -75,6 +80,7 @@ public:
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
+		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and until the next step after loading a scene.")
 		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (normal *innerPotential*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both, or with *dualWeights* where the weights cancel to rounding: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies); *failed* (last step's geometry is kept).)""")
 	);
 	// clang-format on
@@ -175,7 +181,6 @@ protected:
 
 private:
 	polytope::ContactSettings    settings_;
-	AreaUsers                    areaUsers_;
 	BondsInStep                  bonds_;
 	CandidateMemory              candidates_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());

@@ -9,7 +9,7 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
-#include "AreaUsers.hpp"
+#include "StiffnessRules.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJointLaw.hpp"
 #include "RockJointPhysics.hpp"
@@ -57,20 +57,20 @@ namespace {
 		return area;
 	}
 
-	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking included. `second`: ∫ r rᵀ dA / A of the face where its force is that of a
-	/// pressure (MeanDepth.hpp); else the contact is one at the analytic centre.
+	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking and twisting included. `second`: ∫ r rᵀ dA / A of the face; `pressed`:
+	/// whether its force is that of a pressure (MeanDepth.hpp), else the contact is one at the analytic centre.
 	Real unitOfFace(const polytope::ConvexShape& shape, const Matrix3r& axes, const Vector3r& normal, const Vector3r& middle,
-	        const Vector3r& centre, const polytope::Mobility& mobility, const Matrix3r* second)
+	        const Vector3r& centre, const polytope::Mobility& mobility, const Matrix3r& second, bool pressed)
 	{
 		const Real               depth = polytope::tolerance::potentialDepth * shape.inscribedRadius();
 		const Vector3r           point = middle - depth / 2 * normal; // from the part's centre
 		polytope::ContactSprings springs;
 		springs.normal          = -normal;
 		springs.normalStiffness = springs.shearStiffness = 1;
-		if (second) {
-			Matrix3r turn;
-			turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
-			springs.rockingStiffness = turn * *second * turn.transpose();
+		if (shape.dimension() == 3) springs.twistingStiffness = second.trace();
+		if (pressed) {
+			const Matrix3r turn      = polytope::crossMatrix(normal);
+			springs.rockingStiffness = turn * second * turn.transpose();
 		} else {
 			const auto floor         = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
 			springs.rockingStiffness = depth
@@ -196,15 +196,15 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 		for (int vertex : hull.faces[k])
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
 		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
-		const auto     take   = [&](const Matrix3r* pressure, Real& highest, Place& taken) {
-                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, pressure), middle.norm(),
+		const auto     take   = [&](bool pressed, Real& highest, Place& taken) {
+                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed), middle.norm(),
                                 area.norm() };
                         if (!(place.unit * place.area > highest)) return;
                         highest = place.unit * place.area;
                         taken   = place;
 		};
-		take(nullptr, worst, part.face);
-		take(&second, worstPressed, part.pressedFace);
+		take(false, worst, part.face);
+		take(true, worstPressed, part.pressedFace);
 	}
 	return known = part;
 }

@@ -101,9 +101,16 @@ Real RockJointPhys::shearStrength(Real normal) const
 	return strength > 0 ? strength : Real(0);
 }
 
-Real RockJointPhys::storedEnergy(Real normalEnergy, const Vector3r& shear) const
+Real RockJointPhys::shearEnergy() const
 {
-	return normalEnergy + (ks > 0 ? shear.squaredNorm() / (2 * ks) : Real(0));
+	const Vector3r force = shearForce - shearViscous;
+	const Real     twist = twistingMoment - twistingViscous;
+	Real           bed   = ks > 0 ? force.squaredNorm() / (2 * ks) : Real(0);
+	if (const LayersOfJoint* several = shearLayers.get()) { // their mean is the force's
+		const Real area = several->layers.area(), mean = several->layers.sum().squaredNorm() / (2 * area);
+		if (contactArea > 0) bed += ks / contactArea * (several->layers.energy() - mean);
+	}
+	return bed + (twistingStiffness > 0 ? twist * twist / (2 * twistingStiffness) : Real(0));
 }
 
 } // namespace yade

@@ -11,6 +11,8 @@
 #include "PolytopeBond.hpp"
 #include "Seldom.hpp"
 
+#include <src/shear/ShearLayers.hpp>
+
 /// Rock joints between Polytopes: material and contact physics.
 ///
 /// Signs: forces are those on body 2 from body 1 (as everywhere in YADE), the normal points from body 1 to body 2, so a
@@ -60,13 +62,25 @@ REGISTER_SERIALIZABLE(RockJointMat);
 /// What the law remembers of a joint's last step where energies are tracked.
 struct LastStepOfJoint {
 	Vector3r arm1 = Vector3r::Zero(), arm2 = Vector3r::Zero(); ///< from the bodies' centres to the contact point
+	Vector3r moment = Vector3r::Zero();                        ///< on body 2 about the contact point, without the rocking damper's
 	Real     stored = -1;                                      ///< energy; negative: was not tracked
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
 		archive& BOOST_SERIALIZATION_NVP(arm1);
 		archive& BOOST_SERIALIZATION_NVP(arm2);
+		archive& BOOST_SERIALIZATION_NVP(moment);
 		archive& BOOST_SERIALIZATION_NVP(stored);
+	}
+};
+
+/// When the springs of a joint's bed came under load (src/shear/ShearLayers.hpp), where not all at once.
+struct LayersOfJoint {
+	polytope::ShearLayers layers;
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		visitParts(layers, [&](const char* name, auto& value) { archive& boost::serialization::make_nvp(name, value); });
 	}
 };
 
@@ -75,6 +89,7 @@ public:
 	virtual ~RockJointPhys() = default;
 
 	using LastStep = Seldom<LastStepOfJoint>;
+	using Layers   = Seldom<LayersOfJoint>;
 
 	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact times the share that
 	/// the contact has of it (PolytopeGeom::share).
@@ -91,14 +106,24 @@ public:
 	void losesTension();
 	/// Whether it acts as a bond of its faces, or will once they lie on each other (RockJointBond.cpp).
 	bool mayActAsBond() const { return bond || (intact && tensileStrength > 0 && normalStiffness > 0 && shearStiffness > 0); }
-	/// Moment on body 2 of the joint's own bond [N m].
-	Vector3r bondMoment() const { return bond ? bond->moment : Vector3r(Vector3r::Zero()); }
+	/// Moment on body 2 about the contact point, of the joint's own bond or of its shear bed [N m].
+	Vector3r momentAbout(const Vector3r& contactPoint, const Vector3r& normal) const
+	{
+		return bond ? bond->moment : Vector3r((shearPoint - contactPoint).cross(shearForce) + twistingMoment * normal);
+	}
+	/// Shear acts at this point, without a moment.
+	void shearAt(const Vector3r& point)
+	{
+		shearPoint     = point;
+		twistingMoment = twistingViscous = twistingStiffness = 0;
+		shearLayers.clear();
+	}
 	/// Whether the joint can carry a tensile force [N].
 	bool bearsTension(Real force) const;
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
-	/// ½ fₙ²/kₙ + ½ |fₛ|²/kₛ of the given elastic parts [J].
-	Real storedEnergy(Real normalEnergy, const Vector3r& shear) const;
+	/// Of the springs of the shear bed [J].
+	Real shearEnergy() const;
 
 	/// NormPhys' and NormShearPhys' attributes; of a joint with stiffness per contact they are set for good.
 	Real getKn() const { return kn; }
@@ -119,7 +144,13 @@ public:
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))
-		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`. Where a bond has failed (:yref:`PolytopeBonds`): minus the overlap with which it was made."))
+		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
+		((Real, restOverlap, 0, Attr::readonly, "Overlap at which the joint has no normal force [m], taken from :yref:`penetrationDepth<ScGeom.penetrationDepth>`: where a bond has failed (:yref:`PolytopeBonds`) the overlap with which it was made, else 0."))
+		((Vector3r, shearPoint, Vector3r::Zero(), Attr::readonly, "Point through which the shear force acts [m]: the centroid of the contact area, a joint being a bed of shear springs over it. The normal force acts at the contact point, the centroid of the pressure."))
+		((Real, twistingMoment, 0, Attr::readonly, "Moment of the shear bed on body 2 about the normal at :yref:`shearPoint<RockJointPhys.shearPoint>`, viscous part included [N·m]; body 1 gets the opposite."))
+		((Real, twistingViscous, 0, Attr::readonly, "Viscous part of :yref:`twistingMoment<RockJointPhys.twistingMoment>` [N·m]."))
+		((Real, twistingStiffness, 0, Attr::readonly, "Stiffness of the bed against turning about the normal, :yref:`ks<NormShearPhys.ks>` times the mean square of the distance from the area's centroid [N·m/rad]; 0 for polygons and spheres."))
+		((Layers, shearLayers, , (Attr::readonly | Attr::hidden), "Displacement of the bed's springs by when they joined; none: all alike"))
 		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than the bodies have moved."))
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
 		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
@@ -132,6 +163,7 @@ public:
 		, /*ctor*/ createIndex();
 		, /*py*/
 		.add_property("kn", &RockJointPhys::getKn, &RockJointPhys::setKn, "Present normal stiffness [N/m].")
+		.add_property("shearEnergy", &RockJointPhys::shearEnergy, "Elastic energy of the shear bed [J]; viscous forces are left out.")
 		.add_property("ks", &RockJointPhys::getKs, &RockJointPhys::setKs, "Present shear stiffness [N/m].")
 	);
 	// clang-format on

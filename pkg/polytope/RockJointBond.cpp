@@ -78,14 +78,14 @@ namespace {
 /// Force and moment of the joint's bond in this step, which is made where the faces have come to lie on each other. False where there is none, or
 /// it fails in this step: then the joint acts without it.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
-        Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& increment)
+        Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& elasticShear)
 {
 	const Pair     pair(contact, geom, scene);
-	const Vector3r shift = pair.shift2();
+	const Vector3r shift     = pair.shift2();
+	const Vector3r increment = geom.shearIncrement();
 	if (!phys.intact || !(phys.tensileStrength > 0)) phys.bond.reset(); // a script has changed them
 	else if (!phys.bond)
-		phys.bond = bondOfFaces(
-		        contact, *pair.body1, *pair.body2, shift, geom.normal, phys, last.shear.force - last.shear.stiffness * increment);
+		phys.bond = bondOfFaces(contact, *pair.body1, *pair.body2, shift, geom.normal, phys, elasticShear - phys.ks * increment);
 	if (!phys.bond) return false;
 
 	PolytopeBond& bond = *phys.bond;
@@ -102,6 +102,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	if (parted || sheared) {
 		if (sheared) phys.fail();
 		else phys.losesTension();
+		phys.shearPoint     = bond.point;
+		phys.twistingMoment = bond.moment.dot(normal);
 		phys.bond.reset();
 		return false;
 	}
@@ -115,6 +117,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	phys.normalForce            = (elastic + viscous) * normal;
 	phys.shearViscous           = shearViscous;
 	phys.shearForce             = shear + shearViscous;
+	phys.shearAt(bond.point);
 	if (rockingDamping > 0) phys.rockingMoment = rockingDamper(atBond, phys, std::numeric_limits<Real>::infinity());
 	if (!apply(atBond, phys)) return true;
 

@@ -22,11 +22,12 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	if (!energiesNamed_) nameEnergies();
 	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
 	const Vector3r        force  = phys.normalForce + phys.shearForce;
+	const Vector3r        moment = phys.momentAbout(pair.geom.contactPoint, pair.geom.normal);
 	const Real            given  = scene->dt / 2
 	        * ((last.force + force).dot(pair.centreVelocity())
 	                + (before.arm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)
 	                - (before.arm1.cross(last.force) + pair.arm1.cross(force)).dot(pair.state1.angVel)
-	                + (last.bondMoment + phys.bondMoment()).dot(pair.spin()));
+	                + (before.moment + moment).dot(pair.spin()));
 	// a contact that was there before tracking was switched on has no last step to compare with
 	const bool known = before.stored >= 0 || pair.contact.iterMadeReal == scene->iter;
 	Real       rest  = 0;
@@ -39,7 +40,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	add(normalViscosity, work.normalDamping + work.rockingDamping);
 	add(shearViscosity, work.shearDamping);
 	add(work.fractured ? fracture : nonconservative, rest);
-	phys.lastStep.make() = { pair.arm1, pair.arm2, work.stored };
+	phys.lastStep.make() = { pair.arm1, pair.arm2, moment, work.stored };
 }
 
 } // namespace yade

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "RockJointStep.hpp"
+#include "RockJointShear.hpp"
 
 namespace yade {
 
@@ -7,31 +7,10 @@ YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
 
 namespace {
 
-	/// Carries a tangent vector along with the contact: Eq. 18 and the twist, without their second-order change of length.
-	void turnWithContact(const ScGeom& geom, Vector3r& tangent)
-	{
-		const Real before = tangent.squaredNorm();
-		if (before == 0) return;
-		geom.rotate(tangent);
-		tangent -= geom.normal.dot(tangent) * geom.normal;
-		const Real after = tangent.squaredNorm();
-		if (after > 0) tangent *= math::sqrt(before / after);
-	}
-
-	/// Largest t ≤ 1 with |force + t·added| ≤ limit, for |force| ≤ limit.
-	Real fractionWithin(Real limit, const Vector3r& force, const Vector3r& added)
-	{
-		if ((force + added).squaredNorm() <= limit * limit) return 1;
-		const Real a = added.squaredNorm(), b = force.dot(added), c = limit * limit - force.squaredNorm();
-		if (!(a > 0 && c > 0)) return 0;
-		const Real root = math::sqrt(b * b + a * c);
-		return b > 0 ? c / (b + root) : (root - b) / a;
-	}
-
 	/// Energy of the normal spring; a conservative contact's geometry has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
-		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0)
+		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0 && phys.restOverlap == 0)
 			return phys.kn * geom.energyPerStiffness;
 		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
 	}
@@ -47,35 +26,34 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
 	turnWithContact(geom, elasticShear);
 	turnWithContact(geom, phys.slip);
-	const Last last(phys, elasticShear, geom.normal);
-	phys.followsBond         = false;
-	const Vector3r increment = geom.shearIncrement();
-	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, increment)) return true;
+	const Last last(phys, geom.normal);
+	phys.followsBond = false;
+	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, elasticShear)) return true;
+	Shear shear(pair, phys, elasticShear);
 
 	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
 	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
 	phys.setStiffnesses(geom.share);
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
+	shear.adapt(phys);
+	shear.move(geom.shearIncrement());
 
-	const Vector3r trial         = last.shear.forceWith(phys.ks) - phys.ks * increment;
-	const Real     elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation);
-	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, trial);
+	const Real elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation - phys.restOverlap);
+	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, shear);
 	const Real viscous = normalDamping > 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
-	Vector3r shear = trial;
 	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
 	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
-	if (normal <= 0 && shear.squaredNorm() < shown * shown) shear = Vector3r::Zero();
-	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, trial);
+	if (normal <= 0 && shear.force().squaredNorm() < shown * shown) shear.vanish();
+	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, shear);
 	if (last.wasBond) phys.slip = Vector3r::Zero();
-	const Vector3r shearViscous = shearDamping > 0 && !phys.isSliding ? shearDamper(pair, phys, normal, shear) : Vector3r::Zero();
+	if (shearDamping > 0 && !phys.isSliding) shear.damp(phys, normal, shearDamping * pair.criticalDamping(phys.ks));
 
 	phys.normalViscous = viscous * geom.normal;
 	phys.normalForce   = normal * geom.normal;
-	phys.shearViscous  = shearViscous;
-	phys.shearForce    = shear + shearViscous;
+	shear.keep(phys);
 	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
 		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
 	if (!apply(pair, phys)) return true;
@@ -85,33 +63,28 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		StepWork   work;
 		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
 		work.fractured      = last.wasBond || last.actedAsBond;
-		work.plastic        = last.wasBond ? Real(0) : last.shear.loss(phys.ks, trial, shear) - lifting;
+		work.plastic        = last.wasBond ? Real(0) : shear.loss() - lifting;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
-		work.shearDamping   = -(last.shearViscous + shearViscous).dot(increment) / 2;
-		work.stored         = phys.storedEnergy(normalEnergy(geom, phys, elasticNormal), shear);
+		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
+		work.stored         = normalEnergy(geom, phys, elasticNormal) + shear.energy();
 		book(pair, phys, last, work);
 	}
 	return true;
 }
 
 /// Brings the trial shear force back to the strength; an intact joint fails there. False if that leaves it open.
-bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys, Real normal, Vector3r& shear) const
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys, Real normal, Shear& shear) const
 {
-	Real       strength = phys.shearStrength(normal);
-	const Real square   = shear.squaredNorm();
-	phys.isSliding      = square > strength * strength;
-	if (phys.isSliding && phys.intact) {
+	if (phys.intact) {
+		Shear asIntact(shear);
+		phys.isSliding = asIntact.limit(phys, normal);
+		if (!phys.isSliding) return true;
 		phys.fail();
 		if (normal < 0) return false;
-		strength       = phys.shearStrength(normal);
-		phys.isSliding = square > strength * strength;
 	}
-	if (phys.isSliding) {
-		const Vector3r excess = (1 - strength / math::sqrt(square)) * shear;
-		shear -= excess;
-		phys.slide(excess);
-	}
+	phys.isSliding = shear.limit(phys, normal);
+	if (phys.isSliding) phys.slide(shear.excess());
 	return true;
 }
 
@@ -123,7 +96,7 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair,
 	return takesTension ? viscous : math::max(viscous, -elastic);
 }
 
-/// Viscous shear force on body 2, at most to the strength.
+/// Viscous shear force of a joint that acts as a bond, on body 2, at most to the strength.
 Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
         const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
 {
@@ -151,10 +124,12 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& 
 /// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
-	const Vector3r force = phys.normalForce + phys.shearForce, moment = phys.rockingMoment + phys.bondMoment();
+	const Vector3r force = phys.normalForce + phys.shearForce, 
+	               moment = phys.rockingMoment + phys.momentAbout(pair.geom.contactPoint, pair.geom.normal);
 	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
 		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
 		        = Vector3r::Zero();
+		phys.shearAt(pair.geom.contactPoint);
 		++nonFinite_;
 		return false;
 	}
@@ -168,15 +143,17 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 }
 
 /// The joint is open: no force, and tangential motion counts as slip, as does the spring's elastic displacement. False ends the contact.
-bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial)
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear)
 {
 	StepWork work;
 	work.fractured = phys.intact || last.wasBond || last.actedAsBond;
+	phys.slide(shear.trialForce());
+	shear.vanish();
 	if (phys.intact) phys.fail();
-	else if (!last.wasBond) work.plastic = last.shear.loss(phys.ks, trial, Vector3r::Zero());
-	phys.slide(trial);
+	else if (!last.wasBond) work.plastic = shear.loss();
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
-	phys.isSliding                                                                                   = false;
+	phys.shearAt(pair.geom.contactPoint);
+	phys.isSliding = false;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStep.clear();
 	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "AreaUsers.hpp"
-
 #include <core/Dispatching.hpp>
 
 #include <array>
@@ -16,12 +14,13 @@ namespace yade {
 class PolytopeGeom;
 class RockJointPhys;
 
-class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor, public UsesContactArea {
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb : public LawFunctor {
 public:
+	class Shear;
+
 	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* contact) override;
 	/// Refuses negative damping, naming the attribute, and restores the last good values.
 	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
-	bool usesContactArea() const override { return rockingDamping > 0; }
 	Real ratioSlidingContacts() const;
 	long nonFiniteForces() const { return nonFinite_; }
 	FUNCTOR2D(PolytopeGeom, RockJointPhys);
@@ -31,16 +30,16 @@ public:
 
 * Normal force $f_n=k_n(u_n+u_d)$, with the :yref:`penetrationDepth<ScGeom.penetrationDepth>` $u_n$ and the :yref:`dilation<RockJointPhys.dilation>` $u_d$. Compression without limit; tension while the joint is intact and $-f_n\le\sigma_t A$. When $u_n+u_d<0$ otherwise, the contact ends; one that has lost its strength, or has slipped and dilates, is kept without force as long as the gap is smaller than the bodies, so that it regains no strength and keeps its dilation when it closes. The area is that of the last overlap while the bodies are apart.
 * An intact joint with tensile strength and a stiffness per area holds over the whole area of its two faces, however it is tilted: from the step in which the faces lie on each other it is a bond (:yref:`RockJointPhys.bond`, docs/bonds.md) without force where they are flush, whose stress at the edge, too, must stay below $\\sigma_t$ and whose shear stress below $c-\\sigma\\tan\\phi$. Where the former fails the tensile strength is lost (with it the friction angle becomes the residual one, if there is no cohesion), where the latter fails the joint does.
-* The shear force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length), then incremented by $-k_s\Delta\vec u_s$ from the relative velocity at the contact point. Stiffness per area is a bed of springs, $k_s=k_s'A$: the force of those that leave a shrinking area is lost, $\vec f_s$ falls with $A$ and the elastic displacement $\vec f_s/k_s$ is unchanged; those that join a growing area are unstrained, $\vec f_s$ is unchanged. Neither creates energy.
-* Strength $|\vec f_s|\le cA+f_n\tan\phi$. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
+* Shear is a bed of springs over the outline of the contact area (docs/contact-force.md). Faces are rigid: its state is a force $\vec f_s$ at the area's centroid (:yref:`RockJointPhys.shearPoint`) and a moment $m$ about the normal (:yref:`RockJointPhys.twistingMoment`). The force is turned with the contact normal (Eq. 18 of [Boon2012]_, :yref:`ScGeom`'s rotation with the bodies' mean spin about the normal; kept tangent and of unchanged length); both are incremented by $-k_s\Delta\vec u_s$ and $-k_s\rho^2\Delta\theta$ from the relative velocity at that centroid and the relative spin about the normal, $\rho^2$ the mean square of the distance from the centroid. Polygons and spheres have no moment. Stiffness per area is $k_s=k_s'A$: springs that leave a shrinking area take their force along, those that came last leave first; those that join a growing area are unstrained, and the force stays in its line. Neither creates energy.
+* Strength at each place $c+p\tan\phi$, the pressure $p$ linear over the outline with its centroid at the contact point; where faces slip by a displacement and a rotation, force and moment are those of friction against the slip at each place (limit surface, Goyal, Ruina & Papadopoulos 1991, Wear 143:307-352), without partial slip. Without rotation that is $|\vec f_s|\le cA+f_n\tan\phi$, through the centroid of the pressure. At its first slip an intact joint fails: cohesion and tensile strength are lost and the friction angle becomes the residual one, in that same step.
 * Dilation $u_d=\min(|\vec u_p|\tan\psi,\ u_{max})$ with the net plastic slip $\vec u_p$ up to the last step: slip back to where it started closes the joint again. In each step $\vec u_p$ grows by the motion along the joint less the change of elastic displacement; in an open joint all motion along it is slip.
-* Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` neglects, as it neglects the rotation of a body about a contact off its centre, with stiffness $k_n$: keep its *timestepSafetyCoefficient* at 0.5 or lower for $k_s<0.3k_n$ or $\zeta>0.5$.
+* Viscous damping $c=2\zeta\sqrt{m k}$ with $1/m=1/m_1+1/m_2$ (bodies that cannot move count as infinitely heavy, members of a clump with the clump's mass). A joint that cannot take tension is not pulled by the damper: $f_n$ and the viscous force together are at least 0. The sum enters the Coulomb strength. Shear damping acts while the joint sticks, on sliding and on turning about the normal, and no further than to the strength. An explicit damper shortens the stable time step to $2(\sqrt{1+\zeta^2}-\zeta)\sqrt{m/k}$, which :yref:`GlobalStiffnessTimeStepper` neglects, as it neglects the rotation of a body about a contact off its centre, with stiffness $k_n$: keep its *timestepSafetyCoefficient* at 0.5 or lower for $k_s<0.3k_n$ or $\zeta>0.5$.
 * Rocking damping: a normal damper at one contact point carries no moment, so it leaves rocking about that point undamped. With :yref:`rockingDamping<Law2_PolytopeGeom_RockJointPhys_MohrCoulomb.rockingDamping>` the bodies' relative rotation about the contact's tangents is resisted by the moment of dampers spread over the contact area, $\vec m=-2\zeta\sqrt{m k_n}\,\rho^2\vec\omega_t$ with $\rho^2=A/12$ (that of a square; polygons: length²/12), at most $\sqrt3\rho f_n$, where the force's line leaves that square. It vanishes at vertices and edges.
 
 With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, and shear energy of springs that leave or join the area, less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *shearDampDissip*, *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. For joints with the default normal the normal force is the gradient of an energy where a face, an edge or a vertex lies on a face, as long as stiffness goes by area or the whole face is in contact; the term is then zero to second order in the time step. Elsewhere (crossing edges; a stiffness per contact at a face that lifts off; the averaged normal) energy can be created, and is counted here. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
 		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
 		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
-		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0. Needs contact areas, which are computed then."))
+		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0."))
 		, /*ctor*/
 		, /*py*/
 		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
@@ -52,13 +51,13 @@ private:
 	struct Pair;
 	struct Last;
 	struct StepWork;
-	bool     actsAsBond(Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& increment);
-	bool     limitShear(RockJointPhys& phys, Real normal, Vector3r& shear) const;
+	bool     actsAsBond(Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& elasticShear);
+	bool     limitShear(RockJointPhys& phys, Real normal, Shear& shear) const;
 	Real     normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const;
 	Vector3r shearDamper(const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;
 	Vector3r rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const;
 	bool     apply(const Pair& pair, RockJointPhys& phys);
-	bool     open(const Pair& pair, RockJointPhys& phys, const Last& last, const Vector3r& trial);
+	bool     open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear);
 	void     nameEnergies();
 	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work);
 

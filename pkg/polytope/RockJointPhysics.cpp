@@ -35,11 +35,12 @@ namespace {
 	void takeOver(RockJointPhys& phys, const BondRemains& bond, const Interaction& contact, const Scene& scene)
 	{
 		phys.fail();
-		phys.dilation = -bond.overlap;
+		phys.restOverlap = bond.overlap;
 		if (!bond.inLastStep) return;
 		const Vector3r normal = static_cast<const PolytopeGeom&>(*contact.geom).normal;
 		phys.normalForce      = normal.dot(bond.force) * normal;
 		phys.shearForce       = bond.force - phys.normalForce;
+		phys.shearPoint       = bond.point;
 		phys.followsBond      = true;
 		if (!scene.trackEnergy) return;
 		LastStepOfJoint& last = phys.lastStep.make();
@@ -86,7 +87,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
 		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
-		geom->needsArea     = stiffnessPerArea || phys->cohesion > 0 || phys->tensileStrength > 0;
+		geom->needsArea     = true; // shear acts over it
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
 		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "AreaUsers.hpp"
+#include "StiffnessRules.hpp"
 #include "BondsOfScene.hpp"
 #include "RockJoint.hpp"
 

@@ -6,10 +6,31 @@
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"
 #include "RockJointLaw.hpp"
-#include "ShearSpring.hpp"
 
 /// What the law of rock joints knows of one contact in one step: motion, the state before, and the work done.
 namespace yade {
+
+/// Carries a tangent vector along with the contact: Eq. 18 and the twist, without their second-order change of length.
+inline void turnWithContact(const ScGeom& geom, Vector3r& tangent)
+{
+	const Real before = tangent.squaredNorm();
+	if (before == 0) return;
+	geom.rotate(tangent);
+	tangent -= geom.normal.dot(tangent) * geom.normal;
+	const Real after = tangent.squaredNorm();
+	if (after > 0) tangent *= math::sqrt(before / after);
+}
+
+/// Largest t ≤ 1 with |force + t·added| ≤ limit; 0 where force itself is beyond it.
+inline Real fractionWithin(Real limit, const Vector3r& force, const Vector3r& added)
+{
+	if (!(limit > 0)) return 0;
+	if ((force + added).squaredNorm() <= limit * limit) return 1;
+	const Real a = added.squaredNorm(), b = force.dot(added), c = limit * limit - force.squaredNorm();
+	if (!(a > 0 && c > 0)) return 0;
+	const Real root = math::sqrt(b * b + a * c);
+	return b > 0 ? c / (b + root) : (root - b) / a;
+}
 
 /// Motion of both bodies at the contact in this step.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
@@ -57,17 +78,16 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	}
 };
 
-/// State at the end of the last step, before this one changes it.
+/// State at the end of the last step, before this one changes it; the shear bed's is in RockJointShear.hpp.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Last {
-	Vector3r    force, shearViscous, moment, bondMoment;
-	ShearSpring shear;
-	Real        normalViscous, elasticNormal, dilation;
-	bool        wasBond;     ///< the forces were those of a bond of PolytopeBonds, which has failed
-	bool        actedAsBond; ///< they were those of the joint's own bond (RockJointBond.cpp)
+	Vector3r force, shearViscous, moment;
+	Real     twistingViscous, normalViscous, elasticNormal, dilation;
+	bool     wasBond;     ///< the forces were those of a bond of PolytopeBonds, which has failed
+	bool     actedAsBond; ///< they were those of the joint's own bond (RockJointBond.cpp)
 
-	Last(const RockJointPhys& phys, const Vector3r& turnedShear, const Vector3r& normal)
+	Last(const RockJointPhys& phys, const Vector3r& normal)
 	        : force(phys.normalForce + phys.shearForce), shearViscous(phys.shearViscous), moment(phys.rockingMoment),
-	          bondMoment(phys.bondMoment()), shear { turnedShear, phys.ks }, normalViscous(phys.normalViscous.dot(normal)),
+	          twistingViscous(phys.twistingViscous), normalViscous(phys.normalViscous.dot(normal)),
 	          elasticNormal(phys.normalForce.dot(normal) - normalViscous), dilation(phys.dilation), wasBond(phys.followsBond),
 	          actedAsBond(phys.bond)
 	{

@@ -162,6 +162,7 @@ namespace {
 		const Real normal    = pair.criticalDamping(phys.kn);
 		springs.normalDamper = law.normalDamping * normal;
 		springs.shearDamper  = law.shearDamping * pair.criticalDamping(phys.ks);
+		if (phys.ks > 0) springs.twistingDamper = springs.shearDamper * phys.twistingStiffness / phys.ks;
 		if (law.rockingDamping > 0)
 			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
 	}
@@ -218,6 +219,10 @@ namespace {
 					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
 					springs.rockingStiffness = joint && joint->bond ? rotationStiffness(*joint->bond, pair.body1)
 					                                                : rockingStiffness(pair, *ours, steps);
+					if (joint && joint->twistingStiffness > 0) {
+						springs.twistingStiffness = joint->twistingStiffness;
+						springs.shearOffset       = joint->shearPoint - geom->contactPoint;
+					}
 					if (joint && law) addDampers(pair, *joint, *law, springs);
 				}
 				sum.add(springs, pair.arm(part));

@@ -51,4 +51,7 @@ def _stored(contact):
 	perStiffness = getattr(geom, 'energyPerStiffness', -1)
 	if perStiffness < 0:
 		perStiffness = max(geom.penetrationDepth, 0) ** 2 / 2
-	return phys.kn * perStiffness + (phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0)
+	sheared = getattr(phys, 'shearEnergy', None)
+	if sheared is None:
+		sheared = phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0
+	return phys.kn * perStiffness + sheared

@@ -218,8 +218,7 @@ def _springsOf(contact):
 	geom, phys = contact.geom, contact.phys
 	depth = max(geom.penetrationDepth, 0)
 	perStiffness = geom.energyPerStiffness if geom.energyPerStiffness >= 0 else depth**2 / 2
-	shear = phys.shearForce - phys.shearViscous
-	return phys.kn * depth, phys.kn * perStiffness, shear.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0.0
+	return phys.kn * depth, phys.kn * perStiffness, phys.shearEnergy
 
 
 def _wxyz(orientation):

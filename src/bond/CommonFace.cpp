@@ -2,6 +2,7 @@
 #include "bond/CommonFace.hpp"
 
 #include "bond/BondTolerances.hpp"
+#include "shear/ContactOutline.hpp"
 
 #include <algorithm>
 
@@ -45,8 +46,6 @@ namespace {
 		}
 		return ring;
 	}
-
-	Real cross(const Vector2& a, const Vector2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 	/// What of a convex ring lies left of the line from `from` to `to`.
 	Ring leftOf(const Ring& ring, const Vector2& from, const Vector2& to)

@@ -94,14 +94,14 @@ template <class R> POLYTOPE_INLINE ContactStatus barrierContactStatus(BarrierSta
 /// Section through the minimiser, or, where that is outside the overlap, through the last point inside on the way there from x, the linear
 /// program's point. Bodies apart (`s` above zero) are grown until they just overlap.
 template <class R, int D, int W>
-POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes, R s, const R* target,
+POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes, R s, const R* target,
         const R* n, R* x, ContactWorkspace& workspace, ContactResult& out)
 {
 	const R grown = maxOf<R>(0, s + R(tolerance::gapSkin) * f.size);
 	for (int i = 0; i < planes.total; ++i)
 		planes.offset[i] += grown;
 	moveInside<R, D, W>(planes, x, target);
-	contactSection<R, D>(in, f, planes, x, n, workspace, out);
+	contactSection<R, D>(in, settings, f, planes, x, n, target, workspace, out);
 }
 
 /// After the linear program, whose point x is in the planes' frame.
@@ -152,7 +152,7 @@ POLYTOPE_INLINE void conservativeContact(const PairInput& in, const ContactSetti
 	out.normal = worldDirection<R, D>(f, n);
 	out.point  = worldPoint<R, D>(in, f, memory.point[f.home]);
 
-	if (settings.section) conservativeSection<R, D, W>(in, f, planes, s, point.x, n, x, workspace, out);
+	if (settings.section) conservativeSection<R, D, W>(in, settings, f, planes, s, point.x, n, x, workspace, out);
 	failUnlessFinite<D>(memory, out);
 }
 

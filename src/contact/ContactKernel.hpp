@@ -129,8 +129,9 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	        = settings.depthRule != DepthRule::Chord && touching && meanDepth<R, D, W>(in, settings, f, planes, n, x, workspace, out);
 	if (settings.depthRule != DepthRule::Chord && !distributed) out.energy = touching ? out.depth * out.depth / 2 : R(0);
 	if (settings.section && !distributed) {
-		contactSection<R, D>(in, f, planes, x, n, workspace, out);
-		if (settings.depthRule == DepthRule::Mean) out.point = out.sectionCentroid;
+		const bool toCentroid = settings.depthRule == DepthRule::Mean;
+		contactSection<R, D>(in, settings, f, planes, x, n, toCentroid ? nullptr : x, workspace, out);
+		if (toCentroid) out.point = out.sectionCentroid;
 	}
 	failUnlessFinite<D>(memory, out);
 }

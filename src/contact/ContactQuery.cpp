@@ -3,6 +3,7 @@
 
 #include "contact/ContactKernel.hpp"
 #include "contact/PairOrder.hpp"
+#include "shear/ContactOutline.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -37,6 +38,33 @@ int* ContactWorkspace::indices(int length)
 {
 	if (indices_.size() < std::size_t(length)) indices_.resize(length);
 	return indices_.data();
+}
+
+Real* ContactWorkspace::points(int count)
+{
+	if (points_.size() < 2 * std::size_t(count)) points_.resize(2 * count);
+	return points_.data();
+}
+
+void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
+{
+	int& count = result.outlineCount;
+	if (corners_.size() < std::size_t(count)) corners_.resize(count);
+	for (int k = 0; k < count; ++k)
+		corners_[k] = Vector2(points_[2 * k], points_[2 * k + 1]);
+	if (exchanged) {
+		const Real n[3] = { result.normal[0], result.normal[1], result.normal[2] }, other[3] = { -n[0], -n[1], -n[2] };
+		const Rotation<Real, 3> to = axesAround<Real, 3>(n), from = axesAround<Real, 3>(other);
+		for (int k = 0; k < count; ++k) {
+			Real p[3];
+			for (int m = 0; m < 3; ++m)
+				p[m] = corners_[k][0] * from.m[0][m] + corners_[k][1] * from.m[1][m];
+			corners_[k] = Vector2(dot<Real, 3>(to.m[0], p), dot<Real, 3>(to.m[1], p));
+		}
+		std::reverse(corners_.begin(), corners_.begin() + count);
+	}
+	if (!result.outlineIsLoop) count = convexOutline(corners_.data(), count, hull_);
+	result.outline = corners_.data();
 }
 
 namespace {
@@ -103,10 +131,12 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
 		kernel(in, settings, memory, workspace, result);
 		exchangeBodies(memory);
 		exchangeBodies(result, centre2, shape1.dimension());
+		if (result.outlineCount > 0) workspace.finishOutline(true, result);
 		return;
 	}
 	const PairInput in { { &shape1, &shape2 }, { &rotation1, &rotation2 }, &centre2 };
 	kernel(in, settings, memory, workspace, result);
+	if (result.outlineCount > 0) workspace.finishOutline(false, result);
 }
 
 const char* instructionSet() { return kernels.name; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/ContactFrame.hpp"
+#include "contact/ContactOutlineWriter.hpp"
 #include "contact/ContactTypes.hpp"
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
@@ -15,6 +16,8 @@ namespace polytope {
 template <class R, int D> struct Section {
 	R area        = 0;
 	R centroid[D] = {}; ///< in the frame of the planes
+	const R* corner = nullptr; ///< 3-D: (u, v) along axesAround(normal) from the origin of the plane, in the buffer
+	int      count  = 0;
 };
 
 /// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
@@ -45,6 +48,8 @@ template <class R> POLYTOPE_INLINE Section<R, 3> polygonSection(const R* corner,
 	const R    v    = count > 0 ? corner[1] + (some ? moment[1] / section.area : R(0)) : R(0);
 	for (int k = 0; k < 3; ++k)
 		section.centroid[k] = origin[k] + u * axes.m[0][k] + v * axes.m[1][k];
+	section.corner = corner;
+	section.count  = count;
 	return section;
 }
 
@@ -120,15 +125,28 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	return section;
 }
 
-/// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n.
+/// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n. Its outline is from `point`, or where that is null
+/// from the centroid.
 template <class R, int D>
-POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes, const R* x,
-        const R* n, ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
+        const PairPlanes<R, D>& planes, const R* x, const R* n, const R* point, ContactWorkspace& workspace, ContactResult& out)
 {
 	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
 	out.area                    = section.area;
 	if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
 	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
+	if constexpr (D == 3) {
+		if (!settings.outline) return;
+		const Rotation<R, 3> axes = axesAround<R, 3>(n);
+		ContactOutlineWriter<R> writer(f, out.normal, point ? point : section.centroid, workspace.points(section.count));
+		for (int k = 0; k < section.count; ++k) {
+			R p[3];
+			for (int m = 0; m < 3; ++m)
+				p[m] = x[m] + section.corner[2 * k] * axes.m[0][m] + section.corner[2 * k + 1] * axes.m[1][m];
+			writer.add(p);
+		}
+		writer.publish(true, out);
+	}
 }
 
 } // namespace polytope

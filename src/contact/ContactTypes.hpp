@@ -60,6 +60,8 @@ struct InternalPlanes {
 	bool operator==(const InternalPlanes& other) const;
 };
 
+struct ContactResult;
+
 struct ContactSettings {
 	ContactModel contactModel = ContactModel::Paper;
 	/// The conservative contact's μ over the smaller body's inscribed radius.
@@ -74,7 +76,9 @@ struct ContactSettings {
 	/// Start from the last query's basis and point, kept in PairMemory.
 	bool warmStart = true;
 	/// Also the contact section's area and centroid (length in 2-D).
-	bool      section   = false;
+	bool section = false;
+	/// 3-D: also the outline of what the area is of.
+	bool      outline   = false;
 	DepthRule depthRule = DepthRule::Chord;
 	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
@@ -118,6 +122,11 @@ struct ContactResult {
 	        Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
 	Real    area            = 0;               ///< contact section (times thickness in 2-D)
 	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
+	/// If asked for: corners of the contact's outline, (u, v) along axesAround(normal) from the point, in the workspace until its next query; convex,
+	/// counter-clockwise.
+	const Vector2* outline      = nullptr;
+	int            outlineCount  = 0;
+	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
 	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy
 	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
@@ -139,10 +148,15 @@ public:
 	Real* rows(int rowCount, int length);
 	Real* polygons(int length);
 	int*  indices(int length);
+	/// For points whose convex hull is the contact's outline.
+	Real* points(int count);
+	/// Makes it of them; `exchanged`: they were written for the opposite normal.
+	void finishOutline(bool exchanged, ContactResult& result);
 
 private:
-	std::vector<Real> rows_, polygons_;
-	std::vector<int>  indices_;
+	std::vector<Real>    rows_, polygons_, points_;
+	std::vector<int>     indices_;
+	std::vector<Vector2> corners_, hull_;
 };
 
 } // namespace polytope

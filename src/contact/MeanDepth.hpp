@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/ContactFrame.hpp"
+#include "contact/ContactOutlineWriter.hpp"
 #include "contact/OverlapVolume.hpp"
 
 /// The contact of two bodies between which there is a pressure k h at each place, h the local depth along n and k a stiffness per
@@ -97,6 +98,13 @@ POLYTOPE_INLINE bool meanDepth(const PairInput& in, const ContactSettings& setti
 	out.area            = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
 	out.point           = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, point));
 	out.sectionCentroid = out.point;
+	if constexpr (D == 3) {
+		if (settings.outline) {
+			ContactOutlineWriter<R> writer(f, out.normal, point, workspace.points(overlap.cornersAlong()));
+			const bool              loop = overlap.visitAlong(n, writer);
+			writer.publish(loop, out);
+		}
+	}
 	return true;
 }
 

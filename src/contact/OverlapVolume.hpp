@@ -147,6 +147,34 @@ public:
 		return sum;
 	}
 
+	/// More corners than the faces have that are turned to a direction.
+	POLYTOPE_INLINE int cornersAlong() const
+	{
+		int sum = 0;
+		for (int face = 0; face < loops_.faces; ++face)
+			sum += loops_.count[face];
+		return sum;
+	}
+
+	/// Calls writer.add(corner) for the corners of these faces. True if it is one face: then the corners are its loop.
+	template <class Writer> POLYTOPE_INLINE bool visitAlong(const R* n, Writer& writer) const
+	{
+		int turned = 0;
+		for (int face = 0; face < loops_.faces; ++face) {
+			if (loops_.count[face] < 3 || loops_.plane[face] < 0) continue;
+			R a[3], d;
+			planes_.plane(loops_.plane[face], a, d);
+			if (!(dot<R, 3>(a, n) > R(tolerance::outlineFace))) continue;
+			++turned;
+			for (int v = 0; v < loops_.count[face]; ++v) {
+				R p[3];
+				loops_.get(loops_.corner[face * room_ + v], p);
+				writer.add(p);
+			}
+		}
+		return turned == 1;
+	}
+
 	/// Over the same faces.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{

@@ -152,6 +152,10 @@ constexpr int wholeBodyFaces = overlapFaces / 2;
 /// faces are a thousandth deep, the wedge between two faces as deep as its angle, edges and vertices about as deep as wide.
 constexpr Real faceContact = 0.01;
 
+/// Cosine between the contact normal and that of a face of the overlap, below which the outline does without the face: it stands along the normal but
+/// for rounding and small tilts, and would widen the outline by so much of the overlap's thickness at most.
+constexpr Real outlineFace = 1e-3;
+
 /// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
 constexpr Real barrier = 3e-3;
 

@@ -51,6 +51,8 @@ struct ContactSprings {
 	Real    normalDamper = 0, shearDamper = 0;       ///< [N s/m]
 	Matrix3 rockingStiffness = Matrix3::Zero();      ///< moment per tilt, of the moving contact point [N m/rad]
 	Matrix3 rockingDamper    = Matrix3::Zero();      ///< [N m s/rad]
+	Vector3 shearOffset      = Vector3::Zero();      ///< from the contact point to that of the shear spring, across the normal [m]
+	Real    twistingStiffness = 0, twistingDamper = 0; ///< about the normal [N m/rad], [N m s/rad]
 };
 
 /// K and C of one body between fixed neighbours, in coordinates in which its mass matrix is the identity.
@@ -61,15 +63,16 @@ public:
 	/// \param arm from the body's centre to the contact point
 	void add(const ContactSprings& springs, const Vector3& arm)
 	{
-		Eigen::Matrix<Real, 3, 6> motion; // of the contact point
-		motion.leftCols<3>()  = mobility_.translation.asDiagonal();
-		motion.rightCols<3>() = -crossMatrix(arm) * mobility_.rotation;
-		const Vector6 along   = motion.transpose() * springs.normal;
-		const Matrix6 all     = motion.transpose() * motion;
-		stiffness_ += springs.shearStiffness * all + (springs.normalStiffness - springs.shearStiffness) * along * along.transpose();
+		const Motion  motion = motionAt(arm), sheared = motionAt(arm + springs.shearOffset);
+		const Vector6 along = motion.transpose() * springs.normal, out = sheared.transpose() * springs.normal;
+		const Matrix6 across = sheared.transpose() * sheared - out * out.transpose();
+		const Vector3 twist  = mobility_.rotation.transpose() * springs.normal;
+		stiffness_ += springs.shearStiffness * across + springs.normalStiffness * along * along.transpose();
 		rocking_ += mobility_.rotation.transpose() * springs.rockingStiffness * mobility_.rotation;
+		if (springs.twistingStiffness > 0) rocking_ += springs.twistingStiffness * twist * twist.transpose();
 		if (springs.normalDamper > 0 || springs.shearDamper > 0) {
-			damping_ += springs.shearDamper * all + (springs.normalDamper - springs.shearDamper) * along * along.transpose();
+			damping_ += springs.shearDamper * across + springs.normalDamper * along * along.transpose();
+			damping_.bottomRightCorner<3, 3>() += springs.twistingDamper * twist * twist.transpose();
 			damped_ = true;
 		}
 		if (springs.rockingDamper != Matrix3::Zero()) {
@@ -110,6 +113,17 @@ private:
 	static Real largestEigenvalue(const Matrix6& symmetric)
 	{
 		return Eigen::SelfAdjointEigenSolver<Matrix6>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[5];
+	}
+
+	using Motion = Eigen::Matrix<Real, 3, 6>;
+
+	/// Of a point of the body.
+	Motion motionAt(const Vector3& arm) const
+	{
+		Motion motion;
+		motion.leftCols<3>()  = mobility_.translation.asDiagonal();
+		motion.rightCols<3>() = -crossMatrix(arm) * mobility_.rotation;
+		return motion;
 	}
 
 	Mobility mobility_;

@@ -149,20 +149,16 @@ def testStiffnessPerAreaFollowsTheArea():
 def testStiffnessPerContactIsThatOfAnyArea():
 	floor, block, i = pressed()
 	O.step()
-	assert not i.geom.needsArea and i.geom.contactArea == pytest.approx(1, rel=1e-9)
+	assert i.geom.contactArea == pytest.approx(1, rel=1e-9)
 	assert i.phys.kn == stiffness
 
 
-def testRockingDampingHasAnAreaFromTheNextStepOn():
-	floor, block, i = pressed(ig2={'normal': 'innerPotential'})  # whose joints have no area of their own
+def testEveryRockJointHasItsArea():
+	"""Shear acts over it, whatever the stiffness and the normal."""
+	floor, block, i = pressed(ig2={'normal': 'innerPotential'})
 	O.step()
-	assert i.geom.contactArea == 0
-	law().rockingDamping = 0.5
-	O.step()
-	assert i.geom.contactArea > 0 and not i.geom.needsArea  # the law writes nothing into the geometry
-	law().rockingDamping = 0
-	O.step()
-	assert i.geom.contactArea == 0
+	assert i.geom.needsArea and i.geom.contactArea == pytest.approx(1, rel=1e-9) and len(i.geom.outline) == 4
+	assert i.phys.twistingStiffness == pytest.approx(i.phys.ks / 6, rel=1e-9)
 
 
 def testSpheresInTheSameScene():

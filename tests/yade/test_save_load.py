@@ -37,6 +37,7 @@ def heap():
 	"""Twelve solids fallen on each other."""
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
 	loop(False, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.1)
+	O.engines[2].loopOnSortedInteractions = True  # contacts begin after the break, and three forces add up
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
 	for k in range(12):
 		O.bodies.append(polytope.regular((4, 6, 8, 12)[k % 4], .5, (.7 * (k % 2), .6 * (k // 2 % 2), .6 + .7 * k), Quaternion((1, k, 2), k)))

@@ -109,15 +109,12 @@ def area(scene):
 	"""contact area"""
 	if not scene.contacts:
 		return noContacts
-	rocking = any(law.rockingDamping > 0 for law in scene.dampers)
-	users = len(scene.contacts) if rocking else sum(contact.geom.needsArea for contact in scene.contacts)
+	users = sum(contact.geom.needsArea for contact in scene.contacts)
 	if scene.any('computeArea'):
 		if users == len(scene.contacts):
-			return 'computeArea is on; all laws need areas anyway', ''
+			return 'computeArea is on; all contacts need their area anyway', ''
 		advice = 'computeArea = False, unless your script reads geom.contactArea: no law or material uses it'
 		return f'computeArea is on; {users} of {len(scene.contacts)} contacts need their area', advice, None, ('computeArea', False)
-	if rocking and not any(contact.phys.normalStiffness > 0 for contact in scene.contacts if isinstance(contact.phys, RockJointPhys)):
-		return 'areas are computed for rockingDamping alone', '', None, ('rockingDamping', 0)
 	return f'{users} of {len(scene.contacts)} contacts need their area, and have it', ''
 
 

@@ -4,19 +4,8 @@
 #include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 
-#include <atomic>
-
-/// What the scene's loops do with the area of a contact. The geometry functor finds it: a law writes nothing into a geometry, and a new
-/// contact has no physics yet that could say so.
+/// What a contact's stiffness is multiplied with. The geometry functor asks for it: a new contact has no physics yet that could say so.
 namespace yade {
-
-/// A law that reads the area of every contact, whatever its physics.
-class UsesContactArea {
-public:
-	virtual ~UsesContactArea() = default;
-	/// At present: an attribute of the law may decide it.
-	virtual bool usesContactArea() const = 0;
-};
 
 /// What a contact's stiffness is multiplied with, as far as its geometry depends on that.
 enum class StiffnessRule : int {
@@ -45,34 +34,5 @@ inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Material& mate
 			}
 	return StiffnessRule::Unknown;
 }
-
-/// Whether a loop of the scene has a law that reads the area of every contact. The loops are read once a step, by whichever thread
-/// comes first.
-class AreaUsers {
-public:
-	bool in(const Scene& scene)
-	{
-		if (step_.load(std::memory_order_acquire) != scene.iter) {
-			found_.store(lookIn(scene), std::memory_order_relaxed);
-			step_.store(scene.iter, std::memory_order_release);
-		}
-		return found_.load(std::memory_order_relaxed);
-	}
-
-private:
-	static bool lookIn(const Scene& scene)
-	{
-		for (const auto& engine : scene.engines)
-			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-				for (const auto& functor : loop->lawDispatcher->functors)
-					if (const auto* law = dynamic_cast<const UsesContactArea*>(functor.get())) {
-						if (law->usesContactArea()) return true;
-					}
-		return false;
-	}
-
-	std::atomic<long> step_ { -1 };
-	std::atomic<bool> found_ { false };
-};
 
 } // namespace yade

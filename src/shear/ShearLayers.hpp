@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Real.hpp"
+#include "shear/ShearTolerances.hpp"
+
+/// The memory of a bed of shear springs whose area grows and shrinks.
+///
+/// Springs that join a growing area are unstrained: the force is unchanged. Springs that leave a shrinking one take their force with them (Elata & Berryman
+/// 1996, Mechanics of Materials 24:229-240, for contacts of spheres). Which leave is what decides whether a load cycle lets a body creep: those that
+/// came last are at the rim and leave first, almost unstrained, while the core keeps its force. A bed that has one displacement for all of
+/// its springs loses force in each cycle, and the body creeps for ever.
+///
+/// So the bed is a stack of layers of the springs that came at about the same time, the core first. Motion strains all alike. Where there is no room
+/// for one more layer, the two neighbours that differ least are made one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁ − e₂|² of energy.
+/// No change of area ever adds energy.
+namespace polytope {
+
+class ShearLayers {
+public:
+	/// Of the whole area, with one displacement.
+	ShearLayers(Real area, const Vector3& displacement) : count_(1)
+	{
+		layer_[0] = { area, displacement };
+	}
+	/// No springs.
+	ShearLayers() = default;
+
+	int            count() const { return count_; }
+	Real           area(int layer) const { return layer_[layer].area; }
+	const Vector3& displacement(int layer) const { return layer_[layer].displacement; }
+	Real           area() const
+	{
+		Real sum = 0;
+		for (int k = 0; k < count_; ++k)
+			sum += layer_[k].area;
+		return sum;
+	}
+	/// Area × mean displacement.
+	Vector3 sum() const
+	{
+		Vector3 sum = Vector3::Zero();
+		for (int k = 0; k < count_; ++k)
+			sum += layer_[k].area * layer_[k].displacement;
+		return sum;
+	}
+	/// Σ ½ a |e|²: energy over stiffness per area.
+	Real energy() const
+	{
+		Real sum = 0;
+		for (int k = 0; k < count_; ++k)
+			sum += layer_[k].area * layer_[k].displacement.squaredNorm() / 2;
+		return sum;
+	}
+	/// Moves all by the same.
+	void move(const Vector3& by)
+	{
+		for (int k = 0; k < count_; ++k)
+			layer_[k].displacement += by;
+	}
+	/// Applies a rotation, or what else is linear.
+	template <class Map> void turn(const Map& map)
+	{
+		for (int k = 0; k < count_; ++k)
+			map(layer_[k].displacement);
+	}
+	/// Springs join or leave until the area is this [m²].
+	void setArea(Real present);
+
+private:
+	struct Layer {
+		Real    area         = 0;
+		Vector3 displacement = Vector3::Zero();
+	};
+
+	void mergeLeastDifferent();
+
+	Layer layer_[tolerance::shearLayers];
+	int   count_   = 0;
+	bool  growing_ = false; ///< the last layer takes what comes next
+
+	template <class Visit> friend void   visitParts(ShearLayers& layers, const Visit& visit);
+};
+
+/// Calls visit(name, value) for all that a saved state needs: `count`, `growing`, then area and displacement of each layer.
+template <class Visit> void visitParts(ShearLayers& layers, const Visit& visit)
+{
+	visit("count", layers.count_);
+	visit("growing", layers.growing_);
+	for (int k = 0; k < layers.count_ && k < tolerance::shearLayers; ++k) {
+		visit("area", layers.layer_[k].area);
+		visit("displacement", layers.layer_[k].displacement);
+	}
+}
+
+} // namespace polytope

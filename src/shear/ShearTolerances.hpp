@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Tolerances.hpp"
+
+/// Thresholds of the shear bed, as Tolerances.hpp has those of the contact path: meaning, scale, reason.
+namespace polytope::tolerance {
+
+/// Of the larger principal second moment of an outline: below this the outline is a line, and how its strength varies across it is not known. The square
+/// of the least width over length whose moments keep half of their digits.
+constexpr double shearSliver = 1e-14;
+
+/// Of an edge's length: a centre of rotation nearer to the edge's line sees no triangle between them.
+constexpr double shearPole = 1e-14;
+
+/// Times the outline's size: for a centre of rotation farther than this the resistance is summed at points, since the sums over edges lose digits with the
+/// fourth power of the distance. Here both agree to 1e-6 of the strength, and better beyond.
+constexpr double shearPoleFar = 4;
+
+/// Of the strength: accepted difference of force and moment after slip from what the strength gives.
+constexpr double shearReturn = 1e-12;
+
+/// Newton steps of the return to the limit surface; five are usual, more where the centre of rotation lies on a corner.
+constexpr int shearReturnSteps = 40;
+
+/// Halvings of a Newton step whose energy rises.
+constexpr int shearHalvings = 30;
+
+/// Of an area: one that differs by less is the same; what sums of layers round.
+constexpr Real sameArea = 1000 * rounding;
+
+/// Layers in which a bed remembers when its springs came under load. Two hold a load cycle, more hold cycles within cycles; at four, a block shaken
+/// for 40 cycles on its edges creeps less than a micrometre a cycle.
+constexpr int shearLayers = 4;
+
+} // namespace polytope::tolerance

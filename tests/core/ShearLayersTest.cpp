@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shear/ShearLayers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace polytope;
+
+namespace {
+
+const Vector3 x = Vector3::UnitX();
+
+/// Many springs, one after the other: what ShearLayers stands for. The last to come are the first to leave.
+struct Springs {
+	struct Spring {
+		Real    area;
+		Vector3 displacement;
+	};
+	std::vector<Spring> springs;
+
+	void setArea(Real present)
+	{
+		Real change = present;
+		for (const Spring& spring : springs)
+			change -= spring.area;
+		if (change > 0) springs.push_back({ change, Vector3::Zero() });
+		while (change < 0 && !springs.empty()) {
+			Spring&    last = springs.back();
+			const Real gone = std::min(last.area, -change);
+			last.area -= gone;
+			change += gone;
+			if (last.area <= 0) springs.pop_back();
+		}
+	}
+	Vector3 sum() const
+	{
+		Vector3 sum = Vector3::Zero();
+		for (const Spring& spring : springs)
+			sum += spring.area * spring.displacement;
+		return sum;
+	}
+	void move(const Vector3& by)
+	{
+		for (Spring& spring : springs)
+			spring.displacement += by;
+	}
+};
+
+TEST(ShearLayers, WhatJoinsIsUnstrainedAndLeavesFirst)
+{
+	ShearLayers bed(2, 0.1 * x);
+	bed.setArea(3);
+	EXPECT_NEAR(bed.sum()[0], 0.2, 1e-15);
+	EXPECT_NEAR(bed.area(), 3, 1e-15);
+	bed.setArea(2);
+	EXPECT_NEAR(bed.sum()[0], 0.2, 1e-15);
+	bed.setArea(1);
+	EXPECT_NEAR(bed.sum()[0], 0.1, 1e-15);
+	bed.setArea(0);
+	EXPECT_EQ(bed.sum()[0], 0);
+	EXPECT_EQ(bed.count(), 0);
+	bed.setArea(1);
+	EXPECT_EQ(bed.sum()[0], 0);
+	EXPECT_NEAR(bed.area(), 1, 1e-15);
+}
+
+// Force is held constant while the area goes up and down: the displacement ends, where a bed with one displacement creeps on.
+TEST(ShearLayers, LoadCyclesDoNotCreep)
+{
+	ShearLayers bed(1, x);
+	Real        oneDisplacement = 1, area = 1, creep = 0, shown = 0, late = 0;
+	for (int step = 0; step < 4000; ++step) {
+		// a cycle with a shorter one on it, and rounding
+		const Real next = 1 + 0.3 * std::sin(2 * M_PI * step / 100.) + 0.05 * std::sin(2 * M_PI * step / 7.) + 1e-12 * std::cos(1e3 * step);
+		bed.setArea(next);
+		if (next < area) oneDisplacement *= next / area; // its force
+		creep += (1 - oneDisplacement) / next;
+		oneDisplacement = 1;
+		area            = next;
+		const Real by   = (1 - bed.sum()[0]) / bed.area();
+		bed.move(by * x);
+		shown += by;
+		if (step >= 2000) late += by;
+	}
+	EXPECT_GT(creep, 15);
+	EXPECT_LT(shown, 1.2);
+	EXPECT_LT(late, 1e-3);
+}
+
+TEST(ShearLayers, FollowManySpringsAndNeverGainEnergy)
+{
+	std::mt19937_64                        random(2);
+	std::normal_distribution<double>       normal;
+	ShearLayers                            bed(1, 0.02 * x);
+	Springs                                springs { { { 1, 0.02 * x } } };
+	Real                                   area = 1, worst = 0, largest = 0;
+	for (int step = 0; step < 3000; ++step) {
+		area              = std::abs(1 + 0.4 * std::sin(step / 40.) + 0.02 * normal(random));
+		const Real before = bed.energy();
+		bed.setArea(area);
+		springs.setArea(area);
+		EXPECT_LE(bed.energy(), before * (1 + 1e-12));
+		ASSERT_LE(bed.count(), tolerance::shearLayers);
+		const Vector3 by = 1e-3 * std::sin(step / 90.) * x;
+		bed.move(by);
+		springs.move(by);
+		worst   = std::max(worst, std::abs(bed.sum()[0] - springs.sum()[0]));
+		largest = std::max(largest, std::abs(springs.sum()[0]));
+	}
+	EXPECT_LT(worst, 0.15 * largest);
+}
+
+TEST(ShearLayers, SavedStateHasAllOfIt)
+{
+	ShearLayers bed(1, x);
+	bed.setArea(1.5);
+	bed.move(0.5 * x);
+	ShearLayers other;
+	std::vector<Real>    numbers;
+	std::vector<Vector3> vectors;
+	struct Writer {
+		std::vector<Real>&    numbers;
+		std::vector<Vector3>& vectors;
+		void                  operator()(const char*, const int& value) const { numbers.push_back(value); }
+		void                  operator()(const char*, const bool& value) const { numbers.push_back(value); }
+		void                  operator()(const char*, const Real& value) const { numbers.push_back(value); }
+		void                  operator()(const char*, const Vector3& value) const { vectors.push_back(value); }
+	};
+	visitParts(bed, Writer { numbers, vectors });
+	std::size_t number = 0, vector = 0;
+	struct Reader {
+		const std::vector<Real>&    numbers;
+		const std::vector<Vector3>& vectors;
+		std::size_t &               number, &vector;
+		void                        operator()(const char*, int& value) const { value = int(numbers[number++]); }
+		void                        operator()(const char*, bool& value) const { value = numbers[number++] != 0; }
+		void                        operator()(const char*, Real& value) const { value = numbers[number++]; }
+		void                        operator()(const char*, Vector3& value) const { value = vectors[vector++]; }
+	};
+	visitParts(other, Reader { numbers, vectors, number, vector });
+	EXPECT_EQ(other.count(), 2);
+	EXPECT_EQ(other.sum(), bed.sum());
+	other.setArea(1.6); // goes on growing the same layer
+	EXPECT_EQ(other.count(), 2);
+}
+
+} // namespace

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shear/ShearReturn.hpp"
+#include "shear/ShearTolerances.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace polytope;
+
+namespace {
+
+using Corners = std::vector<Vector2>;
+
+Corners regularOutline(int sides, Real radius)
+{
+	Corners corners;
+	for (int k = 0; k < sides; ++k)
+		corners.push_back(radius * Vector2(std::cos(2 * M_PI * k / sides), std::sin(2 * M_PI * k / sides)));
+	return corners;
+}
+
+Corners rectangleOutline(Real length, Real width)
+{
+	return { { -length / 2, -width / 2 }, { length / 2, -width / 2 }, { length / 2, width / 2 }, { -length / 2, width / 2 } };
+}
+
+Corners randomOutline(std::mt19937_64& random)
+{
+	std::uniform_real_distribution<double> uniform(-1, 1);
+	Corners                                points;
+	for (int k = 0; k < 9; ++k)
+		points.push_back(Vector2(2 * uniform(random) + 3, uniform(random) - 1));
+	Corners buffer;
+	points.resize(convexOutline(points.data(), int(points.size()), buffer));
+	return points;
+}
+
+ShearStrength strengthOf(const Corners& corners, const Vector2& offset, Real total = 1)
+{
+	const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+	return { corners.data(), int(corners.size()), moments, total, Vector2(moments.centroid + offset) };
+}
+
+/// Force and moment by brute force: small squares, τ linear with its centre at `offset` from the centroid of a rectangle about the origin.
+Vector3 bySquares(Real length, Real width, const Vector2& offset, const Vector3& slip, int cells = 600)
+{
+	const Vector2 gradient(12 * offset[0] / (length * length), 12 * offset[1] / (width * width)); // over the mean
+	Vector3       sum  = Vector3::Zero();
+	Real          all  = 0;
+	for (int i = 0; i < cells; ++i)
+		for (int j = 0; j < cells; ++j) {
+			const Vector2 x((i + 0.5) / cells * length - length / 2, (j + 0.5) / cells * width - width / 2), arm = x - offset;
+			const Real    tau = 1 + gradient.dot(x);
+			const Vector2 v   = Vector2(slip[0] - slip[2] * arm[1], slip[1] + slip[2] * arm[0]), d = v.normalized();
+			sum += tau * Vector3(d[0], d[1], arm[0] * d[1] - arm[1] * d[0]);
+			all += tau;
+		}
+	return sum / all;
+}
+
+TEST(ContactOutline, MomentsOfARectangleFarFromThePoint)
+{
+	Corners corners = rectangleOutline(3, 2);
+	for (Vector2& corner : corners)
+		corner += Vector2(50, -70);
+	const OutlineMoments moments = momentsOf(corners.data(), 4);
+	EXPECT_NEAR(moments.area, 6, 1e-12);
+	EXPECT_NEAR((moments.centroid - Vector2(50, -70)).norm(), 0, 1e-12);
+	EXPECT_NEAR(moments.second[0], 27 * 2 / 12., 1e-11);
+	EXPECT_NEAR(moments.second[1], 0, 1e-11);
+	EXPECT_NEAR(moments.second[2], 8 * 3 / 12., 1e-11);
+	EXPECT_NEAR(moments.gyrationSquared(), (9 + 4) / 12., 1e-11);
+	EXPECT_EQ(momentsOf(corners.data(), 2).area, 0);
+}
+
+TEST(ContactOutline, HullDropsPointsInsideAndOnEdgesAndTwins)
+{
+	Corners points { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0.5, 0 }, { 0.5, 0.5 }, { 1, 1 }, { 0, 0 } }, buffer;
+	ASSERT_EQ(convexOutline(points.data(), int(points.size()), buffer), 4);
+	EXPECT_EQ(momentsOf(points.data(), 4).area, 1);
+	Corners line { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 1, 1 } };
+	EXPECT_LT(convexOutline(line.data(), 4, buffer), 3);
+	Corners one { { 2, 3 } };
+	EXPECT_LT(convexOutline(one.data(), 1, buffer), 3);
+}
+
+// Mean distance from the centre: disc 2 R/3, square 0.382598 a, equilateral triangle by its closed form.
+TEST(ShearStrength, MeanRadiusOfKnownShapes)
+{
+	EXPECT_NEAR(strengthOf(regularOutline(2000, 3), Vector2::Zero()).meanRadius(), 2, 1e-5);
+	EXPECT_NEAR(strengthOf(rectangleOutline(2, 2), Vector2::Zero()).meanRadius(), 2 * (std::sqrt(2.) + std::asinh(1.)) / 6, 1e-14);
+	const Real a = std::sqrt(3.); // side of the triangle in the unit circle, whose in-radius is 1/2
+	const Real t = a / 2, h = 0.5;
+	const Real edge = h * (t * std::hypot(t, h) + h * h * std::asinh(t / h)); // ∫ ρ dy over an edge, times h
+	EXPECT_NEAR(strengthOf(regularOutline(3, 1), Vector2::Zero()).meanRadius(), 3 * edge / 3 / (3 * std::sqrt(3.) / 4), 1e-14);
+	EXPECT_NEAR(strengthOf(rectangleOutline(1, 1e-9), Vector2::Zero()).meanRadius(), 0.25, 1e-7);
+}
+
+// Pole inside, on the rim, outside; pressure even and towards one side.
+TEST(ShearStrength, ResistanceIsThatOfManySmallSquares)
+{
+	for (const Vector2& offset : { Vector2(0, 0), Vector2(0.2, 0), Vector2(0.1, 0.05) })
+		for (const Vector3& slip : { Vector3(0, 0, 1), Vector3(0.3, 0.1, 1), Vector3(0.3, 0.1, -1), Vector3(1, -2, 1), Vector3(5, 3, 0.1) }) {
+			const Corners corners = rectangleOutline(3, 1);
+			const Vector3 exact   = strengthOf(corners, offset).resistance(slip), squares = bySquares(3, 1, offset, slip);
+			EXPECT_LT((exact - squares).norm(), 1e-5) << offset.transpose() << " / " << slip.transpose();
+		}
+}
+
+TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
+{
+	std::mt19937_64                        random(3);
+	std::uniform_real_distribution<double> uniform(-1, 1);
+	for (int trial = 0; trial < 300; ++trial) {
+		const Corners        corners = randomOutline(random);
+		const ShearStrength  field   = strengthOf(corners, 0.2 * Vector2(uniform(random), uniform(random)), 7);
+		const Real           size    = trial % 3 == 0 ? 1 : std::pow(10, uniform(random));
+		const Real           turn = uniform(random);
+		const Vector3        slip(size * uniform(random), size * uniform(random), turn < 0 ? turn - 0.5 : turn + 0.5);
+		Matrix3              slope;
+		const Vector3        f = field.resistance(slip, &slope);
+		EXPECT_LT((slope * slip).norm(), 1e-6 * slope.norm() * slip.norm()); // homogeneous of degree zero
+		for (int k = 0; k < 3; ++k) {
+			const Real    step  = 1e-5 * (k < 2 ? std::max(slip.head<2>().norm(), std::abs(slip[2])) : std::abs(slip[2]));
+			const Vector3 there = field.resistance(slip + step * Vector3::Unit(k)), back = field.resistance(slip - step * Vector3::Unit(k));
+			EXPECT_LT(((there - back) / (2 * step) - slope.col(k)).norm(), 1e-4 * slope.norm() + 1e-9 * f.norm() / step) << trial << " " << k;
+		}
+		EXPECT_LE(f.head<2>().norm(), 7 * (1 + 1e-9));
+		EXPECT_LE(std::abs(f[2]), 7 * field.meanRadius() * (1 + 1e-9));
+	}
+}
+
+// Where the sums over edges give way to sums at points, nothing jumps.
+TEST(ShearStrength, FarAndNearCentresOfRotationAgree)
+{
+	const Corners       corners = rectangleOutline(3, 1);
+	const ShearStrength field   = strengthOf(corners, Vector2(0.3, 0.1));
+	const Vector2       centre(0.3, 0.1);
+	Real                size = 0;
+	for (const Vector2& corner : corners)
+		size = std::max(size, (corner - centre).norm());
+	for (const Real angle : { 0.1, 1., 2., 4. }) {
+		const Vector2 way(std::cos(angle), std::sin(angle));
+		const auto    at   = [&](Real far) { return field.resistance(Vector3(far * size * way[0], far * size * way[1], 1)); };
+		const Real    edge = tolerance::shearPoleFar;
+		EXPECT_LT((at(edge * (1 - 1e-9)) - at(edge * (1 + 1e-9))).norm(), 1e-6);
+		// without rotation, and with hardly any
+		const Vector3 straight = field.resistance(Vector3(way[0], way[1], 0)), nearly = at(1e9);
+		EXPECT_NEAR((straight - Vector3(way[0], way[1], 0)).norm(), 0, 1e-14);
+		EXPECT_LT((straight - nearly).norm(), 1e-8);
+	}
+}
+
+// A load beyond the strength: what stays is on the limit surface, opposes the slip, and is the nearest by the energy of the bed.
+TEST(ShearReturn, IsTheNearestPointOfTheLimitSurface)
+{
+	std::mt19937_64                        random(5);
+	std::uniform_real_distribution<double> uniform(-1, 1);
+	int                                    slipped = 0, stuck = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		const Corners        corners = randomOutline(random);
+		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
+		const Vector2        offset  = 0.15 * Vector2(uniform(random), uniform(random));
+		const ShearStrength  field(corners.data(), int(corners.size()), moments, 2, Vector2(moments.centroid + offset));
+		const Matrix3        stiffness = bedStiffness(50, moments.gyrationSquared(), moments.centroid - field.centre());
+		const Real           size      = std::pow(10, 1.5 * uniform(random));
+		const Vector3        load(2 * size * uniform(random), 2 * size * uniform(random), 2 * size * uniform(random));
+		Vector3              kept = load;
+		const Vector3        slip = returnToStrength(field, stiffness, kept);
+		if (slip == Vector3::Zero()) {
+			++stuck;
+			EXPECT_EQ(kept, load);
+			// no motion does more work than the strength takes
+			for (int k = 0; k < 40; ++k) {
+				const Vector3 way(uniform(random), uniform(random), uniform(random));
+				EXPECT_LE(way.dot(load), way.dot(field.resistance(way)) * (1 + 1e-6));
+			}
+			continue;
+		}
+		++slipped;
+		EXPECT_LT((load - stiffness * slip - kept).norm(), 1e-7 * load.norm()) << trial;
+		EXPECT_GT(slip.dot(kept), 0);
+		for (int k = 0; k < 40; ++k) {
+			const Vector3 way(uniform(random), uniform(random), uniform(random));
+			EXPECT_LE(way.dot(kept), way.dot(field.resistance(way)) * (1 + 1e-9));
+		}
+	}
+	EXPECT_GT(slipped, 600);
+	EXPECT_GT(stuck, 300);
+}
+
+TEST(ShearReturn, APushWithoutMomentSlipsStraightAtFullStrength)
+{
+	const Corners        corners = rectangleOutline(1, 0.4);
+	const OutlineMoments moments = momentsOf(corners.data(), 4);
+	const ShearStrength  field(corners.data(), 4, moments, 3, moments.centroid);
+	Vector3              load(6, 8, 0);
+	const Vector3        slip = returnToStrength(field, bedStiffness(10, moments.gyrationSquared(), Vector2::Zero()), load);
+	EXPECT_NEAR((load - Vector3(1.8, 2.4, 0)).norm(), 0, 1e-12);
+	EXPECT_NEAR((slip - Vector3(0.42, 0.56, 0)).norm(), 0, 1e-12);
+	load = Vector3(0, 0, 5);
+	returnToStrength(field, bedStiffness(10, moments.gyrationSquared(), Vector2::Zero()), load);
+	EXPECT_NEAR(load[2], 3 * field.meanRadius(), 1e-12);
+}
+
+// Coulomb's disc: however it starts, sliding and spinning end together (Farkas, Bartels, Unger, Wolf 2003, Phys. Rev. Lett. 90:248302), and the ratio
+// of velocity to rim speed tends to 0.653.
+TEST(ShearStrength, ASlidingAndSpinningDiscStopsBothAtOnce)
+{
+	const Corners       corners = regularOutline(400, 1);
+	const ShearStrength field   = strengthOf(corners, Vector2::Zero());
+	for (const Real start : { 0.3, 0.653, 3. }) {
+		Real v = start, w = 1;
+		for (; v > 1e-7 && w > 1e-7;) {
+			const Vector3 f  = field.resistance(Vector3(v, 0, w));
+			const Real    dt = 1e-2 * std::min(v, w);
+			v -= dt * f[0];
+			w -= dt * 2 * f[2]; // inertia m R²/2
+		}
+		EXPECT_NEAR(v / w, 0.653, 0.02) << start;
+	}
+}
+
+TEST(ShearStrength, SliversAndPointsHaveAnAnswer)
+{
+	for (const Real width : { 1e-3, 1e-6, 1e-9, 1e-12, 1e-15 })
+		for (const Vector3& slip : { Vector3(0, 0, 1), Vector3(0.1, 0.2, 1), Vector3(0.1, width / 2, 1), Vector3(1, 1, 0), Vector3(1, 1, 1e-6) }) {
+			const Corners       corners = rectangleOutline(1, width);
+			const ShearStrength field   = strengthOf(corners, Vector2(0.05, 0.1 * width));
+			Matrix3             slope;
+			const Vector3       f = field.resistance(slip, &slope);
+			EXPECT_TRUE(f.allFinite() && slope.allFinite()) << width;
+			EXPECT_LE(f.head<2>().norm(), 1 + 1e-6);
+			Vector3 load(3, 1, 0.5);
+			returnToStrength(field, bedStiffness(5, 1 / 12., Vector2::Zero()), load);
+			EXPECT_TRUE(load.allFinite());
+			EXPECT_LE(load.head<2>().norm(), 1 + 1e-6);
+		}
+}
+
+} // namespace
