@@ -158,7 +158,7 @@ void PotentialContacts::collect(const Scene& scene)
 			partners.polytopes     = true;
 			const Polytope* before = last ? polytopeOf(*last) : nullptr;
 			if (!before || before->convex() != polytope->convex()) lastArea = largestFace(*polytope->convex());
-			partners.area = math::max(partners.area, lastArea);
+			partners.area += lastArea;
 		} else if (!dynamic_cast<const Sphere*>(body->shape.get())) {
 			partners.area = std::numeric_limits<Real>::max(); // walls and their like
 		}

@@ -46,8 +46,10 @@ private:
 	struct Partners {
 		shared_ptr<Material> material;
 		Body::id_t           one = Body::ID_NONE, other = Body::ID_NONE;
-		Real                 size = 0, area = 0; ///< the largest
-		bool polytopes = false, asLarge = false; ///< there are such; there are some that count as large as what they touch
+		Real                 size      = 0;     ///< the largest
+		Real                 area      = 0;     ///< of the largest face of each: a face may lie on many pieces
+		bool                 polytopes = false; ///< there are some
+		bool                 asLarge   = false; ///< there are some that count as large as what they touch
 	};
 	struct Stiffness {
 		Real normal = 0, shear = 0;

@@ -18,16 +18,6 @@ namespace {
 		if (after > 0) tangent *= math::sqrt(before / after);
 	}
 
-	/// Largest t ≤ 1 with |force + t·added| ≤ limit, for |force| ≤ limit.
-	Real fractionWithin(Real limit, const Vector3r& force, const Vector3r& added)
-	{
-		if ((force + added).squaredNorm() <= limit * limit) return 1;
-		const Real a = added.squaredNorm(), b = force.dot(added), c = limit * limit - force.squaredNorm();
-		if (!(a > 0 && c > 0)) return 0;
-		const Real root = math::sqrt(b * b + a * c);
-		return b > 0 ? c / (b + root) : (root - b) / a;
-	}
-
 	/// Energy of the normal spring; a conservative contact's geometry has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
@@ -43,6 +33,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	auto&      geom = static_cast<PolytopeGeom&>(*igeom);
 	auto&      phys = static_cast<RockJointPhys&>(*iphys);
 	const Pair pair(*contact, geom, scene);
+	if (damps()) stiffnessSums.begin(*scene);
 
 	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
 	turnWithContact(geom, elasticShear);
@@ -79,6 +70,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
 		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
 	if (!apply(pair, phys)) return true;
+	if (damps()) takePart(pair, phys);
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
@@ -115,39 +107,6 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 	return true;
 }
 
-/// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
-Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const
-{
-	const Real viscous      = -normalDamping * pair.criticalDamping(phys.kn) * pair.geom.normal.dot(pair.velocity());
-	const bool takesTension = phys.intact && phys.tensileStrength > 0;
-	return takesTension ? viscous : math::max(viscous, -elastic);
-}
-
-/// Viscous shear force on body 2, at most to the strength.
-Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
-        const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
-{
-	const Vector3r velocity = pair.velocity();
-	const Vector3r viscous
-	        = -shearDamping * pair.criticalDamping(phys.ks) * (velocity - pair.geom.normal.dot(velocity) * pair.geom.normal);
-	return fractionWithin(phys.shearStrength(normal), shear, viscous) * viscous;
-}
-
-/// Moment on body 2 of dampers spread over the contact area, as far as a pressure that gives this normal force can balance it.
-Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const
-{
-	Real        gyrationSquared = phys.contactArea / 12;
-	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
-	if (polygon && polygon->dimension == 2) {
-		const auto* other = static_cast<const Polytope*>(pair.body2->shape.get()); // polygons meet polygons only
-		gyrationSquared   = math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
-	}
-	const Vector3r rocking = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
-	const Vector3r moment  = -rockingDamping * pair.criticalDamping(phys.kn) * gyrationSquared * rocking;
-	const Real     limit = math::sqrt(3 * gyrationSquared) * normal, size = moment.norm();
-	return size > limit ? Vector3r(limit / size * moment) : moment;
-}
-
 /// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
@@ -155,6 +114,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
 		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
 		        = Vector3r::Zero();
+		phys.dampedStiffness = 0;
 		++nonFinite_;
 		return false;
 	}
@@ -177,6 +137,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 	phys.slide(trial);
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.isSliding                                                                                   = false;
+	phys.dampedStiffness                                                                             = 0;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStep.clear();
 	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
