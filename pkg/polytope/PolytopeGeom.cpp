@@ -6,6 +6,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
+#include "ContactSizes.hpp"
 #include "InternalFaces.hpp"
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
@@ -265,10 +266,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	const bool hasEnergy = settings_.contactModel == polytope::ContactModel::Conservative
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
-	const Vector3r point    = origin1 + result.point;
-	const Real     arm1 = (point - state1.pos).norm(), arm2 = (point - state2.pos - shift2).norm();
-	geom.doIg2Work(point, result.depth, arm1, arm2, state1, state2, scene, c, result.normal, shift2, !wasReal,
-	        /*avoidGranularRatcheting*/ false);
+	ContactSizes sizes { geom.refR1, geom.refR2 };
+	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+	geom.doIg2Work(origin1 + result.point, result.depth, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,
+	        !wasReal, /*avoidGranularRatcheting*/ false);
 	return true;
 }
 

@@ -9,10 +9,11 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
-#include "StiffnessRules.hpp"
+#include "ContactSizes.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJointLaw.hpp"
 #include "RockJointPhysics.hpp"
+#include "StiffnessRules.hpp"
 
 namespace yade {
 
@@ -150,14 +151,16 @@ void PotentialContacts::collect(const Scene& scene)
 		}
 		Partners& partners                                 = partners_[index];
 		(partners.one < 0 ? partners.one : partners.other) = body->id;
-		partners.radius                                    = math::max(partners.radius, boundingRadius(*body->shape));
+		const Real size                                    = sizeIfMoved(*body, scene);
+		partners.size                                      = math::max(partners.size, size);
+		partners.asLarge                                   = partners.asLarge || !(size > 0);
 		if (const auto* polytope = polytopeOf(*body)) {
 			partners.polytopes     = true;
 			const Polytope* before = last ? polytopeOf(*last) : nullptr;
 			if (!before || before->convex() != polytope->convex()) lastArea = largestFace(*polytope->convex());
-			partners.area = math::max(partners.area, lastArea);
+			partners.area += lastArea;
 		} else if (!dynamic_cast<const Sphere*>(body->shape.get())) {
-			partners.area = partners.radius = std::numeric_limits<Real>::max(); // walls and their like
+			partners.area = std::numeric_limits<Real>::max(); // walls and their like
 		}
 		last = body.get();
 	}
@@ -169,7 +172,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const State &  state = *body.state, &moving = *mover.state;
 	const void*    shape  = polytope ? static_cast<const void*>(polytope->convex().get()) : body.shape.get();
 	const Vector3r centre = &body == &mover ? Vector3r(Vector3r::Zero()) : Vector3r(state.pos - moving.pos);
-	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), {}, {}, {} };
+	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), sizeOf(*body.shape), {}, {}, {} };
 	Part&          known = parts_[body.id];
 	if (polytope && known.isOf(part)) return known; // other shapes may change their size
 	if (body.id > 0 && &body == &mover && parts_[body.id - 1].isOf(part)) return known = parts_[body.id - 1]; // bodies of a kind
@@ -177,17 +180,14 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const auto mobility = mobilityOf(mover);
 	if (!polytope) {
 		const Real radius = boundingRadius(*body.shape);
-		part.vertex       = { polytope::reachOfBall(mobility, centre, radius), radius, Mathr::PI * radius * radius };
+		part.vertex       = { polytope::reachOfBall(mobility, centre, radius), Mathr::PI * radius * radius };
 		return known      = part;
 	}
 	const auto&    convex = *polytope->convex();
 	const auto&    hull   = convex.polyhedron();
 	const Matrix3r axes   = state.ori.toRotationMatrix();
-	for (const Vector3r& vertex : hull.vertices) {
-		const Vector3r arm = axes * vertex;
-		part.vertex.unit   = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + arm));
-		part.vertex.arm    = math::max(part.vertex.arm, Real(vertex.norm()));
-	}
+	for (const Vector3r& vertex : hull.vertices)
+		part.vertex.unit = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + axes * vertex));
 	Real worst = 0, worstPressed = 0;
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
@@ -197,8 +197,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
 		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
 		const auto     take   = [&](bool pressed, Real& highest, Place& taken) {
-                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed), middle.norm(),
-                                area.norm() };
+                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed), area.norm() };
                         if (!(place.unit * place.area > highest)) return;
                         highest = place.unit * place.area;
                         taken   = place;
@@ -209,18 +208,23 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	return known = part;
 }
 
-const PotentialContacts::Stiffness& PotentialContacts::stiffness(const Body& part, Partners& partners, const Place& place, Scene& scene)
+const PotentialContacts::Stiffness& PotentialContacts::stiffness(
+        const Body& part, Real partOwnSize, Partners& partners, const Place& place, Scene& scene)
 {
 	const bool polytopes = partners.polytopes || polytopeOf(part);
-	const Real arm = roundedUp(place.arm), area = roundedUp(math::min(place.area, partners.area));
-	const Key  key { part.material.get(), partners.material.get(), polytopes, arm, area };
+	// that of a part without a size is its partner's; YADE takes more than a sphere's own radius for what the sphere lies on
+	const Real own     = partOwnSize > 0 ? partOwnSize : partners.size;
+	const Real asLarge = !partners.asLarge ? Real(0) : polytopes ? own : polytope::tolerance::potentialPartner * own;
+	const Real size = roundedUp(own), other = roundedUp(math::max(partners.size, asLarge)),
+	           area = roundedUp(math::min(place.area, partners.area));
+	const Key  key { part.material.get(), partners.material.get(), polytopes, size, area };
 	const auto found = asked_.find(key);
 	if (found != asked_.end()) return found->second;
 
 	auto geom    = polytopes ? shared_ptr<ScGeom>(new PolytopeGeom) : shared_ptr<ScGeom>(new ScGeom);
 	geom->normal = Vector3r::UnitZ();
-	geom->refR1  = arm;
-	geom->refR2  = math::min(partners.radius, polytope::tolerance::potentialPartner * arm);
+	geom->refR1  = size;
+	geom->refR2  = other;
 	if (polytopes) static_cast<PolytopeGeom&>(*geom).contactArea = area;
 	const auto contact = shared_ptr<Interaction>(new Interaction(part.id, partners.one == part.id ? partners.other : partners.one));
 	contact->geom      = geom;
@@ -251,7 +255,7 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 				        && stiffnessRuleOfNew(scene, *part.material, *partners.material) != StiffnessRule::Unknown;
 				for (const Place& place : { places.vertex, pressed ? places.pressedFace : places.face }) {
 					if (!(place.unit > 0)) continue;
-					const Stiffness& stiff  = stiffness(part, partners, place, scene);
+					const Stiffness& stiff  = stiffness(part, places.size, partners, place, scene);
 					const Real       k      = math::max(stiff.normal, stiff.shear);
 					const Real       damper = 2 * damping * math::sqrt(k * body->state->mass);
 					limit.take(polytope::safeTimeStep(k * place.unit, damper * place.unit), body->id);

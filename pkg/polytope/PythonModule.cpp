@@ -233,6 +233,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	yade::defineConstruction();
 	yade::defineArrays();
 	yade::defineWorkerContacts();
+	yade::defineWorkerSums();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
 	        .add_property("inContact", &field<bool, &ContactResult::inContact>,

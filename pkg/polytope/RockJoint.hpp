@@ -157,6 +157,7 @@ public:
 		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
 		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the joint."))
 		((LastStep, lastStep, , (Attr::readonly | Attr::hidden), "Kept with O.trackEnergy; none: was not tracked"))
+		((Real, dampedStiffness, 0, (Attr::readonly | Attr::hidden), "Stiffness with which the contact was part of the last step's sums, for dampers (StiffnessSums); 0: it was not"))
 		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none and are never intact."))
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))

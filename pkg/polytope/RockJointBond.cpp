@@ -120,6 +120,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	phys.shearAt(bond.point);
 	if (rockingDamping > 0) phys.rockingMoment = rockingDamper(atBond, phys, std::numeric_limits<Real>::infinity());
 	if (!apply(atBond, phys)) return true;
+	if (damps()) takePart(atBond, phys);
 
 	geom.energyPerStiffness = (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn;
 	if (!scene->trackEnergy) phys.lastStep.clear();

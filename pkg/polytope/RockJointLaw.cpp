@@ -22,6 +22,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	auto&      geom = static_cast<PolytopeGeom&>(*igeom);
 	auto&      phys = static_cast<RockJointPhys&>(*iphys);
 	const Pair pair(*contact, geom, scene);
+	if (damps()) stiffnessSums.begin(*scene);
 
 	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
 	turnWithContact(geom, elasticShear);
@@ -49,7 +50,12 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (normal <= 0 && shear.force().squaredNorm() < shown * shown) shear.vanish();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, shear);
 	if (last.wasBond) phys.slip = Vector3r::Zero();
-	if (shearDamping > 0 && !phys.isSliding) shear.damp(phys, normal, shearDamping * pair.criticalDamping(phys.ks));
+	if (shearDamping > 0 && !phys.isSliding) {
+		const Vector3r along = shear.velocity();
+		const Real     speed = along.norm();
+		shear.damp(phys, normal, damper(pair, phys, shearDamping, phys.ks, speed > 0 ? Vector3r(along / speed) : along),
+		        damper(pair, phys, shearDamping, phys.ks, geom.normal, shear.gyrationSquared()));
+	}
 
 	phys.normalViscous = viscous * geom.normal;
 	phys.normalForce   = normal * geom.normal;
@@ -57,6 +63,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
 		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
 	if (!apply(pair, phys)) return true;
+	if (damps()) takePart(pair, phys);
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
@@ -88,48 +95,16 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 	return true;
 }
 
-/// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
-Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const
-{
-	const Real viscous      = -normalDamping * pair.criticalDamping(phys.kn) * pair.geom.normal.dot(pair.velocity());
-	const bool takesTension = phys.intact && phys.tensileStrength > 0;
-	return takesTension ? viscous : math::max(viscous, -elastic);
-}
-
-/// Viscous shear force of a joint that acts as a bond, on body 2, at most to the strength.
-Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
-        const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
-{
-	const Vector3r velocity = pair.velocity();
-	const Vector3r viscous
-	        = -shearDamping * pair.criticalDamping(phys.ks) * (velocity - pair.geom.normal.dot(velocity) * pair.geom.normal);
-	return fractionWithin(phys.shearStrength(normal), shear, viscous) * viscous;
-}
-
-/// Moment on body 2 of dampers spread over the contact area, as far as a pressure that gives this normal force can balance it.
-Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const
-{
-	Real        gyrationSquared = phys.contactArea / 12;
-	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
-	if (polygon && polygon->dimension == 2) {
-		const auto* other = static_cast<const Polytope*>(pair.body2->shape.get()); // polygons meet polygons only
-		gyrationSquared   = math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
-	}
-	const Vector3r rocking = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
-	const Vector3r moment  = -rockingDamping * pair.criticalDamping(phys.kn) * gyrationSquared * rocking;
-	const Real     limit = math::sqrt(3 * gyrationSquared) * normal, size = moment.norm();
-	return size > limit ? Vector3r(limit / size * moment) : moment;
-}
-
 /// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
-	const Vector3r force = phys.normalForce + phys.shearForce, 
+	const Vector3r force = phys.normalForce + phys.shearForce,
 	               moment = phys.rockingMoment + phys.momentAbout(pair.geom.contactPoint, pair.geom.normal);
 	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
 		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
 		        = Vector3r::Zero();
 		phys.shearAt(pair.geom.contactPoint);
+		phys.dampedStiffness = 0;
 		++nonFinite_;
 		return false;
 	}
@@ -153,7 +128,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 	else if (!last.wasBond) work.plastic = shear.loss();
 	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
 	phys.shearAt(pair.geom.contactPoint);
-	phys.isSliding = false;
+	phys.isSliding       = false;
+	phys.dampedStiffness = 0;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStep.clear();
 	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);

@@ -155,12 +155,16 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	return true;
 }
 
-void Shear::damp(const RockJointPhys& phys, Real normal, Real damper)
+Vector3r Shear::velocity() const
 {
-	Vector3r velocity = pair_.velocity() + pair_.spin().cross(offset_);
-	velocity -= pair_.geom.normal.dot(velocity) * pair_.geom.normal;
-	viscous_      = -damper * velocity;
-	viscousTwist_ = hasOutline() ? -damper * gyration_ * pair_.geom.normal.dot(pair_.spin()) : Real(0);
+	const Vector3r velocity = pair_.velocity() + pair_.spin().cross(offset_);
+	return velocity - pair_.geom.normal.dot(velocity) * pair_.geom.normal;
+}
+
+void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twistingDamper)
+{
+	viscous_      = -damper * velocity();
+	viscousTwist_ = -twistingDamper * pair_.geom.normal.dot(pair_.spin());
 	Real strength = phys.shearStrength(normal);
 	if (hasOutline() && strength > 0 && (twist_ != 0 || viscousTwist_ != 0)) {
 		// within the part of the limit surface that ShearStrength::surelyHolds() knows

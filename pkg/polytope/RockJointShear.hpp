@@ -23,8 +23,11 @@ public:
 	void move(const Vector3r& increment);
 	/// Slip, where force and moment are beyond the strength of the joint as it is. Returns whether there is any.
 	bool limit(const RockJointPhys& phys, Real normal);
-	/// Viscous force and moment of `damper` [N s/m], spread as the springs are, as far as the strength goes.
-	void damp(const RockJointPhys& phys, Real normal, Real damper);
+	/// Viscous force and moment of these dampers [N s/m], [N m s/rad], as far as the strength goes.
+	void damp(const RockJointPhys& phys, Real normal, Real damper, Real twistingDamper);
+	/// Along the joint, at the area's centroid [m/s].
+	Vector3r velocity() const;
+	Real     gyrationSquared() const { return gyration_; }
 	/// No force and no moment.
 	void vanish();
 	/// Leaves forces and memory for the next step.

@@ -64,18 +64,6 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
 	/// From where body 2 is to where it is in the period of body 1.
 	Vector3r shift2() const { return centre2 - state2.pos; }
-	Real     inverseMass(const Body* body) const
-	{
-		if (body->isClumpMember()) body = Body::byId(body->clumpId, scene).get();
-		return body->isDynamic() && body->state->mass > 0 ? 1 / body->state->mass : Real(0);
-	}
-	/// Critical damping of a spring between the bodies; 0 if neither can move. For a share of the full stiffness, the same
-	/// share of its damper: so several pieces damp as one does.
-	Real criticalDamping(Real stiffness) const
-	{
-		const Real inverse = inverseMass(body1) + inverseMass(body2);
-		return inverse > 0 ? 2 * math::sqrt(stiffness * geom.share / inverse) : Real(0);
-	}
 };
 
 /// State at the end of the last step, before this one changes it; the shear bed's is in RockJointShear.hpp.

@@ -13,6 +13,7 @@
 #include "BondsOfScene.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"
+#include "RockJointDampers.hpp"
 #include "RockJointLaw.hpp"
 
 namespace yade {
@@ -66,10 +67,7 @@ namespace {
 		const NormShearPhys&         phys;
 		Vector3r                     shift2, shiftVelocity; ///< of body 2's period
 
-		const Body& mover(const Body& body) const
-		{
-			return body.isClumpMember() && scene.bodies->exists(body.clumpId) ? *(*scene.bodies)[body.clumpId] : body;
-		}
+		const Body& mover(const Body& body) const { return moverOf(body, scene); }
 		/// From the centre of what moves to the contact point.
 		Vector3r arm(const Body& body) const
 		{
@@ -82,12 +80,13 @@ namespace {
 			return -geom.normal.dot(state2.vel + shiftVelocity + state2.angVel.cross(arm(body2)) - state1.vel
 			        - state1.angVel.cross(arm(body1)));
 		}
-		Real criticalDamping(Real stiffness) const
+		/// √(m k): force per velocity of an impact on the spring.
+		Real impedance(Real stiffness) const
 		{
 			Real inverse = 0;
 			for (const Body* body : { &mover(body1), &mover(body2) })
 				if (isMovedByForces(*body) && body->state->mass > 0) inverse += 1 / body->state->mass;
-			return inverse > 0 ? 2 * math::sqrt(stiffness / inverse) : Real(0);
+			return inverse > 0 ? math::sqrt(stiffness / inverse) : Real(0);
 		}
 	};
 
@@ -117,7 +116,7 @@ namespace {
 		if (geom.rockingArm > 0) { // conservative
 			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
 			const Real growth = math::max(pair.approach(), Real(0))
-			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.criticalDamping(pair.phys.kn) / 2);
+			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.impedance(pair.phys.kn));
 			return (force + growth) * geom.rockingArm * across(geom.normal);
 		}
 		const polytope::ConvexShape* shape1 = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
@@ -159,9 +158,11 @@ namespace {
 	void addDampers(const Pair& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
 	        polytope::ContactSprings& springs)
 	{
-		const Real normal    = pair.criticalDamping(phys.kn);
+		const Real inverse = inverseDampedMass(pair.body1, pair.body2, pair.geom.normal, phys, law.stiffnessSums, pair.scene);
+		if (!(inverse > 0)) return;
+		const Real normal    = 2 * math::sqrt(phys.kn / inverse);
 		springs.normalDamper = law.normalDamping * normal;
-		springs.shearDamper  = law.shearDamping * pair.criticalDamping(phys.ks);
+		springs.shearDamper  = law.shearDamping * 2 * math::sqrt(phys.ks / inverse);
 		if (phys.ks > 0) springs.twistingDamper = springs.shearDamper * phys.twistingStiffness / phys.ks;
 		if (law.rockingDamping > 0)
 			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);

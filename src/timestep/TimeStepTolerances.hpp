@@ -10,8 +10,9 @@ namespace polytope::tolerance {
 /// its normal one is the same at any depth that is small against the body.
 constexpr double potentialDepth = 1e-3;
 
-/// × a body's own radius: as large as its partner in a potential contact is taken to be at most (walls have no size). Where
-/// stiffness goes by the radii (2 E₁R₁ E₂R₂/(E₁R₁ + E₂R₂)), it is within a thousandth of that with an infinite one.
+/// × a sphere's radius: as large as a wall, a box or a facet is taken to be in a potential contact with it, for YADE's contacts of spheres with
+/// these have a size that is a setting of theirs. Where stiffness goes by the radii (2 E₁R₁ E₂R₂/(E₁R₁ + E₂R₂)), it is within a
+/// thousandth of that with an infinite one.
 constexpr double potentialPartner = 1e3;
 
 /// Sizes for which a potential contact's stiffness is asked are rounded up to powers of this, so that thousands of bodies of a kind, or of

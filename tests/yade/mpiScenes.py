@@ -261,9 +261,9 @@ def opened():
 
 
 def shaken():
-	"""The heap, thrown up in four ways, 250 steps later: [mean height, speed, contacts] of each."""
+	"""The heap, thrown up in eight ways, 250 steps later: [mean height, speed, contacts] of each."""
 	found = []
-	for seed in range(4):
+	for seed in range(8):
 		load()
 		if master:
 			dice = np.random.default_rng(seed)

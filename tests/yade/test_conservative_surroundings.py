@@ -223,7 +223,7 @@ def testStableTimeStepKnowsRocking():
 	found = contact(floor, block)
 	rocking = found.phys.normalForce.norm() * found.geom.rockingArm
 	# sliding, and turning about the contact by shear and rocking
-	m, inertia, arm = block.state.mass, min(block.state.inertia), found.geom.refR2
+	m, inertia, arm = block.state.mass, min(block.state.inertia), (found.geom.contactPoint - block.state.pos).norm()
 	slide, turn, both = 1e7 / m, (rocking + 1e7 * arm**2) / inertia, 1e7 * arm / sqrt(m * inertia)
 	expected = 1 / sqrt((slide + turn) / 2 + sqrt(((slide - turn) / 2) ** 2 + both**2))
 	assert polytope.stableTimeStep(1) == pytest.approx(expected, rel=1e-9)

@@ -83,7 +83,15 @@ def testArmsAcrossThePeriodEndAtTheImage():
 	contacts = [one for one in O.interactions if one.isReal]
 	assert len(contacts) == 3 and sum(tuple(one.cellDist) != (0, 0, 0) for one in contacts) == 1
 	for one in contacts:
-		assert (one.geom.refR1, one.geom.refR2) == pytest.approx((.5, .5), rel=1e-3)
+		# a shear force at the contact point, half a block away from either centre, along y on the block on the right
+		one.phys.ks, one.phys.shearForce = 0, Vector3(0, one.geom.normal[0], 0)
+		one.phys.tangensOfFrictionAngle = 1e6
+	O.step()
+	for one in contacts:
+		assert abs(one.phys.shearForce[1]) == pytest.approx(1, rel=1e-9)
+	for body in O.bodies:  # one contact pushes along y, one against it: no force, and both turn the block the same way
+		assert O.forces.f(body.id)[1] == pytest.approx(0, abs=1e-9)
+		assert O.forces.t(body.id)[2] == pytest.approx(-2 * .5, rel=1e-3)
 
 
 def testStackCarriesItsWeight():

@@ -13,16 +13,18 @@ import sys
 import traceback
 
 import yade
-from yade import O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
+from yade import InteractionLoop, O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
 
 from .._ranks import eraseRanks
-from . import bonds, clumps, decomposition, joints, permanentLoads, reallocation, waiting
+from . import bonds, clumps, dampers, decomposition, joints, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
 
 __all__ = ['check', 'handOut', 'install', 'shareTimeStep', 'size']
 
 shareStep = "import sys; sys.modules['yade.polytope.mpi'].shareTimeStep()"
 """What runs after a time stepper on each rank."""
+shareDampers = "import sys; sys.modules['yade.polytope.mpi.dampers'].share()"
+"""What runs before the contacts."""
 
 
 _ranksOfBodies = {}
@@ -123,11 +125,13 @@ def _handOutScene(splitScene):
 
 
 def _sharing(engines):
-	"""With one time step on all ranks; without what writes the whole scene (recorders.py)."""
+	"""With one time step on all ranks, and dampers that know all contacts; without what writes the whole scene (recorders.py)."""
 	made = []
 	for engine in engines:
 		if ofWholeScene(engine):
 			continue
+		if isinstance(engine, InteractionLoop):
+			made.append(PyRunner(iterPeriod=1, initRun=True, command=shareDampers))
 		made.append(engine)
 		if isinstance(engine, TimeStepper):
 			made.append(PyRunner(iterPeriod=1, initRun=True, command=shareStep))
@@ -209,14 +213,15 @@ def _withBodiesOfRankZero(mergeScene):
 		merges = O.splitted
 		if merges and mpy.rank > 0:
 			_refuseErased()
-		states = bonds.states() if merges else None
+		states = (bonds.states(), dampers.states()) if merges else None
 		mergeScene()
 		if merges:
 			bonds.divide(False)
 			if mpy.rank == 0:
 				_own()
 				clumps.takeMaterials()
-				bonds.takeStates(states)
+				bonds.takeStates(states[0])
+				dampers.takeStates(states[1])
 
 	return merge
 

@@ -9,7 +9,7 @@ contact over when both its bodies are there. A search for pairs by all ranks fol
 
 from yade import O, mpy
 
-from . import bonds, clumps, permanentLoads
+from . import bonds, clumps, dampers, permanentLoads
 
 __all__ = ['beyondTheMiddle', 'reallocate']
 
@@ -39,6 +39,7 @@ def reallocate(choose, blocking=True):
 			O.bodies[k].subdomain = other
 	_send(moved)
 	permanentLoads.passOn(moved)
+	dampers.passOn(moved)
 	O.subD.updateLocalIds(True)
 	mpy.collider.doSort = True  # finds pairs also of boxes that met before, when neither body was this rank's
 	mpy.parallelCollide()
