@@ -69,9 +69,11 @@ def continueFrom(fileName='checkpoint'):
 
 	:param str fileName: as it was given to *checkpoint*
 	:returns: name of the file that was loaded; None if there is none, and the scene is as it was
-	:raises RuntimeError: if there are files and none can be read
+	:raises RuntimeError: if there are files and none can be read, or while a run goes on in the background, which would lose its scene in a step
 	"""
 	fileName = os.fspath(fileName)
+	if O.running:
+		raise RuntimeError('fileName: nothing is loaded while a run goes on; O.pause() first')
 	names = [name for name in (f'{fileName}.yade', f'{fileName}.previous.yade') if os.path.exists(name)]
 	faults = []
 	for name in names:

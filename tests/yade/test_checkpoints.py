@@ -11,6 +11,7 @@ import threading
 import time
 
 import pytest
+from scenes import runInBackground
 from yade import ForceResetter, NewtonIntegrator, O, PolytopeCheckpoint, RockJointMat, polytope
 
 program = r'''
@@ -252,6 +253,20 @@ def testFullDiskKeepsTheLastState(tmp_path, missing):
 def testNothingToContinueFromLeavesTheScene(tmp_path):
 	scene(PolytopeCheckpoint())
 	assert polytope.continueFrom(tmp_path / 'run') is None and len(O.bodies) == 1
+
+
+def testNothingIsLoadedWhileARunGoesOn(tmp_path):
+	"""It would take the scene from the thread that computes a step: a crash, before this was refused."""
+	scene(polytope.checkpoint(tmp_path / 'run', iterPeriod=10**6, onSignal=False))
+	O.engines[2].write()
+	runInBackground()
+	try:
+		with pytest.raises(RuntimeError, match='nothing is loaded while a run goes on; O.pause'):
+			polytope.continueFrom(tmp_path / 'run')
+		assert O.running and O.iter > 0
+	finally:
+		O.pause()
+	assert polytope.continueFrom(tmp_path / 'run') == f'{tmp_path}/run.yade' and O.iter == 0
 
 
 def testRefusals(tmp_path):
