@@ -6,7 +6,9 @@
 #include <lib/serialization/ObjectIO.hpp>
 
 #include <boost/filesystem.hpp>
+#include <libdeflate.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <fcntl.h>
@@ -79,6 +81,25 @@ namespace {
 		} catch (const std::exception&) { // of the archive or the stream, when the system does not take their bytes
 			return false;
 		}
+		return !file.fail();
+	}
+
+	/// Appends a mark and the CRC-32 of all that is in the file (checkpoints.py looks at them): the archive itself takes other bytes as they are.
+	/// \returns whether the system has taken them
+	bool appendChecksum(const string& name)
+	{
+		std::ifstream     written(name, std::ios::binary);
+		std::vector<char> block(1 << 20);
+		std::uint32_t     sum = libdeflate_crc32(0, nullptr, 0);
+		while (written.read(block.data(), std::streamsize(block.size())) || written.gcount() > 0)
+			sum = libdeflate_crc32(sum, block.data(), std::size_t(written.gcount()));
+		if (!written.eof()) return false;
+		std::array<char, 12> end { 'p', 'o', 'l', 'y', 't', 'o', 'p', 'e' };
+		for (std::size_t k = 0; k < 4; ++k)
+			end[8 + k] = char(sum >> (8 * k) & 0xff);
+		std::ofstream file(name, std::ios::binary | std::ios::app);
+		file.write(end.data(), end.size());
+		file.close();
 		return !file.fail();
 	}
 
@@ -189,7 +210,7 @@ void PolytopeCheckpoint::save()
 	const string writing = nameOf(".writing"), last = nameOf(""), previous = nameOf(".previous");
 	notePermanentLoads();
 	++written;
-	if (!writeScene(writing) || !onDisk(writing))
+	if (!writeScene(writing) || !appendChecksum(writing) || !onDisk(writing))
 		throw std::runtime_error("PolytopeCheckpoint.fileName: cannot write " + writing + "; is the disk full?");
 	if (boost::filesystem::exists(last)) boost::filesystem::rename(last, previous);
 	boost::filesystem::rename(writing, last);

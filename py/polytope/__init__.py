@@ -22,7 +22,7 @@ from yade._polytope import buildInfo, contact
 
 from . import _helpTexts
 from .arrays import arrays
-from .bodies import cuboid, fromHalfSpaces, fromMesh, fromVertices, polygon, regular
+from .bodies import cuboid, fromHalfSpaces, fromVertices, polygon, regular
 from .bonding import bond, bonds
 from .breakage import split
 from .check import check
@@ -39,6 +39,7 @@ from .loading.shearBox import shearBox
 from .loading.simpleShear import simpleShear
 from .loading.triaxial import triaxial
 from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
+from .meshes import fromMesh
 from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements

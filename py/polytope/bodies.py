@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies with Polytope shapes, from half-spaces, points, dimensions or mesh files.
+"""Bodies with Polytope shapes, from half-spaces, points or dimensions.
 
 All functions return a yade Body, ready for ``O.bodies.append``, with mass and inertia from the material's density. They
 share these keyword arguments (*body* below), with the meaning they have in yade.utils.box:
@@ -20,16 +20,14 @@ share these keyword arguments (*body* below), with the meaning they have in yade
 import functools
 import inspect
 import numbers
-import os
 import random
 
 import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
-from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors, warn
-from .precision import isNumber
+from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors
 
-__all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon', 'fromMesh']
+__all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon']
 
 defaultCornerFraction = 0.1
 """Default cornerRadius over the inscribed ball's radius."""
@@ -43,14 +41,8 @@ still = (0, 0, 0)
 colours = random.Random()
 """Of bodies without a given one: a generator of their own, so that the script's random numbers are not affected."""
 
-notConvex = 1e-3
-"""Part of the hull's volume that a mesh may lack and still count as convex: curved surfaces of flat triangles lack some."""
-
 concave = 1e-6
 """Of an outline's extent: how deep a point may lie inside the hull, and still be one of a straight side, written with six digits."""
-
-singlePrecision = 1e-6
-"""Relative distance up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
 
 
 randomColor = (-1, -1, -1)
@@ -90,7 +82,7 @@ def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
 	    four planes, lengths that differ, cornerRadius that does not fit inside
 	"""
 	normals, offsets, keepRedundant = vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), flag(keepRedundant, 'keepRedundant')
-	return _body(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
+	return bodyOf(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
 
 
 @builder
@@ -101,7 +93,7 @@ def fromVertices(points, **body):
 	:raises ValueError: naming *points*: fewer than four, NaN or infinite, all in one plane
 	"""
 	points = vectors(points, 'points', 3)
-	return _body(lambda *corner: _polytope.ofPoints(points, 3, 0, 1, *corner), **body)
+	return bodyOf(lambda *corner: _polytope.ofPoints(points, 3, 0, 1, *corner), **body)
 
 
 @builder
@@ -117,7 +109,7 @@ def regular(faces, circumradius, center=(0, 0, 0), orientation=None, **body):
 	if not isinstance(faces, numbers.Integral):
 		raise ValueError(f'faces: must be 4, 6, 8, 12 or 20, got {faces!r}')
 	faces, circumradius = int(faces), number(circumradius, 'circumradius')
-	return _body(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), center=center, orientation=orientation, **body)
+	return bodyOf(lambda *corner: _polytope.ofRegular(faces, circumradius, *corner), center=center, orientation=orientation, **body)
 
 
 @builder
@@ -130,7 +122,7 @@ def cuboid(center, extents, orientation=None, **body):
 	:raises ValueError: naming *extents* if one is not positive and finite
 	"""
 	half = vector(extents, 'extents')
-	return _body(lambda *corner: _polytope.ofCuboid(half, *corner), center=center, orientation=orientation, **body)
+	return bodyOf(lambda *corner: _polytope.ofCuboid(half, *corner), center=center, orientation=orientation, **body)
 
 
 @builder
@@ -150,7 +142,7 @@ def polygon(points2d, thickness=1.0, **body):
 		except ValueError as error:
 			raise ValueError(str(error).replace('points', 'points2d', 1) if str(error).startswith('points') else str(error)) from None
 
-	made = _body(shape, flat=True, **body)
+	made = bodyOf(shape, flat=True, **body)
 	if len(made.shape.offsets) < len(outline):
 		refuseInside(shape(None, defaultCornerFraction), outline, made.shape)
 	return made
@@ -173,75 +165,7 @@ def refuseInside(placed, outline, shape):
 		)
 
 
-@builder
-def fromMesh(path, scale=1.0, parts=None, **body):
-	"""Convex hull of a mesh file's vertices (STL, OBJ, PLY, OFF, … whatever trimesh reads), as a body at its centroid.
-
-	A mesh that is not closed, or not convex, is warned of. With *parts* it becomes several convex bodies, for clump().
-
-	:param path: the file
-	:param float scale: factor on all coordinates, for files in other units than metres
-	:param parts: number of convex parts at most, into which CoACD cuts the mesh, approximately; or 'objects': the separate objects of the file,
-	    each of them convex. The result is then a list: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``; *center* and *orientation*
-	    are of the whole. CoACD is optional: ``pip install coacd``.
-	:raises ImportError: if CoACD is needed and not installed
-	:raises FileNotFoundError: if there is no such file
-	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive
-	"""
-	if not isNumber(scale) or not 0 < scale < float('inf'):
-		raise ValueError(f'scale: must be positive and finite, got {scale}')
-	points, triangles = readMesh(path, 'path')
-	points = points * scale
-	if parts is not None:
-		from .meshParts import convexParts
-		return convexParts(path, points, triangles, parts, body)
-	corners = vectors(points, 'points', 3)
-
-	def shape(*corner):
-		try:
-			return _polytope.ofPoints(corners, 3, singlePrecision, 1, *corner)
-		except ValueError as error:
-			if not str(error).startswith('points'):
-				raise
-			raise ValueError(f"path: the vertices of '{path}' make no body ({error})") from None
-
-	made = _body(shape, **body)
-	_tellWhatTheHullHides(path, points, triangles, float(made.shape.volume))
-	return made
-
-
-def _tellWhatTheHullHides(path, points, triangles, hull):
-	"""Warns where the hull is not the body of the mesh."""
-	import trimesh
-	mesh = trimesh.Trimesh(points, triangles)  # joins equal vertices: STL has three for each triangle
-	if not len(triangles) or not mesh.is_watertight:
-		warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices")
-	elif abs(mesh.volume) < (1 - notConvex) * hull:
-		seen = f"path: '{path}' is not convex: it has {abs(mesh.volume):.3g} m³, its hull, which the body is, {hull:.3g} m³"
-		warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts')
-
-
-def readMesh(path, name):
-	"""(points (n, 3), triangles (m, 3)) of a mesh file, whatever trimesh reads; refuses as fromMesh() does.
-
-	:param str name: of the argument
-	"""
-	if not isinstance(path, (str, os.PathLike)):
-		raise ValueError(f'{name}: must be the path of a file, got {path!r}')
-	if not os.path.exists(path):
-		raise FileNotFoundError(f"{name}: there is no file '{path}'")
-	import trimesh
-	try:
-		mesh = trimesh.load(path, force='mesh', process=False)
-		points, triangles = mesh.vertices * 1.0, mesh.faces
-	except Exception as error:  # trimesh passes on the exceptions of its readers
-		raise ValueError(f"{name}: '{path}' cannot be read as a mesh ({error})") from error
-	if len(points) == 0:
-		raise ValueError(f"{name}: '{path}' has no vertices; its content may not be of the format that its name indicates")
-	return points, triangles
-
-
-def _body(
+def bodyOf(
         shape,
         flat=False,
         *,
@@ -282,7 +206,7 @@ def _body(
 	return body
 
 
-ofAllBodies = tuple(name for name, one in inspect.signature(_body).parameters.items() if one.kind is one.KEYWORD_ONLY)
+ofAllBodies = tuple(name for name, one in inspect.signature(bodyOf).parameters.items() if one.kind is one.KEYWORD_ONLY)
 
 
 def _pose(center, orientation, flat):

@@ -12,6 +12,7 @@ import os
 import signal
 import threading
 import time
+import zlib
 
 from yade import O, PolytopeCheckpoint
 
@@ -23,6 +24,9 @@ __all__ = ['checkpoint', 'continueFrom']
 stopping = (signal.SIGTERM, signal.SIGINT)
 lookAgain = 0.01
 """Time between looks at a run in the background that is about to end [s]."""
+
+mark = b'polytope'
+"""Begins the end of a file, before the CRC-32 of all that stands before it (PolytopeCheckpoint.cpp)."""
 
 _former = {}
 """Signal's number → the handler that was there before."""
@@ -69,13 +73,16 @@ def continueFrom(fileName='checkpoint'):
 
 	:param str fileName: as it was given to *checkpoint*
 	:returns: name of the file that was loaded; None if there is none, and the scene is as it was
-	:raises RuntimeError: if there are files and none can be read
+	:raises RuntimeError: if there are files and none can be read, or while a run goes on in the background, which would lose its scene in a step
 	"""
 	fileName = os.fspath(fileName)
+	if O.running:
+		raise RuntimeError('fileName: nothing is loaded while a run goes on; O.pause() first')
 	names = [name for name in (f'{fileName}.yade', f'{fileName}.previous.yade') if os.path.exists(name)]
 	faults = []
 	for name in names:
 		try:
+			_checkSum(name)
 			O.load(name, quiet=True)
 		except Exception as fault:  # whatever the archive's reader throws
 			faults.append(f'{name}: {fault}')
@@ -87,6 +94,17 @@ def continueFrom(fileName='checkpoint'):
 	if names:
 		raise RuntimeError('fileName: no state can be read (one that another version of yade-polytope has written cannot be). ' + '; '.join(faults))
 	return None
+
+
+def _checkSum(name):
+	"""Refuses a file whose content is not what was written: the archive's reader takes other bytes for numbers."""
+	found, left = 0, os.path.getsize(name) - len(mark) - 4
+	with open(name, 'rb') as file:
+		while left > 0:
+			block = file.read(min(left, 1 << 20))
+			found, left = zlib.crc32(block, found), left - len(block)
+		if file.read() != mark + found.to_bytes(4, 'little'):
+			raise ValueError('its content is not what was written, or its end is missing')
 
 
 def _engines():

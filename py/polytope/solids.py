@@ -12,7 +12,9 @@ import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
 from .arguments import number, rotation, rows, vector, vectors
-from .bodies import builder, cuboid, defaultCornerFraction, fromVertices, readMesh, refuseInside
+from .bodies import builder, cuboid, defaultCornerFraction, fromVertices, refuseInside
+from .meshes.digits import warnOfRounding
+from .meshes.files import readMesh
 
 __all__ = ['frustum', 'plates', 'prism', 'terrain', 'tube']
 
@@ -132,7 +134,11 @@ def terrain(heights, spacing=None, depth=None, origin=(0, 0), **body):
 	:raises ValueError: naming the argument
 	"""
 	if isinstance(heights, (str, os.PathLike)):
-		points, triangles = (np.array(part) for part in readMesh(heights, 'heights'))
+		mesh = readMesh(heights, 'heights')
+		points, triangles = mesh.points, mesh.triangles
+		edges = np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)
+		if len(edges):
+			warnOfRounding(heights, 'heights', points, float(np.median(edges)), 'the usual length of an edge')
 	else:
 		points, triangles = _ofHeights(heights, _positive(spacing, 'spacing'), rows([origin], 'origin', 2)[0])
 	extent = float(np.ptp(points[:, :2], axis=0).max())

@@ -52,6 +52,10 @@ inline const Real coincidence = 256 * rounding;
 /// one tolerance at its own corners; the rest is for a narrow facet's noise, carried on to its neighbours.
 inline const Real support = 4;
 
+/// × half of a body's least width: facets whose corners miss a common plane by more are never joined, whatever a caller allows. The two
+/// faces of a plate that is thinner than this allows for would be one facet, and no body would be left.
+inline const Real thinnestFacets = 1.0 / 64;
+
 /// × size: two neighbouring planes this close over the whole shape are one plane (the first is kept). It has to exceed
 /// twice `coincidence`: between the two, the vertices of one face could join either of two planes and split it.
 inline const Real coplanarity = 4 * coincidence;

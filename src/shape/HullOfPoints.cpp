@@ -20,7 +20,8 @@ namespace {
 		std::vector<Vector3> points;
 		Vector3              centre;
 		Real                 unit; ///< a power of two: points · unit + centre are the caller's
-		Real size; ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
+		Real extent; ///< in units, about the centre
+		Real size;   ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
 	};
 
 	void check(const std::vector<Vector3>& points, int dimension, const Real& coplanar)
@@ -38,7 +39,7 @@ namespace {
 					refuse("points: entry " + std::to_string(i)
 					        + " (counted from 0) is beyond 1e50; choose another unit of length");
 		if (!(coplanar >= 0 && coplanar <= Real(0.1)))
-			refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the size");
+			refuse("coplanar: it must lie between 0 and 0.1; it is a fraction of the extent");
 	}
 
 	[[noreturn]] void refuseFlat(int dimension)
@@ -75,10 +76,10 @@ namespace {
 				refuse("points: in 2-D they lie in the xy plane; give z = 0");
 			result.centre.z() = 0;
 		}
-		Real extent = 0;
+		result.extent = 0;
 		for (const Vector3& p : points) {
-			Vector3 q = (p - result.centre) / result.unit;
-			extent    = std::max(extent, q.norm());
+			Vector3 q     = (p - result.centre) / result.unit;
+			result.extent = std::max(result.extent, q.norm());
 			if (dimension == 3) {
 				result.points.push_back(q);
 				continue;
@@ -86,7 +87,7 @@ namespace {
 			for (int side = -1; side <= 1; side += 2)
 				result.points.emplace_back(q.x(), q.y(), Real(side));
 		}
-		result.size = std::max(extent, Real(result.centre.norm() / result.unit));
+		result.size = std::max(result.extent, Real(result.centre.norm() / result.unit));
 		return result;
 	}
 
@@ -213,13 +214,15 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
 	check(points, dimension, coplanar);
 	const UnitPoints set = atUnitSize(points, dimension);
 	// the fitted plane's misfit is at least half the set's width, and at most a few times that
-	if (planeFit(set.points, everyIndex(set.points.size())).misfit <= construction::flatness * set.size) refuseFlat(dimension);
+	const Real halfWidth = planeFit(set.points, everyIndex(set.points.size())).misfit;
+	if (halfWidth <= construction::flatness * set.size) refuseFlat(dimension);
 
 	const Triangles triangles = hullTriangles(set.points);
 	const Edges     edges(triangles);
 	const Vector3   inner     = innerPoint(set.points, triangles);
 	const Indices   corners   = cornersOf(triangles);
-	const Real      tolerance = std::max(construction::coincidence, coplanar) * set.size;
+	const Real      tolerance = std::max(Real(construction::coincidence * set.size),
+                std::min(Real(coplanar * set.extent), Real(construction::thinnestFacets * halfWidth)));
 	const auto      misfit    = [&set](const Indices& members) { return planeFit(set.points, members).misfit; };
 	const auto      outside   = [&](const Indices& members) {
                 const Fit fit   = outwardFit(set.points, members, inner);

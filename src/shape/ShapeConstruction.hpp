@@ -41,8 +41,9 @@ void placeVertices(const HalfSpaces& unit, const Real& thickness, Polyhedron& sh
 HalfSpaces withoutRedundant(const HalfSpaces& unit);
 
 /// Convex hull of points as half-spaces, coplanar facets merged into one plane, so a cube has 6. Facets count as coplanar
-/// when their corners miss a common plane by at most `coplanar` × size; the default 0 stands for the points' own rounding
-/// (a mesh stored in single precision needs about 1e-6). No point of a merged facet is cut off.
+/// when their corners miss a common plane by at most `coplanar` × extent, wherever the body is, or by the rounding of points in
+/// this precision, for which the default 0 stands. (A mesh stored in single precision about its own middle needs about 1e-6.) No point
+/// of a merged facet is cut off.
 /// dimension 2: points in the xy plane. Refuses (naming `points`): too few, NaN, all in a plane (on a line in 2-D);
 /// (naming `coplanar`) a fraction that is negative, not finite or above 0.1.
 HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension = 3, Real coplanar = 0);

@@ -208,6 +208,49 @@ TEST(HullOfPoints, polygons)
 			}
 }
 
+/// A rock of random points on a sphere, all of whose faces are triangles, with the tolerance of a mesh file.
+TEST(HullOfPoints, facetsAreJoinedByTheExtentWhereverTheBodyIs)
+{
+	const Real      coplanar = 1e-6;
+	std::mt19937_64 random(32);
+	for (Real length : { Real(0.01), Real(1), Real(100) })
+		for (int turn = 0; turn < 5; ++turn) {
+			const Matrix3        rotation = someRotation(random);
+			std::vector<Vector3> rock, cube = boxCorners(Vector3::Constant(length));
+			for (int i = 0; i < 40; ++i)
+				rock.push_back(length * someDirection(random));
+			for (Vector3& corner : cube)
+				corner = rotation * corner;
+			const std::size_t faces = hullOf(rock).size();
+			EXPECT_EQ(faces, 76u);
+			for (Real far : { Real(0), Real(1.4e3), Real(1.4e4), Real(1.4e5), Real(4e6) }) {
+				const Vector3        place = far * someDirection(random);
+				std::vector<Vector3> there = rock, cubeThere = cube;
+				for (Vector3& point : there)
+					point += place;
+				for (Vector3& corner : cubeThere)
+					corner += place;
+				EXPECT_EQ(hullOf(there, 3, coplanar).size(), faces) << far << " m from the origin";
+				EXPECT_EQ(hullOf(cubeThere, 3, coplanar).size(), 6u) << far << " m from the origin";
+			}
+		}
+}
+
+/// A plate and a needle whose thickness is below the tolerance: their faces are not joined to one.
+TEST(HullOfPoints, thinBodiesKeepTheirFacesWhateverTheTolerance)
+{
+	std::mt19937_64 random(33);
+	for (const Real& thickness : { Real(1e-5), Real(1e-7), Real(1e-9) })
+		for (const Vector3& half : { Vector3(1, 1, thickness), Vector3(1, thickness, thickness) })
+			for (int turn = 0; turn < 5; ++turn) {
+				const Matrix3        rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
+				std::vector<Vector3> points   = boxCorners(half);
+				for (Vector3& p : points)
+					p = rotation * p;
+				EXPECT_EQ(hullOf(points, 3, 1e-6).size(), 6u) << half.transpose();
+			}
+}
+
 TEST(HullOfPoints, refusesByName)
 {
 	const Real           nan  = std::numeric_limits<Real>::quiet_NaN();

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Small scenes that several physics tests share."""
+import time
 from math import sqrt
 
 from yade import (
@@ -18,6 +19,14 @@ def joint(**attributes):
 	values = dict(density=density, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5)
 	values.update(attributes)
 	return O.materials.append(RockJointMat(**values))
+
+
+def runInBackground(steps=10**9):
+	"""O.run() without waiting for its end, once it has made a step: YADE's O.reset() and O.load() free a run that has not begun, and the thread that then begins it crashes."""
+	before = O.iter
+	O.run(steps)
+	while O.running and O.iter == before:
+		time.sleep(1e-3)
 
 
 def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import ForceResetter, NewtonIntegrator, O, Quaternion, Sphere, Vector3, polytope, utils
+from yade import ForceResetter, NewtonIntegrator, O, Quaternion, RockJointMat, Sphere, Vector3, polytope, utils
 
 from scenes import joint, loop, stepper
 
@@ -168,6 +168,20 @@ def testPolygonsAndPeriodicCells():
 	stepper()
 	O.run(100, wait=True)
 	assert max(bond.force.norm() for bond in polytope.bonds().bonds) < 1e-3
+
+
+def testAnglesOfFrictionHaveTheLimitsOfTheMaterial():
+	for angle in (0, math.pi / 2 - 1e-5, math.pi / 2, 1.6):
+		taken = []
+		for make in (RockJointMat, polytope.bond):
+			O.reset()
+			bondedPair()
+			try:
+				make(frictionAngle=angle)
+				taken.append(True)
+			except ValueError:
+				taken.append(False)
+		assert taken == [angle < math.pi / 2] * 2, angle
 
 
 def testWhatIsRefused():

@@ -6,9 +6,11 @@ Every mistake is one change of a right scene; its finding must come by that chan
 
 import importlib
 import math
+import warnings
 
 import pytest
 import yade
+from scenes import runInBackground
 from yade import (
 	Bo1_Box_Aabb,
 	Bo1_Facet_Aabb,
@@ -379,6 +381,36 @@ def testMeshInMillimetres(tmp_path):
 	assert '10 m across' in onlyFinding('size').seen, 'grains of 2 cm beside one of 10 m'
 
 
+@pytest.mark.parametrize('length, mass, time', [(1e3, 1e-3, 1), (1e3, 1e3, 1e3), (1e3, 1, 1e3), (1e2, 1e3, 1), (1e6, 1, 1), (1, 1e-3, 1), (3.28084, 2.20462, 1)])
+def testUnitsThatAgreeWithEachOther(length, mass, time):
+	"""mm-t-s, mm-g-ms, mm-kg-ms, cm-g-s, µm-kg-s, m-t-s, ft-lb-s: the scene of 1 m is as sound as in metres."""
+	O.reset()
+	stiffness = 1e8 * mass / length**2 / time**2
+	O.materials.append(rock(density=2600 * mass / length**3, normalStiffness=stiffness, shearStiffness=stiffness))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5 * length), (2 * length, 2 * length, 0.5 * length), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.6 * length), (0.5 * length,) * 3))
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		O.engines = polytope.engines(gravity=(0, 0, -9.81 * length / time**2))
+	assert not polytope.check(O)
+
+
+def testDensityScalingIsForSpheres():
+	"""YADE ends the process, whether it is set in the stepper or in the integrator."""
+	scene()
+	with pytest.warns(UserWarning, match='^density scaling: .* for spheres'):
+		O.engines = polytope.engines(timeStepper=GlobalStiffnessTimeStepper(defaultDt=1e-4, densityScaling=True))
+	assert 'densityScaling=False' in onlyFinding('density scaling').advice
+	O.engines = polytope.engines(timeStepper=GlobalStiffnessTimeStepper(defaultDt=1e-4))
+	assert not polytope.check(O)
+	O.engines[3].densityScaling = True
+	assert 'ends the process' in onlyFinding('density scaling').seen
+	for k in range(2):
+		O.bodies.erase(k)
+	O.bodies.append(utils.sphere((0, 0, 1), 0.3))
+	assert 'density scaling' not in [one.what for one in polytope.check(O)]
+
+
 def testStiffnessPerContactWithStiffnessPerArea():
 	scene(material=rock(normalStiffness=1e5))
 	O.bodies.erase(1)
@@ -691,7 +723,7 @@ def testRefusals():
 	scene()
 	with pytest.raises(KeyError, match='nothing of the sort'):
 		polytope.check(O)['nothing of the sort']
-	O.run(10**6)
+	runInBackground()
 	try:
 		with pytest.raises(ValueError, match='is running'):
 			polytope.check(O)

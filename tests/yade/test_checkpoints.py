@@ -11,6 +11,7 @@ import threading
 import time
 
 import pytest
+from scenes import runInBackground
 from yade import ForceResetter, NewtonIntegrator, O, PolytopeCheckpoint, RockJointMat, polytope
 
 program = r'''
@@ -230,6 +231,24 @@ def testTruncatedFileGivesWayToTheOneBefore(tmp_path):
 		polytope.continueFrom(tmp_path / 'run')
 
 
+def testGarbledFileGivesWayToTheOneBefore(tmp_path):
+	"""Three bytes that were changed anywhere in it; the archive's reader takes most of them as they are. O.load reads the file all the same."""
+	scene(polytope.checkpoint(tmp_path / 'run', iterPeriod=1, onSignal=False))
+	for _ in range(4):
+		O.step()
+	good, last = (tmp_path / 'run.yade').read_bytes(), tmp_path / 'run.yade'
+	O.load(str(last), quiet=True)
+	assert O.iter == 4
+	for place in range(0, len(good), len(good) // 30):
+		content = bytearray(good)
+		for k in range(place, min(place + 3, len(good))):
+			content[k] ^= 0x5A
+		last.write_bytes(content)
+		with pytest.warns(UserWarning, match='run.yade: its content is not what was written'):
+			assert polytope.continueFrom(tmp_path / 'run') == f'{tmp_path}/run.previous.yade'
+		assert O.iter == 3
+
+
 @pytest.mark.parametrize('missing', [1, 500, 5000])
 def testFullDiskKeepsTheLastState(tmp_path, missing):
 	"""Where the system takes no more bytes, at the end of the file or before: in a process that may not write larger files."""
@@ -252,6 +271,20 @@ def testFullDiskKeepsTheLastState(tmp_path, missing):
 def testNothingToContinueFromLeavesTheScene(tmp_path):
 	scene(PolytopeCheckpoint())
 	assert polytope.continueFrom(tmp_path / 'run') is None and len(O.bodies) == 1
+
+
+def testNothingIsLoadedWhileARunGoesOn(tmp_path):
+	"""It would take the scene from the thread that computes a step: a crash, before this was refused."""
+	scene(polytope.checkpoint(tmp_path / 'run', iterPeriod=10**6, onSignal=False))
+	O.engines[2].write()
+	runInBackground()
+	try:
+		with pytest.raises(RuntimeError, match='nothing is loaded while a run goes on; O.pause'):
+			polytope.continueFrom(tmp_path / 'run')
+		assert O.running and O.iter > 0
+	finally:
+		O.pause()
+	assert polytope.continueFrom(tmp_path / 'run') == f'{tmp_path}/run.yade' and O.iter == 0
 
 
 def testRefusals(tmp_path):

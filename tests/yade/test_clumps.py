@@ -306,7 +306,10 @@ def testWhatIsRefused(mesh, objects, tmp_path, monkeypatch):
 	import trimesh
 
 	trimesh.Trimesh(corners, faces).export(tmp_path / 'soup.stl')
-	with pytest.raises(ValueError, match='^path: object 1 of .* is not closed; write the file as OBJ'):
+	with pytest.raises(ValueError, match='^path: object 1 of .* is not convex'):
 		polytope.fromMesh(tmp_path / 'soup.stl', parts='objects')
+	trimesh.Trimesh(corners, faces[:-1]).export(tmp_path / 'open.stl')
+	with pytest.raises(ValueError, match='^path: object 1 of .* is not closed, and there is no other; close it'):
+		polytope.fromMesh(tmp_path / 'open.stl', parts='objects')
 	with pytest.warns(UserWarning, match=r'not convex: it has 4 m³, its hull, which the body is, 5 m³; polytope.clump'):
 		polytope.fromMesh(mesh, scale=0.01)

@@ -79,6 +79,25 @@ def testCellsOfNeperShareTheirFace():
 	assert [(body.shape.dimension, float(body.shape.volume)) for body in flat] == [(2, pytest.approx(0.75)), (2, pytest.approx(1.25))]
 
 
+def testEmptyCellsOfNeperAreLeftOut(tmp_path):
+	"""As Neper writes them: without faces or, in 2-D, without vertices."""
+	path = tmp_path / 'a.tess'
+	path.write_text(cell(' **polyhedron\n 2\n', ' **polyhedron\n 3\n   3 0\n'))
+	assert [body.shape.volume for body in polytope.readShapes(path)] == pytest.approx([0.75, 1.25])
+	empty = '3 0\n     0\n    0.0 0.0 0.0 0.0\n     0 0 0.0 0.0 0.0\n'
+	text = (files / 'twoCells2d.tess').read_text()
+	assert ' **face\n 2\n' in text
+	path.write_text(text.replace(' **face\n 2\n', f' **face\n 3\n   {empty}'))
+	assert [body.shape.volume for body in polytope.readShapes(path)] == pytest.approx([0.75, 1.25])
+
+
+@pytest.mark.parametrize('name', ['a.stl', 'a.OBJ', 'a.msh', 'a.gts', 'a.vtu', 'a.ele', 'a.smesh'])
+def testMeshesAreReadByFromMesh(name, tmp_path):
+	(tmp_path / name).write_text('solid')
+	with pytest.raises(ValueError, match=f"^path: '.*{name}' is a mesh; polytope.fromMesh reads it, with parts='objects'"):
+		polytope.readShapes(tmp_path / name)
+
+
 def testShapesOfRockableHaveTheirFacesWhereRockableHasThem():
 	cube, plate = polytope.readShapes(files / 'library.shp', names=['Cube', 'Plate'], scale=2)
 	assert abs(corners(cube)).max() == pytest.approx(1, rel=1e-12) and cube.shape.volume == pytest.approx(8, rel=1e-12)
@@ -135,7 +154,10 @@ def cell(old, new):
 		('a.tess', cell('**polyhedron', '**other'), 'the section \\*\\*polyhedron is missing'),
 		('a.tess', cell('4 2 3 9 8', '4 2 3 9 18'), 'line 58: there is no vertex 18; write the tessellation anew'),
 		('a.tess', cell('6 7 8 9 -4 10 11', '6 7 8 9 -4 10 12'), 'there is no face 12'),
-		('a.tess', cell('6 7 8 9 -4 10 11', '6 7 8 9 4 10 11'), 'line 58: a cell is not convex'),
+		('a.tess', cell('6 7 8 9 -4 10 11', '6 7 8 9 4 10 11'), 'line 58: a cell is not convex: .* regularization or -transform cut has bent; tessellate without them, or mesh'),
+		('a.tess', cell('4 2 3 9 8', '4 2 3 9 -8'), 'line 58: there is no vertex -8'),
+		('a.tess', cell('4 2 3 9 8', '4 2 3 9 0'), 'line 58: there is no vertex 0'),
+		('a.tess', cell('4 2 3 9 8', '2 2 3'), 'line 58: a number of vertices must be 0 or at least 3, got 2'),
 		('a.shp', 'name', "line 1: a shape begins with '<'"),
 		('a.shp', '<\nnv 1\n0 0 0\n>', 'line 1: this shape has no name'),
 		('a.shp', '<\nname a\nnv 1\n0 0 0\n<\n', "a shape begins before that of line 1 ends with '>'"),

@@ -12,6 +12,10 @@ __all__ = ['bodyFindings']
 
 largest = 50.0
 """Extent [m] above which a body that can move is taken for one in other units: a boulder of 50 m weighs 3e8 kg."""
+densities = 50.0, 3e4
+"""Of what can be a body [kg/m³], from foam to heavy metals. In t and mm, g and cm, t and m … the same bodies have 1e-12 to 1e-3 of it."""
+gravities = 1.0, 30.0
+"""On Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
 unitsApart = 300.0
 """Extent over the median of the bodies that can move, above which units differ: millimetres and metres differ by 1000, grains
 seldom by 100."""
@@ -58,12 +62,20 @@ def size(scene):
 	widths = {body.id: 2 * float(body.shape.circumscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
 	if not widths:
 		return
-	usual = float(np.median(list(widths.values())))
-	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > largest and _extent(scene.O.bodies[key]) > largest)]
+	usual, limit = float(np.median(list(widths.values()))), largest if _inMetres(scene) else math.inf
+	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and _extent(scene.O.bodies[key]) > limit)]
 	if large:
 		extent, mass = _extent(large[0]), float(large[0].state.mass)
 		seen = f'{_number(large)} can move, is {extent:.3g} m across and weighs {mass:.3g} kg'
 		yield 'size', seen, 'if its mesh or dimensions are in millimetres: fromMesh(path, scale=0.001), other lengths over 1000'
+
+
+def _inMetres(scene):
+	"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers are no mistake."""
+	least, most = densities
+	gravity = scene.gravity()
+	dense = all(least <= float(body.material.density) <= most for body in scene.bodies if body.material and scene.moves(body))
+	return dense and (gravity == 0 or gravities[0] <= gravity <= gravities[1])
 
 
 def flatBoxes(scene):

@@ -3,12 +3,14 @@
 
 from yade import (
 	ForceResetter,
+	GlobalStiffnessTimeStepper,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,
 	InteractionLoop,
 	NewtonIntegrator,
 	Polytope,
 	PolytopeBonds,
+	Sphere,
 	TriaxialStressController,
 )
 
@@ -19,7 +21,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, bonds, contactModels, conservativeWithArea):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, contactModels, conservativeWithArea):
 		yield from one(scene)
 
 
@@ -64,6 +66,15 @@ def spheresOnly(scene):
 		if any(isinstance(body.shape, Polytope) for body in scene.bodies):
 			seen = f'{type(engine).__name__} knows spheres only: its porosity is wrong for polytopes, as is what it controls by it'
 			yield 'engines', seen, 'polytope.pack and polytope.triaxial, or PeriTriaxController in a periodic cell (docs/loading.md)'
+
+
+def densityScaling(scene):
+	"""YADE's takes the radius of every body without a contact. What is set in the integrator is set in the stepper, too."""
+	scaling = [engine for engine in scene.those(GlobalStiffnessTimeStepper) if engine.densityScaling]
+	others = [body for body in scene.bodies if scene.moves(body) and not isinstance(body.shape, Sphere)]
+	if scaling and others:
+		seen = 'GlobalStiffnessTimeStepper has densityScaling=True, which is for spheres: YADE ends the process where another body has no contact'
+		yield 'density scaling', seen, 'densityScaling=False; PolytopeTimeStepper() takes the largest step that is stable'
 
 
 def order(scene):

@@ -9,6 +9,7 @@ from yade import O, Polytope, Vector3
 from ..arguments import number, vector
 from ..bodies import builder
 from ..heap import namedBodies
+from ..meshes.files import isMeshFile
 from . import neper, rockable, yadeText
 
 __all__ = ['readShapes', 'writeShapes']
@@ -21,9 +22,11 @@ formats = {'.tess': neper.bodies, '.shp': rockable.bodies}
 def readShapes(path, scale=1, shift=(0, 0, 0), names=None, **body):
 	"""Bodies of all shapes in a text file: ``O.bodies.append(polytope.readShapes('cells.tess', scale=1e-3))``.
 
-	- ``.tess``: cells of a Neper tessellation, of its dimension 3 as polyhedra, 2 as polygons. Cells share faces exactly.
+	- ``.tess``: cells of a Neper tessellation, of its dimension 3 as polyhedra, 2 as polygons. Cells share faces exactly; empty ones, which Neper may
+	  write, are left out.
 	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges,
 	  there round, are sharp); a flat shape is a plate of twice that thickness. They lie where their vertices do.
+	- names of meshes (.stl, .obj, .msh …) are refused: fromMesh reads them.
 	- any other name: polyhedra in YADE's text format, from writeShapes or from YADE's export.textPolyhedra, as convex hulls.
 
 	What is not convex is warned of.
@@ -42,6 +45,8 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, **body):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
 	if not 0 < number(scale, 'scale') < math.inf:
 		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
+	if isMeshFile(path):
+		raise ValueError(f"path: '{path}' is a mesh; polytope.fromMesh reads it, with parts='objects' all bodies of a file")
 	suffix = os.path.splitext(path)[1].lower()
 	if names is not None and suffix != '.shp':
 		raise ValueError('names: only shapes of a Rockable library (.shp) have names')

@@ -11,6 +11,7 @@ from .words import Words
 
 __all__ = ['bodies']
 
+cut = "mesh such a tessellation (neper -M, format msh) and read that file with polytope.fromMesh(…, parts='objects'), which makes the hull of each cell"
 remedy = "write the tessellation anew with neper -T, format tess; Neper's manual has the format"
 fits = 1e-6
 """Distance of a vertex from its face's plane, over the cell's size: Neper writes 12 decimals. Regularization bends faces by more."""
@@ -39,11 +40,15 @@ def bodies(path, place, **body):
 	if needed is None:
 		raise words.wrong(f'tessellations of dimension 2 and 3 have bodies, this one has dimension {dimension}')
 	for name in needed:
-		if not sections.get(name):
+		if name not in sections:
 			raise words.wrong(f'the section **{name} is missing')
 	if dimension == 2:
-		return [_flat(words, face, sections['vertex'], body) for face in sections['face'].values()]
-	return [_solid(words, cell, sections, body) for cell in sections['polyhedron']]
+		made = [_flat(words, face, sections['vertex'], body) for face in sections['face'].values() if face[1]]
+	else:
+		made = [_solid(words, cell, sections, body) for cell in sections['polyhedron']]
+	if not made:
+		raise words.wrong('all cells are empty')
+	return made
 
 
 def _vertices(words, place):
@@ -57,11 +62,11 @@ def _vertices(words, place):
 
 
 def _faces(words, points):
-	"""Number → (line, numbers of vertices, normal)."""
+	"""Number → (line, numbers of vertices, normal). One of an empty cell has no vertices."""
 	faces = {}
 	for _ in range(words.whole('the number of faces', least=1)):
 		line, number = words.line, words.whole('the number of a face', least=1)
-		corners = _numbers(words, 'vertices', points, 'vertex', 3)
+		corners = _numbers(words, 'vertices', points, 'vertex', 3, signed=False)
 		_numbers(words, 'edges', None, 'edge', 0)
 		_, *normal = (words.real("a parameter of a face's equation") for _ in range(4))
 		for what in ('state', 'point'):
@@ -72,23 +77,36 @@ def _faces(words, points):
 
 
 def _cells(words, faces):
-	"""(line, signed numbers of faces) of each."""
+	"""(line, signed numbers of faces) of each that is not empty."""
 	cells = []
 	for _ in range(words.whole('the number of polyhedra', least=1)):
 		line = words.line
 		words.whole('the number of a polyhedron', least=1)
-		cells.append((line, _numbers(words, 'faces', faces, 'face', 4)))
+		numbers = _numbers(words, 'faces', faces, 'face', 4)
+		if numbers:
+			cells.append((line, numbers))
+		for number in numbers:
+			if not faces[abs(number)][1]:
+				raise words.wrong(f'face {abs(number)} has no vertices', line)
 	return cells
 
 
-def _numbers(words, what, known, name, least):
-	"""A list that begins with its length."""
-	numbers = []
-	for _ in range(words.whole(f'a number of {what}', least=least)):
+def _numbers(words, what, known, name, least, signed=True):
+	"""A list that begins with its length, which is 0 for an empty cell.
+
+	:param known: what the numbers name; None: they are not looked up
+	:param bool signed: a number may be negative: the face is seen from its other side
+	"""
+	numbers, line = [], words.line
+	count = words.whole(f'a number of {what}', least=0)
+	if 0 < count < least:
+		raise words.wrong(f'a number of {what} must be 0 or at least {least}, got {count}', line)
+	for _ in range(count):
 		line = words.line
 		numbers.append(words.whole(f'the number of a {name}'))
-		if known is not None and abs(numbers[-1]) not in known:
-			raise words.wrong(f'there is no {name} {abs(numbers[-1])}', line)
+		found = abs(numbers[-1]) if signed else numbers[-1]
+		if known is not None and found not in known:
+			raise words.wrong(f'there is no {name} {found}', line)
 	return numbers
 
 
@@ -104,7 +122,8 @@ def _solid(words, cell, sections, body):
 		offset, sign = sum(heights) / len(heights), 1 if number > 0 else -1
 		beyond = max(sign * (normal.dot(points[k]) - offset) for k in corners)
 		if beyond > fits * size or max(heights) - min(heights) > fits * size:
-			raise words.wrong('a cell is not convex: vertices lie beyond the plane of this face; tessellate without regularization', where)
+			seen = 'a cell is not convex: vertices lie beyond the plane of this face, which regularization or -transform cut has bent'
+			raise words.wrong(f'{seen}; tessellate without them, or {cut}', where)
 		normals.append(sign * normal)
 		offsets.append(sign * offset)
 	try:
@@ -122,4 +141,4 @@ def _flat(words, face, points, body):
 	except ValueError as error:
 		if not str(error).startswith('points2d'):
 			raise
-		raise words.wrong(f'the vertices of this cell make no polygon ({error})', line) from None
+		raise words.wrong(f'the vertices of this cell make no polygon ({error}); cells that regularization or -transform cut has bent are not convex: tessellate without them', line) from None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The arch of py/theory/arch.py with joints that are elastic, per area, and take no tension: how thin it may be before it falls.
+"""The arch of arch.py with joints that are elastic, per area, and take no tension: how thin it may be before it falls.
 
 Rigid blocks, joints of normal stiffness kn per area, as stiff in shear, that do not slip. A joint whose two edges are δ₀ and δ₁ deep in
 each other stores ½ kn ∫ ⟨δ⟩² ds over its length, ⟨δ⟩ what is above 0. The arch stands if, as its weight grows from nothing, its energy
