@@ -207,7 +207,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
 		const bool shares = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none();
-		giveShare(shares ? shareOfSupport(pair.withNormal(result.normal), internal) : Real(1), geom, *c, result);
+		giveShare(shares ? shareOfSupport(pair.at(frame1.origin + result.common, result.normal), internal) : Real(1), geom, *c,
+		        result);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
