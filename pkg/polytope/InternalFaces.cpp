@@ -8,6 +8,7 @@
 #include <src/contact/SectionArea.hpp>
 #include <src/shape/PlacedShape.hpp>
 
+#include "Partners.hpp"
 #include "Polytope.hpp"
 
 #include <algorithm>
@@ -95,17 +96,11 @@ namespace {
 		const Body&    body   = bodyOf(pair, mover);
 		const Body&    own    = bodyOf(pair, 1 - mover);
 		const Vector3r centre = pair.centre[mover] - pair.point;
-		for (const auto& [id, contact] : body.intrs) {
-			if (id == own.id || !contact) continue;
-			const shared_ptr<Body>& piece = Body::byId(id, pair.scene);
-			if (!piece || !piece->shape || !piece->maskOk(body.groupMask) || !rigidTogether(*piece, own, *pair.scene)) continue;
-			Vector3r way = piece->state->pos - body.state->pos;
-			if (pair.scene->isPeriodic) {
-				const Vector3r shift = pair.scene->cell->intrShiftPos(contact->cellDist);
-				way += contact->getId2() == id ? shift : Vector3r(-shift);
-			}
-			visit(*piece, Vector3r(centre + way));
-		}
+		forPartners(body, own.id, *pair.scene, [&](const Body& piece, const Vector3r& shift) {
+			if (!rigidTogether(piece, own, *pair.scene)) return;
+			const Vector3r way = piece.state->pos - body.state->pos + shift;
+			visit(piece, Vector3r(centre + way));
+		});
 	}
 
 	/// A plane near the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.

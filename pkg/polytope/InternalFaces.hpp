@@ -28,10 +28,11 @@ struct TouchingPair {
 	Vector3r                     normal; ///< from body 1 to body 2
 	Real                         ball;   ///< radius of the largest ball in the overlap
 
-	TouchingPair withNormal(const Vector3r& other) const
+	TouchingPair at(const Vector3r& otherPoint, const Vector3r& otherNormal) const
 	{
 		TouchingPair pair = *this;
-		pair.normal       = other;
+		pair.point        = otherPoint;
+		pair.normal       = otherNormal;
 		return pair;
 	}
 };

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MixedPairs.hpp"
 
+#include "FacetPrism.hpp"
+#include "SphereOnPieces.hpp"
+#include "StiffnessShare.hpp"
+
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
 #include <src/shape/Block.hpp>
-#include <src/shape/ClosestPoint.hpp>
 #include <src/shape/ShapeOrNull.hpp>
-
-#include <array>
 
 namespace yade {
 
@@ -36,36 +37,15 @@ namespace {
 		return polytope::ConvexShape::shared(planes, math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
 	}
 
-	/// Front, back and the three sides of a facet's prism. side: +1 if the polytope's centre is on the facet's normal's side.
-	std::array<polytope::Plane, 5> facetPlanes(const Facet& facet, const polytope::ConvexShape& other, int side)
-	{
-		const auto&                    v = facet.vertices;
-		const Vector3r                 n = side * (v[1] - v[0]).cross(v[2] - v[0]).normalized();
-		std::array<polytope::Plane, 5> planes { { { n, n.dot(v[0]) }, { -n, 2 * other.boundingRadius() - n.dot(v[0]) } } };
-		for (int k = 0; k < 3; ++k) {
-			Vector3r out = (v[(k + 1) % 3] - v[k]).cross(n).normalized();
-			if (out.dot(v[(k + 2) % 3] - v[k]) > 0) out = -out;
-			planes[2 + k] = { out, out.dot(v[k]) };
-		}
-		return planes;
-	}
-
-	bool isFacet(const polytope::ConvexShape& solid, const std::array<polytope::Plane, 5>& planes)
-	{
-		for (size_t i = 0; i < planes.size(); ++i)
-			if (solid.planes().normals[i] != planes[i].normal || solid.planes().offsets[i] != planes[i].offset) return false;
-		return true;
-	}
-
-	Convex facetOf(const std::array<polytope::Plane, 5>& planes, const polytope::ConvexShape& other)
+	Convex facetOf(const FacetInMesh::Prism& prism, const polytope::ConvexShape& other)
 	{
 		polytope::HalfSpaces set;
-		for (const polytope::Plane& plane : planes) {
-			set.normals.push_back(plane.normal);
-			set.offsets.push_back(plane.offset);
+		for (int i = 0; i < prism.count; ++i) {
+			set.normals.push_back(prism.planes[size_t(i)].normal);
+			set.offsets.push_back(prism.planes[size_t(i)].offset);
 		}
-		const Convex prism = polytope::ConvexShape::shared(set, 0);
-		return prism->withCornerRadius(math::min(other.cornerRadius(), Real(prism->inscribedRadius() / 2)));
+		const Convex solid = polytope::ConvexShape::shared(set, 0);
+		return solid->withCornerRadius(math::min(other.cornerRadius(), Real(solid->inscribedRadius() / 2)));
 	}
 
 } // namespace
@@ -104,22 +84,19 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>&, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const auto& facet  = static_cast<const Facet&>(*shape1);
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	StandIn& standIn = geometry(c).standIn.make();
-	if (!standIn.partner || !c->isReal()) {
-		// the side is settled when the contact begins, and kept while it lasts
-		const Vector3r centre = state1.ori.conjugate() * (state2.pos + shift2 - state1.pos);
-		standIn.side          = facet.normal.dot(centre - facet.vertices[0]) < 0 ? -1 : 1;
-	}
+	StandIn&          standIn = geometry(c).standIn.make();
+	const FacetInMesh mesh(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), shift2, *scene);
+	// the side is settled when the contact begins, and kept while it lasts
+	if (!standIn.partner || !c->isReal()) standIn.side = mesh.sideOf(state1.ori.conjugate() * (state2.pos + shift2 - state1.pos));
 	// nor need its corners be the same as in the step before
-	const auto planes = facetPlanes(facet, *convex, standIn.side);
-	if (!standIn.partner || !isFacet(*standIn.partner, planes))
-		standIn.partner = polytope::shapeOrNull([&] { return facetOf(planes, *convex); });
+	const FacetInMesh::Prism prism = mesh.prism(standIn.side, 2 * convex->boundingRadius());
+	if (!standIn.partner || !prism.made(*standIn.partner))
+		standIn.partner = polytope::shapeOrNull([&] { return facetOf(prism, *convex); });
 	if (!standIn.partner) return failed(c);
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
@@ -134,19 +111,27 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const
 	const bool     wasReal = c->isReal();
 	if (!wasReal && !force && centre2.norm() > radius + convex->boundingRadius()) return false;
 
-	const polytope::ClosestPoint nearest = polytope::closestPoint(*convex, state2.ori.conjugate() * Vector3r(-centre2));
-	const Real                   depth   = radius - nearest.distance;
-	polytope::ContactResult      result;
-	result.inContact     = depth > tolerance * radius;
+	NearestOfSphere         nearest = nearestOfSphere(*convex, centre2, state2.ori);
+	polytope::ContactResult result;
+	result.inContact     = radius - nearest.distance > tolerance * radius;
 	result.hasGeometry   = true;
 	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
+	const Real share     = result.inContact
+	            ? shareOfSphere(*Body::byId(c->getId1(), scene), radius, *Body::byId(c->getId2(), scene), centre2, *scene, nearest)
+	            : Real(1);
+	const Real depth     = radius - nearest.distance;
 	result.depth         = depth;
 	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a force along the gradient of a distance is conservative
 	result.infeasibility = -depth / 2; // the diameter of the largest ball between a sphere and a plane is the depth
-	result.normal        = -(state2.ori * nearest.outward);
+	result.normal        = -nearest.outward;
 	result.point         = (radius - depth / 2) * result.normal;
 	const Real cap       = math::max(Real(0), math::min(depth / 2, radius));
-	result.area          = Mathr::PI * cap * (2 * radius - cap);
+	result.area          = share * Mathr::PI * cap * (2 * radius - cap);
+	if (result.inContact) {
+		PolytopeGeom& geom = geometry(c);
+		if (!wasReal && share < 1) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+		giveShare(share, geom, *c, result);
+	}
 	return apply(result, state1.pos, state1, state2, shift2, force, c);
 }
 

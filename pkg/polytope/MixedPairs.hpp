@@ -46,15 +46,18 @@ POLYTOPE_MIXED_FUNCTOR(Ig2_Box_Polytope_PolytopeGeom, Box,
 POLYTOPE_MIXED_FUNCTOR(Ig2_Facet_Polytope_PolytopeGeom, Facet,
         "Creates or updates a :yref:`PolytopeGeom` for a :yref:`Facet` and a :yref:`Polytope`: the facet as the front of a triangular "
         "prism on the side away "
-        "from the polytope's centre, as deep as the polytope is wide. Polyhedra only. Where a polytope lies over the common edge of two "
-        "facets it touches "
-        "both, and their stiffnesses add.")
+        "from the polytope's centre, as deep as the polytope is wide. Polyhedra only. At an edge that two facets of a mesh have in common "
+        "(the same corners, to 1e-5 of the edge) the sides of both prisms are in the plane half-way between them, so that no part of an "
+        "overlap "
+        "counts twice.")
 POLYTOPE_MIXED_FUNCTOR(Ig2_Sphere_Polytope_PolytopeGeom, Sphere,
         "Creates or updates a :yref:`PolytopeGeom` for a :yref:`Sphere` and a :yref:`Polytope`: the normal is along the shortest distance "
         "from the sphere's "
         "centre to the polytope's surface, the depth the radius less this distance, the contact point in the middle of the overlap along "
         "the normal; a polygon is met as the prism of its :yref:`thickness<Polytope.thickness>` "
-        "(:yref:`cornerRadius<Polytope.cornerRadius>` has no part in it); the area is that of the sphere's cut by the contact plane.")
+        "(:yref:`cornerRadius<Polytope.cornerRadius>` has no part in it); the area is that of the sphere's cut by the contact plane. Where "
+        "polytopes "
+        "meet under the sphere, at a seam, an edge or a corner, each has a :yref:`share<PolytopeGeom.share>` of it and of the stiffness.")
 
 #undef POLYTOPE_MIXED_FUNCTOR
 

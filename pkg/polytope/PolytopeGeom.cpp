@@ -10,6 +10,7 @@
 #include "InternalFaces.hpp"
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
+#include "StiffnessShare.hpp"
 
 #include <boost/make_shared.hpp>
 
@@ -207,11 +208,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::ContactResult result;
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	if (!wasReal && result.inContact) {
-		const auto &material1 = Body::byId(c->getId1(), scene)->material, &material2 = Body::byId(c->getId2(), scene)->material;
-		const StiffnessRule rule
-		        = material1 && material2 ? stiffnessRuleOfNew(*scene, *material1, *material2) : StiffnessRule::Unknown;
-		geom.stiffnessRule = std::int8_t(rule);
-		settings.depthRule = depthRule(settings, rule);
+		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *c);
+		geom.stiffnessRule       = std::int8_t(rule);
+		settings.depthRule       = depthRule(settings, rule);
 		if (settings.depthRule != polytope::DepthRule::Chord)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
@@ -225,9 +224,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		geom.share = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none()
-		        ? shareOfSupport(pair.withNormal(result.normal), internal)
-		        : Real(1);
+		const bool shares = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none();
+		giveShare(shares ? shareOfSupport(pair.at(frame1.origin + result.common, result.normal), internal) : Real(1), geom, *c,
+		        result);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);

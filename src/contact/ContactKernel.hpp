@@ -120,7 +120,7 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	R n[D];
 	if (touching) {
 		if (settings.bounding) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
-		const ContactStatus normal = normalInOverlap<R, D, W>(in, settings, planes, f, x, dual, n, out.depth);
+		const ContactStatus normal = normalInOverlap<R, D, W>(in, settings, planes, f, x, dual, n, out);
 		if (status == ContactStatus::Contact) status = normal;
 	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
 

@@ -130,16 +130,18 @@ struct ContactResult {
 	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy
 	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
-	Real rockingArm       = 0;     ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
-	bool dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
-	int  simplexPivots    = 0;
-	int  newtonIterations = 0;
-	bool ipoptSolved      = false; ///< Ipopt was called, with or without success
-	int  ipoptIterations  = 0;
-	Real decrement        = 0;                      ///< Newton decrement before the last step
-	long lpNanoseconds = 0, centreNanoseconds = 0;  ///< if asked for: frames and LP; centre
-	std::array<int, 4>  basis { { 0, 0, 0, 0 } };   ///< as PairMemory::basis
-	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
+	Real    rockingArm = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
+	Vector3 common     = Vector3::
+	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre
+	bool                dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
+	int                 simplexPivots    = 0;
+	int                 newtonIterations = 0;
+	bool                ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int                 ipoptIterations  = 0;
+	Real                decrement        = 0;                     ///< Newton decrement before the last step
+	long                lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };                 ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } };               ///< LP dual λ of the basis
 };
 
 /// Buffers of one thread; grow to the largest pair seen, and keep that size.

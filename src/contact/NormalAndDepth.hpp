@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/ContactNormal.hpp"
+#include "contact/ContactPointRules.hpp"
 #include "contact/PenetrationDepth.hpp"
 
 /// Normal and depth at the contact point, by all planes or without those of internal faces.
@@ -38,16 +39,35 @@ template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>&
 	return maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
 }
 
+/// From x to the analytic centre of the overlap without the planes that were taken out, which the piece has together with its neighbours. Frame, planes, x and
+/// dual turn where they must. False if Newton does not converge.
+template <class R, int D, int W>
+POLYTOPE_INLINE bool centreOfPieces(
+        const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* x, R* dual, R* centre, ContactResult& out)
+{
+	for (int k = 0; k < D; ++k)
+		centre[k] = x[k];
+	const CentreStatus found = newtonCentre<R, D, W>(planes, f, centre, R(settings.newtonTolerance), x, dual, out);
+	return found == CentreStatus::Converged || found == CentreStatus::RoundingLimited;
+}
+
 /// A touching pair, at x. Internal faces are left out where what is left bounds the contact.
 template <class R, int D, int W>
 POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
-        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n, R& depth)
+        ContactFrame<R, D>& f, R* x, R* dual, R* n, ContactResult& out)
 {
+	R& depth = out.depth;
 	if (settings.internal) {
 		R offset[2 * BoundingPlanes::most];
 		takeOut<R, D>(planes, *settings.internal, offset);
-		const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
-		depth                      = chord<R, D, W>(planes, n);
+		// as on one piece: all of them have the same normal and depth, of which each takes its share
+		R          centre[D], g[D], h[D][D];
+		const bool common
+		        = settings.depthRule != DepthRule::Mean && centreOfPieces<R, D, W>(settings, planes, f, x, dual, centre, out);
+		const R*      at     = common && barrierDerivatives<R, D, W>(planes, centre, g, h) ? centre : x;
+		ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, at, dual, n);
+		depth                = chord<R, D, W>(planes, n);
+		out.common           = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, at));
 		putBack<R, D>(planes, *settings.internal, offset);
 		if (depth < internalDepth<R>(in)) return status;
 	}
