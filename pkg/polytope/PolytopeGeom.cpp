@@ -244,7 +244,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea     = result.area;
 	geom.barrierValue    = result.barrierValue;
 	geom.rockingArm      = result.rockingArm;
-	const bool hasEnergy = settings_.contactModel == polytope::ContactModel::Conservative
+	geom.turningArm      = result.turningArm;
+	const bool hasEnergy = settings_.contactModel != polytope::ContactModel::Paper
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	const Vector3r point    = origin1 + result.point;

@@ -26,7 +26,12 @@ enum class CentreSolver : int {
 enum class ContactModel : int {
 	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
 	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, normal, tolerance and normalWeight are not read
+	Foundation, ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp); point, normal, depth and area are its own, contactPoint and normal are read across a gap alone
+	Spring,     ///< the same for a stiffness per contact
 };
+
+/// Whether the contact is that of a surface (SurfaceContact.hpp).
+constexpr bool hasSurface(ContactModel model) { return model == ContactModel::Foundation || model == ContactModel::Spring; }
 
 /// Of the contact model Paper.
 enum class NormalSource : int {
@@ -120,10 +125,11 @@ struct ContactResult {
 	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
 	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy
-	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
-	Real rockingArm       = 0;     ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
-	bool dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
-	int  simplexPivots    = 0;
+	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
+	Real turningArm    = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
+	Real rockingArm    = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
+	bool dismissed     = false; ///< separated by the first basis' bound, without evaluating the other planes
+	int  simplexPivots = 0;
 	int  newtonIterations = 0;
 	bool ipoptSolved      = false; ///< Ipopt was called, with or without success
 	int  ipoptIterations  = 0;
