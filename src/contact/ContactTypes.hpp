@@ -92,6 +92,8 @@ struct ContactSettings {
 	const InternalPlanes* internal = nullptr;
 	/// Where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
+	/// Foundation: also the energy, which takes half as long again.
+	bool energy = true;
 	/// Measure the LP's and the centre's time.
 	bool timed = false;
 };

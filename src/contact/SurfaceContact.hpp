@@ -6,6 +6,7 @@
 #include "contact/WarmStart.hpp"
 #include "program/LpBasis.hpp"
 #include "surface/ContactSurface.hpp"
+#include "surface/NearPlanes.hpp"
 
 /// The contacts whose force is the gradient of the volume of the linear program's feasible set (ContactSurface.hpp), as a geometry for laws that
 /// are linear in depth. With V = ∫ p dx and W = ∫ ½ p² dx over the overlap, p the least slack of both bodies,
@@ -57,11 +58,20 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 	}
 }
 
-/// Numbers and indices for the surface of this pair from the workspace.
-template <class R, int D> POLYTOPE_INLINE SurfaceBuffers<R, D> surfaceBuffers(int planes, ContactWorkspace& workspace)
+/// The contact surface of the planes that matter; energy only if asked for.
+template <class R, int D, int W>
+POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy,
+        ContactWorkspace& workspace, SurfaceSums<R, D>& sums)
 {
-	return SurfaceBuffers<R, D>(planes, workspace.polygons(SurfaceBuffers<R, D>::numbersNeeded(planes)),
-	        workspace.indices(SurfaceBuffers<R, D>::indicesNeeded(planes)));
+	const int most   = planes.total + 2 * padWidth;
+	R* const numbers = workspace.polygons(NearPlanes<R, D, W>::numbersNeeded(planes.total) + SurfaceBuffers<R, D>::numbersNeeded(most));
+	LpBasis<R, D>              basis = optimum;
+	NearPlanes<R, D, W>        near(planes, basis, size, numbers);
+	const int                  total = near.planes().total;
+	const SurfaceBuffers<R, D> buffers(total, numbers + NearPlanes<R, D, W>::numbersNeeded(planes.total),
+	        workspace.indices(SurfaceBuffers<R, D>::indicesNeeded(most)));
+	const SurfaceParts         parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
+	return contactSurface<R, D, W>(near.planes(), basis.plane, D + 1, size, -optimum.infeasibility, parts, buffers, sums);
 }
 
 /// The force's direction; where there is no force the dual's, or any: coincident bodies, or one wholly within the other, are in equilibrium.
@@ -76,15 +86,14 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 
 /// After the linear program of a pair that touches; x: its point, in the planes' frame.
 template <class R, int D, int W>
-POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
+POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
         const ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, const R* x, const R* dual, PairMemory& memory,
         ContactWorkspace& workspace, ContactResult& out)
 {
-	SurfaceSums<R, D>          sums;
-	const R                    deepest = -basis.infeasibility;
-	const SurfaceBuffers<R, D> buffers = surfaceBuffers<R, D>(planes.total, workspace);
-	const SurfaceStatus        found
-	        = contactSurface<R, D, W>(planes, basis.plane, D + 1, f.size, deepest, SurfaceParts::Cells, buffers, sums);
+	SurfaceSums<R, D>   sums;
+	const R             deepest = -basis.infeasibility;
+	const bool          energy  = settings.energy || settings.contactModel == ContactModel::Spring;
+	const SurfaceStatus found   = surfaceOfPair<R, D, W>(planes, basis, f.size, energy, workspace, sums);
 
 	const SurfaceLoad<R, D> load(settings.contactModel, sums);
 	const R                 length = norm<R, D>(load.force);
@@ -100,7 +109,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
 	R area = dot<R, D>(sums.areaVector, n);
 	area   = maxOf<R>(area, sums.pressure / deepest);
-	if (!(area > 0)) area = sums.overlap / deepest; // no surface
+	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
 	out.depth  = perArea ? length / area : length;
 	out.energy = perArea ? load.energy / area : load.energy;
 	out.area   = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;

@@ -26,8 +26,9 @@
 namespace polytope {
 
 enum class SurfaceParts : int {
-	Contact = 0, ///< force and moment
-	Cells,       ///< also overlap, volume and level
+	Facing = 0, ///< force and moment of bodies whose surface is connected (NearPlanes.hpp), begun on it
+	Contact,    ///< of any
+	Cells,      ///< also overlap, volume and level
 };
 
 enum class SurfaceStatus : int {
@@ -42,7 +43,8 @@ public:
 	POLYTOPE_INLINE SurfaceWalk(
 	        PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts, int order)
 	        : planes_(planes), buffers_(buffers), reach_(R(tolerance::pieceBox) * size), deepest_(deepest),
-	          all_(parts == SurfaceParts::Cells), twins_(planes, buffers, size, order), queue_(buffers), cones_(buffers)
+	          all_(parts == SurfaceParts::Cells), faces_(parts != SurfaceParts::Facing), twins_(planes, buffers, size, order),
+	          queue_(buffers), cones_(buffers)
 	{
 	}
 
@@ -54,6 +56,7 @@ public:
 	{
 		status = SurfaceStatus::Open;
 		for (int attempt = 0; attempt < 3 && status == SurfaceStatus::Open; ++attempt) {
+			faces_ = faces_ || attempt > 0;
 			begin(basis, count, attempt == 2, sums);
 			for (int piece = 0; piece < queue_.count(); ++piece)
 				look(piece, sums);
@@ -85,12 +88,12 @@ private:
 	bool ofFirst(int k) const { return k < planes_.first; }
 
 	/// Planes stand for themselves here.
-	POLYTOPE_INLINE void add(int i, int j)
+	POLYTOPE_INLINE void add(int i, int j, int a = -1, int b = -1, int c = -1)
 	{
 		const int low = i < j ? i : j, high = i < j ? j : i;
 		if (low == high) return;
 		if (!all_ && high < planes_.total && ofFirst(low) == ofFirst(high)) return;
-		queue_.add(low, high);
+		queue_.add(low, high, a, b, c);
 	}
 
 	/// All pairs of planes that meet; and of each with the plane of no pressure, if it does too.
@@ -101,7 +104,7 @@ private:
 		for (int a = 0; a < count; ++a) {
 			for (int b = 0; b < a; ++b)
 				add(edge[a], edge[b]);
-			if (noPressure) add(edge[a], planes_.total);
+			if (noPressure && faces_) add(edge[a], planes_.total);
 		}
 	}
 
@@ -113,7 +116,7 @@ private:
 		if (left(i) || left(j)) return;
 		if (!placePiece<R, D>(planes_, i, j, reach_, piece)) return;
 		planesOnPiece<R, D, W>(planes_, piece, buffers_);
-		const SurfaceCut<R, D, W> cut(buffers_, reach_, deepest_);
+		const SurfaceCut<R, D, W> cut(buffers_, reach_, deepest_, queue_.known(number));
 		if (cut.count() == 0) return;
 		sum(piece, integrate<R, W>(piece, cut), sums);
 		sums.vertices += cut.count();
@@ -126,21 +129,33 @@ private:
 	/// Beyond edge t.
 	POLYTOPE_INLINE void goOn(const SurfacePiece<R, D>& piece, const SurfaceCut<R, D, W>& cut, int t)
 	{
-		int  edge[tolerance::planesInAnEdge];
-		int  count    = 0;
-		bool none     = piece.j == planes_.total;
-		edge[count++] = piece.i;
-		if (!none) edge[count++] = piece.j;
-		const int tag = cut.tag(t);
-		if (tag == planes_.total) none = true;
-		else if (tag >= 0) edge[count++] = tag;
-		const int own = count;
-		count += cut.meeting(t, edge + count, tolerance::planesInAnEdge - count);
-		for (int k = own; k < count; ++k)
-			if (edge[k] == planes_.total) {
-				none      = true;
-				edge[k--] = edge[--count];
-			}
+		int       edge[tolerance::planesInAnEdge];
+		const int tag = cut.tag(t), met = cut.meeting(t, edge + 3, tolerance::planesInAnEdge - 3);
+		// at the ends of an edge the same planes meet on its other side
+		const int before = cut.tag(t > 0 ? t - 1 : cut.count() - 1), after = cut.tag(t + 1 < cut.count() ? t + 1 : 0);
+		if (met > 0) meetAll(piece, tag, edge, met);
+		else if (tag == planes_.total) {
+			if (!faces_) return;
+			add(piece.i, tag, piece.j, before, after);
+			add(piece.j, tag, piece.i, before, after);
+		} else if (tag >= 0) {
+			const int third = twins_.of(tag);
+			add(piece.i, third, piece.j, before, after);
+			if (third != piece.i) add(piece.j, third, piece.i, before, after);
+		}
+	}
+
+	/// Of `met` more planes, from edge[3] on.
+	POLYTOPE_INLINE void meetAll(const SurfacePiece<R, D>& piece, int tag, int* edge, int met)
+	{
+		const int own[3] = { piece.i, piece.j, tag };
+		int       count  = 0;
+		bool      none   = false;
+		for (int k = 0; k < met + 3; ++k) {
+			const int plane = k < 3 ? own[k] : edge[k];
+			if (plane == planes_.total) none = true;
+			else if (plane >= 0) edge[count++] = plane;
+		}
 		meet(edge, count, none);
 	}
 
@@ -166,18 +181,19 @@ private:
 			first[k]  = sums.areaVector[k] - face_[0][k];
 			second[k] = sums.areaVector[k] + face_[1][k];
 		}
-		sums.open       = faceArea_ > 0 ? (norm<R, D>(first) + norm<R, D>(second)) / (sums.area + faceArea_) : R(1);
+		// without faces nothing says whether a part is missing: then planes that coincide, which may hide one, are reason enough to begin again with them
+		if (faces_) sums.open = faceArea_ > 0 ? (norm<R, D>(first) + norm<R, D>(second)) / (sums.area + faceArea_) : padOffset;
+		else sums.open = sums.pieces > 0 && !twins_.any() ? R(0) : R(padOffset);
 		const R allowed = R(tolerance::openSurface) + R(tolerance::openThin / tolerance::pieceBox) * reach_ / deepest_;
-		status          = queue_.full()                             ? SurfaceStatus::NoRoom
-		                 : !(sums.open <= allowed && faceArea_ > 0) ? SurfaceStatus::Open
-		                 : sums.pieces == 0                         ? SurfaceStatus::None
-		                                                            : SurfaceStatus::Found;
+		if (queue_.full()) status = SurfaceStatus::NoRoom;
+		else if (!(sums.open <= allowed)) status = SurfaceStatus::Open;
+		else status = sums.pieces == 0 ? SurfaceStatus::None : SurfaceStatus::Found;
 	}
 
 	PairPlanes<R, D>&           planes_;
 	const SurfaceBuffers<R, D>& buffers_;
 	R                           reach_, deepest_;
-	bool                        all_;
+	bool                        all_, faces_;
 	TwinPlanes<R, D, W>         twins_;
 	PieceQueue<R, D>            queue_;
 	CellCones<R, D>             cones_;

@@ -17,13 +17,14 @@ public:
 		clear(leastSlots);
 	}
 
-	int  count() const { return count_; }
-	bool full() const { return full_; }
-	int  first(int piece) const { return buffers_.queue[2 * piece]; }
-	int  second(int piece) const { return buffers_.queue[2 * piece + 1]; }
+	int        count() const { return count_; }
+	bool       full() const { return full_; }
+	int        first(int piece) const { return buffers_.queue[queued * piece]; }
+	int        second(int piece) const { return buffers_.queue[queued * piece + 1]; }
+	const int* known(int piece) const { return buffers_.queue + queued * piece + 2; }
 
-	/// i < j. Does nothing if the pair is there.
-	POLYTOPE_INLINE void add(int i, int j)
+	/// i < j; a, b, c: planes known to meet the piece, or −1. Does nothing if the pair is there.
+	POLYTOPE_INLINE void add(int i, int j, int a, int b, int c)
 	{
 		int slot = find(i, j);
 		if (buffers_.slot[slot]) return;
@@ -35,13 +36,17 @@ public:
 			grow();
 			slot = find(i, j);
 		}
-		buffers_.queue[2 * count_]     = i;
-		buffers_.queue[2 * count_ + 1] = j;
-		buffers_.slot[slot]            = ++count_;
+		int* const entry    = buffers_.queue + queued * count_;
+		entry[0]            = i;
+		entry[1]            = j;
+		entry[2]            = a;
+		entry[3]            = b;
+		entry[4]            = c;
+		buffers_.slot[slot] = ++count_;
 	}
 
 private:
-	static constexpr int leastSlots = 256;
+	static constexpr int leastSlots = 256, queued = SurfaceBuffers<R, D>::queued;
 
 	void clear(int slots)
 	{

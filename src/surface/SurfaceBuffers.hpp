@@ -23,14 +23,13 @@ template <class R, int D> struct SurfaceBuffers {
 	R*   dropped;      ///< offsets of planes that are left out
 	int* lineTag;      ///< of each line: its plane
 	int* edge[2];      ///< of a piece's vertices before and after a cut: the line of the edge that begins there
-	int* worst[2];     ///< of a piece's vertices: the plane that is most violated
-	int* near[2];      ///< of a piece's vertices: number of planes that had not cut yet and meet there
 	int* twin;         ///< of each plane: the one that stands for it, −1: not looked for yet
 	int* queue;        ///< pieces to look at: both planes
 	int* slot;         ///< where in the queue a pair of planes is, plus one; 0: free
 
-	/// u, v and the least slack of all planes less the pressure.
+	/// u, v and the slack of the plane that cuts.
 	static constexpr int vertexRows = 3;
+	static constexpr int queued     = 2 + tolerance::knownPlanes;
 
 	static int paddedLength(int planes) { return planes + padWidth; }
 	static int slots(int planes)
@@ -46,7 +45,7 @@ template <class R, int D> struct SurfaceBuffers {
 	{
 		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + (D + 2) * planes + planes;
 	}
-	static int indicesNeeded(int planes) { return 7 * vertexRoom(planes) + planes + 2 * slots(planes); }
+	static int indicesNeeded(int planes) { return 3 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
 
 	/// In memory of numbersNeeded() and indicesNeeded(), whatever is in it.
 	SurfaceBuffers(int total, R* numbers, int* indices)
@@ -58,9 +57,7 @@ template <class R, int D> struct SurfaceBuffers {
 		for (int side = 0; side < 2; ++side) {
 			for (int k = 0; k < vertexRows; ++k)
 				vertex[side][k] = take(numbers, room);
-			edge[side]  = take(indices, room);
-			worst[side] = take(indices, room);
-			near[side]  = take(indices, room);
+			edge[side] = take(indices, room);
 		}
 		for (R*& row : line)
 			row = take(numbers, room);
@@ -68,7 +65,7 @@ template <class R, int D> struct SurfaceBuffers {
 		cell    = take(numbers, (D + 2) * planes);
 		dropped = take(numbers, planes);
 		twin    = take(indices, planes);
-		queue   = take(indices, 2 * pieces);
+		queue   = take(indices, queued * pieces);
 		slot    = take(indices, 4 * pieces);
 	}
 

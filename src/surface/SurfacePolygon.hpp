@@ -6,21 +6,27 @@
 /// A piece of the surface in 3-D, cut to where no other plane has a smaller slack and none is negative: a convex polygon. Each edge carries the
 /// number of the plane that has the same slack there.
 ///
-/// It begins as a square. The plane that is violated most at any vertex cuts next, so that few planes cut, and none twice. A new vertex is the
-/// crossing of two lines, not a point between two vertices: a polygon a thousand million times smaller than the square
-/// keeps its digits.
+/// It begins as a square. Planes that are known to meet it cut first, which leaves little more than the piece; the others are compared with all vertices
+/// together, and few of them cut. No plane cuts twice. A new vertex is the crossing of two lines, not a point between two vertices: a polygon a thousand million times
+/// smaller than the square keeps its digits.
 namespace polytope {
 
 template <class R, int D, int W> class SurfaceCut;
 
 template <class R, int W> class SurfaceCut<R, 3, W> {
 public:
-	/// Of the piece whose planes are in the buffers' rows, which do not outlast it. `reach`: half the square's width; `deepest`: the largest p.
-	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest) : buffers_(buffers), deepest_(deepest)
+	/// Of the piece whose planes are in the buffers' rows, which do not outlast it. `reach`: half the square's width; `deepest`: the largest p; `known`:
+	/// planes that meet the piece, as far as is known.
+	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest, const int* known)
+	        : buffers_(buffers), deepest_(deepest)
 	{
 		square(reach);
-		for (int plane = mostViolated(); plane >= 0 && lines_ < buffers.room; plane = mostViolated())
-			cut(plane);
+		for (int k = 0; k < tolerance::knownPlanes && count_ > 2; ++k)
+			if (known[k] >= 0) cut(known[k]);
+		for (int k = 0; k < buffers.length && count_ > 2; k += W) {
+			const V slack = leastSlack(k);
+			if (!(horizontalMin<R, W>(slack) > close_)) cutByEach(k, slack);
+		}
 		if (count_ < 3) count_ = 0;
 	}
 
@@ -35,16 +41,11 @@ public:
 	int tag(int t) const { return buffers_.lineTag[buffers_.edge[now_][t]]; }
 
 	/// Writes the planes other than i, j and the edge's own that meet in edge t; the plane of no pressure counts as one. Returns how many.
-	POLYTOPE_INLINE int meeting(int t, int* found, int room) const
-	{
-		const int next = t + 1 < count_ ? t + 1 : 0;
-		if (!touched_ && (buffers_.near[now_][t] == 0 || buffers_.near[now_][next] == 0)) return 0;
-		return meetingAt(t, next, found, room);
-	}
+	POLYTOPE_INLINE int meeting(int t, int* found, int room) const { return touched_ ? meetingAt(t, found, room) : 0; }
 
 private:
 	using V = typename Lanes<R, W>::Type;
-	enum Row { U, Y, Least };
+	enum Row { U, Y, Slack };
 
 	POLYTOPE_INLINE R& at(Row row, int v) { return buffers_.vertex[now_][row][v]; }
 	POLYTOPE_INLINE R  at(Row row, int v) const { return buffers_.vertex[now_][row][v]; }
@@ -62,57 +63,42 @@ private:
 			buffers_.line[2][t]    = reach;
 			buffers_.lineTag[t]    = -1;
 			buffers_.edge[now_][t] = t;
-			measure(now_, t);
 		}
+		setCloseness();
 	}
 
 	/// Within which slack a plane meets a vertex.
-	POLYTOPE_INLINE R nearness(R u, R v) const { return R(tolerance::meetingPlanes) * (abs(u) + abs(v) + deepest_); }
-
-	/// Least slack of the planes that have not cut, less the pressure, at a vertex, and how many meet there.
-	POLYTOPE_INLINE void measure(int side, int t)
+	void setCloseness()
 	{
-		R* const* const row = buffers_.vertex[side];
-		const R         u = row[U][t], v = row[Y][t];
-		const V         allU = broadcast<R, W>(u), allV = broadcast<R, W>(v), close = broadcast<R, W>(nearness(u, v)),
-		        one = broadcast<R, W>(1), zero = one - one, step = broadcast<R, W>(R(W));
-		V least = broadcast<R, W>(R(padOffset)), worst = zero, meet = zero, index = firstIndices<R, W>();
-		for (int k = 0; k < buffers_.length; k += W) {
-			const V slack = load<R, W>(buffers_.rest + k) + load<R, W>(buffers_.rate[0] + k) * allU
-			        + load<R, W>(buffers_.rate[1] + k) * allV;
-			worst = slack < least ? index : worst;
-			least = minOf(slack, least);
-			meet += absolute(slack) <= close ? one : zero;
-			index += step;
-		}
-		if constexpr (W == 1) {
-			row[Least][t]           = least;
-			buffers_.worst[side][t] = int(worst);
-		} else {
-			int lane = 0;
-			for (int l = 1; l < W; ++l)
-				if (least[l] < least[lane]) lane = l;
-			row[Least][t]           = least[lane];
-			buffers_.worst[side][t] = int(worst[lane]);
-		}
-		buffers_.near[side][t] = int(horizontalSum<R, W>(meet));
+		const R *u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		R        extent = deepest_;
+		for (int t = 0; t < count_; ++t)
+			extent = maxOf<R>(extent, abs(u[t]) + abs(v[t]));
+		close_ = R(tolerance::meetingPlanes) * extent;
 	}
 
-	/// The plane by which any vertex is violated most, −1 if none is.
-	POLYTOPE_INLINE int mostViolated() const
+	/// Least slack of planes k … k + W − 1, less the pressure, at any vertex.
+	POLYTOPE_INLINE V leastSlack(int k) const
 	{
-		int plane = -1;
-		R   most  = 0;
-		for (int t = 0; t < count_; ++t) {
-			if (!(at(Least, t) < most)) continue;
-			plane = buffers_.worst[now_][t];
-			most  = at(Least, t);
-		}
-		return plane;
+		const R *u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		const V  rest = load<R, W>(buffers_.rest + k), rateU = load<R, W>(buffers_.rate[0] + k),
+		        rateV = load<R, W>(buffers_.rate[1] + k);
+		V least       = broadcast<R, W>(R(padOffset));
+		for (int t = 0; t < count_; ++t)
+			least = minOf(least, V(rest + rateU * broadcast<R, W>(u[t]) + rateV * broadcast<R, W>(v[t])));
+		return least;
+	}
+
+	POLYTOPE_INLINE void cutByEach(int first, const V& slack)
+	{
+		R each[W];
+		store<R, W>(each, slack);
+		for (int lane = 0; lane < W && count_ > 2; ++lane)
+			if (!(each[lane] > close_)) cut(first + lane);
 	}
 
 	/// The plane's row becomes a line; on its own edge rounding would have it violated again.
-	POLYTOPE_INLINE int makeLine(int plane)
+	int makeLine(int plane)
 	{
 		buffers_.line[0][lines_] = buffers_.rate[0][plane];
 		buffers_.line[1][lines_] = buffers_.rate[1][plane];
@@ -123,82 +109,100 @@ private:
 		return lines_++;
 	}
 
-	POLYTOPE_INLINE R slackOfLine(int line, int t) const
+	R slackOfLine(int line, int t) const
 	{
 		return buffers_.line[2][line] + buffers_.line[0][line] * at(U, t) + buffers_.line[1][line] * at(Y, t);
 	}
 
 	/// Takes off what lies beyond the plane.
-	POLYTOPE_INLINE void cut(int plane)
+	POLYTOPE_APART void cut(int plane)
 	{
-		const int line = makeLine(plane), then = 1 - now_;
-		int       kept = 0;
-		R         here = slackOfLine(line, 0);
-		for (int t = 0; t < count_; ++t) {
-			const int  next  = t + 1 < count_ ? t + 1 : 0;
-			const R    there = slackOfLine(line, next);
-			const bool in = here >= 0, nextIn = there >= 0;
-			touched_ = touched_ || abs(here) <= nearness(at(U, t), at(Y, t));
-			if (in && kept < buffers_.room) keep(t, then, kept++);
-			if (in != nextIn && kept < buffers_.room) {
-				const int own = buffers_.edge[now_][t];
-				cross(own, line, t, next, here / (here - there), then, kept);
-				// going out, the new edge begins; coming in, the old one goes on
-				buffers_.edge[then][kept] = in ? line : own;
-				measure(then, kept++);
-			}
-			here = there;
+		const R   rateU = buffers_.rate[0][plane], rateV = buffers_.rate[1][plane], rest = buffers_.rest[plane];
+		const R * u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		R*        slack = buffers_.vertex[now_][Slack];
+		R         least = R(padOffset);
+		const int count = count_;
+		for (int t = 0; t < count; ++t) {
+			const R here = rest + rateU * u[t] + rateV * v[t];
+			slack[t]     = here;
+			least        = minOf<R>(least, here);
 		}
-		now_   = then;
-		count_ = kept;
+		if (least > close_) return;
+		int near = 0;
+		for (int t = 0; t < count; ++t)
+			near += abs(slack[t]) <= close_;
+		touched_ = touched_ || near > 1;
+		if (least < 0 && lines_ < buffers_.room) split(makeLine(plane));
 	}
 
-	POLYTOPE_INLINE void keep(int t, int then, int place)
+	/// By the line, whose slacks at the vertices are known. A convex polygon is left and entered once, but for rounding.
+	void split(int line)
 	{
-		for (int row = 0; row < SurfaceBuffers<R, 3>::vertexRows; ++row)
-			buffers_.vertex[then][row][place] = buffers_.vertex[now_][row][t];
-		buffers_.edge[then][place]  = buffers_.edge[now_][t];
-		buffers_.worst[then][place] = buffers_.worst[now_][t];
-		buffers_.near[then][place]  = buffers_.near[now_][t];
+		const int      count = count_, room = buffers_.room;
+		const R *const u = buffers_.vertex[now_][U], *const v = buffers_.vertex[now_][Y],
+		               *const slack = buffers_.vertex[now_][Slack];
+		const int* const      edge  = buffers_.edge[now_];
+		R *const toU = buffers_.vertex[1 - now_][U], *const toV = buffers_.vertex[1 - now_][Y];
+		int* const toEdge = buffers_.edge[1 - now_];
+		int        kept   = 0;
+		for (int t = 0; t < count && kept + 2 <= room; ++t) {
+			const int  next = t + 1 < count ? t + 1 : 0;
+			const R    here = slack[t], there = slack[next];
+			const bool in = here >= 0, nextIn = there >= 0;
+			if (in) {
+				toU[kept]      = u[t];
+				toV[kept]      = v[t];
+				toEdge[kept++] = edge[t];
+			}
+			if (in == nextIn) continue;
+			R crossing[2];
+			if (!cross(edge[t], line, crossing)) {
+				const R part = here / (here - there);
+				crossing[0]  = u[t] + part * (u[next] - u[t]);
+				crossing[1]  = v[t] + part * (v[next] - v[t]);
+			}
+			toU[kept] = crossing[0];
+			toV[kept] = crossing[1];
+			// going out, the new edge begins; coming in, the old one goes on
+			toEdge[kept++] = in ? line : edge[t];
+		}
+		now_   = 1 - now_;
+		count_ = kept;
+		setCloseness();
 	}
 
-	/// Where two lines cross, the first of which is the edge from vertex t to `next`; `part`: of the way there, by their slacks.
-	POLYTOPE_INLINE void cross(int first, int second, int t, int next, R part, int then, int place)
+	/// Where two lines cross; false where the angle between them is too small to say.
+	bool cross(int first, int second, R* uv) const
 	{
 		R* const* const line = buffers_.line;
-		R* const* const row  = buffers_.vertex[then];
 		const R         a = line[0][first], b = line[1][first], c = line[2][first];
 		const R         p = line[0][second], q = line[1][second], r = line[2][second];
 		const R         sine = a * q - p * b, sharp = R(tolerance::crossingLines);
-		if (sine * sine > sharp * sharp * (a * a + b * b) * (p * p + q * q)) {
-			const R inverse = 1 / sine;
-			row[U][place]   = (b * r - q * c) * inverse;
-			row[Y][place]   = (p * c - a * r) * inverse;
-			return;
-		}
-		row[U][place] = at(U, t) + part * (at(U, next) - at(U, t));
-		row[Y][place] = at(Y, t) + part * (at(Y, next) - at(Y, t));
+		if (!(sine * sine > sharp * sharp * (a * a + b * b) * (p * p + q * q))) return false;
+		const R inverse = 1 / sine;
+		uv[0]           = (b * r - q * c) * inverse;
+		uv[1]           = (p * c - a * r) * inverse;
+		return true;
 	}
 
-	POLYTOPE_APART int meetingAt(int t, int next, int* found, int room) const
+	POLYTOPE_APART int meetingAt(int t, int* found, int room) const
 	{
-		const R    close[2] = { nearness(at(U, t), at(Y, t)), nearness(at(U, next), at(Y, next)) };
-		const int  own      = buffers_.edge[now_][t];
-		int        count    = 0;
+		const int  next = t + 1 < count_ ? t + 1 : 0, own = buffers_.edge[now_][t];
+		int        count = 0;
 		const auto slack
 		        = [&](int k, int v) { return buffers_.rest[k] + buffers_.rate[0][k] * at(U, v) + buffers_.rate[1][k] * at(Y, v); };
 		for (int k = 0; k <= buffers_.planes && count < room; ++k)
-			if (abs(slack(k, t)) <= close[0] && abs(slack(k, next)) <= close[1]) found[count++] = k;
+			if (abs(slack(k, t)) <= close_ && abs(slack(k, next)) <= close_) found[count++] = k;
 		for (int line = 4; line < lines_ && count < room; ++line)
-			if (line != own && abs(slackOfLine(line, t)) <= close[0] && abs(slackOfLine(line, next)) <= close[1])
+			if (line != own && abs(slackOfLine(line, t)) <= close_ && abs(slackOfLine(line, next)) <= close_)
 				found[count++] = buffers_.lineTag[line];
 		return count;
 	}
 
 	const SurfaceBuffers<R, 3>& buffers_;
-	R                           deepest_;
+	R                           deepest_, close_ = 0;
 	int                         count_ = 0, lines_ = 0, now_ = 0;
-	bool                        touched_ = false; ///< a plane that cut met a vertex
+	bool                        touched_ = false; ///< a plane met two vertices
 };
 
 } // namespace polytope

@@ -9,7 +9,7 @@ namespace polytope {
 
 template <class R, int W> class SurfaceCut<R, 2, W> {
 public:
-	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 2>& buffers, R reach, R deepest)
+	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 2>& buffers, R reach, R deepest, const int*)
 	        : buffers_(buffers), deepest_(deepest), end_ { -reach, reach }
 	{
 		bool some = true;

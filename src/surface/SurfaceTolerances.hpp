@@ -30,6 +30,18 @@ constexpr Real openSurface = 1e-7, openThin = 64 * rounding;
 /// multiple of three pieces per plane that takes part in it.
 constexpr int piecesPerPlane = 64, piecesAtLeast = 256;
 
+/// Weight of a basis plane below which the simplex of the basis reaches too far to bound anything; and length of n below which there is no slab.
+constexpr Real simplexWeight = 1e-4;
+
+/// Rounding of a weight over the weight from which on the simplex is not certain; and factor by which it is enlarged for the rounding that is left.
+constexpr Real simplexNoise = 1e-9 * finer, simplexRoom = 1.001;
+
+/// By how much the planes of two bodies must differ in their direction along the normal to count as facing each other.
+constexpr Real facing = 1e-9;
+
+/// Planes that are known to meet a piece from the one before it: that on the other side of their edge, and those at its ends.
+constexpr int knownPlanes = 3;
+
 /// Planes that meet in one edge of a piece of which all pairs are looked at.
 constexpr int planesInAnEdge = 48;
 

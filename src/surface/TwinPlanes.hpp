@@ -32,6 +32,9 @@ public:
 		return i;
 	}
 
+	/// Whether any plane is left out.
+	bool any() const { return left_ > 0; }
+
 	/// Whether planes of both bodies coincide.
 	bool shared() const { return shared_; }
 

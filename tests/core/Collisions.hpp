@@ -54,7 +54,7 @@ struct Collision {
 	Body body[2];
 	Real stiffness, duration;
 	bool turning = true; ///< with the moment about the normal that a single force leaves out, where the contact has one
-	Real smooth = 0; ///< if not 0: U = 2k Φ⁴/smooth² instead of 2k Φ², whose force has no kink where contact begins
+	Real smooth  = 0;    ///< if not 0: U = 2k Φ⁴/smooth² instead of 2k Φ², whose force has no kink where contact begins
 };
 
 inline Collision randomCollision(std::mt19937_64& random)
@@ -117,8 +117,9 @@ inline Outcome run(Collision collision, const ContactSettings& settings, int ste
                 result           = query(pair, settings, &memory);
 	};
 	// the foundation's is a stiffness per area
-	const auto stiffness
-	        = [&] { return settings.contactModel == ContactModel::Foundation ? collision.stiffness * result.area : collision.stiffness; };
+	const auto stiffness = [&] {
+		return settings.contactModel == ContactModel::Foundation ? collision.stiffness * result.area : collision.stiffness;
+	};
 	const auto kick = [&](Real time) {
 		if (!result.inContact) return;
 		Vector3 force = stiffness() * result.depth * result.normal;

@@ -49,7 +49,8 @@ TEST(SurfaceCollisions, EnergyErrorFallsWithTheSquareOfTheTimeStep)
 		for (const int steps : { 500, 1000, 2000 }) {
 			all.push_back(errors(collisions, model, steps, true));
 			const Errors without = errors(collisions, model, steps, false);
-			std::printf("%s, %d steps: energy error over elastic energy, median / largest %.2e / %.2e; without the moment about the "
+			std::printf("%s, %d steps: energy error over elastic energy, median / largest %.2e / %.2e; without the moment "
+			            "about the "
 			            "normal %.2e / %.2e\n",
 			        model == ContactModel::Foundation ? "foundation" : "spring", steps, double(all.back().median),
 			        double(all.back().largest), double(without.median), double(without.largest));

@@ -4,6 +4,7 @@
 #include "ExactCells.hpp"
 #include "PlaneRows.hpp"
 #include "surface/ContactSurface.hpp"
+#include "surface/NearPlanes.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -16,17 +17,15 @@ template <int D> struct SurfaceOfPair {
 	SurfaceSums<Real, D> sums;
 	Vector3              origin; ///< world axes, from body 1's centre
 	Real                 deepest;
+	int                  planes = 0;     ///< that are looked at
+	bool                 facing = false; ///< NearPlanes::facing()
 
-	/// `seeded`: begun at the program's basis, otherwise without.
-	explicit SurfaceOfPair(const Pair& pair, SurfaceParts parts = SurfaceParts::Cells, bool seeded = true)
-	        : SurfaceOfPair(pair, linearProgram(pair), parts, seeded)
-	{
-	}
+	enum Start { Nowhere, Basis, NearPlanesAlone };
 
-	/// The same of rows that are there, whose offsets are left as they were.
-	SurfaceOfPair(PlaneRows<Real, D>& rows, const std::vector<int>& basis, Real size, Real deep, SurfaceParts parts) : deepest(deep)
+	/// Begun at the program's basis, without any, or at the basis with those planes alone that can be near.
+	explicit SurfaceOfPair(const Pair& pair, SurfaceParts parts = SurfaceParts::Cells, Start start = Basis)
+	        : SurfaceOfPair(pair, linearProgram(pair), parts, start)
 	{
-		walk(rows, basis, size, parts);
 	}
 
 	static PlaneRows<Real, D> rowsAbout(const Pair& pair, const Vector3& origin)
@@ -42,24 +41,31 @@ template <int D> struct SurfaceOfPair {
 	Vector3 deeperTurn() const { return about(sums.deeperTurn, deeper()); }
 
 private:
-	SurfaceOfPair(const Pair& pair, const ContactResult& program, SurfaceParts parts, bool seeded)
+	static constexpr int width = std::is_same_v<Real, double> ? 4 : 1;
+
+	SurfaceOfPair(const Pair& pair, const ContactResult& program, SurfaceParts parts, Start start)
 	        : origin(program.point), deepest(-program.infeasibility)
 	{
 		PlaneRows<Real, D> rows = rowsAbout(pair, origin);
-		std::vector<int>   basis;
-		for (int k = 0; k <= D && seeded; ++k)
-			basis.push_back(rows.row(program.basis[k] & 1, program.basis[k] >> 1));
-		walk(rows, basis, pair.size(), parts);
+		LpBasis<Real, D>   basis;
+		basis.infeasibility = program.infeasibility;
+		for (int k = 0; k <= D; ++k)
+			basis.plane[k] = rows.row(program.basis[k] & 1, program.basis[k] >> 1);
+		std::vector<Real>          numbers(std::size_t(NearPlanes<Real, D, width>::numbersNeeded(rows.planes.total)), Real(NAN));
+		LpBasis<Real, D>           ofNear = basis;
+		NearPlanes<Real, D, width> near(rows.planes, ofNear, pair.size(), numbers.data());
+		facing = near.facing();
+		if (start == NearPlanesAlone) walk(near.planes(), ofNear.plane, D + 1, pair.size(), parts);
+		else walk(rows.planes, basis.plane, start == Basis ? D + 1 : 0, pair.size(), parts);
 	}
 
-	void walk(PlaneRows<Real, D>& rows, const std::vector<int>& basis, Real size, SurfaceParts parts)
+	void walk(PairPlanes<Real, D>& all, const int* basis, int count, Real size, SurfaceParts parts)
 	{
-		const int                     total = rows.planes.total;
-		std::vector<Real>             numbers(std::size_t(SurfaceBuffers<Real, D>::numbersNeeded(total)), Real(NAN));
-		std::vector<int>              indices(std::size_t(SurfaceBuffers<Real, D>::indicesNeeded(total)), -77);
-		const SurfaceBuffers<Real, D> buffers(total, numbers.data(), indices.data());
-		constexpr int                 width = std::is_same_v<Real, double> ? 4 : 1;
-		status = contactSurface<Real, D, width>(rows.planes, basis.data(), int(basis.size()), size, deepest, parts, buffers, sums);
+		planes = all.total;
+		std::vector<Real>             numbers(std::size_t(SurfaceBuffers<Real, D>::numbersNeeded(planes)), Real(NAN));
+		std::vector<int>              indices(std::size_t(SurfaceBuffers<Real, D>::indicesNeeded(planes)), -77);
+		const SurfaceBuffers<Real, D> buffers(planes, numbers.data(), indices.data());
+		status = contactSurface<Real, D, width>(all, basis, count, size, deepest, parts, buffers, sums);
 	}
 
 	Vector3 about(const Real* turn, const Vector3& f) const
