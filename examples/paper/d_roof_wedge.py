@@ -5,7 +5,8 @@ The joints dip 60° at 30°, 150° and 270°; the wedge is 1 m high; σ_h = 0.05
 forces are set on the joints, the blocks around are fixed. Way 2: stress on the boundary closes the joints, then the blocks are fixed.
 Then the friction angle goes down from 70° until the wedge falls. Expected: φ = α + atan(W/ΣH) with α = 30° and the horizontal forces ΣH
 on the wedge, which gives 34.402° (34.319° with g = 9.81 m/s²), within 0.02° both ways. Last, the cause of the paper's 34.81° with
-boundary stress: blocks that touch each other around the wedge and take a part of the stress. Ends with 1 if what must hold does not.
+boundary stress: blocks that touch each other around the wedge and take a part of the stress. Beside it a prism between two joints only, which
+nothing but moments about their normals keeps from turning. Ends with 1 if what must hold does not.
 
 	./run python examples/paper/d_roof_wedge.py                  # half a minute
 	./run python examples/paper/d_roof_wedge.py --quick          # some seconds
@@ -14,6 +15,7 @@ boundary stress: blocks that touch each other around the wedge and take a part o
 """
 
 import os
+import pathlib
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
@@ -41,6 +43,8 @@ tolerance, shareTolerance = 0.02, 1e-3
 fall = 0.25
 """Of the wedge, in the second picture [m]."""
 steps, quickSteps = (1.0, 0.1, 0.02, 0.005), (8.0, 1.0, 0.1, 0.02, 0.005)
+prism = pathlib.Path(__file__).resolve().parent / 'geometry' / 'd_roof_prism.json'
+"""Between two joints of the wedge's dip, 1 m high and long."""
 sideShares, quickSideShares = (0.05, 0.25, 0.5, 1, 2), (0.5,)
 """A_v/A: joints between blocks that touch each other over those with the wedge."""
 
@@ -115,20 +119,23 @@ def search(given):
 		if len(joints) == 3 and areEvenlySpread(joints):
 			shares = quickSideShares if given.quick else sideShares
 			touching = touchingCases(given, both[0], paperPressed if given.reference else None, shares, progress)
-	return both, cases, touching
+		progress.total += 1
+		between = RoofWedgeCase(given, 'prism between two joints', 1, progress, blocks=BlockGeometry.read(prism))
+	return both, cases, touching, between
 
 
 def main():
 	given = options()
 	findings = Findings('D', 'Roof wedge', given.output, shown(given))
 	try:
-		both, cases, touching = search(given)
+		both, cases, touching, between = search(given)
 	except RuntimeError as error:
 		print(f'No critical friction angle: {error}', file=sys.stderr)
 		return 1
 
 	report = RoofWedgeReport(findings, given, both, cases, touching, tolerance)
 	report.criticalAngles(papers, closedForm)
+	report.prism(between)
 	report.jointForces()
 	report.constantNormal(constantNormal)
 	report.closure()

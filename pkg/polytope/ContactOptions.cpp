@@ -35,8 +35,9 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	using namespace polytope;
 	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
 	ContactSettings result;
-	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'paper' or 'conservative'",
-	        { { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative } });
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'paper', 'conservative', 'foundation' or 'spring'",
+	        { { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative },
+	                { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring } });
 	requireWithin("barrier", barrier, limit::leastBarrier, limit::largestBarrier, "", "the smaller body's inscribed radius");
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
 	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },

@@ -261,8 +261,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea     = result.area;
 	geom.barrierValue    = result.barrierValue;
 	geom.rockingArm      = result.rockingArm;
+	geom.turningArm      = result.turningArm;
 	geom.outline.set(result.outline, result.outlineCount);
-	const bool hasEnergy = settings_.contactModel == polytope::ContactModel::Conservative
+	const bool hasEnergy = settings_.contactModel != polytope::ContactModel::Paper
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };

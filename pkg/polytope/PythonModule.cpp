@@ -252,6 +252,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
 	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>,
 	                "Conservative model: elastic energy over the normal stiffness [m²].")
+	        .add_property("turningArm", &field<Real, &ContactResult::turningArm>,
+	                "Models foundation and spring: moment about the normal that a force at the point leaves out, over that force [m].")
 	        .add_property("rockingArm", &field<Real, &ContactResult::rockingArm>,
 	                "Conservative model: way of the contact point per tilt [m/rad].")
 	        .add_property(

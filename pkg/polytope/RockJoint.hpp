@@ -111,6 +111,8 @@ public:
 	{
 		return bond ? bond->moment : Vector3r((shearPoint - contactPoint).cross(shearForce) + twistingMoment * normal);
 	}
+	/// Moment on body 2 of a normal force that turns about its own line (PolytopeGeom::turningArm) [N m].
+	Vector3r normalMoment(Real turningArm) const { return turningArm * (normalForce - normalViscous); }
 	/// Shear acts at this point, without a moment.
 	void shearAt(const Vector3r& point)
 	{

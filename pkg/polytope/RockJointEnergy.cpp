@@ -22,7 +22,7 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::book(const Pair& pair, RockJoi
 	if (!energiesNamed_) nameEnergies();
 	const LastStepOfJoint before = phys.lastStep.get() ? *phys.lastStep.get() : LastStepOfJoint();
 	const Vector3r        force  = phys.normalForce + phys.shearForce;
-	const Vector3r        moment = phys.momentAbout(pair.geom.contactPoint, pair.geom.normal);
+	const Vector3r        moment = pair.momentOf(phys);
 	const Real            given  = scene->dt / 2
 	        * ((last.force + force).dot(pair.centreVelocity())
 	                + (before.arm2.cross(last.force) + pair.arm2.cross(force)).dot(pair.state2.angVel)

@@ -99,7 +99,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
 {
 	const Vector3r force = phys.normalForce + phys.shearForce,
-	               moment = phys.rockingMoment + phys.momentAbout(pair.geom.contactPoint, pair.geom.normal);
+	               moment = phys.rockingMoment + pair.momentOf(phys);
 	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
 		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
 		        = Vector3r::Zero();

@@ -3,13 +3,15 @@
 
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O
 
-__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws', 'notConservative', 'stiffnessesPerArea']
+__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws', 'notConservative', 'stiffnessesPerArea', 'unitOfModel']
 
 notConservative = (
 	'the conservative contact with stiffnesses per area',
 	'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
 )
 """What *check* and *requirements* say about it: (seen, advice)."""
+unitOfModel = {'foundation': True, 'spring': False}
+"""Whether the stiffness of a contact model is per area, for those that are the gradient of an energy with one unit alone."""
 
 
 def interactionLoops():

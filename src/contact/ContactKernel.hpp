@@ -7,6 +7,7 @@
 #include "contact/MeanDepth.hpp"
 #include "contact/NormalAndDepth.hpp"
 #include "contact/PhaseOne.hpp"
+#include "contact/SurfaceContact.hpp"
 
 #include <chrono>
 
@@ -92,18 +93,6 @@ template <class R, int D> POLYTOPE_INLINE R growUntilTouching(PairPlanes<R, D>& 
 	return grown;
 }
 
-/// `n`: unit normal in the planes' frame; x: contact point. The next step begins there.
-template <class R, int D>
-POLYTOPE_INLINE void publishContact(const PairInput& in, const ContactFrame<R, D>& f, ContactStatus status, const R* x, const R* n,
-        PairMemory& memory, ContactResult& out)
-{
-	out.status      = status;
-	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
-	memory.hasPoint = true;
-	out.normal      = worldDirection<R, D>(f, n);
-	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
-}
-
 /// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program; x: its point, dual: n_λ, both in the
 /// planes' frame. `atOrigin`: the frame's origin is the last step's point.
 template <class R, int D, int W>
@@ -186,6 +175,12 @@ POLYTOPE_INLINE void contactKernel(
 	const bool aligned = alignFrame<R, D, W>(in, start, pivots > 0, basis, f, planes, x, dual);
 	if (settings.contactModel == ContactModel::Conservative) {
 		conservativeContact<R, D, W>(in, settings, planes, f, basis, x, limits.reach, memory, workspace, out);
+		timer.end(out.centreNanoseconds);
+		return;
+	}
+	// across a gap there is no surface: the paper's geometry is as good a place for a law to end at
+	if (hasSurface(settings.contactModel) && touching) {
+		surfaceContact<R, D, W>(in, settings, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
 		timer.end(out.centreNanoseconds);
 		return;
 	}

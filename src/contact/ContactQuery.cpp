@@ -124,7 +124,7 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;
-	if (settings.contactModel == ContactModel::Conservative && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
+	if (settings.contactModel != ContactModel::Paper && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
 		const Vector3   centre1 = -centre2;
 		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
 		exchangeBodies(memory);

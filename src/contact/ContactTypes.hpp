@@ -26,7 +26,12 @@ enum class CentreSolver : int {
 enum class ContactModel : int {
 	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
 	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, normal, tolerance and normalWeight are not read
+	Foundation, ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp); point, normal, depth and area are its own, contactPoint and normal are read across a gap alone
+	Spring,     ///< the same for a stiffness per contact
 };
+
+/// Whether the contact is that of a surface (SurfaceContact.hpp).
+constexpr bool hasSurface(ContactModel model) { return model == ContactModel::Foundation || model == ContactModel::Spring; }
 
 /// Of the contact model Paper.
 enum class NormalSource : int {
@@ -91,6 +96,8 @@ struct ContactSettings {
 	const InternalPlanes* internal = nullptr;
 	/// Where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
+	/// Foundation: also the energy, which takes half as long again.
+	bool energy = true;
 	/// Measure the LP's and the centre's time.
 	bool timed = false;
 };
@@ -129,7 +136,8 @@ struct ContactResult {
 	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
 	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real    energy
-	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A
+	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
+	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	Real    rockingArm = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	Vector3 common     = Vector3::
 	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre

@@ -17,6 +17,7 @@ const char* statusName(ContactStatus status)
 		case ContactStatus::LpNotConverged: return "lpNotConverged";
 		case ContactStatus::NoDirection: return "noDirection";
 		case ContactStatus::Failed: return "failed";
+		case ContactStatus::SurfaceIncomplete: return "surfaceIncomplete";
 	}
 	return "unknown";
 }

@@ -17,9 +17,10 @@ enum class ContactStatus : int {
 	LpNotConverged,     ///< the simplex reached its pivot limit: the bound reached so far was used
 	NoDirection,        ///< coincident bodies: no separating direction exists; the line of centres or the z axis was used
 	Failed,             ///< no finite answer: treated as separated and counted
+	SurfaceIncomplete,  ///< foundation, spring: a part of the contact surface was not found; the force is that of the rest
 };
 
-constexpr int contactStatusCount = int(ContactStatus::Failed) + 1;
+constexpr int contactStatusCount = int(ContactStatus::SurfaceIncomplete) + 1;
 
 /// Whether the query found what it was asked for. Where it did not, there is a substitute that a run can go on with (the linear program's
 /// point, an arbitrary direction), or, where it failed, none; every count of queries without an answer is a count of these.
@@ -36,7 +37,8 @@ constexpr bool answered(ContactStatus status)
 		case ContactStatus::IpoptNotAvailable:
 		case ContactStatus::LpNotConverged:
 		case ContactStatus::NoDirection:
-		case ContactStatus::Failed: return false;
+		case ContactStatus::Failed:
+		case ContactStatus::SurfaceIncomplete: return false;
 	}
 	return false;
 }

@@ -24,7 +24,7 @@ POLYTOPE_INLINE void fail(PairMemory& memory, ContactResult& out)
 template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, ContactResult& out)
 {
 	using std::isfinite;
-	Real all = out.depth + out.area + out.energy + out.rockingArm;
+	Real all = out.depth + out.area + out.energy + out.rockingArm + out.turningArm;
 	for (int k = 0; k < D; ++k)
 		all += out.point[k] + out.normal[k] + out.dualDirection[k] + out.sectionCentroid[k];
 	if (!isfinite(all)) fail(memory, out);
@@ -37,6 +37,18 @@ template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weigh
 	memory.hasPoint = false;
 	for (int k = 0; k < D; ++k)
 		memory.weights[k] = weights[k];
+}
+
+/// `n`: unit normal in the planes' frame; x: contact point. The next step begins there.
+template <class R, int D>
+POLYTOPE_INLINE void publishContact(const PairInput& in, const ContactFrame<R, D>& f, ContactStatus status, const R* x, const R* n,
+        PairMemory& memory, ContactResult& out)
+{
+	out.status      = status;
+	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
+	memory.hasPoint = true;
+	out.normal      = worldDirection<R, D>(f, n);
+	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
 }
 
 template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)

@@ -95,4 +95,15 @@ TEST(Allocation, NoneInTheConservativeContactAfterWarmUp)
 	}
 }
 
+TEST(Allocation, NoneInTheContactsOfASurfaceAfterWarmUp)
+{
+	for (const ContactModel model : { ContactModel::Foundation, ContactModel::Spring })
+		for (int dimension = 2; dimension <= 3; ++dimension) {
+			ContactSettings settings;
+			settings.contactModel      = model;
+			settings.geometryAcrossGap = true;
+			expectNoneAfterTheLargest(settings, dimension);
+		}
+}
+
 } // namespace

@@ -293,7 +293,7 @@ TEST(ContactQuery, ToleranceIsTheLeastOverlapOverTheSmallerBody)
 TEST(ContactQuery, StatusesHaveNamesOfTheirOwn)
 {
 	std::set<std::string> names;
-	for (int status = 0; status <= int(ContactStatus::Failed); ++status)
+	for (int status = 0; status <= int(ContactStatus::SurfaceIncomplete); ++status)
 		names.insert(statusName(ContactStatus(status)));
 	EXPECT_EQ(names.size(), std::size_t(ContactStatus::Failed) + 1);
 	EXPECT_EQ(names.count("unknown"), 0u);
@@ -306,7 +306,8 @@ TEST(ContactQuery, UnansweredAreAllStatusesButThoseWithTheAnswerAskedFor)
 	std::set<std::string> unanswered;
 	for (int status = 0; status < contactStatusCount; ++status)
 		if (!answered(ContactStatus(status))) unanswered.insert(statusName(ContactStatus(status)));
-	const std::set<std::string> expected { "centreNotConverged", "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed" };
+	const std::set<std::string> expected { "centreNotConverged", "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed",
+		"surfaceIncomplete" };
 	EXPECT_EQ(unanswered, expected);
 }
 

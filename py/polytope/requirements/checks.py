@@ -12,7 +12,7 @@ import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._loads import permanentLoads
-from .._scene import geometryFunctors, interactionLoops, laws, notConservative, stiffnessesPerArea
+from .._scene import geometryFunctors, interactionLoops, laws, notConservative, stiffnessesPerArea, unitOfModel
 from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
@@ -155,6 +155,8 @@ def energy(scene):
 	if 'conservative' in models and _stiffnessPerArea(scene):
 		return notConservative
 	if 'paper' not in models:
+		if any(model in unitOfModel for model in models):
+			return 'the energy of the contact surface is conserved but for the moment about the normal that a single force leaves out', ''
 		return 'the conservative contact: energy is conserved to the error of the time step', ''
 	local = scene.newton.damping if scene.newton else 0
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)

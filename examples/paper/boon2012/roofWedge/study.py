@@ -186,6 +186,19 @@ class RoofWedgeReport(WedgeReport):
 				accept = self.must(known[gravity], 1e-4)
 				self.findings.row(f'closed form, g = {gravity:g} m/s²', case.closedForm, '°', theory=known[gravity], accept=accept)
 
+	def prism(self, case):
+		"""A wedge between two joints beside the same closed form: shear on its two faces alone holds it, and keeps it from turning."""
+		known = self.given.stiffness_times == 'face' and self.given.contact_model == 'paper'
+		self.findings.row(
+			f'critical friction angle, {case.label}',
+			case.critical,
+			'°',
+			None,
+			case.closedForm,
+			(case.closedForm - self.tolerance, case.closedForm + self.tolerance) if known else None,
+			'not in the paper; with friction at one point of each face it turned out of the roof at any friction',
+		)
+
 	def jointForces(self):
 		"""Those of the base case, as set, and how that was done."""
 		normal, shear = jointForces(self.given.horizontal_stress, self.base.area, self.base.inclination)

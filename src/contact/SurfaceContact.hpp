@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactFrame.hpp"
+#include "contact/ContactSection.hpp"
+#include "contact/ContactTypes.hpp"
+#include "contact/WarmStart.hpp"
+#include "program/LpBasis.hpp"
+#include "surface/ContactSurface.hpp"
+#include "surface/NearPlanes.hpp"
+
+/// The contacts whose force is the gradient of the volume of the linear program's feasible set (ContactSurface.hpp), as a geometry for laws that
+/// are linear in depth. With V = ∫ p dx and W = ∫ ½ p² dx over the overlap, p the least slack of both bodies,
+///
+///     foundation, stiffness per area K:   U = 2 K V,             F = 2 K ∫ p n dS over the contact surface (both bodies give way, each by half),
+///     spring, stiffness k:                U = ½ k (6 W/V)²,      F = 36 k (W/V) ∇(W/V):
+///
+/// for a face on a face the volume is A h²/4 and W/V = h/6, so that both are K A h and k h. The normal is the force's direction, the area that of the
+/// contact surface seen along it, the depth F/(K A) or F/k, and the point lies on the line of action: a law with the force K A × depth or
+/// k × depth has the force, and the moment but for the part along the normal, which no single force has.
+namespace polytope {
+
+/// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: of unit thickness where per area.
+template <class R, int D> struct SurfaceLoad {
+	R force[D];
+	R moment[SurfaceSums<R, D>::turns];
+	R energy;
+
+	POLYTOPE_INLINE SurfaceLoad(ContactModel model, const SurfaceSums<R, D>& sums)
+	{
+		const bool spring = model == ContactModel::Spring;
+		const R    mean   = sums.volume > 0 ? sums.level / sums.volume : R(0);
+		// weights of ∫ p n dS and ∫ ½ p² n dS
+		const R plain = spring ? -36 * mean * mean / sums.volume : R(2), deeper = spring ? 36 * mean / sums.volume : R(0);
+		energy = spring ? 18 * mean * mean : 2 * sums.volume;
+		for (int k = 0; k < D; ++k)
+			force[k] = plain * sums.force[k] + deeper * sums.deeper[k];
+		for (int k = 0; k < SurfaceSums<R, D>::turns; ++k)
+			moment[k] = plain * sums.moment[k] + deeper * sums.deeperTurn[k];
+	}
+};
+
+/// The point of the force's line of action nearest to `from`; 3-D: also the moment along the force that is left, over the force [m].
+template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>& load, R length, const R* n, const R* from, R* point)
+{
+	R left[SurfaceSums<R, D>::turns], arm[SurfaceSums<R, D>::turns] = {};
+	addCross<R, D>(from, load.force, arm);
+	for (int k = 0; k < SurfaceSums<R, D>::turns; ++k)
+		left[k] = (load.moment[k] - arm[k]) / length;
+	for (int k = 0; k < D; ++k)
+		point[k] = from[k];
+	if constexpr (D == 2) {
+		point[0] += n[1] * left[0];
+		point[1] -= n[0] * left[0];
+		return 0;
+	} else {
+		addCross<R, 3>(n, left, point);
+		return dot<R, 3>(left, n);
+	}
+}
+
+/// The contact surface of the planes that matter; energy only if asked for.
+template <class R, int D, int W>
+POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy,
+        ContactWorkspace& workspace, SurfaceSums<R, D>& sums)
+{
+	const int most   = planes.total + 2 * padWidth;
+	R* const numbers = workspace.polygons(NearPlanes<R, D, W>::numbersNeeded(planes.total) + SurfaceBuffers<R, D>::numbersNeeded(most));
+	LpBasis<R, D>              basis = optimum;
+	NearPlanes<R, D, W>        near(planes, basis, size, numbers);
+	const int                  total = near.planes().total;
+	const SurfaceBuffers<R, D> buffers(total, numbers + NearPlanes<R, D, W>::numbersNeeded(planes.total),
+	        workspace.indices(SurfaceBuffers<R, D>::indicesNeeded(most)));
+	const SurfaceParts         parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
+	return contactSurface<R, D, W>(near.planes(), basis.plane, D + 1, size, -optimum.infeasibility, parts, buffers, sums);
+}
+
+/// The force's direction; where there is no force the dual's, or any: coincident bodies, or one wholly within the other, are in equilibrium.
+template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoad<R, D>& load, R length, R least, const R* dual, R* n)
+{
+	const bool some = length > least;
+	const R    way  = some ? length : norm<R, D>(dual);
+	for (int k = 0; k < D; ++k)
+		n[k] = way > R(tolerance::direction) || some ? (some ? load.force[k] : dual[k]) / way : R(k == D - 1);
+	return some;
+}
+
+/// After the linear program of a pair that touches; x: its point, in the planes' frame.
+template <class R, int D, int W>
+POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+        const ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, const R* x, const R* dual, PairMemory& memory,
+        ContactWorkspace& workspace, ContactResult& out)
+{
+	SurfaceSums<R, D>   sums;
+	const R             deepest = -basis.infeasibility;
+	const bool          energy  = settings.energy || settings.contactModel == ContactModel::Spring;
+	const SurfaceStatus found   = surfaceOfPair<R, D, W>(planes, basis, f.size, energy, workspace, sums);
+
+	const SurfaceLoad<R, D> load(settings.contactModel, sums);
+	const R                 length = norm<R, D>(load.force);
+	// what a pressure everywhere along one direction would be: rounding of that is no force
+	const bool perArea = settings.contactModel == ContactModel::Foundation;
+	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;
+	R          n[D], centre[D], point[D];
+	const bool directed = directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
+	for (int k = 0; k < D; ++k)
+		point[k] = centre[k] = sums.pressure > 0 ? sums.centre[k] / sums.pressure : x[k];
+	if (directed) out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
+
+	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
+	R area = dot<R, D>(sums.areaVector, n);
+	area   = maxOf<R>(area, sums.pressure / deepest);
+	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
+	out.depth  = perArea ? length / area : length;
+	out.energy = perArea ? load.energy / area : load.energy;
+	out.area   = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
+
+	const bool whole = found == SurfaceStatus::Found || found == SurfaceStatus::None;
+	publishContact<R, D>(in, f,
+	        !optimal            ? ContactStatus::LpNotConverged
+	                : !whole    ? ContactStatus::SurfaceIncomplete
+	                : !directed ? ContactStatus::NoDirection
+	                            : ContactStatus::Contact,
+	        point, n, memory, out);
+	out.sectionCentroid = out.point;
+	if constexpr (D == 3) {
+		if (settings.outline) { // where friction acts: the plane through the point, on which a contact surface of two faces lies
+			const Real surface = out.area;
+			contactSection<R, 3>(in, settings, f, planes, point, n, point, workspace, out);
+			out.area            = surface;
+			out.sectionCentroid = out.point;
+		}
+	}
+	failUnlessFinite<D>(memory, out);
+}
+
+} // namespace polytope

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "surface/SurfacePiece.hpp"
+
+/// A piece of the surface in 3-D, cut to where no other plane has a smaller slack and none is negative: a convex polygon. Each edge carries the
+/// number of the plane that has the same slack there.
+///
+/// It begins as a square. Planes that are known to meet it cut first, which leaves little more than the piece; the others are compared with all vertices
+/// together, and few of them cut. No plane cuts twice. A new vertex is the crossing of two lines, not a point between two vertices: a polygon a thousand million times
+/// smaller than the square keeps its digits.
+namespace polytope {
+
+template <class R, int D, int W> class SurfaceCut;
+
+template <class R, int W> class SurfaceCut<R, 3, W> {
+public:
+	/// Of the piece whose planes are in the buffers' rows, which do not outlast it. `reach`: half the square's width; `deepest`: the largest p; `known`:
+	/// planes that meet the piece, as far as is known.
+	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest, const int* known)
+	        : buffers_(buffers), deepest_(deepest)
+	{
+		square(reach);
+		for (int k = 0; k < tolerance::knownPlanes && count_ > 2; ++k)
+			if (known[k] >= 0) cut(known[k]);
+		for (int k = 0; k < buffers.length && count_ > 2; k += W) {
+			const V slack = leastSlack(k);
+			if (!(horizontalMin<R, W>(slack) > close_)) cutByEach(k, slack);
+		}
+		if (count_ < 3) count_ = 0;
+	}
+
+	/// Vertices, and edges, of which one begins at each vertex. Zero: nothing is left.
+	int                  count() const { return count_; }
+	POLYTOPE_INLINE void vertex(int t, R* uv) const
+	{
+		uv[0] = at(U, t);
+		uv[1] = at(Y, t);
+	}
+	/// Plane of edge t, or −1: of the square.
+	int tag(int t) const { return buffers_.lineTag[buffers_.edge[now_][t]]; }
+
+	/// Writes the planes other than i, j and the edge's own that meet in edge t; the plane of no pressure counts as one. Returns how many.
+	POLYTOPE_INLINE int meeting(int t, int* found, int room) const { return touched_ ? meetingAt(t, found, room) : 0; }
+
+private:
+	using V = typename Lanes<R, W>::Type;
+	enum Row { U, Y, Slack };
+
+	POLYTOPE_INLINE R& at(Row row, int v) { return buffers_.vertex[now_][row][v]; }
+	POLYTOPE_INLINE R  at(Row row, int v) const { return buffers_.vertex[now_][row][v]; }
+
+	POLYTOPE_INLINE void square(R reach)
+	{
+		const R corner[4][2] = { { -reach, -reach }, { reach, -reach }, { reach, reach }, { -reach, reach } };
+		const R inward[4][2] = { { 0, 1 }, { -1, 0 }, { 0, -1 }, { 1, 0 } };
+		count_ = lines_ = 4;
+		for (int t = 0; t < 4; ++t) {
+			at(U, t)               = corner[t][0];
+			at(Y, t)               = corner[t][1];
+			buffers_.line[0][t]    = inward[t][0];
+			buffers_.line[1][t]    = inward[t][1];
+			buffers_.line[2][t]    = reach;
+			buffers_.lineTag[t]    = -1;
+			buffers_.edge[now_][t] = t;
+		}
+		setCloseness();
+	}
+
+	/// Within which slack a plane meets a vertex.
+	void setCloseness()
+	{
+		const R *u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		R        extent = deepest_;
+		for (int t = 0; t < count_; ++t)
+			extent = maxOf<R>(extent, abs(u[t]) + abs(v[t]));
+		close_ = R(tolerance::meetingPlanes) * extent;
+	}
+
+	/// Least slack of planes k … k + W − 1, less the pressure, at any vertex.
+	POLYTOPE_INLINE V leastSlack(int k) const
+	{
+		const R *u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		const V  rest = load<R, W>(buffers_.rest + k), rateU = load<R, W>(buffers_.rate[0] + k),
+		        rateV = load<R, W>(buffers_.rate[1] + k);
+		V least       = broadcast<R, W>(R(padOffset));
+		for (int t = 0; t < count_; ++t)
+			least = minOf(least, V(rest + rateU * broadcast<R, W>(u[t]) + rateV * broadcast<R, W>(v[t])));
+		return least;
+	}
+
+	POLYTOPE_INLINE void cutByEach(int first, const V& slack)
+	{
+		R each[W];
+		store<R, W>(each, slack);
+		for (int lane = 0; lane < W && count_ > 2; ++lane)
+			if (!(each[lane] > close_)) cut(first + lane);
+	}
+
+	/// The plane's row becomes a line; on its own edge rounding would have it violated again.
+	int makeLine(int plane)
+	{
+		buffers_.line[0][lines_] = buffers_.rate[0][plane];
+		buffers_.line[1][lines_] = buffers_.rate[1][plane];
+		buffers_.line[2][lines_] = buffers_.rest[plane];
+		buffers_.lineTag[lines_] = plane;
+		buffers_.rate[0][plane] = buffers_.rate[1][plane] = 0;
+		buffers_.rest[plane]                              = R(padOffset);
+		return lines_++;
+	}
+
+	R slackOfLine(int line, int t) const
+	{
+		return buffers_.line[2][line] + buffers_.line[0][line] * at(U, t) + buffers_.line[1][line] * at(Y, t);
+	}
+
+	/// Takes off what lies beyond the plane.
+	POLYTOPE_APART void cut(int plane)
+	{
+		const R   rateU = buffers_.rate[0][plane], rateV = buffers_.rate[1][plane], rest = buffers_.rest[plane];
+		const R * u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
+		R*        slack = buffers_.vertex[now_][Slack];
+		R         least = R(padOffset);
+		const int count = count_;
+		for (int t = 0; t < count; ++t) {
+			const R here = rest + rateU * u[t] + rateV * v[t];
+			slack[t]     = here;
+			least        = minOf<R>(least, here);
+		}
+		if (least > close_) return;
+		int near = 0;
+		for (int t = 0; t < count; ++t)
+			near += abs(slack[t]) <= close_;
+		touched_ = touched_ || near > 1;
+		if (least < 0 && lines_ < buffers_.room) split(makeLine(plane));
+	}
+
+	/// By the line, whose slacks at the vertices are known. A convex polygon is left and entered once, but for rounding.
+	void split(int line)
+	{
+		const int      count = count_, room = buffers_.room;
+		const R *const u = buffers_.vertex[now_][U], *const v = buffers_.vertex[now_][Y],
+		               *const slack = buffers_.vertex[now_][Slack];
+		const int* const      edge  = buffers_.edge[now_];
+		R *const toU = buffers_.vertex[1 - now_][U], *const toV = buffers_.vertex[1 - now_][Y];
+		int* const toEdge = buffers_.edge[1 - now_];
+		int        kept   = 0;
+		for (int t = 0; t < count && kept + 2 <= room; ++t) {
+			const int  next = t + 1 < count ? t + 1 : 0;
+			const R    here = slack[t], there = slack[next];
+			const bool in = here >= 0, nextIn = there >= 0;
+			if (in) {
+				toU[kept]      = u[t];
+				toV[kept]      = v[t];
+				toEdge[kept++] = edge[t];
+			}
+			if (in == nextIn) continue;
+			R crossing[2];
+			if (!cross(edge[t], line, crossing)) {
+				const R part = here / (here - there);
+				crossing[0]  = u[t] + part * (u[next] - u[t]);
+				crossing[1]  = v[t] + part * (v[next] - v[t]);
+			}
+			toU[kept] = crossing[0];
+			toV[kept] = crossing[1];
+			// going out, the new edge begins; coming in, the old one goes on
+			toEdge[kept++] = in ? line : edge[t];
+		}
+		now_   = 1 - now_;
+		count_ = kept;
+		setCloseness();
+	}
+
+	/// Where two lines cross; false where the angle between them is too small to say.
+	bool cross(int first, int second, R* uv) const
+	{
+		R* const* const line = buffers_.line;
+		const R         a = line[0][first], b = line[1][first], c = line[2][first];
+		const R         p = line[0][second], q = line[1][second], r = line[2][second];
+		const R         sine = a * q - p * b, sharp = R(tolerance::crossingLines);
+		if (!(sine * sine > sharp * sharp * (a * a + b * b) * (p * p + q * q))) return false;
+		const R inverse = 1 / sine;
+		uv[0]           = (b * r - q * c) * inverse;
+		uv[1]           = (p * c - a * r) * inverse;
+		return true;
+	}
+
+	POLYTOPE_APART int meetingAt(int t, int* found, int room) const
+	{
+		const int  next = t + 1 < count_ ? t + 1 : 0, own = buffers_.edge[now_][t];
+		int        count = 0;
+		const auto slack
+		        = [&](int k, int v) { return buffers_.rest[k] + buffers_.rate[0][k] * at(U, v) + buffers_.rate[1][k] * at(Y, v); };
+		for (int k = 0; k <= buffers_.planes && count < room; ++k)
+			if (abs(slack(k, t)) <= close_ && abs(slack(k, next)) <= close_) found[count++] = k;
+		for (int line = 4; line < lines_ && count < room; ++line)
+			if (line != own && abs(slackOfLine(line, t)) <= close_ && abs(slackOfLine(line, next)) <= close_)
+				found[count++] = buffers_.lineTag[line];
+		return count;
+	}
+
+	const SurfaceBuffers<R, 3>& buffers_;
+	R                           deepest_, close_ = 0;
+	int                         count_ = 0, lines_ = 0, now_ = 0;
+	bool                        touched_ = false; ///< a plane met two vertices
+};
+
+} // namespace polytope

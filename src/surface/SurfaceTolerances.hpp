@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "numbers/Tolerances.hpp"
+
+/// Thresholds of the contact surface. Lengths are relative to the pair's size, the smaller of the two bodies' circumradii.
+namespace polytope::tolerance {
+
+/// × size: half the width of the square (2-D: of the interval) that is cut to a piece of the surface, about the foot of the frame's
+/// origin on the piece's plane. The origin lies within √2 sizes of the smaller body's centre and so within 2.5 of all of the overlap.
+constexpr Real pieceBox = 4;
+
+/// Two planes whose normals differ by no more than this, and offsets by no more than this × size, are one plane: that is what is left of
+/// coincident planes after they have been placed in one frame.
+constexpr Real twinPlanes = 8 * rounding;
+
+/// Sine of the angle between two lines below which their crossing is interpolated between the ends of the line that is cut: below, the
+/// crossing loses more digits than the ends have.
+constexpr Real crossingLines = 1e-3;
+
+/// × extent of a piece: planes whose slack differs from the pressure by less than this all along an edge meet there, as far as rounding can
+/// tell, and the surface may go on between any two of them. Pieces looked at in vain cost time alone, so that this is far above rounding.
+constexpr Real meetingPlanes = 65536 * rounding;
+
+/// Largest sum of the surface's area vectors over its area where it ought to be closed, and what is added to it × size over the overlap's
+/// thickness: rounding leaves less, a piece that is missing more, unless it is so small that it is of no account.
+constexpr Real openSurface = 1e-7, openThin = 64 * rounding;
+
+/// Room for pieces: per plane, and at least. A convex polyhedron has three edges per face at the most, so that a surface has some
+/// multiple of three pieces per plane that takes part in it.
+constexpr int piecesPerPlane = 64, piecesAtLeast = 256;
+
+/// Weight of a basis plane below which the simplex of the basis reaches too far to bound anything; and length of n below which there is no slab.
+constexpr Real simplexWeight = 1e-4;
+
+/// Rounding of a weight over the weight from which on the simplex is not certain; and factor by which it is enlarged for the rounding that is left.
+constexpr Real simplexNoise = 1e-9 * finer, simplexRoom = 1.001;
+
+/// By how much the planes of two bodies must differ in their direction along the normal to count as facing each other.
+constexpr Real facing = 1e-9;
+
+/// Planes that are known to meet a piece from the one before it: that on the other side of their edge, and those at its ends.
+constexpr int knownPlanes = 3;
+
+/// Planes that meet in one edge of a piece of which all pairs are looked at.
+constexpr int planesInAnEdge = 48;
+
+} // namespace polytope::tolerance

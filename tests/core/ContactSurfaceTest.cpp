@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "surface/ContactSurface.hpp"
+#include "SurfaceOfPair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+using Maker = std::function<Pair(int, std::mt19937_64&)>;
+
+/// A rod through a plate, or the end of one in it: the surface has up to two parts, and a part of the pairs have it off the optimum.
+Pair piercingPair(std::mt19937_64& random)
+{
+	Pair       pair;
+	const Real thick = decades(random, -2, 0), wide = decades(random, -2, 0), high = wide * decades(random, Real(-0.5), Real(0.5));
+	pair.shape[0] = ConvexShape::shared(cuboid(1, 1, thick), 0);
+	pair.shape[1] = ConvexShape::shared(cuboid(wide, high, 2), 0);
+	const Real x = uniform(random, Real(-0.8), Real(0.8)), y = uniform(random, Real(-0.8), Real(0.8)), z = uniform(random, -2, 2);
+	pair.centre2     = Vector3(x, y, z);
+	const Real angle = uniform(random, 0, Real(0.5));
+	pair.rotation[1] = Eigen::AngleAxis<Real>(angle, randomDirection(random)).toRotationMatrix();
+	return turned(pair, randomRotation(random));
+}
+
+/// Cubes on each other with all sides in line, with two, or with none; the tie of planes of both bodies.
+Pair stackedPair(int trial, std::mt19937_64& random)
+{
+	Pair pair;
+	pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	const Real overlap            = decades(random, -12, Real(-0.3));
+	pair.centre2                  = Vector3(trial % 3 > 0 ? Real(0.375) : 0, trial % 3 > 1 ? Real(-0.5) : 0, 2 - overlap);
+	return trial % 2 ? turned(pair, randomRotation(random)) : pair;
+}
+
+/// Bodies that coincide but for 1e-16 … 0.1 of their size and as much of a turn, or exactly.
+Pair coincidingPair(int trial, std::mt19937_64& random, const Shapes& shapes)
+{
+	Pair pair;
+	pair.shape[0] = pair.shape[1] = shapes[random() % shapes.size()];
+	pair.rotation[0] = pair.rotation[1] = randomRotation(random, pair.dimension());
+	if (trial % 3) pair.centre2 = decades(random, -16, -1) * pair.size() * randomDirection(random, pair.dimension());
+	if (trial % 3 == 2) {
+		const Vector3 axis = pair.dimension() == 2 ? Vector3(Vector3::UnitZ()) : randomDirection(random);
+		pair.rotation[1]   = Eigen::AngleAxis<Real>(decades(random, -16, -1), axis).toRotationMatrix() * pair.rotation[0];
+	}
+	return pair;
+}
+
+template <class Numbers, class Exact> Real distance(const Numbers& numbers, const Exact& exact)
+{
+	Real square = 0;
+	for (std::size_t k = 0; k < exact.size(); ++k) {
+		const Real off = Real(Fine(numbers[k]) - exact[k]);
+		square += off * off;
+	}
+	return std::sqrt(square);
+}
+
+/// The mean of both orders in which planes of both bodies that coincide may be taken.
+template <int D> ExactCells<D> exactOf(const PlaneRows<Real, D>& rows, Real size)
+{
+	const double  twin = double(tolerance::twinPlanes);
+	ExactCells<D> exact(rows.planes, twin, twin * double(size)), other(rows.planes, twin, twin * double(size), true);
+	exact.measure(3 * double(size));
+	other.measure(3 * double(size));
+	const auto mean = [](auto& own, const auto& its) {
+		for (std::size_t k = 0; k < own.size(); ++k)
+			own[k] = (own[k] + its[k]) / 2;
+	};
+	mean(exact.force, other.force);
+	mean(exact.moment, other.moment);
+	mean(exact.deeper, other.deeper);
+	mean(exact.deeperTurn, other.deeperTurn);
+	return exact;
+}
+
+/// All that is summed against 113 digits, of pairs that overlap by more than rounding. Errors are in roundings × size over the overlap's
+/// thickness, which is how certain a pressure is.
+template <int D> void expectExact(const Maker& make, int trials, int least)
+{
+	std::mt19937_64 random(71 + D);
+	int             measured = 0, facing = 0;
+	for (int trial = 0; trial < trials; ++trial) {
+		const Pair          pair = make(trial, random);
+		const ContactResult lp   = linearProgram(pair);
+		const Real          size = pair.size();
+		if (!(lp.infeasibility < -tolerance::contact * size)) continue;
+		SCOPED_TRACE(trial);
+		using Surface = SurfaceOfPair<D>;
+		const Surface        own(pair);
+		std::vector<Surface> others { Surface(pair, SurfaceParts::Contact), Surface(pair, SurfaceParts::Contact, Surface::Nowhere),
+			Surface(pair, SurfaceParts::Cells, Surface::NearPlanesAlone) };
+		if (own.facing) others.emplace_back(pair, SurfaceParts::Facing, Surface::NearPlanesAlone);
+		facing += own.facing;
+		const PlaneRows<Real, D> rows     = SurfaceOfPair<D>::rowsAbout(pair, own.origin);
+		const ExactCells<D>      exact    = exactOf<D>(rows, size);
+		const Real               deep     = own.deepest;
+		const Real               rounding = 32 * tolerance::rounding * size / deep;
+		const Real               pressure = std::max(own.sums.pressure, Real(exact.volume) / size);
+		EXPECT_LE(distance(own.sums.force, exact.force), rounding * pressure);
+		EXPECT_LE(distance(own.sums.moment, exact.moment), rounding * pressure * size);
+		EXPECT_LE(distance(own.sums.deeper, exact.deeper), rounding * pressure * deep);
+		EXPECT_LE(distance(own.sums.deeperTurn, exact.deeperTurn), rounding * pressure * deep * size);
+		EXPECT_NEAR(Real(Fine(own.sums.overlap) / exact.overlap), 1, rounding);
+		EXPECT_NEAR(Real(Fine(own.sums.volume) / exact.volume), 1, rounding);
+		EXPECT_NEAR(Real(Fine(own.sums.level) / exact.level), 1, rounding);
+		EXPECT_EQ(own.status, exact.pieces > 0 || own.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None);
+		for (const Surface& other : others) {
+			EXPECT_EQ(other.status, own.status);
+			EXPECT_LE((other.force() - own.force()).norm(), rounding * pressure);
+		}
+		++measured;
+	}
+	EXPECT_GE(measured, least);
+	std::cout << measured << " pairs, of which " << facing << " face each other\n";
+}
+
+TEST(ContactSurface, IsExactForRegularSolids)
+{
+	const int faces[] = { 4, 6, 8, 12, 20 };
+	expectExact<3>(
+	        [&](int t, auto& r) { return regularPair(faces[t % 5], faces[t / 5 % 5], decades(r, -9, Real(-0.3)), r); }, 100, 100);
+}
+
+TEST(ContactSurface, IsExactForRandomShapesPlatesAndNeedles)
+{
+	std::mt19937_64 random(3);
+	Shapes          shapes = randomShapes(40, random, 3, -2);
+	shapes.erase(
+	        std::remove_if(shapes.begin(), shapes.end(), [](const auto& shape) { return shape->planeCount() > 24; }), shapes.end());
+	expectExact<3>([&](int, auto& r) { return randomPair(shapes, r); }, 60, 30);
+}
+
+TEST(ContactSurface, IsExactForNearlyParallelAndRepeatedPlanes)
+{
+	expectExact<3>([](int, auto& r) { return nearlyParallelPair(r, 3); }, 200, 100);
+}
+
+TEST(ContactSurface, IsExactForOverlapsThinAcrossTwoAxes)
+{
+	expectExact<3>([](int t, auto& r) { return thinPair(t, r); }, 100, 100);
+}
+
+TEST(ContactSurface, IsExactWhereOneBodyPassesThroughTheOther)
+{
+	expectExact<3>([](int, auto& r) { return piercingPair(r); }, 200, 150);
+}
+
+TEST(ContactSurface, IsExactWhereOneBodyIsInTheOther)
+{
+	const int  faces[] = { 4, 6, 8, 12, 20 };
+	const auto inside  = [&](int t, std::mt19937_64& random) {
+                Pair pair;
+                for (int body = 0; body < 2; ++body) {
+                        pair.shape[body]    = ConvexShape::shared(regularSolid(faces[random() % 5], body == 0 ? 1 : Real(0.5)), 0);
+                        pair.rotation[body] = t % 2 ? randomRotation(random) : Matrix3(Matrix3::Identity());
+                }
+                if (t % 3) pair.centre2 = decades(random, -3, 0) * randomDirection(random);
+                return pair;
+	};
+	expectExact<3>(inside, 100, 90);
+}
+
+TEST(ContactSurface, IsExactForStackedCubes) { expectExact<3>(stackedPair, 60, 60); }
+
+TEST(ContactSurface, IsExactForBodiesThatCoincide)
+{
+	const int faces[] = { 4, 6, 8, 12 };
+	Shapes    shapes;
+	for (const int count : faces)
+		shapes.push_back(ConvexShape::shared(regularSolid(count, 1), 0));
+	expectExact<3>([&](int t, auto& r) { return coincidingPair(t, r, shapes); }, 60, 60);
+}
+
+TEST(ContactSurface, IsExactInTwoDimensions)
+{
+	std::mt19937_64 random(4);
+	const Shapes    shapes = randomShapes(40, random, 2, -2);
+	expectExact<2>([&](int, auto& r) { return randomPair(shapes, r); }, 60, 30);
+	expectExact<2>([](int, auto& r) { return nearlyParallelPair(r, 2); }, 600, 400);
+	expectExact<2>([&](int t, auto& r) { return coincidingPair(t, r, shapes); }, 100, 90);
+}
+
+TEST(ContactSurface, KeepsItsDigitsAtAllSizes)
+{
+	const int faces[] = { 4, 6, 8, 12, 20 };
+	expectExact<3>(
+	        [&](int t, auto& r) {
+		        const Real ratio = decades(r, -3, 3);
+		        return scaled(regularPair(faces[t % 5], faces[t / 5 % 5], decades(r, -6, -1), r, ratio), decades(r, -9, 4));
+	        },
+	        100, 100);
+}
+
+// ------------------------------------------------------------------------------------------------------------ closed forms
+
+/// A floor's face at z = 0 below a cube of side 2 in this orientation, whose lowest point is `depth` below it.
+Pair onFloor(const Matrix3& rotation, Real depth)
+{
+	Pair pair;
+	pair.shape[0]    = ConvexShape::shared(cuboid(8, 8, 2), Real(0.1));
+	pair.shape[1]    = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	pair.rotation[1] = rotation;
+	pair.centre2     = Vector3(0, 0, 2 + rotation.row(2).cwiseAbs().sum() - depth);
+	return pair;
+}
+
+TEST(ContactSurface, OfAFaceOnAFaceIsAnElasticFoundation)
+{
+	for (const Real h : { 1e-1, 1e-3, 1e-6 }) {
+		const SurfaceOfPair<3> own(onFloor(Matrix3::Identity(), h));
+		// the rim, where a side of the cube is nearer than its lower face, is h/2 wide: pressure from 0 to h/2 on a slope of 45°
+		EXPECT_NEAR(2 * own.sums.force[2] / (4 * h), 1, h);
+		EXPECT_NEAR(2 * 2 * own.sums.volume / (4 * h * h), 1, h);
+		EXPECT_LE(std::hypot(own.sums.force[0], own.sums.force[1]), 1e-15);
+		// W/V is a sixth of the depth
+		EXPECT_NEAR(6 * own.sums.level / (own.sums.volume * h), 1, h);
+		EXPECT_EQ(own.sums.pieces, 5);
+	}
+}
+
+TEST(ContactSurface, PressesAlongTheNormalOfTheOnlyFace)
+{
+	const Matrix3 edge   = Eigen::AngleAxis<Real>(Real(0.7), Vector3::UnitY()).toRotationMatrix();
+	const Matrix3 vertex = Eigen::AngleAxis<Real>(Real(0.4), Vector3::UnitX()).toRotationMatrix() * edge;
+	for (const Matrix3& rotation : { Matrix3(Matrix3::Identity()), edge, vertex })
+		for (const Real depth : { 1e-9, 1e-5, 1e-2 }) {
+			const SurfaceOfPair<3> own(onFloor(rotation, depth));
+			EXPECT_LE(std::hypot(own.sums.force[0], own.sums.force[1]), 1e-14 * own.sums.force[2] / depth);
+			EXPECT_GT(own.sums.force[2], 0);
+		}
+}
+
+// -------------------------------------------------------------------------------------------------------------- gradients
+
+/// Body 2 moved along and turned about axis k, through body 1's centre.
+Pair displaced(const Pair& pair, int k, Real way, Real angle)
+{
+	Pair          out  = pair;
+	const Matrix3 turn = Eigen::AngleAxis<Real>(angle, Vector3::Unit(k)).toRotationMatrix();
+	out.centre2        = turn * pair.centre2 + way * Vector3::Unit(k);
+	out.rotation[1]    = turn * pair.rotation[1];
+	return out;
+}
+
+/// Force and moment against differences of V and W. Both are piecewise polynomials of the motion, smooth to their second derivative, so that
+/// central differences err by the square of the step, and where a piece comes or goes by a part of it.
+template <int D> void expectGradient(const Pair& pair, Real allowed)
+{
+	const SurfaceOfPair<D> own(pair);
+	const Real             step = Real(1e-4) * own.deepest, size = pair.reach();
+	const auto             slope = [&](int k, bool turning, bool level) {
+                Real value[2];
+                for (int side = 0; side < 2; ++side) {
+                        const Real             by = side == 0 ? -step : step;
+                        const SurfaceOfPair<D> there(displaced(pair, k, turning ? 0 : by, turning ? by / size : 0));
+                        value[side] = level ? there.sums.level : there.sums.volume;
+                }
+                return -(value[1] - value[0]) / (2 * step) * (turning ? size : 1);
+	};
+	for (int k = 0; k < D; ++k) {
+		EXPECT_NEAR(slope(k, false, false) / own.sums.pressure, own.force()[k] / own.sums.pressure, allowed) << k;
+		EXPECT_NEAR(slope(k, false, true) / (own.sums.pressure * own.deepest), own.deeper()[k] / (own.sums.pressure * own.deepest),
+		        allowed);
+	}
+	for (int k = D == 3 ? 0 : 2; k < 3; ++k) {
+		const Real scale = own.sums.pressure * size;
+		EXPECT_NEAR(slope(k, true, false) / scale, own.moment()[k] / scale, allowed) << k;
+		EXPECT_NEAR(slope(k, true, true) / (scale * own.deepest), own.deeperTurn()[k] / (scale * own.deepest), allowed) << k;
+	}
+}
+
+TEST(ContactSurface, ForceAndMomentAreTheGradientOfTheEnergy)
+{
+	const Matrix3 tilted = Eigen::AngleAxis<Real>(Real(1e-3), Vector3(1, 2, 0).normalized()).toRotationMatrix();
+	const Matrix3 edge   = Eigen::AngleAxis<Real>(Real(0.7), Vector3::UnitY()).toRotationMatrix();
+	const Matrix3 vertex = Eigen::AngleAxis<Real>(Real(0.4), Vector3::UnitX()).toRotationMatrix() * edge;
+	for (const Matrix3& rotation : { tilted, edge, vertex })
+		expectGradient<3>(turned(onFloor(rotation, Real(0.01)), tilted), Real(1e-6));
+	// two edges that cross
+	Pair crossing;
+	crossing.shape[0] = crossing.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	crossing.rotation[0]                  = Eigen::AngleAxis<Real>(Real(M_PI) / 4, Vector3::UnitX()).toRotationMatrix();
+	crossing.rotation[1]                  = Eigen::AngleAxis<Real>(Real(0.8), Vector3::UnitY()).toRotationMatrix();
+	crossing.rotation[1] = Eigen::AngleAxis<Real>(Real(0.3), Vector3::UnitZ()).toRotationMatrix() * crossing.rotation[1];
+	moveTo(crossing, Vector3(Real(0.1), Real(-0.05), 1).normalized(), Real(-0.01));
+	expectGradient<3>(crossing, Real(1e-6));
+}
+
+TEST(ContactSurface, ForceAndMomentAreTheGradientForRandomPairs)
+{
+	std::mt19937_64 random(12);
+	const int       faces[] = { 4, 6, 8, 12, 20 };
+	for (int trial = 0; trial < 50; ++trial) {
+		SCOPED_TRACE(trial);
+		expectGradient<3>(regularPair(faces[trial % 5], faces[trial / 5 % 5], decades(random, -3, Real(-0.3)), random), Real(1e-6));
+	}
+	for (int trial = 0; trial < 50; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair pair;
+		for (int body = 0; body < 2; ++body) {
+			pair.shape[body]    = ConvexShape::shared(randomPlanes(4 + int(random() % 8), random, 2), 0);
+			pair.rotation[body] = randomRotation(random, 2);
+		}
+		moveTo(pair, randomDirection(random, 2), -decades(random, -3, -1));
+		expectGradient<2>(pair, Real(1e-6));
+	}
+}
+
+// --------------------------------------------------------------------------------------------------------------- symmetries
+
+TEST(ContactSurface, IsTheSameWithBodiesExchangedTurnedAndScaled)
+{
+	std::mt19937_64 random(8);
+	const Shapes    shapes = randomShapes(30, random, 3, -1);
+	for (int trial = 0; trial < 60; ++trial) {
+		SCOPED_TRACE(trial);
+		const Pair pair = randomPair(shapes, random);
+		if (!(infeasibility(pair) < -1e-9 * pair.size())) continue;
+		const SurfaceOfPair<3> own(pair), other(swapped(pair));
+		const Real             rounding = 256 * tolerance::rounding * pair.reach() / own.deepest;
+		const Real             force = rounding * own.sums.pressure, moment = force * pair.reach();
+		EXPECT_LE((other.force() + own.force()).norm(), force);
+		EXPECT_LE((other.moment() + (own.moment() - pair.centre2.cross(own.force()))).norm(), moment);
+		const Matrix3          turn = randomRotation(random);
+		const SurfaceOfPair<3> there(turned(pair, turn)), large(scaled(pair, 1024));
+		EXPECT_LE((there.force() - turn * own.force()).norm(), force);
+		EXPECT_LE((there.moment() - turn * own.moment()).norm(), moment);
+		EXPECT_NEAR(there.sums.volume / own.sums.volume, 1, rounding);
+		EXPECT_LE((large.force() / std::pow(Real(1024), 3) - own.force()).norm(), force);
+		EXPECT_NEAR(large.sums.volume / std::pow(Real(1024), 4) / own.sums.volume, 1, rounding);
+		EXPECT_NEAR(large.sums.level / std::pow(Real(1024), 5) / own.sums.level, 1, rounding);
+	}
+}
+
+TEST(ContactSurface, PiecesOfAFloorAddUp)
+{
+	const Real h = Real(1e-3);
+	Pair       whole, left, right;
+	whole.shape[0] = ConvexShape::shared(cuboid(4, 4, 1), Real(0.1));
+	left.shape[0] = right.shape[0] = ConvexShape::shared(cuboid(2, 4, 1), Real(0.1));
+	whole.shape[1] = left.shape[1] = right.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	for (const Real beyond : { 0.05, 0.5, 1., 1.7 }) {
+		whole.centre2 = Vector3(-1 + beyond, Real(0.2), 2 - h);
+		left.centre2  = whole.centre2 + Vector3(2, 0, 0);
+		right.centre2 = whole.centre2 - Vector3(2, 0, 0);
+		const SurfaceOfPair<3> one(whole), first(left), second(right);
+		EXPECT_LE((first.force() + second.force() - one.force()).norm() / one.force().norm(), h) << beyond;
+		EXPECT_NEAR((first.sums.volume + second.sums.volume) / one.sums.volume, 1, h) << beyond;
+	}
+}
+
+TEST(ContactSurface, OfManyPlanesIsThatOfTheNearOnes)
+{
+	std::mt19937_64 random(30);
+	for (const int count : { 100, 400, 1000 }) {
+		Pair pair;
+		for (auto& shape : pair.shape)
+			shape = ConvexShape::shared(randomPlanes(count, random), 0);
+		for (Matrix3& rotation : pair.rotation)
+			rotation = randomRotation(random);
+		moveTo(pair, randomDirection(random), Real(-1e-4));
+		const SurfaceOfPair<3>   own(pair);
+		const PlaneRows<Real, 3> rows = SurfaceOfPair<3>::rowsAbout(pair, own.origin);
+		// a plane farther from the origin than the overlap reaches, and its depth, is nearest nowhere
+		PairPlanes<Real, 3> near = rows.planes;
+		std::vector<Real>   offset(rows.planes.offset, rows.planes.offset + near.total);
+		const Real          reach = Real(0.2);
+		near.offset               = offset.data();
+		for (Real& d : offset)
+			if (d > reach + own.deepest) d = Real(padOffset);
+		ExactCells<3> exact(near);
+		exact.measure(3);
+		ASSERT_LT(exact.farthest, Fine(reach));
+		ASSERT_LT(exact.planes.size(), 150u);
+		EXPECT_NEAR(Real(Fine(own.sums.volume) / exact.volume), 1, 1e-10) << count;
+		EXPECT_LE(distance(own.sums.force, exact.force), 1e-10 * own.sums.pressure) << count;
+		EXPECT_EQ(own.status, SurfaceStatus::Found);
+		const SurfaceOfPair<3> few(pair, SurfaceParts::Cells, SurfaceOfPair<3>::NearPlanesAlone);
+		EXPECT_LT(few.planes, own.planes / 4);
+		EXPECT_NEAR(few.sums.volume / own.sums.volume, 1, 1e-10);
+	}
+}
+
+} // namespace

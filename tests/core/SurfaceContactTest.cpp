@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/SurfaceContact.hpp"
+#include "SurfaceOfPair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace polytope;
+using namespace polytope::samples;
+
+namespace {
+
+ContactSettings with(ContactModel model)
+{
+	ContactSettings settings;
+	settings.contactModel = model;
+	return settings;
+}
+
+/// The force of a law with stiffness one, and its moment about body 1's centre with the part about the normal.
+struct Load {
+	Vector3 force, moment;
+	Real    energy;
+
+	Load(const ContactResult& result, ContactModel model)
+	{
+		const Real stiffness = model == ContactModel::Foundation ? result.area : Real(1);
+		force                = stiffness * result.depth * result.normal;
+		moment               = result.point.cross(force) + result.turningArm * force;
+		energy               = stiffness * result.energy;
+	}
+};
+
+constexpr ContactModel models[] = { ContactModel::Foundation, ContactModel::Spring };
+
+template <int D> Pair somePair(int trial, std::mt19937_64& random, const Shapes& shapes)
+{
+	if (trial % 4) return randomPair(shapes, random);
+	return D == 3 ? thinPair(trial / 4, random) : nearlyParallelPair(random, 2);
+}
+
+template <int D> void expectSumsOfTheSurface()
+{
+	std::mt19937_64 random(60 + D);
+	const Shapes    shapes = randomShapes(40, random, D, -2);
+	int             asked  = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		SCOPED_TRACE(trial);
+		const Pair pair = somePair<D>(trial, random, shapes);
+		const Real size = pair.size();
+		if (!(infeasibility(pair) < -1e-11 * size)) continue;
+		const SurfaceOfPair<D> own(pair);
+		const Real             rounding = 256 * tolerance::rounding * pair.reach() / own.deepest;
+		const Real             thick    = D == 2 ? std::min(pair.shape[0]->thickness(), pair.shape[1]->thickness()) : Real(1);
+		const ContactResult    area = query(pair, with(ContactModel::Foundation)), spring = query(pair, with(ContactModel::Spring));
+		const Load             foundation(area, ContactModel::Foundation), one(spring, ContactModel::Spring);
+		EXPECT_TRUE(answered(area.status)) << statusName(area.status);
+		const Real pressure = 2 * thick * own.sums.pressure;
+		EXPECT_LE((foundation.force - 2 * thick * own.force()).norm(), rounding * pressure);
+		EXPECT_LE((foundation.moment - 2 * thick * own.moment()).norm(), rounding * pressure * pair.reach());
+		EXPECT_NEAR(foundation.energy / (2 * thick * own.sums.volume), 1, rounding);
+		const Real mean    = own.sums.level / own.sums.volume;
+		const Real weight  = 36 * mean / own.sums.volume;
+		const Real allowed = rounding * weight * (own.deepest + mean) * own.sums.pressure;
+		EXPECT_LE((one.force - weight * (own.deeper() - mean * own.force())).norm(), allowed);
+		EXPECT_LE((one.moment - weight * (own.deeperTurn() - mean * own.moment())).norm(), allowed * pair.reach());
+		EXPECT_NEAR(one.energy / (18 * mean * mean), 1, rounding);
+		++asked;
+	}
+	EXPECT_GT(asked, 150);
+}
+
+TEST(SurfaceContact, HasTheForceMomentAndEnergyOfTheSurface)
+{
+	expectSumsOfTheSurface<3>();
+	expectSumsOfTheSurface<2>();
+}
+
+/// Energy before and after a small motion of body 2 against the work of force and moment.
+TEST(SurfaceContact, WorkOfTheForceIsWhatTheEnergyFallsBy)
+{
+	std::mt19937_64 random(77);
+	const int       faces[] = { 4, 6, 8, 12, 20 };
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 100; ++trial) {
+			SCOPED_TRACE(trial);
+			const Pair    pair = regularPair(faces[trial % 5], faces[trial / 5 % 5], decades(random, -4, -1), random);
+			const Real    step = Real(1e-4) * -infeasibility(pair);
+			const Vector3 way = randomDirection(random), axis = randomDirection(random);
+			const Load    here(query(pair, with(model)), model);
+			Real          energy[2];
+			for (int side = 0; side < 2; ++side) {
+				const Real by     = side == 0 ? -step : step;
+				const auto turn   = Eigen::AngleAxis<Real>(by / 2, axis).toRotationMatrix();
+				Pair       there  = pair;
+				there.centre2     = turn * pair.centre2 + by * way;
+				there.rotation[1] = turn * pair.rotation[1];
+				energy[side]      = Load(query(there, with(model)), model).energy;
+			}
+			const Real work = here.force.dot(way) + here.moment.dot(axis) / 2;
+			EXPECT_NEAR((energy[0] - energy[1]) / (2 * step) / here.force.norm(), work / here.force.norm(), 1e-5);
+		}
+}
+
+TEST(SurfaceContact, OfAFaceOnAFaceIsTheOverlap)
+{
+	for (const Real h : { 1e-2, 1e-4, 1e-7 })
+		for (const bool flat : { false, true })
+			for (const ContactModel model : models) {
+				Pair pair;
+				pair.shape[0]              = ConvexShape::shared(flat ? rectangle(4, 1) : cuboid(4, 1, 4), Real(0.1));
+				pair.shape[1]              = ConvexShape::shared(flat ? rectangle(1, 1) : cuboid(1, 1, 1), Real(0.1));
+				pair.centre2               = Vector3(Real(0.5), 2 - h, 0);
+				const ContactResult result = query(pair, with(model));
+				EXPECT_EQ(result.status, ContactStatus::Contact);
+				EXPECT_LE((result.normal - Vector3::UnitY()).norm(), 1e-14);
+				EXPECT_NEAR(result.depth / h, 1, 2 * h);
+				EXPECT_NEAR(result.energy / (h * h / 2), 1, 2 * h);
+				EXPECT_NEAR(result.area, flat ? 2 : 4, 8 * h);
+				EXPECT_LE((result.point - Vector3(Real(0.5), 1 - h / 2, 0)).norm(), h);
+				EXPECT_LE(std::abs(result.turningArm), 1e-15);
+			}
+}
+
+TEST(SurfaceContact, ExchangesWithTheBodiesToTheBit)
+{
+	std::mt19937_64 random(78);
+	const Shapes    shapes = randomShapes(30, random);
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 100; ++trial) {
+			const Pair          pair   = randomPair(shapes, random);
+			const ContactResult result = query(pair, with(model)), other = query(swapped(pair), with(model));
+			ASSERT_EQ(other.inContact, result.inContact);
+			EXPECT_EQ(other.depth, result.depth);
+			EXPECT_EQ(other.normal, -result.normal);
+			EXPECT_EQ(other.energy, result.energy);
+		}
+}
+
+TEST(SurfaceContact, IsTheSameWarmAsCold)
+{
+	std::mt19937_64 random(79);
+	const Shapes    shapes = randomShapes(30, random, 3, -1);
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 60; ++trial) {
+			SCOPED_TRACE(trial);
+			Pair       pair = randomPair(shapes, random);
+			PairMemory memory;
+			for (int step = 0; step < 5; ++step) {
+				pair.centre2 += Real(1e-3) * pair.inscribedRadius() * randomDirection(random);
+				pair.rotation[1]
+				        = Eigen::AngleAxis<Real>(Real(1e-3), randomDirection(random)).toRotationMatrix() * pair.rotation[1];
+				const ContactResult warm = query(pair, with(model), &memory), cold = query(pair, with(model));
+				ASSERT_EQ(warm.inContact, cold.inContact);
+				if (!(cold.infeasibility < -1e-9 * pair.size())) continue;
+				const Real rounding = 1024 * tolerance::rounding * pair.reach() / -cold.infeasibility;
+				EXPECT_NEAR(warm.depth * warm.area, cold.depth * cold.area,
+				        rounding * std::max(cold.depth, -cold.infeasibility) * cold.area);
+				EXPECT_NEAR(warm.energy / cold.energy, 1, rounding);
+			}
+		}
+}
+
+TEST(SurfaceContact, BodiesThatCoincideOrLieInOneAnotherAreInEquilibrium)
+{
+	Pair pair;
+	pair.shape[0] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	for (const Real half : { 1., 0.25 })
+		for (const ContactModel model : models) {
+			pair.shape[1]              = ConvexShape::shared(cuboid(half, half, half), 0);
+			const ContactResult result = query(pair, with(model));
+			EXPECT_TRUE(result.inContact);
+			EXPECT_EQ(result.status, ContactStatus::NoDirection);
+			EXPECT_LE(result.depth, 1e-15);
+			EXPECT_GT(result.area, 0);
+			EXPECT_NEAR(result.normal.norm(), 1, 1e-15);
+			// ∫ p over a cube of half width a is 2 a⁴, its mean s over the pyramid of height a in four dimensions a/5
+			const Real energy = model == ContactModel::Foundation ? result.energy * result.area : result.energy;
+			EXPECT_NEAR(energy / (model == ContactModel::Foundation ? 4 * std::pow(half, 4) : 18 * half * half / 25), 1, 1e-13);
+		}
+}
+
+TEST(SurfaceContact, PosesThatAreNoneFail)
+{
+	for (const ContactModel model : models) {
+		Pair pair;
+		pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+		pair.centre2                  = Vector3(0, 0, NAN);
+		EXPECT_EQ(query(pair, with(model)).status, ContactStatus::Failed);
+		pair.centre2           = Vector3(0, 0, Real(1.5));
+		pair.rotation[1](0, 0) = INFINITY;
+		EXPECT_EQ(query(pair, with(model)).status, ContactStatus::Failed);
+	}
+}
+
+} // namespace
