@@ -139,8 +139,8 @@ namespace {
 		        "above 0 [Pa] (infinity: none)");
 		require(unset(pattern.cohesion) || pattern.cohesion > 0, "cohesion", pattern.cohesion,
 		        "above 0 [Pa] (infinity: no failure in shear)");
-		require(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < double(Mathr::HALF_PI)), "frictionAngle",
-		        pattern.frictionAngle, "an angle in radians, at least 0 and below pi/2 (use radians(degrees))");
+		require(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < double(Mathr::HALF_PI)),
+		        "frictionAngle", pattern.frictionAngle, "an angle in radians, at least 0 and below pi/2 (use radians(degrees))");
 		require(pattern.bendingShare >= 0 && pattern.bendingShare <= 1, "bendingShare", pattern.bendingShare, "from 0 to 1");
 		require(angle >= 0 && angle < 0.5, "angle", angle, "an angle in radians, from 0 to below 0.5");
 	}

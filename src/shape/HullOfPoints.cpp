@@ -19,9 +19,9 @@ namespace {
 	struct UnitPoints {
 		std::vector<Vector3> points;
 		Vector3              centre;
-		Real                 unit; ///< a power of two: points · unit + centre are the caller's
-		Real extent; ///< in units, about the centre
-		Real size;   ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
+		Real                 unit;   ///< a power of two: points · unit + centre are the caller's
+		Real                 extent; ///< in units, about the centre
+		Real size; ///< in units: extent, or distance of the centre from the origin, which the points' rounding goes with
 	};
 
 	void check(const std::vector<Vector3>& points, int dimension, const Real& coplanar)
@@ -222,7 +222,7 @@ HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension, Real coplan
 	const Vector3   inner     = innerPoint(set.points, triangles);
 	const Indices   corners   = cornersOf(triangles);
 	const Real      tolerance = std::max(Real(construction::coincidence * set.size),
-                std::min(Real(coplanar * set.extent), Real(construction::thinnestFacets * halfWidth)));
+	             std::min(Real(coplanar * set.extent), Real(construction::thinnestFacets * halfWidth)));
 	const auto      misfit    = [&set](const Indices& members) { return planeFit(set.points, members).misfit; };
 	const auto      outside   = [&](const Indices& members) {
                 const Fit fit   = outwardFit(set.points, members, inner);
