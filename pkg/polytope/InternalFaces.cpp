@@ -103,6 +103,25 @@ namespace {
 		});
 	}
 
+	/// How high a step between two faces is that count as one.
+	Real flushStep(const TouchingPair& pair)
+	{
+		const Real larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+		return math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
+	}
+
+	/// Whether a face of one piece that looks up continues one of the other: the two slopes of a ridge have none in common.
+	bool haveCommonFace(const Planes& one, const Planes& other, const Vector3r& up, const Real& step)
+	{
+		for (const polytope::Plane& a : one)
+			for (const polytope::Plane& b : other)
+				if (a.normal.dot(up) > Real(polytope::tolerance::parallel)
+				        && a.normal.dot(b.normal) > 1 - Real(polytope::tolerance::parallel)
+				        && math::abs(a.offset - b.offset) <= step)
+					return true;
+		return false;
+	}
+
 	/// A plane near the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
 	struct Candidate {
 		int      plane;
@@ -188,8 +207,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 {
 	std::vector<Candidate> candidates[2];
 	Planes                 planes;
-	const Real             larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-	const Real             step   = math::max(pair.ball, Real(polytope::tolerance::flush) * larger);
+	const Real             step = flushStep(pair);
 	std::vector<Vector3r>  normals[2];
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < bounding.count[body]; ++k)
@@ -233,18 +251,25 @@ Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& in
 		const polytope::ConvexShape& convex = *pair.convex[1 - piece];
 		const Vector3r               mover  = pair.centre[1 - piece] - pair.point;
 		const Real                   reach  = 2 * convex.boundingRadius();
-		Planes                       planes;
+		const Vector3r               up     = piece == 0 ? pair.normal : Vector3r(-pair.normal);
+		const Real                   step   = flushStep(pair);
+		Planes                       planes, own, others;
 		polytope::addPlanesOf({ convex, mover, pair.rotation[1 - piece] }, planes);
 		const std::size_t covered = planes.size();
-		const auto        areaOn  = [&](const Body& body, const Vector3r& centre) {
+		const auto        areaOn  = [&](const Planes& solid) {
+                        if (solid.empty()) return Real(0);
                         planes.resize(covered);
-                        addBody(planes, body, centre, mover, reach);
-                        if (planes.size() == covered) return Real(0);
+                        planes.insert(planes.end(), solid.begin(), solid.end());
                         return polytope::sectionArea(planes, pair.normal, reach, convex.dimension());
 		};
-		const Real here = areaOn(bodyOf(pair, piece), pair.centre[piece] - pair.point);
+		addBody(own, bodyOf(pair, piece), pair.centre[piece] - pair.point, mover, reach);
+		const Real here = areaOn(own);
 		Real       all  = here;
-		forOtherPieces(pair, 1 - piece, [&](const Body& other, const Vector3r& centre) { all += areaOn(other, centre); });
+		forOtherPieces(pair, 1 - piece, [&](const Body& other, const Vector3r& centre) {
+			others.clear();
+			addBody(others, other, centre, mover, reach);
+			if (haveCommonFace(own, others, up, step)) all += areaOn(others);
+		});
 		if (all > 0) return math::max(here / all, Real(polytope::tolerance::leastShareOfSupport));
 	}
 	return 1;

@@ -51,6 +51,21 @@ POLYTOPE_INLINE bool centreOfPieces(
 	return found == CentreStatus::Converged || found == CentreStatus::RoundingLimited;
 }
 
+/// Where internal faces are left out, an edge or a vertex is as deep on a seam as on one piece, so it has the depth at the centre of the overlap without these
+/// faces (`whole`): at the piece's own point, beside the seam, it would be less. A face, which is much wider than deep, has the depth at the piece's own
+/// point: together the pieces resist its rocking. h: Hessian of the barrier at that centre, across n about 8/width² in sum.
+template <class R, int D> POLYTOPE_INLINE R depthOnPieces(R depth, R whole, const R (&h)[D][D], const R* n)
+{
+	R across = 0;
+	for (int k = 0; k < D; ++k) {
+		across += h[k][k] * (1 - n[k] * n[k]);
+		for (int j = 0; j < k; ++j)
+			across -= 2 * h[k][j] * n[k] * n[j];
+	}
+	const R thick = whole * sqrt(maxOf<R>(0, across / 8)) / R(tolerance::faceContact), fourth = thick * thick * thick * thick;
+	return fourth < R(padOffset) ? depth + (whole - depth) * fourth / (1 + fourth) : whole;
+}
+
 /// A touching pair, at x. Internal faces are left out where what is left bounds the contact.
 template <class R, int D, int W>
 POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes,
@@ -60,14 +75,14 @@ POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const Contact
 	if (settings.internal) {
 		R offset[2 * BoundingPlanes::most];
 		takeOut<R, D>(planes, *settings.internal, offset);
-		// as on one piece: all of them have the same normal and depth, of which each takes its share
 		R          centre[D], g[D], h[D][D];
-		const bool common
+		const bool found
 		        = settings.depthRule != DepthRule::Mean && centreOfPieces<R, D, W>(settings, planes, f, x, dual, centre, out);
-		const R*      at     = common && barrierDerivatives<R, D, W>(planes, centre, g, h) ? centre : x;
-		ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, at, dual, n);
-		depth                = chord<R, D, W>(planes, n);
-		out.common           = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, at));
+		const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+		depth                      = chord<R, D, W>(planes, n);
+		const bool common          = found && barrierDerivatives<R, D, W>(planes, centre, g, h);
+		if (common) depth = depthOnPieces<R, D>(depth, chord<R, D, W>(planes, n), h, n);
+		out.common = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, common ? centre : x));
 		putBack<R, D>(planes, *settings.internal, offset);
 		if (depth < internalDepth<R>(in)) return status;
 	}
