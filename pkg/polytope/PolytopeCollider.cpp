@@ -6,6 +6,7 @@
 #include <pkg/common/Sphere.hpp>
 
 #include "Polytope.hpp"
+#include "PolytopeTimeStepper.hpp"
 
 #include <limits>
 
@@ -119,8 +120,20 @@ void PolytopeCollider::searchSome()
 	pairs_.ofSome(*scene, *this, outside_);
 }
 
+/// Bodies that were added since the time step was found: this step has to suit them.
+void PolytopeCollider::adaptTimeStep()
+{
+	for (const auto& engine : scene->engines) {
+		auto* const stepper = dynamic_cast<PolytopeTimeStepper*>(engine.get());
+		if (!stepper || !stepper->knowsNotAll(*scene)) continue;
+		stepper->scene = scene;
+		stepper->action();
+	}
+}
+
 void PolytopeCollider::action()
 {
+	adaptTimeStep();
 	if (scene->isPeriodic) {
 		hasSearched_ = false;
 		room_.makeForAll(*scene, limits());

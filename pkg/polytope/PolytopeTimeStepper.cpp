@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "PolytopeTimeStepper.hpp"
 
+#include <pkg/common/PeriodicEngines.hpp>
+
 #include "BondsOfScene.hpp"
+#include "PolytopeCollider.hpp"
 
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -15,6 +18,22 @@ namespace {
 	{
 		const KnowsBonds* const bonds = bondsOf(scene);
 		return bonds ? bonds->made() : 0;
+	}
+
+	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper before these
+	/// move (PolytopeCollider); with another one the step stays as it is.
+	TimeStepLimit periodLimit(const Scene& scene)
+	{
+		TimeStepLimit limit;
+		for (const auto& body : *scene.bodies)
+			if (body && isMovedByForces(*body)) return limit;
+		bool calls = false;
+		for (const auto& engine : scene.engines) {
+			calls                = calls || (!engine->dead && dynamic_cast<const PolytopeCollider*>(engine.get()));
+			const auto* periodic = dynamic_cast<const PeriodicEngine*>(engine.get());
+			if (periodic && !engine->dead) limit.take(periodic->virtPeriod, Body::ID_NONE);
+		}
+		return calls ? limit : TimeStepLimit();
 	}
 
 } // namespace
@@ -49,7 +68,8 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 	const ContactLimit contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
 	consider(material_, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
-	consider(yade::motionLimit(*ofScene, motionLimit), 1, "motion");
+	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");
+	if (limitedBy.empty()) consider(periodLimit(*ofScene), polytope::tolerance::periodStep, "period");
 	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {
 		TimeStepLimit most;
 		most.step = maxDt;

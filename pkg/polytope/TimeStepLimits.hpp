@@ -60,8 +60,11 @@ struct ContactLimit : TimeStepLimit {
 /// \param below limits longer than this need not be found
 ContactLimit contactLimit(const Scene& scene, Real steps, Real below = std::numeric_limits<Real>::infinity());
 
-/// Time in which a body moves by `fraction` of its inscribed radius: by its own velocity, by gravity, or by the velocity of
-/// bodies whose motion is prescribed.
-TimeStepLimit motionLimit(const Scene& scene, Real fraction);
+/// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
+/// (src/timestep/ApproachLimit.hpp). Where no other limit is known, in periodic cells and in a scene divided among processes, which each
+/// know a part of it: in which each body alone moves by that much of its own, or of the smallest one's where its motion is prescribed.
+/// \param below longer limits need not be found; infinite: none is known
+/// \param steps until the limits are computed anew
+TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps);
 
 } // namespace yade

@@ -26,4 +26,8 @@ constexpr unsigned potentialUpdates = 10;
 /// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
 constexpr double rockingShare = 0.5;
 
+/// Of the period after which an engine is called again: the time step of a scene in which nothing can move. What the engine puts into it then falls
+/// for that much less, or more, until the next call.
+constexpr double periodStep = 0.01;
+
 } // namespace polytope::tolerance
