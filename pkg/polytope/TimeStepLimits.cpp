@@ -68,10 +68,15 @@ namespace {
 		Vector3r                     shift2, shiftVelocity; ///< of body 2's period
 
 		const Body& mover(const Body& body) const { return moverOf(body, scene); }
+		/// Contacts are those of before the bodies' last move: the point goes along with them, or a body in a tray that moves fast would have a long arm.
+		Vector3r point() const
+		{
+			return geom.contactPoint + scene.dt / 2 * (mover(body1).state->vel + mover(body2).state->vel + shiftVelocity);
+		}
 		/// From the centre of what moves to the contact point.
 		Vector3r arm(const Body& body) const
 		{
-			return geom.contactPoint - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
+			return point() - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
 		}
 		/// How fast the bodies approach at the contact point.
 		Real approach() const
@@ -127,8 +132,8 @@ namespace {
 		const Matrix3r rotation1 = wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()),
 		               rotation2 = state2.ori.toRotationMatrix();
 		// from the contact point
-		const polytope::PlacedShape body1 { *shape1, state1.pos - geom.contactPoint, rotation1 },
-		        body2 { *shape2, state2.pos + pair.shift2 - geom.contactPoint, rotation2 };
+		const Vector3r              point = pair.point();
+		const polytope::PlacedShape body1 { *shape1, state1.pos - point, rotation1 }, body2 { *shape2, state2.pos + pair.shift2 - point, rotation2 };
 		if (geom.energyPerStiffness >= 0) { // a pressure
 			std::vector<polytope::Plane> planes;
 			polytope::addPlanesOf(body1, planes);

@@ -87,9 +87,7 @@ def testTwoThatFlyAtEachOther():
 
 
 def testATrayThatMovesFast():
-	"""With what lies on it, at 150 m/s past a wall beside it: motion does not limit, which would give 3e-6 s, and the grains stay where they lie.
-
-	The step is shorter than at rest all the same: the arms of contacts are taken from where the bodies are after the step to where the contacts were before it."""
+	"""With what lies on it, at 150 m/s past a wall beside it: the step is that at rest, where its motion would give 3e-6 s, and the grains stay where they lie."""
 
 	def tray(speed):
 		floor((speed, 0, 0))
@@ -100,7 +98,7 @@ def testATrayThatMovesFast():
 	rest = stepOf(lambda: tray(0), 0.05, damping=0)
 	moving = stepOf(lambda: tray(150), 0.05, damping=0)
 	assert 'motion' not in (moving[1], rest[1])
-	assert rest[0] / 3 < moving[0] < rest[0] * (1 + 1e-6)
+	assert .8 * rest[0] < moving[0] < rest[0] * (1 + 1e-6)
 	for body in O.bodies:
 		if body.dynamic:
 			assert body.state.vel[0] == pytest.approx(150, abs=1e-3) and abs(body.state.pos[2] - 0.005) < 1e-4
