@@ -182,7 +182,7 @@ private:
 			second[k] = sums.areaVector[k] + face_[1][k];
 		}
 		// without faces nothing says whether a part is missing: then planes that coincide, which may hide one, are reason enough to begin again with them
-		if (faces_) sums.open = faceArea_ > 0 ? (norm<R, D>(first) + norm<R, D>(second)) / (sums.area + faceArea_) : padOffset;
+		if (faces_) sums.open = faceArea_ > 0 ? (norm<R, D>(first) + norm<R, D>(second)) / (sums.area + faceArea_) : R(padOffset);
 		else sums.open = sums.pieces > 0 && !twins_.any() ? R(0) : R(padOffset);
 		const R allowed = R(tolerance::openSurface) + R(tolerance::openThin / tolerance::pieceBox) * reach_ / deepest_;
 		if (queue_.full()) status = SurfaceStatus::NoRoom;

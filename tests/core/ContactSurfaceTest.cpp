@@ -29,14 +29,18 @@ Pair piercingPair(std::mt19937_64& random)
 	return turned(pair, randomRotation(random));
 }
 
-/// Cubes on each other with all sides in line, with two, or with none; the tie of planes of both bodies.
+/// A cube on another with all sides in line, with two, with none, or a smaller one with one side in line: ties of planes of both bodies.
 Pair stackedPair(int trial, std::mt19937_64& random)
 {
-	Pair pair;
-	pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
-	const Real overlap            = decades(random, -12, Real(-0.3));
-	pair.centre2                  = Vector3(trial % 3 > 0 ? Real(0.375) : 0, trial % 3 > 1 ? Real(-0.5) : 0, 2 - overlap);
-	return trial % 2 ? turned(pair, randomRotation(random)) : pair;
+	const int  sides = trial % 4;
+	const Real half  = sides == 3 ? Real(0.5) : Real(1);
+	Pair       pair;
+	pair.shape[0]      = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
+	pair.shape[1]      = ConvexShape::shared(cuboid(half, half, half), Real(0.1));
+	const Real overlap = decades(random, -12, Real(-0.3));
+	const Real x[] = { 0, Real(0.375), Real(0.375), Real(0.5) }, y[] = { 0, 0, Real(-0.5), Real(0.125) };
+	pair.centre2 = Vector3(x[sides], y[sides], 1 + half - overlap);
+	return trial % 8 > 3 ? turned(pair, randomRotation(random)) : pair;
 }
 
 /// Bodies that coincide but for 1e-16 … 0.1 of their size and as much of a turn, or exactly.

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Contact models *foundation* and *spring*: force, energy and what they leave out, in scenes."""
+
+import math
+
+import pytest
+from yade import (
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	FrictMat,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InteractionLoop,
+	Ip2_FrictMat_FrictMat_FrictPhys,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	Law2_ScGeom_FrictPhys_CundallStrack,
+	NewtonIntegrator,
+	O,
+	PolytopeCollider,
+	Quaternion,
+	RockJointMat,
+	Vector3,
+	polytope,
+)
+
+models = {'foundation': (True, 1e9), 'spring': (False, 1e8)}
+"""Whether its stiffness is per area, and one."""
+
+
+def engines(model, damping=0.0, gravity=(0, 0, -9.81)):
+	perArea, _ = models[model]
+	return [
+		ForceResetter(),
+		PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model)],
+			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
+			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0)],
+		),
+		NewtonIntegrator(damping=damping, gravity=gravity),
+	]
+
+
+def joint(model, frictionAngle=0.0):
+	stiffness = models[model][1]
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=frictionAngle))
+
+
+@pytest.mark.parametrize('model', models)
+def testABlockRestsOnAFaceWithItsWeight(model):
+	joint(model)
+	floor = O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+	block = O.bodies.append(polytope.cuboid(center=(0.3, 0, 0.5), extents=(0.5, 0.4, 0.5)))
+	O.engines = engines(model, damping=0.7)
+	O.dt = 1e-4
+	O.run(4000, wait=True)
+	contact, weight = O.interactions[floor, block], 9.81 * O.bodies[block].state.mass
+	assert contact.geom.status == 'contact'
+	assert (contact.geom.normal - Vector3(0, 0, 1)).norm() < 1e-9
+	assert contact.phys.normalForce.norm() == pytest.approx(weight, rel=1e-4)
+	perArea, stiffness = models[model]
+	depth = weight / (stiffness * (0.8 if perArea else 1))
+	assert contact.geom.penetrationDepth == pytest.approx(depth, rel=1e-3)
+	assert contact.geom.energyPerStiffness == pytest.approx(depth**2 / 2, rel=2e-3)
+	assert abs(contact.geom.turningArm) < 1e-9
+	assert contact.geom.contactArea == pytest.approx(0.8, rel=1e-3)
+
+
+@pytest.mark.parametrize('model', models)
+@pytest.mark.parametrize('faces', [4, 8, 12])
+def testASolidThatBouncesOnAFloorKeepsItsEnergy(model, faces):
+	"""On one face there is no moment about the normal to leave out. Kinetic energy is taken between two steps, as the positions are half a step on."""
+	joint(model)
+	O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+	solid = O.bodies.append(
+		polytope.regular(faces, circumradius=0.3, center=(0, 0, 0.35), orientation=Quaternion(Vector3(1, 2, 3).normalized(), 0.7))
+	)
+	O.engines = engines(model)
+	O.dt = 2e-5
+	start = polytope.mechanicalEnergy()
+	touched, errors = 0, []
+	for _ in range(40):
+		O.run(500, wait=True)
+		touched += len([contact for contact in O.interactions if contact.isReal])
+		errors.append(abs(polytope.mechanicalEnergy() / start - 1))
+	assert touched > 0
+	assert max(errors) < 2e-4, max(errors)
+	assert O.bodies[solid].state.vel.norm() > 0
+
+
+def testSpringWorksWithYadesOwnLaw():
+	O.materials.append(FrictMat(density=2600, young=1e9, poisson=0.3, frictionAngle=0))
+	O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.regular(6, circumradius=0.3, center=(0, 0, 0.35), orientation=Quaternion(Vector3(1, 2, 3).normalized(), 0.7)))
+	O.engines = [
+		ForceResetter(),
+		PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')],
+			[Ip2_FrictMat_FrictMat_FrictPhys()],
+			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+		),
+		NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
+	]
+	O.dt = 1e-5
+	start = polytope.mechanicalEnergy()
+	errors = []
+	for _ in range(40):
+		O.run(1000, wait=True)
+		errors.append(abs(polytope.mechanicalEnergy() / start - 1))
+	assert max(errors) < 5e-4, max(errors)
+
+
+@pytest.mark.parametrize('model', models)
+def testCheckNamesTheOtherUnit(model):
+	joint(model)
+	other = next(name for name in models if name != model)
+	O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+	O.engines = engines(model)
+	O.engines[2].geomDispatcher.functors[0].contactModel = other
+	found = [entry for entry in polytope.check(O) if 'no gradient of an energy' in str(entry)]
+	assert len(found) == 1 and f"contactModel='{model}'" in str(found[0]), found
+	O.engines[2].geomDispatcher.functors[0].contactModel = model
+	assert not [entry for entry in polytope.check(O) if 'no gradient of an energy' in str(entry)]
+
+
+def testUnknownModelIsRefusedByNameOfTheOthers():
+	with pytest.raises(ValueError, match="contactModel: must be 'paper', 'conservative', 'foundation' or 'spring'"):
+		Ig2_Polytope_Polytope_PolytopeGeom(contactModel='winkler')
+
+
+def testTwoBodiesAloneHaveTheSameContact():
+	joint('foundation')
+	lower = polytope.cuboid(center=(0, 0, 0), extents=(1, 1, 1))
+	upper = polytope.cuboid(center=(0.2, 0.1, 1.99), extents=(1, 1, 1), orientation=Quaternion((0, 0, 1), 0.3))
+	contact = polytope.contact(lower, upper, contactModel='foundation')
+	assert contact.inContact and contact.status == 'contact'
+	assert contact.depth == pytest.approx(0.01, rel=0.02)
+	assert math.isclose(contact.energyPerStiffness, contact.depth**2 / 2, rel_tol=0.02)
+	assert abs(contact.turningArm) < 1e-3
