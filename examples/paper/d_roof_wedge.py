@@ -119,8 +119,10 @@ def search(given):
 		if len(joints) == 3 and areEvenlySpread(joints):
 			shares = quickSideShares if given.quick else sideShares
 			touching = touchingCases(given, both[0], paperPressed if given.reference else None, shares, progress)
-		progress.total += 1
-		between = RoofWedgeCase(given, 'prism between two joints', 1, progress, blocks=BlockGeometry.read(prism))
+		between = None
+		if given.reference:
+			progress.total += 1
+			between = RoofWedgeCase(given, 'prism between two joints', 1, progress, blocks=BlockGeometry.read(prism))
 	return both, cases, touching, between
 
 
@@ -135,7 +137,8 @@ def main():
 
 	report = RoofWedgeReport(findings, given, both, cases, touching, tolerance)
 	report.criticalAngles(papers, closedForm)
-	report.prism(between)
+	if between:
+		report.prism(between)
 	report.jointForces()
 	report.constantNormal(constantNormal)
 	report.closure()

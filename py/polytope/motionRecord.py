@@ -143,9 +143,13 @@ class MotionRecord:
 		sign = 1 if self.partner is not None and self.partner < self.body.id else -1  # YADE's body 1 has the lower id
 		return sign * np.nan_to_num(self.normal)
 
-	def _work(self, force):
-		"""Of a force on the body at the contact point, up to time n [J]: the mean of the forces at both ends of a step times its motion."""
-		torque = np.cross(np.nan_to_num(self.point - self.position), force)
+	def _couple(self):
+		"""Moment of the contact on the body about the contact point [N·m]; zero without contact."""
+		return self.torque - np.cross(np.nan_to_num(self.point - self.position), self.contactForce)
+
+	def _work(self, force, couple=0):
+		"""Of a force on the body at the contact point, and a moment, up to time n [J]: the mean of those at both ends of a step times its motion."""
+		torque = np.cross(np.nan_to_num(self.point - self.position), force) + couple
 		power = np.sum((force[:-1] + force[1:]) * self.velocityBefore[1:] + (torque[:-1] + torque[1:]) * self.spinBefore[1:], axis=1)
 		return np.concatenate([[0], 0.5 * self.timeStep * np.cumsum(power)])
 
@@ -163,7 +167,7 @@ class MotionRecord:
 		"""Energy taken across the normal, by friction and the shear damper, less what the shear spring stores, up to time n [J]."""
 		outward = self._outward()
 		across = self.contactForce - np.sum(self.contactForce * outward, axis=1)[:, None] * outward
-		return -self._work(across) - self.shearStored + self.shearStored[0]
+		return -self._work(across, self._couple()) - self.shearStored + self.shearStored[0]
 
 	def contactLoss(self):
 		"""Energy dissipated by the contact's friction and dampers up to time n [J]."""
@@ -187,7 +191,9 @@ class MotionRecord:
 		sideways = motion - closer[:, None] * outward[1:]
 		touching = self.spring[1:] > 0
 		normal = -0.5 * np.cumsum(touching * (before + damper[1:]) * closer)
-		shear = -0.5 * np.cumsum(touching * np.sum((across[:-1] + across[1:]) * sideways, axis=1))
+		couple, turned = self._couple(), self.timeStep * self.spinBefore[1:]
+		work = np.sum((across[:-1] + across[1:]) * sideways + (couple[:-1] + couple[1:]) * turned, axis=1)
+		shear = -0.5 * np.cumsum(touching * work)
 
 		def taken(total):
 			return np.cumsum(touching * np.diff(total))
@@ -196,7 +202,7 @@ class MotionRecord:
 			'springs': (self.elastPotential, self.elasticEnergy()),
 			'normal damper': (taken(self.normDampDissip), normal),
 			'friction and shear damper': (taken(self.plastDissip + self.shearDampDissip + self.shearStored), shear),
-			'sum': (self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative, -self._work(force)),
+			'sum': (self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative, -self._work(force, couple)),
 		}
 		return {name: float(np.abs(law - own).max()) for name, (law, own) in pairs.items()}
 

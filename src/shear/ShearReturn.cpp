@@ -44,7 +44,7 @@ namespace {
 			const Eigen::Matrix<Real, 2, 2> hessian  = axes.transpose() * slope * axes;
 			const Vector2                   gradient = axes.transpose() * resistance, change = hessian.ldlt().solve(gradient);
 			const Real                      fall     = change.dot(gradient);
-			if (!(fall > Real(tolerance::shearReturn) * taken)) break;
+			if (!(fall > Real(tolerance::shearMotion) * taken)) break;
 			Real    part = 1;
 			Vector3 next = motion;
 			for (int halved = 0; halved < tolerance::shearHalvings; ++halved, part /= 2) {
@@ -72,9 +72,7 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 {
 	if (strength.surelyHolds(load)) return Vector3::Zero();
 	const Vector3 all = stiffness.ldlt().solve(load);
-	// by the energy: force and moment have different units
-	const Real scale = all.dot(load);
-	if (!(scale > 0)) return Vector3::Zero();
+	if (!(all.dot(load) > 0)) return Vector3::Zero();
 	Vector3 slip = motionBeyond(strength, stiffness, load, all);
 	if (slip == Vector3::Zero()) return slip;
 	const auto toBestLength = [&] {
@@ -85,12 +83,15 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 	for (int step = 0; step < tolerance::shearReturnSteps; ++step) {
 		const Work    now(strength, stiffness, load, slip);
 		const Vector3 change = now.hessian.ldlt().solve(now.gradient);
-		const Real    slope  = change.dot(now.gradient);
-		if (!(slope > Real(tolerance::shearReturn * tolerance::shearReturn) * scale)) break;
-		Real part = 1;
-		for (int halved = 0; halved < tolerance::shearHalvings; ++halved, part /= 2)
+		const Real    slope = change.dot(now.gradient), square = slip.dot(stiffness * slip);
+		if (!(slope > 0)) break;
+		// a step of Newton's method doubles the digits: after one from so near nothing is left to gain, and rounding decides what is less
+		const bool last = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square;
+		Real       part = 1;
+		for (int halved = 0; !last && halved < tolerance::shearHalvings; ++halved, part /= 2)
 			if (Work(strength, stiffness, load, slip - part * change).value <= now.value - part * slope / 4) break;
 		slip -= part * change;
+		if (last) break;
 		toBestLength();
 	}
 	load = strength.resistance(slip);

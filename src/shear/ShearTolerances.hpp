@@ -17,8 +17,12 @@ constexpr double shearPole = 1e-14;
 /// fourth power of the distance. Here both agree to 1e-6 of the strength, and better beyond.
 constexpr double shearPoleFar = 4;
 
-/// Of the strength: accepted difference of force and moment after slip from what the strength gives.
-constexpr double shearReturn = 1e-12;
+/// Of the slip, by the energy: a last step of Newton's method from this near leaves what rounding leaves.
+constexpr double shearReturn = 1e-7;
+
+/// Of the least work that the strength takes in a motion: whether the load gives more is known to this. A load that is beyond the limit surface by less
+/// is taken as within it.
+constexpr double shearMotion = 1e-12;
 
 /// Newton steps of the return to the limit surface; five are usual, more where the centre of rotation lies on a corner.
 constexpr int shearReturnSteps = 40;

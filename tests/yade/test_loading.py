@@ -187,7 +187,8 @@ def testAnotherSceneIsToldOf(tmp_path):
 		O.step()
 	again = polytope.triaxial(polytope.sample(), stress=1e5, inertialNumber=1e-2)
 	assert sum(isinstance(body.shape, Wall) for body in O.bodies if body is not None) == 6, 'in place of the former ones, not beside them'
-	assert again.sample.extents == pytest.approx(test.sample.extents, rel=1e-9) and again.sample.extents == pytest.approx(extents, rel=1e-2)
+	# pressed to the same stress again: as far as it was at rest
+	assert again.sample.extents == pytest.approx(test.sample.extents, rel=1e-7) and again.sample.extents == pytest.approx(extents, rel=1e-2)
 	again.run(1e-5)
 	O.reset()
 	with pytest.raises(RuntimeError, match='^sample: its body 0 is not'):

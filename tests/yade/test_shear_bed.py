@@ -159,9 +159,9 @@ def testARoofPrismHoldsInSpaceAsInThePlane(model):
 	for depth in (1, 20):
 		O.reset()
 		solid, same = roof(3, depth, model)
-		assert same == pytest.approx(ratio, rel=1e-3)
-		# the barrier of the conservative contact knows the ends of the prism: its faces are stiffer or softer
+		# the barrier of the conservative contact knows the ends of the prism, too: stiffnesses differ, and with them what is locked in
 		assert solid == pytest.approx(flat, rel=1e-3 if model == 'paper' else .5)
+		assert same == pytest.approx(ratio, rel=1e-3 if model == 'paper' else .2)
 
 
 def testAClampedBlockDoesNotSwing():
@@ -229,7 +229,7 @@ def testASlidingAndTurningBlockKeepsItsBudget():
 		lost = O.energy['plastDissip']
 		largest = max(largest, abs(O.energy['nonconservative'] - start['nonconservative']))
 	assert lost == pytest.approx(begun, rel=5e-3)
-	assert largest < 2e-3 * begun and gained < 1e-6 * begun
+	assert largest < 2e-3 * begun and gained < 1e-5 * begun  # see Shear::followCentroid
 
 
 def testCohesionOverAFaceHoldsAMoment():

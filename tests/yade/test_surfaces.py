@@ -228,7 +228,7 @@ def testAGapIsAGapAndAnEndCarries(contact, perArea):
 
 
 def testAFaceOverAnEndRestsOnAWedgeOfPressure():
-	assert edgeCarries({}, True, over=0.3, time=3) == pytest.approx(restOverEnd(over=0.3), rel=0.01)
+	assert edgeCarries({}, True, over=0.3, time=6) == pytest.approx(restOverEnd(over=0.3), rel=0.01)
 
 
 @pytest.mark.parametrize('tilt', [0, pytest.param(5), pytest.param(20), 45])
