@@ -45,6 +45,7 @@ fall = 0.25
 steps, quickSteps = (1.0, 0.1, 0.02, 0.005), (8.0, 1.0, 0.1, 0.02, 0.005)
 prism = pathlib.Path(__file__).resolve().parent / 'geometry' / 'd_roof_prism.json'
 """Between two joints of the wedge's dip, 1 m high and long."""
+prismLabel = 'prism between two joints, default contact'
 sideShares, quickSideShares = (0.05, 0.25, 0.5, 1, 2), (0.5,)
 """A_v/A: joints between blocks that touch each other over those with the wedge."""
 
@@ -122,7 +123,7 @@ def search(given):
 		between = None
 		if given.reference:
 			progress.total += 1
-			between = RoofWedgeCase(given, 'prism between two joints', 1, progress, blocks=BlockGeometry.read(prism))
+			between = RoofWedgeCase(given, prismLabel, 1, progress, blocks=BlockGeometry.read(prism), normal='dualWeights')
 	return both, cases, touching, between
 
 

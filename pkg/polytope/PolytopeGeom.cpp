@@ -186,7 +186,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	auto&                     geom     = geometry(c);
 	polytope::ContactSettings settings = settingsOfLoop();
 	settings.section   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
-	settings.outline   = geom.needsArea || !wasReal;
+	// the paper's own contact has friction at one point
+	const bool asPrinted = settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::InnerPotential;
+	settings.outline     = !asPrinted && (geom.needsArea || !wasReal);
 	settings.depthRule = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;

@@ -94,7 +94,10 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 		if (last) break;
 		toBestLength();
 	}
-	load = strength.resistance(slip);
+	const Vector3 onSurface = strength.resistance(slip), left = load - stiffness * slip, off = left - onSurface;
+	// both are the same; where a slip is small beside the strain, the latter has all digits
+	const bool same = off.dot(stiffness.ldlt().solve(off)) <= Real(tolerance::shearReturn * tolerance::shearReturn) * all.dot(load);
+	load            = same ? left : onSurface;
 	return slip;
 }
 

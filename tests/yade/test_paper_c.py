@@ -32,8 +32,8 @@ def quick(tmp_path_factory):
 def testCriticalAngleIsThatOfTheReference(quick):
 	_, content, rows = quick
 	row = rows['critical friction angle']
-	assert row['accept'] == [pytest.approx(33.22), pytest.approx(33.32)] and content['good'] and row['good']
-	assert abs(row['ours'] - 33.27) <= 0.05
+	assert row['accept'] == [pytest.approx(33.18), pytest.approx(33.28)] and content['good'] and row['good']
+	assert abs(row['ours'] - 33.23) <= 0.05
 	assert row['theory'] == pytest.approx(33.35722, abs=5e-6)
 
 
@@ -117,7 +117,7 @@ def testAnotherWedge(tmp_path, monkeypatch):
 	options = f'--geometry {tmp_path}/wedge.json --normal-stiffness 2e7 --shear-stiffness 2e7 --quick --no-pictures'
 	assert runHere(script, tmp_path, monkeypatch, *options.split()) == 0
 	_, rows = results(tmp_path)
-	assert rows['critical friction angle']['ours'] == pytest.approx(33.27, abs=0.05)
+	assert rows['critical friction angle']['ours'] == pytest.approx(33.23, abs=0.05)
 	assert rows['limit equilibrium: its trend']['ours'] == pytest.approx(245.848, abs=1e-3)
 
 

@@ -196,7 +196,7 @@ class RoofWedgeReport(WedgeReport):
 			None,
 			case.closedForm,
 			(case.closedForm - self.tolerance, case.closedForm + self.tolerance) if known else None,
-			'not in the paper; with friction at one point of each face it turned out of the roof at any friction',
+			'not in the paper, whose friction at one point of each face lets it turn out of the roof',
 		)
 
 	def jointForces(self):
