@@ -185,11 +185,13 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 
 	auto&                     geom     = geometry(c);
 	polytope::ContactSettings settings = settingsOfLoop();
-	settings.section   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
 	// the paper's own contact has friction at one point
-	const bool asPrinted = settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::InnerPotential;
-	settings.outline     = !asPrinted && (geom.needsArea || !wasReal);
-	settings.depthRule = depthRule(settings, StiffnessRule(geom.stiffnessRule));
+	const bool asPrinted
+	        = settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::InnerPotential;
+	settings.outline           = !asPrinted && (geom.needsArea || !wasReal);
+	geom.atOnePoint            = asPrinted;
+	settings.depthRule         = depthRule(settings, StiffnessRule(geom.stiffnessRule));
 	settings.normalWeight[0]   = geom.normalWeight;
 	settings.normalWeight[1]   = 1 - geom.normalWeight;
 	settings.geometryAcrossGap = wasReal || force;
@@ -257,13 +259,13 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
 	if (!result.inContact && !wasReal && !force) return false;
 
-	auto& geom           = geometry(c);
-	geom.statusCode      = std::int8_t(result.status);
-	geom.infeasibility   = result.infeasibility;
-	geom.contactArea     = result.area;
-	geom.barrierValue    = result.barrierValue;
-	geom.rockingArm      = result.rockingArm;
-	geom.turningArm      = result.turningArm;
+	auto& geom         = geometry(c);
+	geom.statusCode    = std::int8_t(result.status);
+	geom.infeasibility = result.infeasibility;
+	geom.contactArea   = result.area;
+	geom.barrierValue  = result.barrierValue;
+	geom.rockingArm    = result.rockingArm;
+	geom.turningArm    = result.turningArm;
 	geom.outline.set(result.outline, result.outlineCount);
 	const bool hasEnergy = settings_.contactModel != polytope::ContactModel::Paper
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "StiffnessRules.hpp"
 #include "BondsOfScene.hpp"
 #include "CandidateMemory.hpp"
 #include "ContactCounters.hpp"
 #include "FlatArchive.hpp"
 #include "Polytope.hpp"
 #include "Seldom.hpp"
+#include "StiffnessRules.hpp"
 #include "StoredOutline.hpp"
 
 #include <core/Dispatching.hpp>
@@ -53,8 +53,8 @@ public:
 	polytope::InternalPlanes internalPlanes() const;
 	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
 	/// Corners of the outline in the world.
-	boost::python::list      outlineCorners() const;
-	std::string              statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
+	boost::python::list outlineCorners() const;
+	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
@@ -65,6 +65,7 @@ public:
 		((bool, hasBasis, false, (Attr::readonly | Attr::hidden), "Whether the basis is known"))
 		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as those of rock joints do; set when they are made."))
+		((bool, atOnePoint, false, (Attr::readonly | Attr::hidden), "Whether shear acts at the contact point, as in the paper"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; :yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))

@@ -197,7 +197,8 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
 		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
 		const auto     take   = [&](bool pressed, Real& highest, Place& taken) {
-                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed), area.norm() };
+                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed),
+                                area.norm() };
                         if (!(place.unit * place.area > highest)) return;
                         highest = place.unit * place.area;
                         taken   = place;

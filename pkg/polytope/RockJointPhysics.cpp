@@ -87,7 +87,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
 		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
-		geom->needsArea     = true; // shear acts over it
+		geom->needsArea     = true;              // shear acts over it
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
 		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
 		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "StiffnessRules.hpp"
 #include "BondsOfScene.hpp"
 #include "RockJoint.hpp"
+#include "StiffnessRules.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/common/MatchMaker.hpp>

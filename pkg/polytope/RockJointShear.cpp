@@ -15,8 +15,8 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 {
 	const StoredOutline& outline = pair.geom.outline;
 	if (outline.count() >= 3) {
-		const Real n[3]   = { pair.geom.normal[0], pair.geom.normal[1], pair.geom.normal[2] };
-		const auto axes   = polytope::axesAround<Real, 3>(n);
+		const Real n[3] = { pair.geom.normal[0], pair.geom.normal[1], pair.geom.normal[2] };
+		const auto axes = polytope::axesAround<Real, 3>(n);
 		for (int k = 0; k < 2; ++k)
 			axis_[k] = Vector3r(axes.m[k][0], axes.m[k][1], axes.m[k][2]);
 		moments_  = polytope::momentsOf(outline.corners(), outline.count());
@@ -68,6 +68,7 @@ void Shear::setArea(const RockJointPhys& phys)
 		perArea_ = present;
 	}
 	if (phys.contactArea != areaBefore_) layers_.setArea(phys.contactArea);
+	if (pair_.geom.atOnePoint && layers_.count() > 1) layers_ = polytope::ShearLayers(layers_.area(), layers_.sum() / layers_.area());
 	force_ = -perArea_ * layers_.sum();
 	if (gyration_ > 0 && phys.contactArea != areaBefore_) followCentroid(areaBefore_, phys.contactArea);
 }
@@ -80,14 +81,14 @@ void Shear::setArea(const RockJointPhys& phys)
 void Shear::followCentroid(Real areaBefore, Real areaNow)
 {
 	const State &  state1 = pair_.state1, &state2 = pair_.state2;
-	const Vector3r way    = (state1.vel + state1.angVel.cross(lastPoint_ - state1.pos) + pair_.centreVelocity() + state1.vel
-                              + state2.angVel.cross(lastPoint_ - pair_.centre2))
+	const Vector3r way = (state1.vel + state1.angVel.cross(lastPoint_ - state1.pos) + pair_.centreVelocity() + state1.vel
+	                             + state2.angVel.cross(lastPoint_ - pair_.centre2))
 	        * pair_.scene->dt / 2;
 	Vector3r moved = pair_.geom.contactPoint + offset_ - lastPoint_ - way;
 	moved -= pair_.geom.normal.dot(moved) * pair_.geom.normal;
 	// no farther than so much of the area can move it; a body that slides takes its area along
 	const Real share = math::abs(areaNow - areaBefore) / math::max(areaNow, areaBefore), most = 2 * share * math::sqrt(gyration_);
-	const Real far   = moved.norm();
+	const Real far = moved.norm();
 	if (!(far > 0)) return;
 	if (far > most) moved *= most / far;
 	if (areaNow > areaBefore) twist_ -= pair_.geom.normal.dot(moved.cross(force_));
@@ -110,7 +111,7 @@ void Shear::move(const Vector3r& increment)
 
 polytope::Vector3 Shear::loadAbout(const polytope::Vector2& centre, const Vector3r& force, Real twist) const
 {
-	const Real f0 = force.dot(axis_[0]), f1 = force.dot(axis_[1]);
+	const Real              f0 = force.dot(axis_[0]), f1 = force.dot(axis_[1]);
 	const polytope::Vector2 arm = moments_.centroid - centre;
 	return polytope::Vector3(f0, f1, twist + arm[0] * f1 - arm[1] * f0);
 }
@@ -143,9 +144,8 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 		return true;
 	}
 	const polytope::Vector2       centre = centreOfStrength(phys, strength);
-	const polytope::ShearStrength spread(
-	        pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
-	polytope::Vector3 load = loadAbout(centre, force_, twist_);
+	const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
+	polytope::Vector3             load = loadAbout(centre, force_, twist_);
 	if (spread.surelyHolds(load)) return false;
 	const auto bed = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
 	if (polytope::returnToStrength(spread, bed, load) == polytope::Vector3::Zero()) return false;
@@ -169,10 +169,9 @@ void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twist
 	if (hasOutline() && strength > 0 && (twist_ != 0 || viscousTwist_ != 0)) {
 		// within the part of the limit surface that ShearStrength::surelyHolds() knows
 		const polytope::Vector2       centre = centreOfStrength(phys, strength);
-		const polytope::ShearStrength spread(
-		        pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
-		const Real before = math::abs(loadAbout(centre, force_, twist_)[2]),
-		           after  = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
+		const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
+		const Real                    before = math::abs(loadAbout(centre, force_, twist_)[2]),
+		           after                     = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
 		strength -= math::max(before, after) / spread.leastRadius();
 	}
 	const Real part = fractionWithin(strength, force_, viscous_);

@@ -41,7 +41,10 @@ public:
 	/// What the springs lost in this step by slip, and with springs that left or joined [J].
 	Real loss() const { return before_ - energy() - workOn(lastForce_ + force_, lastTwist_ + twist_); }
 	/// Of the dampers, as energy lost [J]; `lastForce`, `lastMoment`: viscous, at the end of the last step.
-	Real dampingLoss(const Vector3r& lastForce, Real lastMoment) const { return -workOn(lastForce + viscous_, lastMoment + viscousTwist_); }
+	Real dampingLoss(const Vector3r& lastForce, Real lastMoment) const
+	{
+		return -workOn(lastForce + viscous_, lastMoment + viscousTwist_);
+	}
 
 private:
 	/// Work of half of these on body 2 in this step's motion.
@@ -61,15 +64,15 @@ private:
 	polytope::OutlineMoments moments_;
 	Vector3r                 offset_ = Vector3r::Zero(); ///< from the contact point to the area's centroid
 	Vector3r                 lastPoint_;
-	Real                     gyration_ = 0;              ///< ρ² [m²]
+	Real                     gyration_ = 0; ///< ρ² [m²]
 	Vector3r                 force_, lastForce_, trialForce_ = Vector3r::Zero();
 	Real                     twist_, lastTwist_;
 	Real                     stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
 	Real                     areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
 	polytope::ShearLayers    layers_;                        ///< of a stiffness per area
-	Real                     before_ = 0;
-	Vector3r                 motion_ = Vector3r::Zero(); ///< at the area's centroid
-	Real                     turn_   = 0;                ///< about the normal
+	Real                     before_       = 0;
+	Vector3r                 motion_       = Vector3r::Zero(); ///< at the area's centroid
+	Real                     turn_         = 0;                ///< about the normal
 	Vector3r                 viscous_      = Vector3r::Zero();
 	Real                     viscousTwist_ = 0;
 };

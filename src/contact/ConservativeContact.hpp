@@ -94,8 +94,8 @@ template <class R> POLYTOPE_INLINE ContactStatus barrierContactStatus(BarrierSta
 /// Section through the minimiser, or, where that is outside the overlap, through the last point inside on the way there from x, the linear
 /// program's point. Bodies apart (`s` above zero) are grown until they just overlap.
 template <class R, int D, int W>
-POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes, R s, const R* target,
-        const R* n, R* x, ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
+        PairPlanes<R, D>& planes, R s, const R* target, const R* n, R* x, ContactWorkspace& workspace, ContactResult& out)
 {
 	const R grown = maxOf<R>(0, s + R(tolerance::gapSkin) * f.size);
 	for (int i = 0; i < planes.total; ++i)

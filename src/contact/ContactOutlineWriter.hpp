@@ -22,7 +22,7 @@ public:
 
 	POLYTOPE_INLINE void add(const R* p)
 	{
-		const R from[3] = { p[0] - point_[0], p[1] - point_[1], p[2] - point_[2] };
+		const R from[3]          = { p[0] - point_[0], p[1] - point_[1], p[2] - point_[2] };
 		numbers_[2 * count_]     = dot<R, 3>(axis_[0], from);
 		numbers_[2 * count_ + 1] = dot<R, 3>(axis_[1], from);
 		++count_;

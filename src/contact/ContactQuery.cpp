@@ -53,7 +53,7 @@ void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
 	for (int k = 0; k < count; ++k)
 		corners_[k] = Vector2(points_[2 * k], points_[2 * k + 1]);
 	if (exchanged) {
-		const Real n[3] = { result.normal[0], result.normal[1], result.normal[2] }, other[3] = { -n[0], -n[1], -n[2] };
+		const Real              n[3] = { result.normal[0], result.normal[1], result.normal[2] }, other[3] = { -n[0], -n[1], -n[2] };
 		const Rotation<Real, 3> to = axesAround<Real, 3>(n), from = axesAround<Real, 3>(other);
 		for (int k = 0; k < count; ++k) {
 			Real p[3];

@@ -14,10 +14,10 @@
 namespace polytope {
 
 template <class R, int D> struct Section {
-	R area        = 0;
-	R centroid[D] = {}; ///< in the frame of the planes
-	const R* corner = nullptr; ///< 3-D: (u, v) along axesAround(normal) from the origin of the plane, in the buffer
-	int      count  = 0;
+	R        area        = 0;
+	R        centroid[D] = {};      ///< in the frame of the planes
+	const R* corner      = nullptr; ///< 3-D: (u, v) along axesAround(normal) from the origin of the plane, in the buffer
+	int      count       = 0;
 };
 
 /// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
@@ -137,7 +137,7 @@ POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& 
 	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
 	if constexpr (D == 3) {
 		if (!settings.outline) return;
-		const Rotation<R, 3> axes = axesAround<R, 3>(n);
+		const Rotation<R, 3>    axes = axesAround<R, 3>(n);
 		ContactOutlineWriter<R> writer(f, out.normal, point ? point : section.centroid, workspace.points(section.count));
 		for (int k = 0; k < section.count; ++k) {
 			R p[3];

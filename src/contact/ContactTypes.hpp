@@ -131,11 +131,11 @@ struct ContactResult {
 	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
 	/// If asked for: corners of the contact's outline, (u, v) along axesAround(normal) from the point, in the workspace until its next query; convex,
 	/// counter-clockwise.
-	const Vector2* outline      = nullptr;
+	const Vector2* outline       = nullptr;
 	int            outlineCount  = 0;
 	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
-	Real    barrierValue    = 0;               ///< conservative: Φ [m], ≥ s*; contact where it is negative
-	Real    energy
+	Real           barrierValue  = 0;     ///< conservative: Φ [m], ≥ s*; contact where it is negative
+	Real           energy
 	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
 	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	Real    rockingArm = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this

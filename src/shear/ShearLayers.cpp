@@ -36,7 +36,7 @@ void ShearLayers::mergeLeastDifferent()
 	Real loss  = -1;
 	for (int k = 0; k + 1 < count_; ++k) {
 		const Layer &one = layer_[k], &other = layer_[k + 1];
-		const Real   all = one.area + other.area;
+		const Real   all  = one.area + other.area;
 		const Real   lost = all > 0 ? one.area * other.area / all * (one.displacement - other.displacement).squaredNorm() : Real(0);
 		if (loss < 0 || lost < loss) {
 			loss  = lost;

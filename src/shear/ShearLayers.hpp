@@ -19,10 +19,7 @@ namespace polytope {
 class ShearLayers {
 public:
 	/// Of the whole area, with one displacement.
-	ShearLayers(Real area, const Vector3& displacement) : count_(1)
-	{
-		layer_[0] = { area, displacement };
-	}
+	ShearLayers(Real area, const Vector3& displacement) : count_(1) { layer_[0] = { area, displacement }; }
 	/// No springs.
 	ShearLayers() = default;
 
@@ -79,7 +76,7 @@ private:
 	int   count_   = 0;
 	bool  growing_ = false; ///< the last layer takes what comes next
 
-	template <class Visit> friend void   visitParts(ShearLayers& layers, const Visit& visit);
+	template <class Visit> friend void visitParts(ShearLayers& layers, const Visit& visit);
 };
 
 /// Calls visit(name, value) for all that a saved state needs: `count`, `growing`, then area and displacement of each layer.

@@ -31,7 +31,7 @@ namespace {
 		// axes across the load that are orthogonal by the energy
 		const Eigen::LLT<Matrix3> root(stiffness);
 		const Vector3             across1 = Vector3(root.matrixL().solve(load)).unitOrthogonal(),
-		              across2 = Vector3(root.matrixL().solve(load)).normalized().cross(across1);
+		              across2             = Vector3(root.matrixL().solve(load)).normalized().cross(across1);
 		Eigen::Matrix<Real, 3, 2> axes;
 		axes << Vector3(root.matrixU().solve(across1)), Vector3(root.matrixU().solve(across2));
 
@@ -43,7 +43,7 @@ namespace {
 			if (taken < 1) return motion;
 			const Eigen::Matrix<Real, 2, 2> hessian  = axes.transpose() * slope * axes;
 			const Vector2                   gradient = axes.transpose() * resistance, change = hessian.ldlt().solve(gradient);
-			const Real                      fall     = change.dot(gradient);
+			const Real                      fall = change.dot(gradient);
 			if (!(fall > Real(tolerance::shearMotion) * taken)) break;
 			Real    part = 1;
 			Vector3 next = motion;

@@ -12,11 +12,12 @@ namespace {
 	{
 		const Real    mean = (moments.second[0] + moments.second[2]) / 2, half = (moments.second[0] - moments.second[2]) / 2;
 		const Real    radius = sqrt(half * half + moments.second[1] * moments.second[1]), largest = mean + radius;
-		const Vector2 along  = half > 0 ? Vector2(half + radius, moments.second[1]) : Vector2(moments.second[1], radius - half);
-		const Vector2 axis   = radius > 0 ? Vector2(along.normalized()) : Vector2(1, 0);
+		const Vector2 along = half > 0 ? Vector2(half + radius, moments.second[1]) : Vector2(moments.second[1], radius - half);
+		const Vector2 axis  = radius > 0 ? Vector2(along.normalized()) : Vector2(1, 0);
 		// mean − radius loses the digits of a narrow outline
-		const Real    least  = largest > 0 ? (moments.second[0] * moments.second[2] - moments.second[1] * moments.second[1]) / largest : Real(0);
-		Vector2       result = Vector2::Zero();
+		const Real least
+		        = largest > 0 ? (moments.second[0] * moments.second[2] - moments.second[1] * moments.second[1]) / largest : Real(0);
+		Vector2 result = Vector2::Zero();
 		if (largest > 0) result += total * offset.dot(axis) / largest * axis;
 		if (least > Real(tolerance::shearSliver) * largest) result += total * offset.dot(left(axis)) / least * left(axis);
 		return result;
@@ -87,13 +88,13 @@ void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole,
 	const Real    r1 = from.norm(), r2 = to.norm();
 	if (!(abs(h) > Real(tolerance::shearPole) * length) || !(r1 > 0 && r2 > 0)) return;
 	// asinh(y₂/|h|) − asinh(y₁/|h|), without loss of digits where both are negative
-	const auto arc  = [&](Real y, Real r) { return y >= 0 ? log((y + r) / abs(h)) : -log((r - y) / abs(h)); };
-	const Real i0   = arc(y2, r2) - arc(y1, r1);
-	const Real i1   = r2 - r1;
-	const Real i2   = (y2 * r2 - y1 * r1 - h * h * i0) / 2;
-	const Real j0   = (y2 * r2 - y1 * r1 + h * h * i0) / 2;                       // ∫ ρ dy
-	const Real j1   = (r2 * r2 * r2 - r1 * r1 * r1) / 3;                          // ∫ ρ y dy
-	const Real k0   = y2 / r2 - y1 / r1, k1 = 1 / r1 - 1 / r2, k2 = i0 - k0, k3 = i1 - h * h * k1; // h² ∫ 1/ρ³, ∫ y/ρ³, ∫ y²/ρ³, ∫ y³/ρ³
+	const auto arc = [&](Real y, Real r) { return y >= 0 ? log((y + r) / abs(h)) : -log((r - y) / abs(h)); };
+	const Real i0  = arc(y2, r2) - arc(y1, r1);
+	const Real i1  = r2 - r1;
+	const Real i2  = (y2 * r2 - y1 * r1 - h * h * i0) / 2;
+	const Real j0  = (y2 * r2 - y1 * r1 + h * h * i0) / 2;                                       // ∫ ρ dy
+	const Real j1  = (r2 * r2 * r2 - r1 * r1 * r1) / 3;                                          // ∫ ρ y dy
+	const Real k0 = y2 / r2 - y1 / r1, k1 = 1 / r1 - 1 / r2, k2 = i0 - k0, k3 = i1 - h * h * k1; // h² ∫ 1/ρ³, ∫ y/ρ³, ∫ y²/ρ³, ∫ y³/ρ³
 	const Real gm = gradient_.dot(m), ge = gradient_.dot(e);
 
 	const Real a = atPole / 2 + gm * h / 3, b = ge / 3;
@@ -113,7 +114,7 @@ Vector3 ShearStrength::byPoints(const Vector3& slip, Matrix3* slope) const
 	// Gauss-Legendre with three points on 0 … 1
 	static const Real root = sqrt(Real(15)) / 10, place[3] = { Real(0.5) - root, Real(0.5), Real(0.5) + root },
 	                  weight[3] = { Real(5) / 18, Real(8) / 18, Real(5) / 18 };
-	Vector3 result = Vector3::Zero();
+	Vector3 result              = Vector3::Zero();
 	if (slope) slope->setZero();
 	for (int k = 0; k < count_; ++k) {
 		const Vector2 from = corner(k), along = corner(k + 1 < count_ ? k + 1 : 0) - from;
@@ -151,7 +152,7 @@ Vector3 ShearStrength::resistance(const Vector3& slip, Matrix3* slope) const
 		Eigen::Matrix<Real, 2, 2> t;
 		t << sums.tensor[0], sums.tensor[1], sums.tensor[1], sums.tensor[2];
 		t /= abs(turn);
-		const Vector2 arm            = left(pole), moved = t * arm;
+		const Vector2 arm = left(pole), moved = t * arm;
 		slope->topLeftCorner<2, 2>() = t;
 		(*slope)(0, 2) = (*slope)(2, 0) = moved[0];
 		(*slope)(1, 2) = (*slope)(2, 1) = moved[1];

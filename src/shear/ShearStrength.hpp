@@ -39,10 +39,7 @@ public:
 
 	/// Whether force and moment are safely within the limit surface. It is convex, so it holds all between sliding alone and turning alone, and the mean
 	/// distance is not less than the mean square over the largest.
-	bool surelyHolds(const Vector3& load) const
-	{
-		return load.head<2>().norm() * leastRadius_ + abs(load[2]) <= total_ * leastRadius_;
-	}
+	bool surelyHolds(const Vector3& load) const { return load.head<2>().norm() * leastRadius_ + abs(load[2]) <= total_ * leastRadius_; }
 
 private:
 	struct Sums;
@@ -56,12 +53,12 @@ private:
 	int            count_;
 	Real           total_;
 	Vector2        centre_;
-	Vector2        shift_      = Vector2::Zero(); ///< from the outline's origin to that of x, the strength's centre
-	Real           atCentre_   = 0;               ///< τ there [Pa]
-	Vector2        gradient_   = Vector2::Zero(); ///< of τ [Pa/m]
-	Real           farthest_    = 0;              ///< corner from the centre [m]
-	Real           leastRadius_ = 0;              ///< not above meanRadius()
-	Real           second_[3] { 0, 0, 0 };        ///< ∫ τ u², ∫ τ u v, ∫ τ v² dA / ∫ τ dA about the centre [m²]
+	Vector2        shift_       = Vector2::Zero(); ///< from the outline's origin to that of x, the strength's centre
+	Real           atCentre_    = 0;               ///< τ there [Pa]
+	Vector2        gradient_    = Vector2::Zero(); ///< of τ [Pa/m]
+	Real           farthest_    = 0;               ///< corner from the centre [m]
+	Real           leastRadius_ = 0;               ///< not above meanRadius()
+	Real           second_[3] { 0, 0, 0 };         ///< ∫ τ u², ∫ τ u v, ∫ τ v² dA / ∫ τ dA about the centre [m²]
 };
 
 } // namespace polytope

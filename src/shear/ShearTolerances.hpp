@@ -18,7 +18,7 @@ constexpr double shearPole = 1e-14;
 constexpr double shearPoleFar = 4;
 
 /// Of the slip, by the energy: a last step of Newton's method from this near leaves what rounding leaves.
-constexpr double shearReturn = 1e-7;
+constexpr double shearReturn = 1e-9;
 
 /// Of the least work that the strength takes in a motion: whether the load gives more is known to this. A load that is beyond the limit surface by less
 /// is taken as within it.

@@ -47,11 +47,11 @@ struct Mobility {
 /// Springs and dampers of one contact.
 struct ContactSprings {
 	Vector3 normal          = Vector3::Zero();
-	Real    normalStiffness = 0, shearStiffness = 0; ///< [N/m]
-	Real    normalDamper = 0, shearDamper = 0;       ///< [N s/m]
-	Matrix3 rockingStiffness = Matrix3::Zero();      ///< moment per tilt, of the moving contact point [N m/rad]
-	Matrix3 rockingDamper    = Matrix3::Zero();      ///< [N m s/rad]
-	Vector3 shearOffset      = Vector3::Zero();      ///< from the contact point to that of the shear spring, across the normal [m]
+	Real    normalStiffness = 0, shearStiffness = 0;   ///< [N/m]
+	Real    normalDamper = 0, shearDamper = 0;         ///< [N s/m]
+	Matrix3 rockingStiffness  = Matrix3::Zero();       ///< moment per tilt, of the moving contact point [N m/rad]
+	Matrix3 rockingDamper     = Matrix3::Zero();       ///< [N m s/rad]
+	Vector3 shearOffset       = Vector3::Zero();       ///< from the contact point to that of the shear spring, across the normal [m]
 	Real    twistingStiffness = 0, twistingDamper = 0; ///< about the normal [N m/rad], [N m s/rad]
 };
 

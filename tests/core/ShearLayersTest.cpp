@@ -74,7 +74,8 @@ TEST(ShearLayers, LoadCyclesDoNotCreep)
 	Real        oneDisplacement = 1, area = 1, creep = 0, shown = 0, late = 0;
 	for (int step = 0; step < 4000; ++step) {
 		// a cycle with a shorter one on it, and rounding
-		const Real next = 1 + 0.3 * std::sin(2 * M_PI * step / 100.) + 0.05 * std::sin(2 * M_PI * step / 7.) + 1e-12 * std::cos(1e3 * step);
+		const Real next
+		        = 1 + 0.3 * std::sin(2 * M_PI * step / 100.) + 0.05 * std::sin(2 * M_PI * step / 7.) + 1e-12 * std::cos(1e3 * step);
 		bed.setArea(next);
 		if (next < area) oneDisplacement *= next / area; // its force
 		creep += (1 - oneDisplacement) / next;
@@ -92,11 +93,11 @@ TEST(ShearLayers, LoadCyclesDoNotCreep)
 
 TEST(ShearLayers, FollowManySpringsAndNeverGainEnergy)
 {
-	std::mt19937_64                        random(2);
-	std::normal_distribution<double>       normal;
-	ShearLayers                            bed(1, 0.02 * x);
-	Springs                                springs { { { 1, 0.02 * x } } };
-	Real                                   area = 1, worst = 0, largest = 0;
+	std::mt19937_64                  random(2);
+	std::normal_distribution<double> normal;
+	ShearLayers                      bed(1, 0.02 * x);
+	Springs                          springs { { { 1, 0.02 * x } } };
+	Real                             area = 1, worst = 0, largest = 0;
 	for (int step = 0; step < 3000; ++step) {
 		area              = std::abs(1 + 0.4 * std::sin(step / 40.) + 0.02 * normal(random));
 		const Real before = bed.energy();
@@ -118,7 +119,7 @@ TEST(ShearLayers, SavedStateHasAllOfIt)
 	ShearLayers bed(1, x);
 	bed.setArea(1.5);
 	bed.move(0.5 * x);
-	ShearLayers other;
+	ShearLayers          other;
 	std::vector<Real>    numbers;
 	std::vector<Vector3> vectors;
 	struct Writer {

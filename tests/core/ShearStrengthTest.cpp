@@ -47,13 +47,13 @@ ShearStrength strengthOf(const Corners& corners, const Vector2& offset, Real tot
 Vector3 bySquares(Real length, Real width, const Vector2& offset, const Vector3& slip, int cells = 600)
 {
 	const Vector2 gradient(12 * offset[0] / (length * length), 12 * offset[1] / (width * width)); // over the mean
-	Vector3       sum  = Vector3::Zero();
-	Real          all  = 0;
+	Vector3       sum = Vector3::Zero();
+	Real          all = 0;
 	for (int i = 0; i < cells; ++i)
 		for (int j = 0; j < cells; ++j) {
 			const Vector2 x((i + 0.5) / cells * length - length / 2, (j + 0.5) / cells * width - width / 2), arm = x - offset;
 			const Real    tau = 1 + gradient.dot(x);
-			const Vector2 v   = Vector2(slip[0] - slip[2] * arm[1], slip[1] + slip[2] * arm[0]), d = v.normalized();
+			const Vector2 v = Vector2(slip[0] - slip[2] * arm[1], slip[1] + slip[2] * arm[0]), d = v.normalized();
 			sum += tau * Vector3(d[0], d[1], arm[0] * d[1] - arm[1] * d[0]);
 			all += tau;
 		}
@@ -102,9 +102,10 @@ TEST(ShearStrength, MeanRadiusOfKnownShapes)
 TEST(ShearStrength, ResistanceIsThatOfManySmallSquares)
 {
 	for (const Vector2& offset : { Vector2(0, 0), Vector2(0.2, 0), Vector2(0.1, 0.05) })
-		for (const Vector3& slip : { Vector3(0, 0, 1), Vector3(0.3, 0.1, 1), Vector3(0.3, 0.1, -1), Vector3(1, -2, 1), Vector3(5, 3, 0.1) }) {
+		for (const Vector3& slip :
+		        { Vector3(0, 0, 1), Vector3(0.3, 0.1, 1), Vector3(0.3, 0.1, -1), Vector3(1, -2, 1), Vector3(5, 3, 0.1) }) {
 			const Corners corners = rectangleOutline(3, 1);
-			const Vector3 exact   = strengthOf(corners, offset).resistance(slip), squares = bySquares(3, 1, offset, slip);
+			const Vector3 exact = strengthOf(corners, offset).resistance(slip), squares = bySquares(3, 1, offset, slip);
 			EXPECT_LT((exact - squares).norm(), 1e-5) << offset.transpose() << " / " << slip.transpose();
 		}
 }
@@ -114,18 +115,20 @@ TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
 	std::mt19937_64                        random(3);
 	std::uniform_real_distribution<double> uniform(-1, 1);
 	for (int trial = 0; trial < 300; ++trial) {
-		const Corners        corners = randomOutline(random);
-		const ShearStrength  field   = strengthOf(corners, 0.2 * Vector2(uniform(random), uniform(random)), 7);
-		const Real           size    = trial % 3 == 0 ? 1 : std::pow(10, uniform(random));
-		const Real           turn = uniform(random);
-		const Vector3        slip(size * uniform(random), size * uniform(random), turn < 0 ? turn - 0.5 : turn + 0.5);
-		Matrix3              slope;
-		const Vector3        f = field.resistance(slip, &slope);
+		const Corners       corners = randomOutline(random);
+		const ShearStrength field   = strengthOf(corners, 0.2 * Vector2(uniform(random), uniform(random)), 7);
+		const Real          size    = trial % 3 == 0 ? 1 : std::pow(10, uniform(random));
+		const Real          turn    = uniform(random);
+		const Vector3       slip(size * uniform(random), size * uniform(random), turn < 0 ? turn - 0.5 : turn + 0.5);
+		Matrix3             slope;
+		const Vector3       f = field.resistance(slip, &slope);
 		EXPECT_LT((slope * slip).norm(), 1e-6 * slope.norm() * slip.norm()); // homogeneous of degree zero
 		for (int k = 0; k < 3; ++k) {
 			const Real    step  = 1e-5 * (k < 2 ? std::max(slip.head<2>().norm(), std::abs(slip[2])) : std::abs(slip[2]));
-			const Vector3 there = field.resistance(slip + step * Vector3::Unit(k)), back = field.resistance(slip - step * Vector3::Unit(k));
-			EXPECT_LT(((there - back) / (2 * step) - slope.col(k)).norm(), 1e-4 * slope.norm() + 1e-9 * f.norm() / step) << trial << " " << k;
+			const Vector3 there = field.resistance(slip + step * Vector3::Unit(k)),
+			              back  = field.resistance(slip - step * Vector3::Unit(k));
+			EXPECT_LT(((there - back) / (2 * step) - slope.col(k)).norm(), 1e-4 * slope.norm() + 1e-9 * f.norm() / step)
+			        << trial << " " << k;
 		}
 		EXPECT_LE(f.head<2>().norm(), 7 * (1 + 1e-9));
 		EXPECT_LE(std::abs(f[2]), 7 * field.meanRadius() * (1 + 1e-9));
@@ -226,7 +229,8 @@ TEST(ShearStrength, ASlidingAndSpinningDiscStopsBothAtOnce)
 TEST(ShearStrength, SliversAndPointsHaveAnAnswer)
 {
 	for (const Real width : { 1e-3, 1e-6, 1e-9, 1e-12, 1e-15 })
-		for (const Vector3& slip : { Vector3(0, 0, 1), Vector3(0.1, 0.2, 1), Vector3(0.1, width / 2, 1), Vector3(1, 1, 0), Vector3(1, 1, 1e-6) }) {
+		for (const Vector3& slip :
+		        { Vector3(0, 0, 1), Vector3(0.1, 0.2, 1), Vector3(0.1, width / 2, 1), Vector3(1, 1, 0), Vector3(1, 1, 1e-6) }) {
 			const Corners       corners = rectangleOutline(1, width);
 			const ShearStrength field   = strengthOf(corners, Vector2(0.05, 0.1 * width));
 			Matrix3             slope;
