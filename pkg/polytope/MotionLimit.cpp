@@ -14,7 +14,7 @@
 namespace yade {
 namespace {
 
-	constexpr Real infinite = std::numeric_limits<Real>::infinity();
+	const Real infinite = std::numeric_limits<Real>::infinity();
 
 	/// Radius of the largest ball in a shape; infinite for one that has none.
 	Real inscribedRadius(const Shape& shape)

@@ -8,7 +8,7 @@
 namespace polytope {
 namespace {
 
-	constexpr Real infinite = std::numeric_limits<Real>::infinity();
+	const Real infinite = std::numeric_limits<Real>::infinity();
 
 	/// One body, or all bodies of a branch of the tree.
 	struct Group {
