@@ -15,7 +15,6 @@ nothing but moments about their normals keeps from turning. Ends with 1 if what 
 """
 
 import os
-import pathlib
 import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; four bodies are too few for more
@@ -24,7 +23,7 @@ if __name__ == '__main__':  # `yade`, unlike `python`, does not search the scrip
 
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import positive, refusing, shown
-from boon2012.reporting.script import conclude
+from boon2012.reporting.script import conclude, scriptFile
 from boon2012.roofWedge.scene import RoofWedge
 from boon2012.roofWedge.study import RoofWedgeCase, RoofWedgeReport, areEvenlySpread, frontView, plotStressShare, touchingCases
 from boon2012.wedges.blockGeometry import BlockGeometry
@@ -43,7 +42,6 @@ tolerance, shareTolerance = 0.02, 1e-3
 fall = 0.25
 """Of the wedge, in the second picture [m]."""
 steps, quickSteps = (1.0, 0.1, 0.02, 0.005), (8.0, 1.0, 0.1, 0.02, 0.005)
-prism = pathlib.Path(__file__).resolve().parent / 'geometry' / 'd_roof_prism.json'
 """Between two joints of the wedge's dip, 1 m high and long."""
 prismLabel = 'prism between two joints, default contact'
 sideShares, quickSideShares = (0.05, 0.25, 0.5, 1, 2), (0.5,)
@@ -123,7 +121,7 @@ def search(given):
 		between = None
 		if given.reference:
 			progress.total += 1
-			between = RoofWedgeCase(given, prismLabel, 1, progress, blocks=BlockGeometry.read(prism), normal='dualWeights')
+			between = RoofWedgeCase(given, prismLabel, 1, progress, blocks=BlockGeometry.read(scriptFile().parent / 'geometry' / 'd_roof_prism.json'), normal='dualWeights')
 	return both, cases, touching, between
 
 

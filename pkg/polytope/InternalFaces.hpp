@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/Body.hpp>
-#include <core/Scene.hpp>
-
-#include <src/contact/ContactQuery.hpp>
+#include "SupportPieces.hpp"
 
 /// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
 ///
@@ -17,36 +14,11 @@
 /// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
 namespace yade {
 
-/// One contact as both bodies stand: half-spaces of `convex` in axes `rotation` about `centre`, body 2 moved by its period.
-struct TouchingPair {
-	const Interaction*           contact;
-	Scene*                       scene;
-	const polytope::ConvexShape* convex[2];
-	Vector3r                     centre[2];
-	Matrix3r                     rotation[2];
-	Vector3r                     point;  ///< contact point
-	Vector3r                     normal; ///< from body 1 to body 2
-	Real                         ball;   ///< radius of the largest ball in the overlap
-
-	TouchingPair at(const Vector3r& otherPoint, const Vector3r& otherNormal) const
-	{
-		TouchingPair pair = *this;
-		pair.point        = otherPoint;
-		pair.normal       = otherNormal;
-		return pair;
-	}
-};
-
 /// Whether one of two bodies is a piece of a rigid support, fixed or a member of a clump, that the other one moves on. Free pieces are bodies of
 /// their own: they may separate, and their joints carry the contact forces.
 bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene);
 
 /// Of the planes near the overlap those that are internal faces.
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);
-
-/// For a stiffness per contact: part of the stiffness that this piece has when the body lies on several pieces of one rigid
-/// support (fixed bodies, or members of one clump), by the areas in which the contact's plane cuts the body and each piece. 1 where there
-/// is one piece.
-Real shareOfSupport(const TouchingPair& pair, const polytope::InternalPlanes& internal);
 
 } // namespace yade

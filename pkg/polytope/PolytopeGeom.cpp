@@ -11,6 +11,7 @@
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
 #include "StiffnessShare.hpp"
+#include "SupportShare.hpp"
 
 #include <boost/make_shared.hpp>
 
@@ -133,9 +134,7 @@ namespace {
 		using polytope::DepthRule;
 		if (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights)
 			return DepthRule::Chord;
-		return rule == StiffnessRule::PerArea       ? DepthRule::Mean
-		        : rule == StiffnessRule::PerContact ? DepthRule::MeanOnFaces
-		                                            : DepthRule::Chord;
+		return rule == StiffnessRule::PerArea ? DepthRule::Mean : DepthRule::MeanOnFaces;
 	}
 
 } // namespace
@@ -202,11 +201,11 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
 	polytope::InternalPlanes internal = geom.internalPlanes();
+	bool                     asPieces = false;
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
-		if ((turn || !geom.internalKnown || !wasReal)
-		        && mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene))
-			settings.bounding = &bounding;
+		asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+		if ((turn || !geom.internalKnown || !wasReal) && asPieces) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
@@ -218,7 +217,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 		if (settings.depthRule != polytope::DepthRule::Chord)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
-	if (result.inContact && (settings.bounding || geom.internalFaces.get())) {
+	const bool mayShare = result.inContact && asPieces && geom.stiffnessRule != int(StiffnessRule::PerArea);
+	if (result.inContact && (settings.bounding || geom.internalFaces.get() || mayShare)) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal,
 			-result.infeasibility };
@@ -228,9 +228,16 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		const bool shares = geom.stiffnessRule != int(StiffnessRule::PerArea) && !internal.none();
-		giveShare(shares ? shareOfSupport(pair.at(frame1.origin + result.common, result.normal), internal) : Real(1), geom, *c,
-		        result);
+		SupportShare share;
+		if (mayShare) {
+			const Vector3r& place = internal.none() ? result.point : result.common;
+			share                 = shareOfSupport(pair.at(frame1.origin + place, result.normal), internal);
+		}
+		if (share.depth > 0) {
+			result.depth  = share.depth;
+			result.energy = share.depth * share.depth / 2;
+		}
+		giveShare(share.share, geom, *c, result);
 	}
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);

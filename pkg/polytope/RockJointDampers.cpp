@@ -52,6 +52,9 @@ namespace {
 
 	bool movesByForces(const Body& mover) { return mover.isDynamic() && mover.state->mass > 0; }
 
+	/// What a body of a contact is for the other one.
+	Across across(const Body& body, const Scene& scene) { return movesByForces(moverOf(body, scene)) ? Across::Mover : Across::Support; }
+
 	/// uᵀ I⁻¹ u, as YADE's integrator turns bodies.
 	Real turning(const Body& mover, const Vector3r& u)
 	{
@@ -79,16 +82,21 @@ namespace {
 /// One of the two bodies of a contact, as a damper has it.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 	const Body& mover;
-	Real        part = 1; ///< s
-	Vector3r    arm;      ///< from the mover's centre to the contact point
+	Real        part  = 1; ///< s
+	Real        limit = 1; ///< part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows
+	Vector3r    arm;       ///< from the mover's centre to the contact point
 
-	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Vector3r& shift)
+	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other, const Vector3r& shift)
 	        : mover(moverOf(body, *pair.scene)), arm(pair.geom.contactPoint - mover.state->pos - shift)
 	{
 		if (!moves()) return;
 		const Vector3r& normal = pair.geom.normal;
-		part = phys.dampedStiffness > 0 && sums.lastKnown() ? partOfSum(phys.dampedStiffness, sums.last(mover.id, normal))
-		                                                    : partOfArea(body, mover, normal, phys.contactArea);
+		if (phys.dampedStiffness > 0 && sums.lastKnown()) {
+			const StiffnessSum sum = sums.last(mover.id);
+			part                   = partOfSum(phys.dampedStiffness, sum.along(across(other, *pair.scene), normal));
+			limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
+		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) part = limit = pair.geom.share;
+		else part = limit = partOfArea(body, mover, normal, phys.contactArea);
 	}
 	bool moves() const { return movesByForces(mover); }
 };
@@ -98,15 +106,15 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::damper(
         const Pair& pair, const RockJointPhys& phys, Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared) const
 {
 	const bool       rocks    = gyrationSquared >= 0;
-	const DampedBody bodies[] = { { pair, phys, stiffnessSums, *pair.body1, Vector3r(Vector3r::Zero()) },
-		{ pair, phys, stiffnessSums, *pair.body2, pair.shift2() } };
+	const DampedBody bodies[] = { { pair, phys, stiffnessSums, *pair.body1, *pair.body2, Vector3r(Vector3r::Zero()) },
+		{ pair, phys, stiffnessSums, *pair.body2, *pair.body1, pair.shift2() } };
 	Real             inverse = 0, motion = 0;
 	for (const DampedBody& body : bodies) {
 		if (!body.moves()) continue;
 		inverse += 1 / (body.part * body.mover.state->mass);
 		motion += (rocks ? turning(body.mover, direction)
 		                 : translating(body.mover, direction) + turning(body.mover, body.arm.cross(direction)))
-		        / body.part;
+		        / body.limit;
 	}
 	if (!(inverse > 0)) return 0;
 	const Real damper = 2 * fraction * math::sqrt(stiffness / inverse) * (rocks ? gyrationSquared : Real(1));
@@ -119,7 +127,8 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, Roc
 	phys.dampedStiffness = math::isfinite(phys.kn) ? phys.kn : Real(0);
 	for (const Body* body : { pair.body1, pair.body2 }) {
 		const Body& mover = moverOf(*body, *pair.scene);
-		if (movesByForces(mover)) stiffnessSums.add(mover.id, phys.dampedStiffness, pair.geom.normal);
+		if (movesByForces(mover))
+			stiffnessSums.add(mover.id, across(body == pair.body1 ? *pair.body2 : *pair.body1, *pair.scene), phys.dampedStiffness, pair.geom.normal);
 	}
 }
 
@@ -168,7 +177,9 @@ Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& nor
 		const Body& mover = moverOf(*body, scene);
 		if (!movesByForces(mover)) continue;
 		// of a contact that is in no sum, as after a law was exchanged, the largest that it can be
-		const Real part = phys.dampedStiffness > 0 ? partOfSum(phys.dampedStiffness, sums.newest(mover.id, normal)) : Real(1);
+		const Real part = phys.dampedStiffness > 0
+		        ? partOfSum(phys.dampedStiffness, sums.newest(mover.id).along(across(body == &body1 ? body2 : body1, scene), normal))
+		        : Real(1);
 		inverse += 1 / (part * mover.state->mass);
 	}
 	return inverse;

@@ -19,18 +19,10 @@ void StiffnessSums::beginStep(const Scene& scene)
 	begun_.store(scene.iter, std::memory_order_release);
 }
 
-Real StiffnessSums::along(const Sums& sums, Body::id_t body, const Vector3r& n)
-{
-	if (body < 0 || std::size_t(body) >= sums.size()) return 0;
-	const auto& s = sums[std::size_t(body)].value;
-	return s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2]
-	        + 2 * (s[3] * n[1] * n[2] + s[4] * n[2] * n[0] + s[5] * n[0] * n[1]);
-}
-
-void StiffnessSums::add(Body::id_t body, Real stiffness, const Vector3r& n)
+void StiffnessSums::add(Body::id_t body, Across across, Real stiffness, const Vector3r& n)
 {
 	if (body < 0 || std::size_t(body) >= newest_.size()) return;
-	auto&      sum   = newest_[std::size_t(body)].value;
+	auto&      sum   = newest_[std::size_t(body)].value[std::size_t(across)];
 	const Real of[6] = { n[0] * n[0], n[1] * n[1], n[2] * n[2], n[1] * n[2], n[2] * n[0], n[0] * n[1] };
 	if (omp_get_num_threads() == 1) {
 		for (std::size_t k = 0; k < 6; ++k)
@@ -53,7 +45,7 @@ std::vector<StiffnessSum> StiffnessSums::of(const std::vector<Body::id_t>& bodie
 {
 	std::vector<StiffnessSum> sums(bodies.size());
 	for (std::size_t k = 0; k < bodies.size(); ++k)
-		if (bodies[k] >= 0 && std::size_t(bodies[k]) < newest_.size()) sums[k] = newest_[std::size_t(bodies[k])];
+		sums[k] = newest(bodies[k]);
 	return sums;
 }
 

@@ -18,18 +18,33 @@
 
 namespace yade {
 
-/// A symmetric matrix: xx, yy, zz, yz, zx, xy.
+/// What is on the other side of a contact.
+enum class Across : int { Mover = 0, Support }; ///< a body that forces move, or one that they do not
+
+/// Two symmetric matrices, by what is across: xx, yy, zz, yz, zx, xy.
 struct StiffnessSum {
-	std::array<Real, 6> value { { 0, 0, 0, 0, 0, 0 } };
+	using Matrix = std::array<Real, 6>;
+	std::array<Matrix, 2> value { { { { 0, 0, 0, 0, 0, 0 } }, { { 0, 0, 0, 0, 0, 0 } } } };
+
+	/// nᵀ (Σ k n nᵀ) n.
+	Real along(Across across, const Vector3r& n) const
+	{
+		const Matrix& s = value[std::size_t(across)];
+		return s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2]
+		        + 2 * (s[3] * n[1] * n[2] + s[4] * n[2] * n[0] + s[5] * n[0] * n[1]);
+	}
+	Real along(const Vector3r& n) const { return along(Across::Mover, n) + along(Across::Support, n); }
 
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
-		for (Real& one : value)
-			archive& boost::serialization::make_nvp("value", one);
+		for (Matrix& matrix : value)
+			for (Real& one : matrix)
+				archive& boost::serialization::make_nvp("value", one);
 	}
 };
 
-/// Σ kₙ n nᵀ over the contacts of each body (of a clump: of its members), by the body's id.
+/// Σ kₙ n nᵀ over the contacts of each body (of a clump: of its members), by the body's id; those with bodies that move and those with bodies that do not
+/// apart: a soft joint on a block that a stiff one holds to the ground is damped as if the block were the ground.
 ///
 /// A damper that is to be critical for a body has to know what else carries it. The contacts of a step are computed one after the other, by several
 /// threads, so that the sum of this step is not known yet: each contact reads the sum of the last step, and adds to that of this one. Between two steps
@@ -53,11 +68,11 @@ public:
 	}
 	/// Whether there is a sum of the last step. Not where nothing was damped in it, or the law is a new one.
 	bool lastKnown() const { return lastKnown_; }
-	/// nᵀ (Σ k n nᵀ) n of the last step [N/m].
-	Real last(Body::id_t body, const Vector3r& normal) const { return along(last_, body, normal); }
+	/// Of the last step [N/m].
+	StiffnessSum last(Body::id_t body) const { return ofBody(last_, body); }
 	/// The same of the newest step; for use between two loops over the contacts.
-	Real newest(Body::id_t body, const Vector3r& normal) const { return along(newest_, body, normal); }
-	void add(Body::id_t body, Real stiffness, const Vector3r& normal);
+	StiffnessSum newest(Body::id_t body) const { return ofBody(newest_, body); }
+	void         add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
 
 	/// The newest sums of these bodies, and the step that they are of. The reverse replaces them, if they are not older than those that there are, for
 	/// these bodies had no contact since. For processes that have a part of the scene each (py/polytope/mpi).
@@ -68,8 +83,11 @@ public:
 private:
 	using Sums = std::vector<StiffnessSum>;
 
-	void        beginStep(const Scene& scene);
-	static Real along(const Sums& sums, Body::id_t body, const Vector3r& normal);
+	void                beginStep(const Scene& scene);
+	static StiffnessSum ofBody(const Sums& sums, Body::id_t body)
+	{
+		return body < 0 || std::size_t(body) >= sums.size() ? StiffnessSum() : sums[std::size_t(body)];
+	}
 
 	long              step_ = -1; ///< of which newest_ is
 	Sums              newest_, last_;

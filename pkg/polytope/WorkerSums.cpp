@@ -34,7 +34,7 @@ namespace {
 		return ids;
 	}
 
-	/// The step, then six numbers for each body; nothing in a scene that has no such law.
+	/// The step, then a StiffnessSum for each body; nothing in a scene that has no such law.
 	py::object bytesOf(const py::object& list)
 	{
 		const auto* sums = sumsOfScene();

@@ -17,6 +17,9 @@ constexpr Real isotropicArea = 1e-9;
 /// that are meant to touch.
 constexpr Real touchingFaces = 1e-6;
 
+/// × the smaller inscribed radius: deeper in each other, two bodies have no common face. Overlaps of DEM are a hundredth at the most.
+constexpr Real deepestOfFaces = 0.1;
+
 /// Largest angle between two faces [rad] that a joint takes for faces lying on each other: what settling leaves between faces meant to touch, at
 /// ordinary stiffness. polytope.bond() has the same default.
 constexpr Real facingOfJoints = 0.01;

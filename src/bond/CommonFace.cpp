@@ -116,7 +116,7 @@ std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape&
 	const Vector3 origin = first.centre; // small numbers wherever the bodies are
 	const auto    faces1 = facesOf(first, origin), faces2 = facesOf(second, origin);
 	const Real    opposite = cos(angle),
-	           deepest     = tolerance::thinContact * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
+	           deepest     = tolerance::deepestOfFaces * std::min(first.shape.inscribedRadius(), second.shape.inscribedRadius());
 	std::vector<CommonFace> found;
 	for (const Face& face1 : faces1)
 		for (const Face& face2 : faces2) {

@@ -26,10 +26,17 @@ template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes,
 			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
 }
 
-/// Largest depth of a contact of two flush faces, which is the contact that remains where internal faces are left out.
-template <class R> POLYTOPE_INLINE R internalDepth(const PairInput& in)
+/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: that of the thinner body
+/// that lies within the other one's surface, as deep again.
+template <class R, int D> POLYTOPE_APART R internalDepth(const PairInput& in, const ContactFrame<R, D>& f, const R* n)
 {
-	return 2 * R(tolerance::thinContact) * minOf<R>(in.shape[0]->inscribedRadius(), in.shape[1]->inscribedRadius());
+	R least = R(padOffset);
+	for (int body = 0; body < 2; ++body) {
+		R own[3] = { 0, 0, 0 };
+		rotate<R, D>(f.own[body], n, own);
+		least = minOf<R>(least, in.shape[body]->widthAlong(Vector3(own[0], own[1], own[2])));
+	}
+	return 2 * least;
 }
 
 /// Depth along n through the contact point, whose slacks are in the planes (an overlap thinner than the planes' rounding may have its
@@ -84,7 +91,7 @@ POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const Contact
 		if (common) depth = depthOnPieces<R, D>(depth, chord<R, D, W>(planes, n), h, n);
 		out.common = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, common ? centre : x));
 		putBack<R, D>(planes, *settings.internal, offset);
-		if (depth < internalDepth<R>(in)) return status;
+		if (depth < internalDepth<R, D>(in, f, n)) return status;
 	}
 	const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	depth                      = chord<R, D, W>(planes, n);

@@ -209,12 +209,12 @@ constexpr Real nearLeverage = 1e-6;
 /// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
 constexpr Real flush = 1e-9;
 
+/// × the radius of the overlap's ball: so near to a plane of a piece another piece must be for the overlap to go on in it. Large against rounding, small
+/// against the overlap.
+constexpr Real besideSeam = 1e-3;
+
 /// One minus the cosine between normals of one body that count as one direction where an edge between two faces is searched for.
 constexpr Real parallel = 1e-4;
-
-/// × the smaller inscribed radius: where the overlap is deeper below a face, the body does not slide on this face. Overlaps of DEM are a hundredth at the
-/// most.
-constexpr Real thinContact = 0.1;
 
 /// Least part of a stiffness per contact that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;

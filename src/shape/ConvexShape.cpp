@@ -73,6 +73,18 @@ std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNor
 	return wall;
 }
 
+Real ConvexShape::widthAlong(const Vector3& direction) const
+{
+	if (polyhedron_.vertices.empty()) return std::numeric_limits<Real>::infinity();
+	Real least = polyhedron_.vertices.front().dot(direction), most = least;
+	for (const Vector3& vertex : polyhedron_.vertices) {
+		const Real place = vertex.dot(direction);
+		least            = std::min(least, place);
+		most             = std::max(most, place);
+	}
+	return most - least;
+}
+
 namespace {
 
 	struct KnownConvex {

@@ -61,6 +61,9 @@ public:
 	/// Radius of the smallest ball about the body's origin that holds it.
 	Real boundingRadius() const { return boundingRadius_; }
 
+	/// Extent along a unit vector of the body's axes; infinite for a half-space.
+	Real widthAlong(const Vector3& direction) const;
+
 	const HalfSpaces&     planes() const { return planes_; }
 	const Polyhedron&     polyhedron() const { return polyhedron_; }
 	const MassProperties& mass() const { return mass_; }

@@ -88,8 +88,10 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 		// a step of Newton's method doubles the digits: after one from so near nothing is left to gain, and rounding decides what is less
 		const bool last = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square;
 		Real       part = 1;
+		// near the minimum the work falls by less than it is rounded
+		const Real room = Real(tolerance::sumsOfWork) * abs(slip.dot(load));
 		for (int halved = 0; !last && halved < tolerance::shearHalvings; ++halved, part /= 2)
-			if (Work(strength, stiffness, load, slip - part * change).value <= now.value - part * slope / 4) break;
+			if (Work(strength, stiffness, load, slip - part * change).value <= now.value - part * slope / 4 + room) break;
 		slip -= part * change;
 		if (last) break;
 		toBestLength();

@@ -24,6 +24,9 @@ constexpr double shearReturn = 1e-9;
 /// is taken as within it.
 constexpr double shearMotion = 1e-12;
 
+/// Of the work of a slip: what its sums round.
+constexpr Real sumsOfWork = 100 * rounding;
+
 /// Newton steps of the return to the limit surface; five are usual, more where the centre of rotation lies on a corner.
 constexpr int shearReturnSteps = 40;
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Loading tests: stacks of cubes and sliding blocks against closed forms; small random samples, whose stresses are held and balanced."""
 
+import math
 from math import exp, radians, tan
 
 import numpy as np
@@ -149,15 +150,16 @@ def testTriaxialBetweenWallsHoldsItsStress():
 	assert columns['axialStrain'][[0, -1]] == pytest.approx([0, 0.02], abs=1e-4) and columns['deviator'][-1] > 5e4
 	assert columns['porosity'][-1] == pytest.approx(1 - (1 - columns['porosity'][0]) * exp(columns['volumetricStrain'][-1]), rel=1e-3)
 	sample.settle()
-	assert np.diag(sample.stress()) == pytest.approx(sample.boundaryStress(), rel=5e-3) and noFailures()
-	assert sample.stress() == pytest.approx(ofBoundary(sample), abs=5e-3 * 1e5)
+	# the walls' friction, too, is in the mean stress, and 0.5 % of what the walls bear at right angles
+	assert np.diag(sample.stress()) == pytest.approx(sample.boundaryStress(), rel=1e-2) and noFailures()
+	assert sample.stress() == pytest.approx(ofBoundary(sample), abs=2e-3 * 1e5)
 	with pytest.raises(ValueError, match='^sample'):
 		polytope.triaxial('here', stress=1e5)
 
 
 def testContactAndWallStressDifferByInertia():
 	"""While a sample deforms: on the axis the contacts bear less than the walls, sideways more, as the square of the inertial number; not by damping."""
-	found = {}
+	found, unsure = {}, {}
 	for inertialNumber, damping in ((2e-2, 0.2), (2e-2, 0), (5e-3, 0.2)):
 		O.reset()
 		sample = packed()
@@ -166,12 +168,17 @@ def testContactAndWallStressDifferByInertia():
 		rows, usual = [], test.measure
 		test.measure = lambda rows=rows, sample=sample, usual=usual: (rows.append((np.diag(sample.stress()), sample.boundaryStress())), usual())[1]
 		test.run(0.01)
-		contacts, walls = np.array(rows)[20:].mean(axis=0)
-		found[inertialNumber, damping] = contacts[:2].mean() / walls[:2].mean() - 1, contacts[2] / walls[2] - 1
-	print(found)
+		# records scatter by 2 %, and those next to each other are much the same: the mean is as sure as that of ten parts of the run
+		parts = np.array(rows)[21:].reshape(10, -1, 2, 3).mean(axis=1)
+		differences = np.array([(contacts[:2].mean() / walls[:2].mean() - 1, contacts[2] / walls[2] - 1) for contacts, walls in parts])
+		found[inertialNumber, damping] = differences.mean(axis=0)
+		unsure[inertialNumber, damping] = differences.std(axis=0, ddof=1) / math.sqrt(len(parts))
+	print(found, unsure)
 	lateral, axial = found[2e-2, 0.2]
-	assert 0.01 < lateral < 0.025 and -0.03 < axial < -0.01
-	assert found[2e-2, 0] == pytest.approx((lateral, axial), abs=0.006), 'without numerical damping nearly the same'
+	assert 0.01 < lateral < 0.025 and -0.03 < axial < -0.005
+	sure = 3 * np.hypot(unsure[2e-2, 0.2], unsure[2e-2, 0])
+	assert sure[0] < 0.006 and sure[1] < 0.03
+	assert (abs(found[2e-2, 0] - found[2e-2, 0.2]) < sure).all(), 'without numerical damping the same'
 	assert np.abs(found[5e-3, 0.2]).max() < 0.006
 
 

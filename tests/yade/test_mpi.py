@@ -76,9 +76,8 @@ def farthest(one, other):
 	return max(abs(float.fromhex(x) - float.fromhex(y)) for x, y in zip(one, other, strict=True))
 
 
-agreement = 1e-10
-"""Of a body's size. Forces of several ranks are added up in another order; the return of friction to its limit surface is an iteration, which carries such rounding on.
-What a contact forgets would show at 1e-6 and more."""
+agreement = 1e-11
+"""Of a body's size. Forces of several ranks are added up in another order."""
 
 
 def same(one, several, bodies=24):

@@ -184,7 +184,7 @@ def testSlideOverJointsIsResumed(scene, tmp_path):
 	assert resumed == uninterrupted
 
 
-others = [('centroidHeap', 1500, 200, 4), ('mixed', 1500, 300, 4), ('polygons', 1200, 300, 6), ('shearedCell', 600, 300, 4), ('clumps', 1000, 300, 4)]
+others = [('centroidHeap', 2500, 200, 4), ('mixed', 1500, 300, 4), ('polygons', 1200, 300, 6), ('shearedCell', 600, 300, 4), ('clumps', 1500, 300, 3)]
 """Scene, steps until it is saved, steps after it, and contacts that there are at least."""
 needsIpopt = pytest.mark.skipif(not polytope.buildInfo()['ipopt'], reason='this build has no Ipopt')
 others.append(pytest.param('ipoptTower', 40, 20, 2, marks=needsIpopt))

@@ -252,16 +252,85 @@ def testATipOfFacetsIsATip(base):
 	assert depth == pytest.approx((3 * 2600 * 9.81 / stiffness / areaOf(base))**(1 / 3), rel=1e-3)
 
 
-rightAngle = pytest.mark.xfail(strict=True, reason="the upright side of one facet lies in the plane of the other, which is taken for a face that continues it")
+def slopes(left, right, number):
+	"""A ridge of 1 m, solid, or of two wedges, each in *number* / 2 pieces along the ridge."""
+	if number == 1:
+		return [polytope.fromVertices([(s, y, -fall * abs(s)) for y in (-2, 2) for s, fall in ((-1, left), (0, 0), (1, right))] + [(s, y, -3) for y in (-2, 2) for s in (-1, 1)], fixed=True)]
+	pieces, length = [], 8 / number
+	for k in range(number // 2):
+		ends = (-2 + k * length, -2 + (k + 1) * length)
+		for s, fall in ((-1, left), (1, right)):
+			pieces.append(polytope.fromVertices([(x, y, z) for y in ends for x, z in ((0, 0), (0, -3), (s, -fall), (s, -3))], fixed=True))
+	return pieces
+
+
+def roof():
+	"""Its ridge down, across the other one."""
+	return polytope.fromVertices([(x, y, .5 + abs(y)) for x in (-.5, .5) for y in (-.5, 0, .5)] + [(x, 0, 1.5) for x in (-.5, .5)])
+
+
+def dropped(body):
+	"""So that it just touches the ridge."""
+	lowest = min(body.state.pos[2] + (body.state.ori * corner)[2] for corner in map(Vector3, body.shape.vertices))
+	body.state.pos -= Vector3(0, 0, lowest)
+	return body
 
 
 @pytest.mark.parametrize('rule', ['perContact', 'yadesOwn'])
-@pytest.mark.parametrize('fall', [.5, pytest.param(1, marks=rightAngle), 1.5])
-def testARidgeOfFacetsIsAsStiffAsOneSolid(fall, rule):
-	"""With a stiffness per contact: one spring."""
-	solid = lambda: [polytope.fromVertices([(s, y, -fall * abs(s)) for y in (-2, 2) for s in (-1, 0, 1)], fixed=True)]
-	depths = [restingDepth(pieces, lambda: polytope.cuboid((0, 0, .5), (.5, .5, .5)), rule)[0] for pieces in (solid, lambda: bent(fall, fall))]
+@pytest.mark.parametrize('body', [lambda: polytope.cuboid((0, .1, .5), (.5, .5, .5)), roof], ids=['face', 'edge'])
+@pytest.mark.parametrize('fall', [.5, 1, 1.5])
+@pytest.mark.parametrize('ridge', [lambda fall: slopes(fall, fall, 2), lambda fall: slopes(fall, fall, 4), lambda fall: bent(fall, fall)], ids=['2', '4', 'facets'])
+def testARidgeOfPiecesIsAsStiffAsOneSolid(ridge, fall, body, rule):
+	"""With a stiffness per contact: one spring, as deep as the ridge is in the body."""
+	depths = []
+	for pieces in (lambda: slopes(fall, fall, 1), lambda: ridge(fall)):
+		depth, contacts = restingDepth(pieces, lambda: dropped(body()), rule)
+		depths.append(depth)
 	assert depths[1] == pytest.approx(depths[0], rel=1e-3)
+	assert sum(contact.geom.share for contact in contacts) == pytest.approx(1, rel=1e-3)
+
+
+@pytest.mark.parametrize('rule', ['perContact', 'yadesOwn'])
+def testALopsidedRidgeIsOneSpring(rule):
+	"""As deep as its ridge; of one solid the chord at the overlap's centre, 5/6 of that, is the depth."""
+	block = lambda: polytope.cuboid((0, 0, .5), (.5, .5, .5))
+	for fall, rel in ((1 / 2, 1e-3), (1 / 4, 1e-3)):
+		depth, contacts = restingDepth(lambda fall=fall: slopes(1, fall, 2), block, rule, friction=0)
+		assert depth == pytest.approx(2600 * 9.81 / stiffness, rel=rel)
+		assert sorted(contact.geom.share for contact in contacts) == pytest.approx([fall / (1 + fall), 1 / (1 + fall)], rel=1e-3)
+
+
+@pytest.mark.parametrize('rule', ['perContact', 'yadesOwn'])
+@pytest.mark.parametrize('base', [regular[3], regular[8], uneven], ids=['3 sides', '8 sides', 'uneven'])
+@pytest.mark.parametrize('pieces', [tip, lambda base: [polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % len(base)]], fixed=True) for k in range(len(base))]], ids=['facets', 'wedges'])
+def testATipOfPiecesIsAsStiffAsOneSolid(pieces, base, rule):
+	depth, contacts = restingDepth(lambda: pieces(base), lambda: polytope.cuboid((0, 0, .5), (.5, .5, .5)), rule, friction=0)
+	assert depth == pytest.approx(2600 * 9.81 / stiffness, rel=1e-3)
+	assert sum(contact.geom.share for contact in contacts) == pytest.approx(1, rel=.02)
+
+
+@pytest.mark.parametrize('rule', rules.args[1])
+@pytest.mark.parametrize('thickness', [.01, .1, 1])
+def testThinTilesCarryAsOnePlate(thickness, rule):
+	"""Overlaps of up to half their thickness."""
+	soft = 5e6
+	depths = []
+	for halves in ([(0, 0, 2)], [(x, y, 1) for x in (-1, 1) for y in (-1, 1)]):
+		O.reset()
+		if rule == 'yadesOwn':
+			O.materials.append(FrictMat(density=2600, young=1e7, poisson=.3, frictionAngle=.5))
+			physics = Ip2_FrictMat_FrictMat_FrictPhys(kn=MatchMaker(algo='val', val=soft), ks=MatchMaker(algo='val', val=soft))
+		else:
+			O.materials.append(RockJointMat(density=2600, normalStiffness=soft, shearStiffness=soft, frictionAngle=.5))
+			physics = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=rule == 'perArea')
+		O.bodies.append([polytope.cuboid((x, y, -thickness / 2), (half, half, thickness / 2), fixed=True) for x, y, half in halves])
+		block = O.bodies[O.bodies.append(polytope.cuboid((.2, .1, .5), (.5, .5, .5)))]
+		O.engines = polytope.engines(physics=physics)
+		while O.time < 2.5:
+			O.run(500, wait=True)
+		assert block.state.angVel.norm() < 1e-5
+		depths.append(.5 - block.state.pos[2])
+	assert depths == pytest.approx([2600 * 9.81 / soft] * 2, rel=1e-4)
 
 
 @pytest.mark.parametrize('centre', [-.1, .1])

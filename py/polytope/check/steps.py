@@ -9,6 +9,7 @@ from yade import (
 	PolytopeBonds,
 	PolytopeCollider,
 	PolytopeTimeStepper,
+	PyRunner,
 	RotationEngine,
 	Sphere,
 	TimeStepper,
@@ -19,9 +20,12 @@ from ..timeStep import safeTimeStep
 
 __all__ = ['stepFindings']
 
+yadesDt = 1e-8
+"""YADE's own O.dt, until something sets it [s]."""
+
 
 def stepFindings(scene):
-	for one in (steppers, timeStep, farInAStep, turningUnnoticed):
+	for one in (steppers, timeStep, emptyAtFirst, farInAStep, turningUnnoticed):
 		yield from one(scene)
 
 
@@ -55,6 +59,19 @@ def timeStep(scene):
 		share = dt / float(limit)
 		seen = f"O.dt is {dt:.3g} s, {share:.2g} of the largest step that is stable for any heap (YADE's PWaveTimeStep is for spheres)"
 		yield 'time step', seen, f'{remedy}, or O.dt = {usual * float(limit):.2g} (polytope.stableTimeStep({usual}))'
+
+
+def emptyAtFirst(scene):
+	"""As long as nothing can move, PolytopeTimeStepper has the step of a virtPeriod, with PolytopeCollider alone."""
+	runners = scene.those(PyRunner)
+	if not runners or not any(isinstance(engine, PolytopeTimeStepper) and engine.active for engine in scene.those(TimeStepper)):
+		return
+	if float(scene.O.dt) > yadesDt or any(scene.moves(body) for body in scene.bodies):
+		return
+	if any(float(runner.virtPeriod) > 0 for runner in runners) and any(isinstance(one, PolytopeCollider) for one in scene.colliders):
+		return
+	seen = f'nothing can move yet, and O.dt is {float(scene.O.dt):.1g} s until something can: a PyRunner that waits for a time waits for ever'
+	yield 'time step', seen, 'PolytopeCollider and a PyRunner with virtPeriod, which then sets the step, or set O.dt'
 
 
 def farInAStep(scene):

@@ -11,7 +11,7 @@ from ..bodies import bodyOf, builder
 from ..clumps import union
 from ..precision import isNumber
 from .convexParts import decomposed
-from .digits import warnOfRounding
+from .digits import remedy, warnOfRounding
 from .files import readMesh
 from .pieces import piecesOf
 
@@ -25,6 +25,8 @@ facetNoise = 4.0
 """The same distance, over the largest error of a coordinate where that is more: points of a plane, rounded in three coordinates, and a margin."""
 mostNoise = 0.01
 """Of the extent, at most."""
+farOut = 1000.0
+"""Distance from the origin over the extent from which on a body that is none may be one whose file has too few digits."""
 enough = 0.01
 """Relative difference of the volumes of the mesh and of its parts above which there is a warning: such parts are another body."""
 named = 3
@@ -59,7 +61,7 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 	mesh.points = mesh.points * scale
 	if parts is None:
 		made = _hull(path, mesh.points, error, body)
-		_tellWhatTheHullHides(path, mesh, float(made.shape.volume))
+		_tellWhatTheHullHides(path, mesh, float(made.shape.volume), _lacking(mesh.points, error))
 		return made
 	center, orientation = body.pop('center', None), body.pop('orientation', None)
 	made = _decomposed(path, mesh, int(parts), body) if cutting else _objects(path, mesh, error, body)
@@ -70,6 +72,11 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 
 def _extent(points):
 	return float(np.ptp(points, axis=0).max())
+
+
+def _lacking(points, error):
+	"""Part of the hull's volume that a convex mesh may lack, each coordinate of which may be off by *error*."""
+	return max(notConvex, min(facetNoise * error / (_extent(points) or 1), 1))
 
 
 def _hull(path, points, error, body):
@@ -83,12 +90,14 @@ def _hull(path, points, error, body):
 		except ValueError as refusal:
 			if not str(refusal).startswith('points'):
 				raise
-			raise ValueError(f"path: the vertices of '{path}' make no body ({refusal})") from None
+			largest, extent = float(np.abs(points).max()), _extent(points)
+			digits = f'; at coordinates up to {largest:.3g} m its numbers may have too few digits: {remedy}' if largest > farOut * extent else ''
+			raise ValueError(f"path: the vertices of '{path}' make no body ({refusal}){digits}") from None
 
 	return bodyOf(shape, **body)
 
 
-def _tellWhatTheHullHides(path, mesh, hull):
+def _tellWhatTheHullHides(path, mesh, hull, lacking):
 	"""Warns where the hull is not the body of the mesh."""
 	pieces = piecesOf(mesh)
 	if len(pieces) > 1 and (sum(piece.closed for piece in pieces) > 1 or mesh.objects.any()):
@@ -96,7 +105,7 @@ def _tellWhatTheHullHides(path, mesh, hull):
 		warn(f"{seen}; polytope.fromMesh(…, parts='objects') makes a list of all, for O.bodies.append or polytope.clump")
 	elif len(pieces) != 1 or not pieces[0].closed:
 		warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices")
-	elif pieces[0].volume < (1 - notConvex) * hull:
+	elif pieces[0].volume < (1 - lacking) * hull:
 		seen = f"path: '{path}' is not convex: it has {pieces[0].volume:.3g} m³, its hull, which the body is, {hull:.3g} m³"
 		warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts')
 
@@ -106,9 +115,10 @@ def _objects(path, mesh, error, body):
 	pieces = piecesOf(mesh)
 	made, odd = [], {}
 	for number, piece in enumerate(pieces, 1):
+		points = mesh.points[np.unique(mesh.triangles[piece.triangles])]
 		if not piece.closed:
 			odd[number] = 'is not closed'
-		elif piece.volume < (1 - notConvex) * piece.hull:
+		elif piece.volume < (1 - _lacking(points, error)) * piece.hull:
 			odd[number] = f'is not convex ({piece.volume:.3g} m³, its hull {piece.hull:.3g} m³)'
 		if odd and len(pieces) == 1:
 			remedy = 'close it, or cut it into convex ones, or give a number of parts for CoACD'
@@ -116,7 +126,7 @@ def _objects(path, mesh, error, body):
 		if piece.hull == 0:
 			odd[number] = 'is flat and is left out'
 		else:
-			made.append(_hull(path, mesh.points[np.unique(mesh.triangles[piece.triangles])], error, body))
+			made.append(_hull(path, points, error, body))
 	if not made:
 		raise ValueError(f"path: '{path}' has no object that is a body")
 	if odd:

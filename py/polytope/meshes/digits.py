@@ -5,10 +5,11 @@ import numpy as np
 
 from ..arguments import warn
 
-__all__ = ['rounding', 'warnOfRounding']
+__all__ = ['remedy', 'rounding', 'warnOfRounding']
 
 tooCoarse = 1e-4
 """Largest error of a coordinate over the extent of a body above which there is a warning: the volume is off by about as much."""
+remedy = 'write it in double precision, or move what it shows to the origin before it is written'
 fewDigits = 6
 """Significant digits in decimal that programs write which are not told how many. Numbers with fewer are taken for exact, such as those of a grid."""
 
@@ -50,5 +51,5 @@ def warnOfRounding(path, name, points, length, what):
 	error = rounding(points)
 	if error > tooCoarse * length:
 		seen = f"{name}: '{path}' gives coordinates up to {np.abs(points).max():.3g} with an error of {error:.2g}, {what} is {length:.3g}"
-		warn(f'{seen}: the file has too few digits; write it in double precision, or move what it shows to the origin before it is written')
+		warn(f'{seen}: the file has too few digits; {remedy}')
 	return error
