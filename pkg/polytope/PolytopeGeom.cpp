@@ -213,8 +213,9 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (!wasReal && result.inContact) {
 		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *c);
 		geom.stiffnessRule       = std::int8_t(rule);
+		const auto before        = settings.depthRule;
 		settings.depthRule       = depthRule(settings, rule);
-		if (settings.depthRule != polytope::DepthRule::Chord)
+		if (settings.depthRule != before)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
 	const bool mayShare = result.inContact && asPieces && geom.stiffnessRule != int(StiffnessRule::PerArea);

@@ -9,7 +9,7 @@ namespace yade {
 
 /// What a contact's stiffness is multiplied with, as far as its geometry depends on that.
 enum class StiffnessRule : int {
-	Unknown = 0, ///< YADE's own physics: the depth is the chord
+	Unknown = 0, ///< YADE's own physics: as per contact
 	PerArea,     ///< area × depth
 	PerContact,  ///< depth, shared by pieces of one support
 };

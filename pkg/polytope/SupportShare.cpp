@@ -24,36 +24,68 @@ namespace {
 		return false;
 	}
 
-	/// Where an edge or a vertex of a piece lies deepest in the other body, and another piece has it too: a ridge or a tip that is made of pieces.
-	struct Ridge {
-		Vector3r point;     ///< from the contact point
-		Real     depth = 0; ///< of the other body's surface below it; 0: there is no ridge
-	};
+	/// A piece of a support and the body on it.
+	struct OnPiece {
+		const TouchingPair&             pair;
+		const polytope::InternalPlanes& internal;
+		int                             piece; ///< of the pair's two bodies
+		Vector3r                        up;    ///< from the piece
+		Planes                          own, mover {};
 
-	bool isInternal(const polytope::InternalPlanes& internal, int piece, int plane)
-	{
-		const int* const first = internal.plane[piece];
-		return std::find(first, first + internal.count[piece], plane) != first + internal.count[piece];
-	}
-
-	/// Planes of a body of the pair.
-	Planes planesOf(const TouchingPair& pair, int body)
-	{
-		Planes planes;
-		polytope::addPlanesOf({ *pair.convex[body], pair.centre[body] - pair.point, pair.rotation[body] }, planes);
-		return planes;
-	}
-
-	/// From a point along a direction out of half-spaces.
-	Real wayOut(const Planes& planes, const Vector3r& point, const Vector3r& direction)
-	{
-		Real way = std::numeric_limits<Real>::infinity();
-		for (const polytope::Plane& plane : planes) {
-			const Real cosine = plane.normal.dot(direction);
-			if (cosine > 0) way = math::min(way, Real((plane.offset - plane.normal.dot(point)) / cosine));
+		OnPiece(const TouchingPair& touching, const polytope::InternalPlanes& left, int which)
+		        : pair(touching)
+		        , internal(left)
+		        , piece(which)
+		        , up(which == 0 ? touching.normal : Vector3r(-touching.normal))
+		        , own(planesOf(which))
+		{
 		}
-		return way;
-	}
+		Planes planesOf(int body) const
+		{
+			Planes planes;
+			polytope::addPlanesOf({ *pair.convex[body], pair.centre[body] - pair.point, pair.rotation[body] }, planes);
+			return planes;
+		}
+		const Body& moving() const { return bodyOf(pair, 1 - piece); }
+		Vector3r    centre() const { return pair.centre[1 - piece] - pair.point; }
+		Real        reach() const { return 2 * pair.convex[1 - piece]->boundingRadius(); }
+		/// So near to a piece, a place counts as in it.
+		Real beside() const { return Real(polytope::tolerance::besideSeam) * pair.ball + rest(); }
+		Real rest() const
+		{
+			return Real(polytope::tolerance::flush) * math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+		}
+		bool isInternal(int plane) const
+		{
+			const int* const first = internal.plane[piece];
+			return std::find(first, first + internal.count[piece], plane) != first + internal.count[piece];
+		}
+		bool onFace() const
+		{
+			const Real flat = 1 - Real(polytope::tolerance::parallel);
+			return std::any_of(own.begin(), own.end(), [&](const polytope::Plane& plane) { return plane.normal.dot(up) > flat; });
+		}
+		/// From a point down to the other body's surface.
+		Real depthAt(const Vector3r& point) const
+		{
+			Real way = std::numeric_limits<Real>::infinity();
+			for (const polytope::Plane& plane : mover) {
+				const Real cosine = -plane.normal.dot(up);
+				if (cosine > 0) way = math::min(way, Real((plane.offset - plane.normal.dot(point)) / cosine));
+			}
+			return math::isfinite(way) ? way : Real(0);
+		}
+		/// Calls visit(solid) for the other pieces, of facets with their prisms in the mesh if `mitred`.
+		template <class Visit> void forOthers(bool mitred, const Visit& visit) const
+		{
+			static thread_local Solid solid;
+			forOtherPieces(pair, 1 - piece, [&](const Body& other, const Vector3r& at, const Vector3r& shift) {
+				if (mitred) setMitred(solid, other, at, moving(), centre(), shift, reach(), *pair.scene);
+				else setBody(solid, other, at, centre(), reach());
+				visit(solid);
+			});
+		}
+	};
 
 	/// The part of a line that lies in half-spaces, from `first` to `last` along its direction.
 	struct Stretch {
@@ -73,58 +105,111 @@ namespace {
 		Vector3r nearest() const { return at(math::max(first, math::min(last, Real(-from.dot(direction) / direction.squaredNorm())))); }
 	};
 
-	/// None for a contact on a face of the piece. Edges go on over internal faces, beyond which another piece continues them.
-	Ridge deepestRidge(const TouchingPair& pair, const polytope::InternalPlanes& internal, int piece, const Planes& own, const Planes& mover)
+	/// A place of a piece that lies in the other body, on an edge or a vertex.
+	struct Ridge {
+		Vector3r point;          ///< from the contact point
+		Real     depth = 0;      ///< of the other body's surface below it; 0: there is none
+		bool     shared = false; ///< another piece has it too
+	};
+
+	/// Places on the edges nearest to the contact point, and vertices at which all edges end that begin there: tips, not ends of a ridge. Edges go on over
+	/// internal faces, beyond which another piece continues them.
+	std::vector<Ridge> edgesAndTips(const OnPiece& on)
 	{
-		const Vector3r up     = piece == 0 ? pair.normal : Vector3r(-pair.normal);
-		const Real     rest   = Real(polytope::tolerance::flush) * math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
-		const Real     beside = Real(polytope::tolerance::besideSeam) * pair.ball + rest;
-		if (std::any_of(own.begin(), own.end(), [&](const polytope::Plane& plane) { return plane.normal.dot(up) > 1 - Real(polytope::tolerance::parallel); }))
-			return {};
-		const auto&            surface = pair.convex[piece]->polyhedron();
-		const Vector3r         down    = -up;
-		std::vector<Ridge>     ridges;
-		std::vector<Vector3r>  corners;
-		std::vector<Real>      depths; // of the corners, if each edge that begins there leaves the other body through what is below; else 0
-		for (const Vector3r& corner : surface.vertices) {
-			corners.push_back(pair.centre[piece] - pair.point + pair.rotation[piece] * corner);
-			depths.push_back(contains(mover, corners.back()) ? wayOut(mover, corners.back(), down) : Real(0));
+		const auto&        surface = on.pair.convex[on.piece]->polyhedron();
+		std::vector<Ridge> found, tips;
+		for (const Vector3r& vertex : surface.vertices) {
+			const Vector3r corner = on.pair.centre[on.piece] - on.pair.point + on.pair.rotation[on.piece] * vertex;
+			tips.push_back({ corner, contains(on.mover, corner) ? on.depthAt(corner) : Real(0) });
 		}
+		// an edge from a tip leaves the other body through what is below, not at its side
+		const auto staysIn = [&](Ridge& tip, const Vector3r& end) {
+			if (on.depthAt(end) > Real(polytope::tolerance::besideSeam) * tip.depth) tip.depth = 0;
+		};
 		for (const auto& face : surface.faces)
 			for (std::size_t k = 0; k < face.size(); ++k) {
-				const auto one = std::size_t(face[k]), two = std::size_t(face[(k + 1) % face.size()]);
+				const int one = face[k], two = face[(k + 1) % face.size()];
 				if (one > two) continue; // of the face beyond it
-				Stretch edge { corners[one], corners[two] - corners[one] };
-				for (const polytope::Plane& plane : mover)
+				Ridge & from = tips[std::size_t(one)], &to = tips[std::size_t(two)];
+				Stretch edge { from.point, to.point - from.point };
+				for (const polytope::Plane& plane : on.mover)
 					edge.cut(plane, 0);
-				const auto leaves = [&](const Real& end) { return wayOut(mover, edge.at(end), down); };
-				if (depths[one] > 0 && leaves(math::min(edge.last, Real(1))) > Real(polytope::tolerance::besideSeam) * depths[one])
-					depths[one] = 0;
-				if (depths[two] > 0 && leaves(math::max(edge.first, Real(0))) > Real(polytope::tolerance::besideSeam) * depths[two])
-					depths[two] = 0;
-				for (std::size_t i = 0; i < own.size() && edge.any(); ++i)
-					if (!isInternal(internal, piece, int(i))) edge.cut(own[i], rest);
-				if (!edge.any()) continue;
-				const Vector3r point = edge.nearest();
-				const Real     depth = wayOut(mover, point, down);
-				if (depth > 0 && math::isfinite(depth)) ridges.push_back({ point, depth });
+				if (from.depth > 0) staysIn(from, edge.at(math::min(edge.last, Real(1))));
+				if (to.depth > 0) staysIn(to, edge.at(math::max(edge.first, Real(0))));
+				for (std::size_t i = 0; i < on.own.size() && edge.any(); ++i)
+					if (!on.isInternal(int(i))) edge.cut(on.own[i], on.rest());
+				if (edge.any()) found.push_back({ edge.nearest(), on.depthAt(edge.nearest()) });
 			}
-		for (std::size_t k = 0; k < corners.size(); ++k)
-			if (depths[k] > 0 && math::isfinite(depths[k])) ridges.push_back({ corners[k], depths[k] });
+		found.insert(found.end(), tips.begin(), tips.end());
+		return found;
+	}
+
+	/// Where an edge or a vertex that the piece has in common with others lies deepest in the other body: a ridge or a tip that is made of pieces.
+	Ridge deepestRidge(const OnPiece& on)
+	{
+		std::vector<Ridge> ridges = edgesAndTips(on);
+		ridges.erase(std::remove_if(ridges.begin(), ridges.end(), [](const Ridge& one) { return !(one.depth > 0); }), ridges.end());
 		if (ridges.empty()) return {};
-		std::vector<bool> shared(ridges.size());
-		Solid          solid;
-		const Real     near   = 2 * pair.convex[1 - piece]->boundingRadius();
-		const Vector3r centre = pair.centre[1 - piece] - pair.point;
-		forOtherPieces(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& at, const Vector3r& shift) {
-			setMitred(solid, neighbour, at, bodyOf(pair, 1 - piece), centre, shift, near, *pair.scene);
-			for (std::size_t k = 0; k < ridges.size(); ++k)
-				shared[k] = shared[k] || contains(solid.planes, ridges[k].point, beside);
+		on.forOthers(true, [&](const Solid& other) {
+			for (Ridge& one : ridges)
+				one.shared = one.shared || contains(other.planes, one.point, on.beside());
 		});
 		Ridge deepest;
-		for (std::size_t k = 0; k < ridges.size(); ++k)
-			if (shared[k] && ridges[k].depth > deepest.depth) deepest = ridges[k];
+		for (const Ridge& one : ridges)
+			if (one.shared && one.depth > deepest.depth) deepest = one;
 		return deepest;
+	}
+
+	/// Areas in which a plane through a place cuts the other body and each piece.
+	class Areas {
+	public:
+		Areas(const OnPiece& on, const Vector3r& place)
+		        : on_(on)
+		        , planes_(on.mover)
+		        , place_(place)
+		{
+			for (polytope::Plane& plane : planes_)
+				plane.offset -= plane.normal.dot(place_);
+		}
+		Real of(const Planes& solid)
+		{
+			if (solid.empty()) return 0;
+			const std::size_t covered = planes_.size();
+			for (const polytope::Plane& plane : solid)
+				planes_.push_back({ plane.normal, plane.offset - plane.normal.dot(place_) });
+			const Real area = polytope::sectionArea(planes_, on_.pair.normal, on_.reach(), on_.pair.convex[1 - on_.piece]->dimension());
+			planes_.erase(planes_.begin() + std::ptrdiff_t(covered), planes_.end());
+			return area;
+		}
+
+	private:
+		const OnPiece& on_;
+		Planes         planes_;
+		Vector3r       place_;
+	};
+
+	/// The pieces that carry the other body together with this one: those that continue its face, and, on a ridge, those that have it too or continue a face of one that has.
+	std::vector<Solid> carryingTogether(const OnPiece& on, const Ridge& ridge)
+	{
+		const bool         onRidge = ridge.depth > 0;
+		const Real         step    = flushStep(on.pair);
+		std::vector<Solid> found(1), rest;
+		setBody(found[0], bodyOf(on.pair, on.piece), on.pair.centre[on.piece] - on.pair.point, on.centre(), on.reach());
+		if (onRidge) found[0].planes = on.own; // a facet's as the contact has it
+		on.forOthers(onRidge, [&](const Solid& other) { rest.push_back(other); });
+		for (std::size_t known = 0; known < found.size() && (known == 0 || onRidge);) {
+			known              = found.size();
+			const auto belongs = [&](const Solid& solid) {
+				if (onRidge && contains(solid.planes, ridge.point, on.beside())) return true;
+				for (std::size_t k = 0; k < known; ++k)
+					if (haveCommonFace(found[k], solid, on.up, step)) return true;
+				return false;
+			};
+			const auto others = std::stable_partition(rest.begin(), rest.end(), belongs);
+			found.insert(found.end(), rest.begin(), others);
+			rest.erase(rest.begin(), others);
+		}
+		return found;
 	}
 
 } // namespace
@@ -133,64 +218,23 @@ SupportShare shareOfSupport(const TouchingPair& pair, const polytope::InternalPl
 {
 	for (int piece = 0; piece < 2; ++piece) {
 		if (!isPiece(bodyOf(pair, piece))) continue;
-		const polytope::ConvexShape& convex = *pair.convex[1 - piece];
-		const Vector3r               centre = pair.centre[1 - piece] - pair.point;
-		const Real                   reach  = 2 * convex.boundingRadius();
-		const Vector3r               up     = piece == 0 ? pair.normal : Vector3r(-pair.normal);
-		const Real                   step   = flushStep(pair);
-		const Planes                 planes = planesOf(pair, piece);
-		Planes                       mover  = planesOf(pair, 1 - piece);
-		const Ridge                  ridge  = deepestRidge(pair, internal, piece, planes, mover);
-		const bool                   onRidge = ridge.depth > 0;
-		if (internal.count[piece] == 0 && !onRidge) continue;
+		OnPiece    on(pair, internal, piece);
+		const bool onFace = on.onFace();
+		if (onFace && internal.count[piece] == 0) continue;
+		on.mover = on.planesOf(1 - piece);
+		const Ridge ridge = onFace ? Ridge() : deepestRidge(on);
+		if (internal.count[piece] == 0 && !(ridge.depth > 0)) continue;
 
-		SupportShare result;
-		result.depth         = ridge.depth;
-		const Vector3r place = onRidge ? Vector3r(ridge.point - ridge.depth / 2 * up) : Vector3r::Zero(); // where areas are compared
-		Solid             own, others;
-		const std::size_t covered = mover.size();
-		const auto        areaOn  = [&](const Planes& solid) {
-                        if (solid.empty()) return Real(0);
-                        mover.resize(covered, { up, 0 });
-                        mover.insert(mover.end(), solid.begin(), solid.end());
-                        for (polytope::Plane& plane : mover)
-                                plane.offset -= plane.normal.dot(place);
-                        const Real area = polytope::sectionArea(mover, pair.normal, reach, convex.dimension());
-                        for (polytope::Plane& plane : mover)
-                                plane.offset += plane.normal.dot(place);
-                        return area;
-		};
-		setBody(own, bodyOf(pair, piece), pair.centre[piece] - pair.point, centre, reach);
-		if (onRidge) own.planes = planes; // as the contact has it
-		const Real here = areaOn(own.planes);
-		Real       all  = here;
-		const Real room = Real(polytope::tolerance::besideSeam) * pair.ball;
-		std::vector<Solid> found { own }, rest;
-		forOtherPieces(pair, 1 - piece, [&](const Body& other, const Vector3r& at, const Vector3r& shift) {
-			if (onRidge) setMitred(others, other, at, bodyOf(pair, 1 - piece), centre, shift, reach, *pair.scene);
-			else setBody(others, other, at, centre, reach);
-			rest.push_back(others);
-		});
-		const auto belongs = [&](const Solid& solid, std::size_t upTo) {
-			if (onRidge && contains(solid.planes, ridge.point, room)) return true;
-			for (std::size_t k = 0; k < upTo; ++k)
-				if (haveCommonFace(found[k], solid, up, step)) return true;
-			return false;
-		};
-		// on a ridge, those that continue the face of another one, too
-		for (std::size_t before = 0; before < found.size();) {
-			before = found.size();
-			for (auto one = rest.begin(); one != rest.end();) {
-				if (belongs(*one, onRidge ? before : 1)) {
-					all += areaOn(one->planes);
-					found.push_back(std::move(*one));
-					one = rest.erase(one);
-				} else ++one;
-			}
+		Areas                    areas(on, ridge.depth > 0 ? Vector3r(ridge.point - ridge.depth / 2 * on.up) : Vector3r(Vector3r::Zero()));
+		const std::vector<Solid> carrying = carryingTogether(on, ridge);
+		Real                     here = 0, all = 0;
+		for (const Solid& solid : carrying) {
+			const Real area = areas.of(solid.planes);
+			if (&solid == &carrying.front()) here = area;
+			all += area;
 		}
 		if (!(all > 0)) continue;
-		result.share = math::max(here / all, Real(polytope::tolerance::leastShareOfSupport));
-		return result;
+		return { math::max(Real(here / all), Real(polytope::tolerance::leastShareOfSupport)), ridge.depth };
 	}
 	return {};
 }

@@ -1,11 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """polytope.mechanicalEnergy(): constant to rounding where the leapfrog scheme has an exact invariant, at any time step."""
 
+import warnings
 from math import sqrt
 
 import pytest
 from scenes import blockOnFloor, contact, density, gravity, joint, loop
-from yade import O, Quaternion, Vector3, polytope
+from yade import (
+	FrictMat,
+	Ip2_FrictMat_FrictMat_FrictPhys,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	MatchMaker,
+	O,
+	Quaternion,
+	RockJointMat,
+	Vector3,
+	polytope,
+)
 
 
 def energies(steps):
@@ -70,3 +81,32 @@ def testClumpMembersCountOnce():
 def testSceneWithoutIntegratorIsRefused():
 	with pytest.raises(ValueError, match='NewtonIntegrator'):
 		polytope.mechanicalEnergy()
+
+
+@pytest.mark.parametrize('physics', ['frictMat', 'perContact', 'perArea'])
+def testABlockThatRocksOnItsFaceKeepsItsEnergy(physics):
+	"""Without damping: the peaks of its kinetic energy stay the same over 50 swings, whatever the physics, all of which have the same stiffness."""
+	half, stiffness = 0.5, 1e7
+	if physics == 'frictMat':
+		O.materials.append(FrictMat(density=2500, young=1, poisson=0.5, frictionAngle=0.6))
+		given = {name: MatchMaker(algo='val', val=value) for name, value in (('kn', stiffness), ('ks', stiffness / 2))}
+		made = Ip2_FrictMat_FrictMat_FrictPhys(**given)
+	else:
+		O.materials.append(RockJointMat(density=2500, normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=0.6))
+		made = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=physics == 'perArea')
+	O.bodies.append(polytope.cuboid((0, 0, -half), (2, 2, half), fixed=True))
+	mass = 2500 * (2 * half) ** 3
+	sink = mass * 10 / stiffness
+	block = O.bodies[O.bodies.append(polytope.cuboid((0, 0, half - sink), (half, half, half), Quaternion((0, 1, 0), 0.1 * sink / half)))]
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')  # of energy without damping
+		O.engines = polytope.engines(gravity=(0, 0, -10), physics=made, damping=0, timeStepper=False)
+	O.dt = 0.05 * sqrt(mass / stiffness)
+	peaks = []
+	for _ in range(5):
+		peak = 0
+		for _ in range(120):
+			O.run(20, wait=True)
+			peak = max(peak, mass * block.state.vel.squaredNorm() / 2 + block.state.inertia[1] * block.state.angVel.squaredNorm() / 2)
+		peaks.append(peak)
+	assert peaks == pytest.approx([peaks[0]] * 5, rel=0.03)

@@ -158,14 +158,14 @@ def forces(scene, loop, functor, one, other):
 	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, functor, maker, phys, one, other):
 		yield (
 			'damping and energy',
-			f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: one spring along the normal gains energy',
+			f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: where edges cross or faces lift off they gain energy',
 			"take RockJointMat, or contactModel='conservative', or NewtonIntegrator.damping above 0 (usual: 0.2)",
 		)
 
 
 def undamped(scene, functor, maker, phys, one, other):
-	"""Contacts of YADE's physics on two flat-faced bodies, without loss: stiffness times chord is no gradient of an energy. A sphere has none
-	of it."""
+	"""Contacts of YADE's physics on two flat-faced bodies, without loss: with one stiffness for all areas the force is no gradient of an energy. A sphere
+	has none of it."""
 	if 'Sphere' in (one.shape, other.shape) or functor.contactModel in ('conservative', 'spring') or isinstance(phys, yade.RockJointPhys):
 		return False
 	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
