@@ -59,11 +59,11 @@ namespace {
 		return chord;
 	}
 
-	/// Of the thinner body.
-	Real smallerWidth(const TouchingPair& pair, const Vector3r& direction)
+	/// How deep the other body may be below a face of the piece and still slide on it, and not come from the other side, or have passed through.
+	Real slidingDepth(const TouchingPair& pair, int piece, const Vector3r& face)
 	{
-		const auto width = [&](int body) { return pair.convex[body]->widthAlong(pair.rotation[body].transpose() * direction); };
-		return math::min(width(0), width(1));
+		return math::min(pair.convex[piece]->widthAlong(pair.rotation[piece].transpose() * face),
+		        Real(polytope::tolerance::thinContact) * pair.convex[1 - piece]->inscribedRadius());
 	}
 
 	/// Pairs of a plane i near the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps the
@@ -75,7 +75,7 @@ namespace {
 		for (int j = 0; j < bounding.count[piece]; ++j) {
 			const Vector3r& face  = normals[piece][j];
 			const Chord     chord = chordBelow(bounding, piece, j, normals);
-			if (!(chord.length < smallerWidth(pair, face))) continue; // else it comes from the other side, or has passed through
+			if (!(chord.length < slidingDepth(pair, piece, face))) continue;
 			for (int i = 0; i < bounding.count[piece]; ++i) {
 				const Vector3r& normal = normals[piece][i];
 				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²

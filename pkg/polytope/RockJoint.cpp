@@ -13,7 +13,7 @@ YADE_PLUGIN((RockJointMat)(RockJointPhys));
 RockJointMat::Values RockJointMat::values() const
 {
 	return { { normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle,
-		dilationLimit } };
+		dilationLimit, residualCohesion } };
 }
 
 void RockJointMat::setValues(const Values& v)
@@ -26,6 +26,7 @@ void RockJointMat::setValues(const Values& v)
 	residualFrictionAngle = v[5];
 	dilationAngle         = v[6];
 	dilationLimit         = v[7];
+	residualCohesion      = v[8];
 }
 
 void RockJointMat::postLoad(RockJointMat&)
@@ -46,6 +47,7 @@ void RockJointMat::postLoad(RockJointMat&)
 	require(positive(shearStiffness), "shearStiffness", shearStiffness, "positive and finite [Pa/m, or N/m for each contact]");
 	require(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);
 	require(strength(cohesion), "cohesion", cohesion, "at least 0 and finite [Pa]");
+	require(strength(residualCohesion), "residualCohesion", residualCohesion, "at least 0 and finite [Pa]");
 	require(strength(tensileStrength), "tensileStrength", tensileStrength, "at least 0 and finite [Pa]");
 	require(angle(residualFrictionAngle) || residualFrictionAngle == -1, "residualFrictionAngle", residualFrictionAngle,
 	        "-1 (the same as frictionAngle) or an angle in radians, at least 0 and below pi/2");
@@ -90,14 +92,14 @@ void RockJointPhys::fail()
 void RockJointPhys::losesTension()
 {
 	tensileStrength = 0;
-	if (!(cohesion > 0)) fail();
+	if (!(cohesion > residualCohesion)) fail();
 }
 
 bool RockJointPhys::bearsTension(Real force) const { return intact && force <= tensileStrength * contactArea; }
 
 Real RockJointPhys::shearStrength(Real normal) const
 {
-	const Real strength = normal * tangensOfFrictionAngle + (intact ? cohesion * contactArea : Real(0));
+	const Real strength = normal * tangensOfFrictionAngle + presentCohesion() * contactArea;
 	return strength > 0 ? strength : Real(0);
 }
 

@@ -39,7 +39,8 @@ public:
 	R"""(Material of rock blocks, given by the joints between them [Hart1988]_: stiffnesses, Mohr-Coulomb strength and dilation of a joint whose two sides are of this material. :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` says how two different materials combine, :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb` what the values do. Values out of range are refused when set. Of the inherited attributes, :yref:`density<Material.density>` gives the bodies their mass; :yref:`young<ElastMat.young>` and :yref:`poisson<ElastMat.poisson>` are used by YADE's own functors (:yref:`Ip2_FrictMat_FrictMat_FrictPhys`) alone.)""",
 		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Normal stiffness $k_n$ of the joint, above 0: [Pa/m] (times the contact area) or [N/m] for each contact, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`. With the normal *innerPotential* contact normals are closer to that of the body with the larger value, see :yref:`PolytopeGeom.normalWeight`."))
 		((Real, shearStiffness, 1e9, Attr::triggerPostLoad, "Shear stiffness $k_s$ of the joint, above 0, in the units of :yref:`normalStiffness<RockJointMat.normalStiffness>`."))
-		((Real, cohesion, 0, Attr::triggerPostLoad, "Cohesion $c$ [Pa], at least 0: shear strength of the intact joint at zero normal force over its contact area. Lost for good when the joint fails in shear or tension."))
+		((Real, cohesion, 0, Attr::triggerPostLoad, "Cohesion $c$ [Pa], at least 0: shear strength of the intact joint at zero normal force over its contact area. When the joint fails in shear or tension, :yref:`residualCohesion<RockJointMat.residualCohesion>` takes its place for good."))
+		((Real, residualCohesion, 0, Attr::triggerPostLoad, "Cohesion after the joint has failed [Pa], at least 0; counts up to :yref:`cohesion<RockJointMat.cohesion>`. 0: the joint is brittle, and where a body is held by several joints the first one that fails may take the others with it. Equal to *cohesion*: perfectly plastic, as limit equilibrium assumes (Hoek & Bray, *Rock Slope Engineering*): all joints bear their full strength at the same time."))
 		((Real, tensileStrength, 0, Attr::triggerPostLoad, "Tensile strength [Pa] of the intact joint, at least 0, times the contact area. Lost for good when the joint fails in shear or tension. A joint with cohesion but no tensile strength fails when it opens."))
 		((Real, residualFrictionAngle, -1, Attr::triggerPostLoad, "Friction angle after the joint has failed (first slip, or tension) [rad], from 0 to below $\\pi/2$; -1: the same as :yref:`frictionAngle<RockJointMat.frictionAngle>`."))
 		((Real, dilationAngle, 0, Attr::triggerPostLoad, "Dilation angle $\\psi$ [rad], from 0 to below $\\pi/2$: a joint that has slipped by $u$ in total is wider by $u\\tan\\psi$. Not above the friction angle in any real joint."))
@@ -52,7 +53,7 @@ public:
 	REGISTER_CLASS_INDEX(RockJointMat, FrictMat);
 
 private:
-	using Values = std::array<Real, 8>;
+	using Values = std::array<Real, 9>;
 	Values values() const;
 	void   setValues(const Values& values);
 	Values good_ = values();
@@ -95,7 +96,9 @@ public:
 	/// the contact has of it (PolytopeGeom::share).
 	void setStiffnesses(Real share);
 	/// Whether the joint has a peak strength above the residual one.
-	bool hasPeak() const { return cohesion > 0 || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
+	bool hasPeak() const { return cohesion > residualCohesion || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
+	/// At present [Pa].
+	Real presentCohesion() const { return intact ? cohesion : residualCohesion; }
 	/// Whether an open joint differs from one that is made anew when it closes.
 	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()); }
 	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
@@ -142,6 +145,7 @@ public:
 		((Real, shearStiffnessPerContact, 0, , "$k_s$ of such a joint [N/m], in the same way."))
 		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
+		((Real, residualCohesion, 0, , "Cohesion once the joint has failed [Pa]."))
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
@@ -160,7 +164,7 @@ public:
 		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the joint."))
 		((LastStep, lastStep, , (Attr::readonly | Attr::hidden), "Kept with O.trackEnergy; none: was not tracked"))
 		((Real, dampedStiffness, 0, (Attr::readonly | Attr::hidden), "Stiffness with which the contact was part of the last step's sums, for dampers (StiffnessSums); 0: it was not"))
-		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without cohesion, tensile strength and residual friction have none and are never intact."))
+		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without residual friction, tensile strength and cohesion above the residual one have none and are never intact."))
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))
 		, /*ctor*/ createIndex();

@@ -47,13 +47,23 @@ namespace {
 		return shown > area ? area / shown : Real(1);
 	}
 
+	/// The same with a stiffness per contact: as if the body came down at once on all that it may touch.
+	Real partOfCount(const Body& body, const Body& mover, Real share)
+	{
+		const std::size_t parts = mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1;
+		return math::min(share, 1 / Real(math::max(std::size_t(1), parts * body.intrs.size())));
+	}
+
 	/// s of a contact that had this stiffness when the sum, along its normal, was made.
 	Real partOfSum(Real stiffness, Real sum) { return sum > stiffness ? stiffness / sum : Real(1); }
 
 	bool movesByForces(const Body& mover) { return mover.isDynamic() && mover.state->mass > 0; }
 
 	/// What a body of a contact is for the other one.
-	Across across(const Body& body, const Scene& scene) { return movesByForces(moverOf(body, scene)) ? Across::Mover : Across::Support; }
+	Across across(const Body& body, const Scene& scene)
+	{
+		return movesByForces(moverOf(body, scene)) ? Across::Mover : Across::Support;
+	}
 
 	/// uᵀ I⁻¹ u, as YADE's integrator turns bodies.
 	Real turning(const Body& mover, const Vector3r& u)
@@ -82,11 +92,13 @@ namespace {
 /// One of the two bodies of a contact, as a damper has it.
 struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 	const Body& mover;
-	Real        part  = 1; ///< s
-	Real        limit = 1; ///< part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows
-	Vector3r    arm;       ///< from the mover's centre to the contact point
+	Real        part = 1; ///< s
+	Real        limit
+	        = 1; ///< part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows
+	Vector3r arm; ///< from the mover's centre to the contact point
 
-	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other, const Vector3r& shift)
+	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other,
+	        const Vector3r& shift)
 	        : mover(moverOf(body, *pair.scene)), arm(pair.geom.contactPoint - mover.state->pos - shift)
 	{
 		if (!moves()) return;
@@ -95,7 +107,8 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 			const StiffnessSum sum = sums.last(mover.id);
 			part                   = partOfSum(phys.dampedStiffness, sum.along(across(other, *pair.scene), normal));
 			limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
-		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) part = limit = pair.geom.share;
+		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact))
+			part = limit = partOfCount(body, mover, pair.geom.share);
 		else part = limit = partOfArea(body, mover, normal, phys.contactArea);
 	}
 	bool moves() const { return movesByForces(mover); }
@@ -128,7 +141,8 @@ void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, Roc
 	for (const Body* body : { pair.body1, pair.body2 }) {
 		const Body& mover = moverOf(*body, *pair.scene);
 		if (movesByForces(mover))
-			stiffnessSums.add(mover.id, across(body == pair.body1 ? *pair.body2 : *pair.body1, *pair.scene), phys.dampedStiffness, pair.geom.normal);
+			stiffnessSums.add(mover.id, across(body == pair.body1 ? *pair.body2 : *pair.body1, *pair.scene),
+			        phys.dampedStiffness, pair.geom.normal);
 	}
 }
 
@@ -178,7 +192,8 @@ Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& nor
 		if (!movesByForces(mover)) continue;
 		// of a contact that is in no sum, as after a law was exchanged, the largest that it can be
 		const Real part = phys.dampedStiffness > 0
-		        ? partOfSum(phys.dampedStiffness, sums.newest(mover.id).along(across(body == &body1 ? body2 : body1, scene), normal))
+		        ? partOfSum(
+		                  phys.dampedStiffness, sums.newest(mover.id).along(across(body == &body1 ? body2 : body1, scene), normal))
 		        : Real(1);
 		inverse += 1 / (part * mover.state->mass);
 	}

@@ -77,6 +77,7 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
 		phys->tangensOfResidualFrictionAngle = math::tan(math::min(residualAngle(m1), residualAngle(m2)));
 	phys->cohesion               = math::min(m1.cohesion, m2.cohesion);
+	phys->residualCohesion       = math::min(math::min(m1.residualCohesion, m2.residualCohesion), phys->cohesion);
 	phys->tensileStrength        = math::min(m1.tensileStrength, m2.tensileStrength);
 	phys->tangensOfDilationAngle = math::tan(math::min(m1.dilationAngle, m2.dilationAngle));
 	phys->dilationLimit          = math::min(m1.dilationLimit, m2.dilationLimit);

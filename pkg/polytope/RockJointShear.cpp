@@ -125,8 +125,7 @@ Real Shear::twistOf(const polytope::Vector3& load, const polytope::Vector2& cent
 /// Friction acts where the pressure does, at the contact point, cohesion at the area's centroid.
 polytope::Vector2 Shear::centreOfStrength(const RockJointPhys& phys, Real strength) const
 {
-	const Real cohesive = phys.intact ? phys.cohesion * phys.contactArea : Real(0);
-	return cohesive / strength * moments_.centroid;
+	return phys.presentCohesion() * phys.contactArea / strength * moments_.centroid;
 }
 
 bool Shear::limit(const RockJointPhys& phys, Real normal)

@@ -63,8 +63,8 @@ void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vecto
 	solid.faces = solid.planes.size();
 }
 
-void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre, const Vector3r& shift,
-        Real near, Scene& scene)
+void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre,
+        const Vector3r& shift, Real near, Scene& scene)
 {
 	const auto* facet = dynamic_cast<const Facet*>(body.shape.get());
 	if (!facet) {
@@ -72,10 +72,10 @@ void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Bod
 		return;
 	}
 	solid.clear();
-	const Matrix3r             rotation = body.state->ori.toRotationMatrix();
-	const FacetInMesh          mesh(body, mover, -shift, scene);
-	const int                  side  = mesh.sideOf(rotation.transpose() * Vector3r(moverCentre - centre));
-	const FacetInMesh::Prism   prism = mesh.prism(side, near);
+	const Matrix3r           rotation = body.state->ori.toRotationMatrix();
+	const FacetInMesh        mesh(body, mover, -shift, scene);
+	const int                side  = mesh.sideOf(rotation.transpose() * Vector3r(moverCentre - centre));
+	const FacetInMesh::Prism prism = mesh.prism(side, near);
 	for (int i = 0; i < prism.count; ++i) {
 		const Vector3r normal = rotation * prism.planes[std::size_t(i)].normal;
 		addPlane(solid.planes, normal, prism.planes[std::size_t(i)].offset + normal.dot(centre));

@@ -61,8 +61,8 @@ inline const Body& bodyOf(const TouchingPair& pair, int which)
 void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near);
 
 /// The same, of facets the prism that they stand for in their mesh (FacetPrism.hpp). `shift`: of the body to where it is in the period of the mover.
-void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre, const Vector3r& shift, Real near,
-        Scene& scene);
+void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre,
+        const Vector3r& shift, Real near, Scene& scene);
 
 /// Whether a point lies in all half-spaces, or as near as `room` to those that it is outside of.
 bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0);

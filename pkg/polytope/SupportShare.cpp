@@ -33,11 +33,8 @@ namespace {
 		Planes                          own, mover {};
 
 		OnPiece(const TouchingPair& touching, const polytope::InternalPlanes& left, int which)
-		        : pair(touching)
-		        , internal(left)
-		        , piece(which)
-		        , up(which == 0 ? touching.normal : Vector3r(-touching.normal))
-		        , own(planesOf(which))
+		        : pair(touching), internal(left), piece(which), up(which == 0 ? touching.normal : Vector3r(-touching.normal)),
+		          own(planesOf(which))
 		{
 		}
 		Planes planesOf(int body) const
@@ -53,7 +50,8 @@ namespace {
 		Real beside() const { return Real(polytope::tolerance::besideSeam) * pair.ball + rest(); }
 		Real rest() const
 		{
-			return Real(polytope::tolerance::flush) * math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
+			return Real(polytope::tolerance::flush)
+			        * math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());
 		}
 		bool isInternal(int plane) const
 		{
@@ -63,7 +61,8 @@ namespace {
 		bool onFace() const
 		{
 			const Real flat = 1 - Real(polytope::tolerance::parallel);
-			return std::any_of(own.begin(), own.end(), [&](const polytope::Plane& plane) { return plane.normal.dot(up) > flat; });
+			return std::any_of(
+			        own.begin(), own.end(), [&](const polytope::Plane& plane) { return plane.normal.dot(up) > flat; });
 		}
 		/// From a point down to the other body's surface.
 		Real depthAt(const Vector3r& point) const
@@ -102,14 +101,18 @@ namespace {
 		bool     any() const { return first <= last; }
 		Vector3r at(const Real& place) const { return from + place * direction; }
 		/// To the origin.
-		Vector3r nearest() const { return at(math::max(first, math::min(last, Real(-from.dot(direction) / direction.squaredNorm())))); }
+		Vector3r nearest() const
+		{
+			return at(math::max(first, math::min(last, Real(-from.dot(direction) / direction.squaredNorm()))));
+		}
 	};
 
 	/// A place of a piece that lies in the other body, on an edge or a vertex.
 	struct Ridge {
 		Vector3r point;          ///< from the contact point
-		Real     depth = 0;      ///< of the other body's surface below it; 0: there is none
+		Real     depth  = 0;     ///< of the other body's surface below it; 0: there is none
 		bool     shared = false; ///< another piece has it too
+		bool     hollow = false; ///< and rises there
 	};
 
 	/// Places on the edges nearest to the contact point, and vertices at which all edges end that begin there: tips, not ends of a ridge. Edges go on over
@@ -150,23 +153,29 @@ namespace {
 		std::vector<Ridge> ridges = edgesAndTips(on);
 		ridges.erase(std::remove_if(ridges.begin(), ridges.end(), [](const Ridge& one) { return !(one.depth > 0); }), ridges.end());
 		if (ridges.empty()) return {};
+		// in a valley the other piece rises beyond the edge: there the body lies on two faces, with two springs
+		const auto rises = [&](const Solid& other, const Vector3r& point) {
+			const Vector3r away = point - on.up.dot(point) * on.up;
+			const Real     far  = away.norm();
+			return far > 0
+			        && contains(
+			                other.planes, point + on.beside() * (away / far + Real(polytope::tolerance::besideSeam) * on.up));
+		};
 		on.forOthers(true, [&](const Solid& other) {
 			for (Ridge& one : ridges)
-				one.shared = one.shared || contains(other.planes, one.point, on.beside());
+				if (contains(other.planes, one.point, on.beside()))
+					(rises(other, one.point) ? one.hollow : one.shared) = true;
 		});
 		Ridge deepest;
 		for (const Ridge& one : ridges)
-			if (one.shared && one.depth > deepest.depth) deepest = one;
+			if (one.shared && !one.hollow && one.depth > deepest.depth) deepest = one;
 		return deepest;
 	}
 
 	/// Areas in which a plane through a place cuts the other body and each piece.
 	class Areas {
 	public:
-		Areas(const OnPiece& on, const Vector3r& place)
-		        : on_(on)
-		        , planes_(on.mover)
-		        , place_(place)
+		Areas(const OnPiece& on, const Vector3r& place) : on_(on), planes_(on.mover), place_(place)
 		{
 			for (polytope::Plane& plane : planes_)
 				plane.offset -= plane.normal.dot(place_);
@@ -177,7 +186,8 @@ namespace {
 			const std::size_t covered = planes_.size();
 			for (const polytope::Plane& plane : solid)
 				planes_.push_back({ plane.normal, plane.offset - plane.normal.dot(place_) });
-			const Real area = polytope::sectionArea(planes_, on_.pair.normal, on_.reach(), on_.pair.convex[1 - on_.piece]->dimension());
+			const Real area
+			        = polytope::sectionArea(planes_, on_.pair.normal, on_.reach(), on_.pair.convex[1 - on_.piece]->dimension());
 			planes_.erase(planes_.begin() + std::ptrdiff_t(covered), planes_.end());
 			return area;
 		}
@@ -221,11 +231,11 @@ SupportShare shareOfSupport(const TouchingPair& pair, const polytope::InternalPl
 		OnPiece    on(pair, internal, piece);
 		const bool onFace = on.onFace();
 		if (onFace && internal.count[piece] == 0) continue;
-		on.mover = on.planesOf(1 - piece);
+		on.mover          = on.planesOf(1 - piece);
 		const Ridge ridge = onFace ? Ridge() : deepestRidge(on);
 		if (internal.count[piece] == 0 && !(ridge.depth > 0)) continue;
 
-		Areas                    areas(on, ridge.depth > 0 ? Vector3r(ridge.point - ridge.depth / 2 * on.up) : Vector3r(Vector3r::Zero()));
+		Areas areas(on, ridge.depth > 0 ? Vector3r(ridge.point - ridge.depth / 2 * on.up) : Vector3r(Vector3r::Zero()));
 		const std::vector<Solid> carrying = carryingTogether(on, ridge);
 		Real                     here = 0, all = 0;
 		for (const Solid& solid : carrying) {

@@ -26,15 +26,18 @@ template <class R, int D> POLYTOPE_INLINE void putBack(PairPlanes<R, D>& planes,
 			planes.offset[planes.begin(body) + internal.plane[body][k]] = offset[next++];
 }
 
-/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: that of the thinner body
-/// that lies within the other one's surface, as deep again.
-template <class R, int D> POLYTOPE_APART R internalDepth(const PairInput& in, const ContactFrame<R, D>& f, const R* n)
+/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: thin beside the body that
+/// lies on the pieces, and within the thickness of a piece. Twice that, since beside the seam the piece's own part of the overlap is less deep.
+template <class R, int D>
+POLYTOPE_APART R internalDepth(const PairInput& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
 {
 	R least = R(padOffset);
-	for (int body = 0; body < 2; ++body) {
+	for (int piece = 0; piece < 2; ++piece) {
+		if (internal.count[piece] == 0) continue;
 		R own[3] = { 0, 0, 0 };
-		rotate<R, D>(f.own[body], n, own);
-		least = minOf<R>(least, in.shape[body]->widthAlong(Vector3(own[0], own[1], own[2])));
+		rotate<R, D>(f.own[piece], n, own);
+		least = minOf<R>(least, in.shape[piece]->widthAlong(Vector3(own[0], own[1], own[2])));
+		least = minOf<R>(least, R(tolerance::thinContact) * in.shape[1 - piece]->inscribedRadius());
 	}
 	return 2 * least;
 }
@@ -47,15 +50,20 @@ template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>&
 }
 
 /// From x to the analytic centre of the overlap without the planes that were taken out, which the piece has together with its neighbours. Frame, planes, x and
-/// dual turn where they must. False if Newton does not converge.
+/// dual turn where they must. False if Newton does not converge, or if there is no centre: between two bodies that both are pieces the overlap may go on for ever.
 template <class R, int D, int W>
-POLYTOPE_INLINE bool centreOfPieces(
-        const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* x, R* dual, R* centre, ContactResult& out)
+POLYTOPE_INLINE bool centreOfPieces(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+        R* x, R* dual, R* centre, ContactResult& out)
 {
 	for (int k = 0; k < D; ++k)
 		centre[k] = x[k];
 	const CentreStatus found = newtonCentre<R, D, W>(planes, f, centre, R(settings.newtonTolerance), x, dual, out);
-	return found == CentreStatus::Converged || found == CentreStatus::RoundingLimited;
+	if (found != CentreStatus::Converged && found != CentreStatus::RoundingLimited) return false;
+	R square = 0;
+	for (int k = 0; k < D; ++k)
+		square += (centre[k] - x[k]) * (centre[k] - x[k]);
+	const R reach = 2 * maxOf<R>(in.shape[0]->boundingRadius(), in.shape[1]->boundingRadius());
+	return square <= reach * reach;
 }
 
 /// Where internal faces are left out, an edge or a vertex is as deep on a seam as on one piece, so it has the depth at the centre of the overlap without these
@@ -84,14 +92,14 @@ POLYTOPE_INLINE ContactStatus normalInOverlap(const PairInput& in, const Contact
 		takeOut<R, D>(planes, *settings.internal, offset);
 		R          centre[D], g[D], h[D][D];
 		const bool found
-		        = settings.depthRule != DepthRule::Mean && centreOfPieces<R, D, W>(settings, planes, f, x, dual, centre, out);
+		        = settings.depthRule != DepthRule::Mean && centreOfPieces<R, D, W>(in, settings, planes, f, x, dual, centre, out);
 		const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 		depth                      = chord<R, D, W>(planes, n);
 		const bool common          = found && barrierDerivatives<R, D, W>(planes, centre, g, h);
 		if (common) depth = depthOnPieces<R, D>(depth, chord<R, D, W>(planes, n), h, n);
 		out.common = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, common ? centre : x));
 		putBack<R, D>(planes, *settings.internal, offset);
-		if (depth < internalDepth<R, D>(in, f, n)) return status;
+		if (depth < internalDepth<R, D>(in, f, *settings.internal, n)) return status;
 	}
 	const ContactStatus status = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	depth                      = chord<R, D, W>(planes, n);

@@ -209,6 +209,10 @@ constexpr Real nearLeverage = 1e-6;
 /// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
 constexpr Real flush = 1e-9;
 
+/// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on this face. Overlaps
+/// of DEM are a hundredth at the most. The piece may be thin.
+constexpr Real thinContact = 0.1;
+
 /// × the radius of the overlap's ball: so near to a plane of a piece another piece must be for the overlap to go on in it. Large against rounding, small
 /// against the overlap.
 constexpr Real besideSeam = 1e-3;

@@ -195,26 +195,28 @@ TEST(DualWeights, WithoutAnInternalFaceASliverHasTheFloorsNormal)
 	}
 }
 
-// It is left out while the contact on the flush faces is no deeper than twice the thinner body, whatever the size: a body on thin tiles is not held by their sides.
+// It is left out while the contact on the flush faces is thin beside the body, and no deeper than twice the piece, whatever the size: a body on thin tiles is not held by their sides.
 TEST(DualWeights, AnInternalFaceIsLeftOutOfThinContactsOnly)
 {
-	for (Real size : { 1e-3, 1., 1e3 }) {
-		const Real thickness = size / 20, width = size / 100;
-		for (Real part : { 0.02, 0.5, 0.9, 1.9, 2.1 }) {
-			const Real      depth = part * thickness;
-			const Pair      pair  = boxes({ size, size, thickness / 2 }, { size / 4, size / 4, size / 4 },
-			              { Real(1.25) * size - width, 0, thickness / 2 + size / 4 - depth });
-			InternalPlanes  internal;
-			ContactSettings settings;
-			for (int i = 0; i < pair.shape[0]->planeCount(); ++i)
-				if (pair.shape[0]->normalArray(0)[i] > 0.5) internal.plane[0][internal.count[0]++] = i;
-			ASSERT_EQ(internal.count[0], 1);
-			settings.internal           = &internal;
-			const ContactResult found   = query(pair, settings);
-			const Vector3       outward = part < 2 ? Vector3::UnitZ() : Vector3::UnitX();
-			EXPECT_LE(lean(found.normal, outward), 0.1) << size << ' ' << part << ": " << found.normal.transpose();
-		}
-	}
+	for (Real size : { 1e-3, 1., 1e3 })
+		for (Real part : { 0.02, 0.5, 0.9, 1.9, 2.1 })
+			for (bool thick : { false, true }) {
+				const Real thin = tolerance::thinContact * size / 4, thickness = thick ? size / 2 : thin / 2,
+				           width      = thin / 20;
+				const Real      depth = part * (thick ? thin : thickness);
+				const Pair      pair  = boxes({ size, size, thickness / 2 }, { size / 4, size / 4, size / 4 },
+				              { Real(1.25) * size - width, 0, thickness / 2 + size / 4 - depth });
+				InternalPlanes  internal;
+				ContactSettings settings;
+				for (int i = 0; i < pair.shape[0]->planeCount(); ++i)
+					if (pair.shape[0]->normalArray(0)[i] > 0.5) internal.plane[0][internal.count[0]++] = i;
+				ASSERT_EQ(internal.count[0], 1);
+				settings.internal           = &internal;
+				const ContactResult found   = query(pair, settings);
+				const Vector3       outward = part < 2 ? Vector3::UnitZ() : Vector3::UnitX();
+				EXPECT_LE(lean(found.normal, outward), 0.1)
+				        << size << ' ' << part << ' ' << thick << ": " << found.normal.transpose();
+			}
 }
 
 TEST(InternalPlanes, NoneMeansOfNeitherBody)

@@ -76,7 +76,7 @@ def farthest(one, other):
 	return max(abs(float.fromhex(x) - float.fromhex(y)) for x, y in zip(one, other, strict=True))
 
 
-agreement = 1e-11
+agreement = 1e-10
 """Of a body's size. Forces of several ranks are added up in another order."""
 
 

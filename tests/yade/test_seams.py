@@ -344,3 +344,58 @@ def testWhatOverhangsABoxOfFacetsIsCarriedByItsTopAlone(centre):
 	depth, _ = restingDepth(box, lambda: polytope.cuboid((centre, 0, .5), (.5, .5, .5)), 'perArea', steps=8000)
 	assert depth == pytest.approx(2600 * 9.81 / stiffness / (.5 - centre), rel=1e-4)
 
+
+
+# clumps, and supports that are not flush
+
+
+def tiles(number, width, gap=0.):
+	edge = width / number
+	return [
+		polytope.cuboid((-width / 2 + edge * (i + .5), -width / 2 + edge * (j + .5), -.5), ((edge - gap) / 2, (edge - gap) / 2, .5), fixed=True)
+		for i in range(number)
+		for j in range(number)
+	]
+
+
+grounds = {
+	'plate': lambda: tiles(1, .8),
+	'tiles': lambda: tiles(6, .8),
+	'terrain': lambda: polytope.terrain([[0.] * 9 for _ in range(9)], spacing=.1, origin=(-.43, -.41)),
+	'facets': lambda: [utils.facet(((-1, -1, 0), (1, -1, 0), (1, 1, 0))), utils.facet(((-1, -1, 0), (1, 1, 0), (-1, 1, 0)))],
+}
+
+
+@rules
+@pytest.mark.parametrize('ground', grounds)
+def testAClumpOfFlushPartsSettlesOnPieces(ground, rule):
+	"""Both sides of a contact may be pieces, between which the overlap without internal faces has no end."""
+	O.reset()
+	physics = joints(rule)
+	O.bodies.append(grounds[ground]())
+	clump, _ = polytope.clump([polytope.cuboid((x, y, .2001), (.1, .1, .2)) for x in (-.1, .1) for y in (-.1, .1)])
+	O.engines = polytope.engines(physics=physics)
+	fastest = 0
+	while O.time < .4:
+		O.run(5, wait=True)
+		fastest = max(fastest, O.bodies[clump].state.vel.norm())
+	assert .03 < fastest < .0443 # of a fall of 0.1 mm
+	assert O.bodies[clump].state.vel.norm() < 1e-3
+	for contact in O.interactions:
+		if contact.isReal:
+			assert contact.geom.penetrationDepth < 1.1e-4
+
+
+@pytest.mark.parametrize('gap', [0, 1e-4, 1e-2])
+def testASlabOnSupportsThatAreNotFlushIsNotThrown(gap):
+	"""Each of 100 supports has a full spring, and all of them begin in one step: no damper may count on the whole slab."""
+	O.reset()
+	physics = joints('perContact')
+	O.bodies.append(tiles(10, 2, gap))
+	slab = O.bodies[O.bodies.append(polytope.cuboid((0, 0, .06), (1, 1, .05)))]
+	O.engines = polytope.engines(physics=physics)
+	fastest = 0
+	while O.time < .1:
+		O.step()
+		fastest = max(fastest, slab.state.vel[2])
+	assert fastest < .5 * math.sqrt(2 * 9.81 * .01)

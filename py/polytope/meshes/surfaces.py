@@ -53,10 +53,16 @@ def readObj(path):
 	return np.array(points, float).reshape(-1, 3), np.array(triangles, int).reshape(-1, 3), np.array(objects, int)
 
 
-def _words(path, comments):
-	"""Words of each line that has any, without comments."""
+def _words(path, *comments):
+	"""Words of each line that has any, without comments, which begin with one of these signs."""
+	found = []
 	with open(path, encoding='utf-8', errors='replace') as file:
-		return [words for words in (line.split(comments, 1)[0].split() for line in file) if words]
+		for line in file:
+			for sign in comments:
+				line = line.split(sign, 1)[0]
+			if words := line.split():
+				found.append(words)
+	return found
 
 
 def readSmesh(path):
@@ -79,13 +85,13 @@ def readSmesh(path):
 
 def readGts(path):
 	"""Of the GNU Triangulated Surface library: points, edges, triangles by their edges. (YADE's module gts leaves the process in another locale.)"""
-	lines = _words(path, '#')
+	lines = _words(path, '#', '!')
 	try:
 		count, edges, faces = map(int, lines[0][:3])
 		points = [[float(word) for word in words[:3]] for words in lines[1 : 1 + count]]
 		ends = np.array([[int(word) for word in words[:2]] for words in lines[1 + count : 1 + count + edges]]) - 1
 		sides = np.array([[int(word) for word in words[:3]] for words in lines[1 + count + edges : 1 + count + edges + faces]]) - 1
-		if (len(points), len(ends), len(sides)) != (count, edges, faces) or (sides < 0).any():
+		if (len(points), len(ends), len(sides)) != (count, edges, faces) or (sides < 0).any() or (sides >= edges).any():
 			raise IndexError
 		triangles = []
 		for one, two in ends[sides[:, :2]]:

@@ -20,7 +20,7 @@ fixedHalf, movingHalf = 0.8, 0.5
 deep = 0.005
 """Radius of the largest ball in the overlap: half the overlap of faces."""
 variants = {
-	'default': {},
+	'default': {'depth': 'meanOnFaces'},
 	'default, per area': {'depth': 'mean'},
 	'default, per contact': {'depth': 'meanOnFaces'},
 	'analytic centre': {'normal': 'innerPotential'},
