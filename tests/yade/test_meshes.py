@@ -307,3 +307,27 @@ def testAWallOfBlocksOfOneFileStands(place, tmp_path):
 		# sunk by the weight above over stiffness and area
 		moved = O.bodies[k].state.pos - O.bodies[k].state.refPos
 		assert abs(moved[0]) + abs(moved[1]) < 1e-6 and 0 < -float(moved[2]) < 3 * 9.81 * 2600 / 1e8
+
+
+def testMessagesSayWhatAFileIsNot(tmp_path):
+	"""A binary file that ends early is no text, and formats are named where the file's is unknown."""
+	cube = trimesh.creation.box((1, 1, 1))
+	cube.export(tmp_path / 'whole.stl')
+	content = (tmp_path / 'whole.stl').read_bytes()
+	(tmp_path / 'half.stl').write_bytes(content[: len(content) // 2])
+	with pytest.raises(ValueError, match='^path: .*half.stl. cannot be read as a mesh .*(end early|expected)'):
+		polytope.fromMesh(tmp_path / 'half.stl')
+	(tmp_path / 'what.foo').write_text('0 0 0\n')
+	with pytest.raises(ValueError, match='^path: .*what.foo. cannot be read as a mesh .*[.]3mf, .*[.]stl'):
+		polytope.fromMesh(tmp_path / 'what.foo')
+
+
+def testGtsHasTwoSignsForCommentsAndEdgesThatAreThere(tmp_path):
+	corners, edges = ['0 0 0', '1 0 0', '0 1 0', '0 0 1'], ['1 2', '1 3', '1 4', '2 3', '2 4', '3 4']
+	for faces, good in ((['1 4 2', '1 5 3', '2 6 3', '4 6 5'], True), (['1 4 2', '1 5 3', '2 6 9', '4 6 5'], False)):
+		(tmp_path / 'solid.gts').write_text('\n'.join(['! of GTS', '4 6 4 # numbers', *corners, *edges, *faces]) + '\n')
+		if good:
+			assert float(polytope.fromMesh(tmp_path / 'solid.gts').shape.volume) == pytest.approx(1 / 6, rel=1e-12)
+		else:
+			with pytest.raises(ValueError, match='^path: .*solid.gts. cannot be read as a mesh'):
+				polytope.fromMesh(tmp_path / 'solid.gts')

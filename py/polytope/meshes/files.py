@@ -22,7 +22,7 @@ readers = {
 	'.smesh': readSmesh,
 	**dict.fromkeys(('.vtk', '.vtp', '.vtu', '.vtr', '.vts', '.vti'), readVtk),
 	**dict.fromkeys(('.msh', '.ele', '.node', '.inp', '.mesh', '.meshb', '.med', '.bdf', '.nas', '.fem'), readByMeshio),
-	**dict.fromkeys(('.vol', '.e', '.exo', '.xdmf', '.avs', '.ugrid', '.su2', '.f3grid'), readByMeshio),
+	**dict.fromkeys(('.vol', '.e', '.exo', '.xdmf', '.avs', '.ugrid', '.su2', '.f3grid', '.dat', '.tec'), readByMeshio),
 }
 """By the ends of file names; trimesh may know others."""
 textOfOthers = {'.tess': 'a tessellation of Neper', '.shp': 'a library of Rockable'}
@@ -61,6 +61,10 @@ def readMesh(path, name):
 	except Exception as error:  # readers pass on what they meet
 		missing = isinstance(error, ImportError) and error.name
 		said = f'it needs the Python module {error.name}, which is not installed' if missing else f'{error}' or type(error).__name__
+		if missing == 'chardet':  # with which trimesh guesses how text is written
+			said = 'it is neither binary nor text of its format; it may end early'
+		elif suffix not in readers:
+			said = f"{said}; its name may end in {', '.join(sorted(readers))}"
 		raise ValueError(f"{name}: '{path}' cannot be read as a mesh ({said})") from error
 	if len(points) == 0:
 		raise ValueError(f"{name}: '{path}' has no vertices; its content may not be of the format that its name indicates")
