@@ -107,9 +107,10 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 			const StiffnessSum sum = sums.last(mover.id);
 			part                   = partOfSum(phys.dampedStiffness, sum.along(across(other, *pair.scene), normal));
 			limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
-		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact))
-			part = limit = partOfCount(body, mover, pair.geom.share);
-		else part = limit = partOfArea(body, mover, normal, phys.contactArea);
+		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
+			part  = pair.geom.share;
+			limit = partOfCount(body, mover, pair.geom.share);
+		} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
 	}
 	bool moves() const { return movesByForces(mover); }
 };
