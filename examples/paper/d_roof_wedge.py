@@ -42,8 +42,8 @@ tolerance, shareTolerance = 0.02, 1e-3
 fall = 0.25
 """Of the wedge, in the second picture [m]."""
 steps, quickSteps = (1.0, 0.1, 0.02, 0.005), (8.0, 1.0, 0.1, 0.02, 0.005)
-"""Between two joints of the wedge's dip, 1 m high and long."""
 prismLabel = 'prism between two joints, default contact'
+"""Joints of the wedge's dip, 1 m high and long."""
 sideShares, quickSideShares = (0.05, 0.25, 0.5, 1, 2), (0.5,)
 """A_v/A: joints between blocks that touch each other over those with the wedge."""
 

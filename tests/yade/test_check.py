@@ -232,6 +232,17 @@ def testNoDampingAtAllWithYadesMaterial():
 	assert not polytope.check(O), 'a sphere on a polytope is a spring'
 
 
+def testASceneThatIsEmptyAtFirst():
+	"""A runner that waits for a time waits for ever, unless PolytopeCollider has the step of its virtPeriod."""
+	scene()
+	O.bodies.erase(1)
+	O.dt = 1e-8
+	O.engines = [*O.engines, yade.PyRunner(command='pass', iterPeriod=1)]
+	assert 'waits for ever' in onlyFinding('time step').seen
+	O.engines[-1].virtPeriod = 0.01
+	assert not polytope.check(O)
+
+
 # ------------------------------------------------------------------------------------------------ pairs
 
 

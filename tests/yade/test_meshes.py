@@ -331,3 +331,13 @@ def testGtsHasTwoSignsForCommentsAndEdgesThatAreThere(tmp_path):
 		else:
 			with pytest.raises(ValueError, match='^path: .*solid.gts. cannot be read as a mesh'):
 				polytope.fromMesh(tmp_path / 'solid.gts')
+
+
+def testAFileWithTooFewDigitsForAnyBodySaysSo(tmp_path):
+	"""Its corners fall together far from the origin: the remedy is that of the file, not of the shape."""
+	corners = [(x, y, z) for x in (0, .3) for y in (0, .3) for z in (0, .3)]
+	faces = ['1 2 4 3', '5 7 8 6', '1 5 6 2', '3 4 8 7', '1 3 7 5', '2 6 8 4']
+	lines = ['v ' + ' '.join(f'{4e6 + x:.6g}' for x in corner) for corner in corners] + ['f ' + face for face in faces]
+	(tmp_path / 'cube.obj').write_text('\n'.join(lines) + '\n')
+	with pytest.raises(ValueError, match='^path: .* too few digits: write it in double precision'):
+		polytope.fromMesh(tmp_path / 'cube.obj')

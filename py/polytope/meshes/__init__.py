@@ -74,15 +74,20 @@ def _extent(points):
 	return float(np.ptp(points, axis=0).max())
 
 
+def _noise(points, error):
+	"""Over the extent, how far points of a plane may lie apart, each coordinate of which may be off by *error*."""
+	return facetNoise * error / (_extent(points) or 1)
+
+
 def _lacking(points, error):
 	"""Part of the hull's volume that a convex mesh may lack, each coordinate of which may be off by *error*."""
-	return max(notConvex, min(facetNoise * error / (_extent(points) or 1), 1))
+	return max(notConvex, min(_noise(points, error), 1))
 
 
 def _hull(path, points, error, body):
 	"""The body of the hull of points, each coordinate of which may be off by *error*."""
 	corners = vectors(points, 'points', 3)
-	coplanar = min(max(singlePrecision, facetNoise * error / (_extent(points) or 1)), mostNoise)
+	coplanar = min(max(singlePrecision, _noise(points, error)), mostNoise)
 
 	def shape(*corner):
 		try:
