@@ -39,19 +39,20 @@ namespace {
 		return four / 4;
 	}
 
+	/// Of a clump; 1: of a body alone.
+	std::size_t countOfParts(const Body& mover) { return mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1; }
+
 	/// s of a contact that was in no sum.
 	Real partOfArea(const Body& body, const Body& mover, const Vector3r& normal, Real area)
 	{
-		const Real shown = projectedArea(*body.shape, body.state->ori.conjugate() * normal)
-		        * (mover.isClump() ? Real(static_cast<const Clump&>(*mover.shape).members.size()) : Real(1));
+		const Real shown = projectedArea(*body.shape, body.state->ori.conjugate() * normal) * Real(countOfParts(mover));
 		return shown > area ? area / shown : Real(1);
 	}
 
 	/// The same with a stiffness per contact: as if the body came down at once on all that it may touch.
 	Real partOfCount(const Body& body, const Body& mover, Real share)
 	{
-		const std::size_t parts = mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1;
-		return math::min(share, 1 / Real(math::max(std::size_t(1), parts * body.intrs.size())));
+		return math::min(share, 1 / Real(math::max(std::size_t(1), countOfParts(mover) * body.intrs.size())));
 	}
 
 	/// s of a contact that had this stiffness when the sum, along its normal, was made.
