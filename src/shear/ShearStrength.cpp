@@ -6,14 +6,54 @@
 namespace polytope {
 namespace {
 
+	/// The long axis of an outline.
+	Vector2 longAxis(const OutlineMoments& moments)
+	{
+		const Real    half = (moments.second[0] - moments.second[2]) / 2, radius = sqrt(half * half + moments.second[1] * moments.second[1]);
+		const Vector2 along = half > 0 ? Vector2(half + radius, moments.second[1]) : Vector2(moments.second[1], radius - half);
+		return radius > 0 ? Vector2(along.normalized()) : Vector2(1, 0);
+	}
+
+	/// Integrals along a line at the distance h from the pole, its points h m + y e from there with y from y₁ to y₂, ρ² = h² + y².
+	struct LineIntegrals {
+		Vector2 e, m;
+		Real    length, h, y1;
+		Real    y[4];         ///< ∫ yᵏ/ρ dy
+		Real    rho[3];       ///< ∫ ρ yᵏ dy
+		Real    overCubed[5]; ///< ∫ yᵏ/ρ³ dy
+
+		/// The pole is not on the line between its ends.
+		LineIntegrals(const Vector2& from, const Vector2& to) : length((to - from).norm())
+		{
+			using std::log;
+			e = (to - from) / length;
+			m = -left(e);
+			h = from.dot(m);
+			y1 = from.dot(e);
+			const Real y2 = to.dot(e), r1 = from.norm(), r2 = to.norm(), square = h * h;
+			if (y1 >= 0) y[0] = log((y2 + r2) / (y1 + r1));
+			else if (y2 <= 0) y[0] = log((r1 - y1) / (r2 - y2));
+			else y[0] = log((y2 + r2) / abs(h)) + log((r1 - y1) / abs(h));
+			y[1]         = r2 - r1;
+			y[2]         = (y2 * r2 - y1 * r1 - square * y[0]) / 2;
+			y[3]         = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - square * y[1];
+			rho[0]       = y[2] + square * y[0];
+			rho[1]       = y[3] + square * y[1];
+			rho[2]       = (y2 * r2 * r2 * r2 - y1 * r1 * r1 * r1 - square * rho[0]) / 4;
+			// y₂/r₂ − y₁/r₁ vanishes with h where the line points to the pole
+			overCubed[0] = y1 * y2 > 0 ? (y2 - y1) * (y2 + y1) / (r1 * r2 * (y2 * r1 + y1 * r2)) : (y2 / r2 - y1 / r1) / square;
+			overCubed[1] = 1 / r1 - 1 / r2;
+			for (int k = 0; k < 3; ++k)
+				overCubed[k + 2] = y[k] - square * overCubed[k];
+		}
+	};
+
 	/// The gradient of a linear function over the outline with this resultant and this offset of its centre from the centroid: J g = total × offset.
 	/// Across a sliver nothing is known of it.
-	Vector2 gradientOf(const OutlineMoments& moments, Real total, const Vector2& offset)
+	Vector2 gradientOf(const OutlineMoments& moments, const Vector2& axis, Real total, const Vector2& offset)
 	{
 		const Real    mean = (moments.second[0] + moments.second[2]) / 2, half = (moments.second[0] - moments.second[2]) / 2;
-		const Real    radius = sqrt(half * half + moments.second[1] * moments.second[1]), largest = mean + radius;
-		const Vector2 along = half > 0 ? Vector2(half + radius, moments.second[1]) : Vector2(moments.second[1], radius - half);
-		const Vector2 axis  = radius > 0 ? Vector2(along.normalized()) : Vector2(1, 0);
+		const Real    largest = mean + sqrt(half * half + moments.second[1] * moments.second[1]);
 		// mean − radius loses the digits of a narrow outline
 		const Real least
 		        = largest > 0 ? (moments.second[0] * moments.second[2] - moments.second[1] * moments.second[1]) / largest : Real(0);
@@ -33,10 +73,10 @@ struct ShearStrength::Sums {
 };
 
 ShearStrength::ShearStrength(const Vector2* corner, int count, const OutlineMoments& moments, Real total, const Vector2& centre)
-        : corner_(corner), count_(count), total_(total), centre_(centre)
+        : corner_(corner), count_(count), total_(total), centre_(centre), axis_(longAxis(moments))
 {
 	const Vector2 offset = centre - moments.centroid;
-	gradient_            = gradientOf(moments, total, offset);
+	gradient_            = gradientOf(moments, axis_, total, offset);
 	const Real mean      = total / moments.area;
 	Real       lowest    = 0;
 	for (int k = 0; k < count; ++k) {
@@ -80,31 +120,87 @@ Real ShearStrength::meanRadius() const
 /// The triangle between the pole, where τ would be `atPole`, and an edge, whose ends are seen from there.
 void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole, Sums& sums) const
 {
-	using std::log;
 	const Real length = (to - from).norm();
 	if (!(length > 0)) return;
-	const Vector2 e = (to - from) / length, m = -left(e); // outwards of a pole inside
-	const Real    h = from.dot(m), y1 = from.dot(e), y2 = to.dot(e);
-	const Real    r1 = from.norm(), r2 = to.norm();
-	if (!(abs(h) > Real(tolerance::shearPole) * length) || !(r1 > 0 && r2 > 0)) return;
-	// asinh(y₂/|h|) − asinh(y₁/|h|), without loss of digits where both are negative
-	const auto arc = [&](Real y, Real r) { return y >= 0 ? log((y + r) / abs(h)) : -log((r - y) / abs(h)); };
-	const Real i0  = arc(y2, r2) - arc(y1, r1);
-	const Real i1  = r2 - r1;
-	const Real i2  = (y2 * r2 - y1 * r1 - h * h * i0) / 2;
-	const Real j0  = (y2 * r2 - y1 * r1 + h * h * i0) / 2;                                       // ∫ ρ dy
-	const Real j1  = (r2 * r2 * r2 - r1 * r1 * r1) / 3;                                          // ∫ ρ y dy
-	const Real k0 = y2 / r2 - y1 / r1, k1 = 1 / r1 - 1 / r2, k2 = i0 - k0, k3 = i1 - h * h * k1; // h² ∫ 1/ρ³, ∫ y/ρ³, ∫ y²/ρ³, ∫ y³/ρ³
-	const Real gm = gradient_.dot(m), ge = gradient_.dot(e);
+	if (!(abs(cross(from, to)) > Real(tolerance::shearPole) * length * length) || !(from.squaredNorm() > 0 && to.squaredNorm() > 0)) return;
+	const LineIntegrals line(from, to);
+	const Vector2 &     e = line.e, &m = line.m; // outwards of a pole inside
+	const Real          h = line.h, square = h * h, gm = gradient_.dot(m), ge = gradient_.dot(e);
 
 	const Real a = atPole / 2 + gm * h / 3, b = ge / 3;
-	sums.radial += h * (h * (a * i0 + b * i1) * m + (a * i1 + b * i2) * e);
-	sums.distance += h * ((atPole / 3 + gm * h / 4) * j0 + ge / 4 * j1);
-	const Real p = atPole + gm * h / 2, q = ge / 2;
-	const Real mm = h * (p * k0 + q * h * h * k1), me = h * h * (p * k1 + q * k2), ee = h * (p * k2 + q * k3);
+	sums.radial += h * (h * (a * line.y[0] + b * line.y[1]) * m + (a * line.y[1] + b * line.y[2]) * e);
+	sums.distance += h * ((atPole / 3 + gm * h / 4) * line.rho[0] + ge / 4 * line.rho[1]);
+	const Real  p = atPole + gm * h / 2, q = ge / 2;
+	const Real* c  = line.overCubed;
+	const Real  mm = h * square * (p * c[0] + q * c[1]), me = square * (p * c[1] + q * c[2]), ee = h * (p * c[2] + q * c[3]);
 	for (int k = 0; k < 3; ++k) {
 		const int i = k / 2, j = (k + 1) / 2;
 		sums.tensor[k] += mm * m[i] * m[j] + me * (m[i] * e[j] + e[i] * m[j]) + ee * e[i] * e[j];
+	}
+}
+
+/// Whether the outline is so narrow beside its distance from the pole that the triangles of addEdge() cancel: each is larger than the outline by the distance
+/// over the width, and τ at the pole larger than on the outline by that once more.
+bool ShearStrength::isNarrowFrom(const Vector2& pole) const
+{
+	const Vector2 across = left(axis_);
+	Vector2       least = Vector2::Zero(), most = Vector2::Zero();
+	for (int k = 0; k < count_; ++k) {
+		const Vector2 x(corner(k).dot(axis_), corner(k).dot(across));
+		least = least.cwiseMin(x);
+		most  = most.cwiseMax(x);
+	}
+	const Vector2 seen(pole.dot(axis_), pole.dot(across));
+	const Real    width = most[1] > -least[1] ? most[1] : -least[1];
+	return (seen - seen.cwiseMax(least).cwiseMin(most)).norm() > Real(tolerance::shearNarrow) * width;
+}
+
+/// The part of an outline between an edge and the long axis: exact along lines from end to end, five of Gauss-Legendre across.
+void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, Sums& sums) const
+{
+	static const Real inner = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 6, outer = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 6,
+	                  heavy = (322 + 13 * sqrt(Real(70))) / 1800, light = (322 - 13 * sqrt(Real(70))) / 1800,
+	                  place[5]  = { Real(0.5) - outer, Real(0.5) - inner, Real(0.5), Real(0.5) + inner, Real(0.5) + outer },
+	                  weight[5] = { light, heavy, Real(64) / 225, heavy, light };
+	const Vector2 across = left(axis_);
+	const Real    along1 = from.dot(axis_), along2 = to.dot(axis_), width1 = from.dot(across), width2 = to.dot(across);
+	if (along1 == along2) return;
+	for (int i = 0; i < 5; ++i) {
+		const Vector2 x1 = along1 * axis_ + place[i] * width1 * across, x2 = along2 * axis_ + place[i] * width2 * across;
+		// the edges run against the axis where the outline is above it
+		const Real whole = weight[i] * (along1 - along2);
+		if ((x2 - x1).squaredNorm() * Real(tolerance::shearShort * tolerance::shearShort) < (x1 - pole).squaredNorm()) {
+			for (int j = 0; j < 5; ++j) {
+				const Vector2 x = x1 + place[j] * (x2 - x1), d = (x - pole).normalized();
+				const Real    part = whole * weight[j] * (width1 + place[j] * (width2 - width1)) * at(x), distance = (x - pole).norm();
+				sums.radial += part * d;
+				sums.distance += part * distance;
+				for (int k = 0; k < 3; ++k)
+					sums.tensor[k] += part / distance * d[k / 2] * d[(k + 1) / 2];
+			}
+			continue;
+		}
+		const LineIntegrals line(x1 - pole, x2 - pole);
+		const Real          share = whole / line.length;
+		// width times τ, as q₀ + q₁ y + q₂ y²
+		const Real w1 = (width2 - width1) / line.length, w0 = width1 - w1 * line.y1;
+		const Real t1 = gradient_.dot(line.e), t0 = at(x1) - t1 * line.y1;
+		const Real q[3] { share * w0 * t0, share * (w0 * t1 + w1 * t0), share * w1 * t1 };
+		Real       radial[2] { 0, 0 }, tensor[3] { 0, 0, 0 };
+		for (int k = 0; k < 3; ++k) {
+			for (int power = 0; power < 2; ++power)
+				radial[power] += q[k] * line.y[k + power];
+			for (int power = 0; power < 3; ++power)
+				tensor[power] += q[k] * line.overCubed[k + power];
+			sums.distance += q[k] * line.rho[k];
+		}
+		const Vector2 &e = line.e, &m = line.m;
+		const Real     h = line.h;
+		sums.radial += radial[0] * h * m + radial[1] * e;
+		for (int k = 0; k < 3; ++k) {
+			const int a = k / 2, b = (k + 1) / 2;
+			sums.tensor[k] += tensor[0] * h * h * m[a] * m[b] + tensor[1] * h * (m[a] * e[b] + e[a] * m[b]) + tensor[2] * e[a] * e[b];
+		}
 	}
 }
 
@@ -143,9 +239,13 @@ Vector3 ShearStrength::resistance(const Vector3& slip, Matrix3* slope) const
 	if (length >= Real(tolerance::shearPoleFar) * farthest_ * abs(turn)) return byPoints(slip, slope);
 	const Vector2 pole   = left(s) / turn; // v = 0 there
 	const Real    atPole = at(pole);
+	const bool    narrow = isNarrowFrom(pole);
 	Sums          sums;
-	for (int k = 0; k < count_; ++k)
-		addEdge(corner(k) - pole, corner(k + 1 < count_ ? k + 1 : 0) - pole, atPole, sums);
+	for (int k = 0; k < count_; ++k) {
+		const Vector2 from = corner(k), to = corner(k + 1 < count_ ? k + 1 : 0);
+		if (narrow) addStrip(from, to, pole, sums);
+		else addEdge(from - pole, to - pole, atPole, sums);
+	}
 	const Real sign = turn > 0 ? Real(1) : Real(-1);
 	result << sign * left(sums.radial), sign * (pole.dot(sums.radial) + sums.distance);
 	if (slope) {

@@ -16,7 +16,8 @@
 ///
 /// With the centre of rotation c the integrals are sums over edges. An edge at the distance h from c, its points h m + y e from there with y from y₁ to y₂,
 /// ρ² = h² + y², gives the triangle between it and c; along a ray from c the direction of slip is constant and τ linear, so what is left are
-/// integrals of ρ, 1/ρ, 1/ρ³ times powers of y: no quadrature.
+/// integrals of ρ, 1/ρ, 1/ρ³ times powers of y: no quadrature. Where the outline is narrow beside its distance from c these
+/// triangles cancel; lines along it take their place.
 namespace polytope {
 
 class ShearStrength {
@@ -47,12 +48,15 @@ private:
 	Real    at(const Vector2& x) const { return atCentre_ + gradient_.dot(x); }
 	void    addSecond(const Vector2& x, Real weight, Real twice);
 	Vector3 byPoints(const Vector3& slip, Matrix3* slope) const;
+	bool    isNarrowFrom(const Vector2& pole) const;
+	void    addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, Sums& sums) const;
 	void    addEdge(const Vector2& from, const Vector2& to, Real atPole, Sums& sums) const;
 
 	const Vector2* corner_;
 	int            count_;
 	Real           total_;
 	Vector2        centre_;
+	Vector2        axis_; ///< the long one of the outline
 	Vector2        shift_       = Vector2::Zero(); ///< from the outline's origin to that of x, the strength's centre
 	Real           atCentre_    = 0;               ///< τ there [Pa]
 	Vector2        gradient_    = Vector2::Zero(); ///< of τ [Pa/m]

@@ -17,6 +17,14 @@ constexpr double shearPole = 1e-14;
 /// fourth power of the distance. Here both agree to 1e-6 of the strength, and better beyond.
 constexpr double shearPoleFar = 4;
 
+/// Times an outline's half width: from a centre of rotation farther than this the sums over edges lose digits with the square of distance over width, and
+/// five points of Gauss-Legendre across are exact to 1e-14 (their error falls with the tenth power).
+constexpr double shearNarrow = 12;
+
+/// Times a line's length: seen from farther than this, five points of Gauss-Legendre along it are exact to 1e-15, and its closed form loses digits with the
+/// square of distance over length.
+constexpr double shearShort = 8;
+
 /// Of the slip, by the energy: a last step of Newton's method from this near leaves what rounding leaves.
 constexpr double shearReturn = 1e-9;
 

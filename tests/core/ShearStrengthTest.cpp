@@ -135,6 +135,53 @@ TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
 	}
 }
 
+/// Force and moment of a narrow rectangle about `offset`, τ linear with its centre there: points of Gauss-Legendre, five across and in each of many parts along.
+Vector3 byParts(Real length, Real width, const Vector2& offset, const Vector3& slip)
+{
+	const int      parts    = 1000;
+	constexpr Real place[5] = { -0.906179845938663992797626878299L, -0.538469310105683091036314420701L, 0, 0.538469310105683091036314420701L,
+		    0.906179845938663992797626878299L },
+	               heavy = 0.478628670499366468041291514836L, light = 0.236926885056189087514264040720L,
+	               weight[5] = { light, heavy, 0.568888888888888888888888888889L, heavy, light };
+	const Vector2 gradient(12 * offset[0] / (length * length), 12 * offset[1] / (width * width)); // over the mean
+	Vector3       sum = Vector3::Zero();
+	for (int k = 0; k < parts; ++k) {
+		Vector3 part = Vector3::Zero();
+		for (int i = 0; i < 5; ++i)
+			for (int j = 0; j < 5; ++j) {
+				const Vector2 x(((2 * k + 1 + place[i]) / parts - 1) * length / 2, place[j] * width / 2), arm = x - offset;
+				const Vector2 v(slip[0] - slip[2] * arm[1], slip[1] + slip[2] * arm[0]), d = v.normalized();
+				const Real    share = weight[i] * weight[j] / (4 * parts) * (1 + gradient.dot(x));
+				part += share * Vector3(d[0], d[1], arm[0] * d[1] - arm[1] * d[0]);
+			}
+		sum += part;
+	}
+	return sum;
+}
+
+// A lifted face that slips has such an outline: all digits, whatever the width, with the centre of rotation beside it or on its line.
+TEST(ShearStrength, ResistanceOfANarrowOutline)
+{
+	for (const Real width : { 1e-2, 1e-3, 1e-5, 1e-6 })
+		for (const Vector2& offset : { Vector2(0, 0), Vector2(0.05, 0.1 * width) })
+			for (const Vector2& pole : { Vector2(0.3, 0.4), Vector2(0.1, -0.07), Vector2(0.6, 0), Vector2(-0.45, 1.5) }) {
+				const Corners corners = rectangleOutline(1, width);
+				const Vector3 slip(pole[1] - offset[1], offset[0] - pole[0], 1); // no motion at the pole
+				const Vector3 parts = byParts(1, width, offset, slip), found = strengthOf(corners, offset).resistance(slip);
+				EXPECT_LT((found - parts).norm(), 1e-13) << width << " / " << offset.transpose() << " / " << pole.transpose();
+				// as the outline lies, too
+				const Eigen::Rotation2D<Real> turn(0.7);
+				Corners                       turned = corners;
+				for (Vector2& corner : turned)
+					corner = turn * corner;
+				Vector3 there = slip;
+				there.head<2>() = turn * slip.head<2>();
+				Vector3 back = strengthOf(turned, turn * offset).resistance(there);
+				back.head<2>() = turn.inverse() * back.head<2>();
+				EXPECT_LT((back - found).norm(), 1e-14 / width); // corners are rounded, which is more of a narrow outline
+			}
+}
+
 // Where the sums over edges give way to sums at points, nothing jumps.
 TEST(ShearStrength, FarAndNearCentresOfRotationAgree)
 {
