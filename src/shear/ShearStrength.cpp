@@ -9,7 +9,8 @@ namespace {
 	/// The long axis of an outline.
 	Vector2 longAxis(const OutlineMoments& moments)
 	{
-		const Real    half = (moments.second[0] - moments.second[2]) / 2, radius = sqrt(half * half + moments.second[1] * moments.second[1]);
+		const Real half     = (moments.second[0] - moments.second[2]) / 2,
+		           radius   = sqrt(half * half + moments.second[1] * moments.second[1]);
 		const Vector2 along = half > 0 ? Vector2(half + radius, moments.second[1]) : Vector2(moments.second[1], radius - half);
 		return radius > 0 ? Vector2(along.normalized()) : Vector2(1, 0);
 	}
@@ -26,20 +27,20 @@ namespace {
 		LineIntegrals(const Vector2& from, const Vector2& to) : length((to - from).norm())
 		{
 			using std::log;
-			e = (to - from) / length;
-			m = -left(e);
-			h = from.dot(m);
-			y1 = from.dot(e);
+			e             = (to - from) / length;
+			m             = -left(e);
+			h             = from.dot(m);
+			y1            = from.dot(e);
 			const Real y2 = to.dot(e), r1 = from.norm(), r2 = to.norm(), square = h * h;
 			if (y1 >= 0) y[0] = log((y2 + r2) / (y1 + r1));
 			else if (y2 <= 0) y[0] = log((r1 - y1) / (r2 - y2));
 			else y[0] = log((y2 + r2) / abs(h)) + log((r1 - y1) / abs(h));
-			y[1]         = r2 - r1;
-			y[2]         = (y2 * r2 - y1 * r1 - square * y[0]) / 2;
-			y[3]         = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - square * y[1];
-			rho[0]       = y[2] + square * y[0];
-			rho[1]       = y[3] + square * y[1];
-			rho[2]       = (y2 * r2 * r2 * r2 - y1 * r1 * r1 * r1 - square * rho[0]) / 4;
+			y[1]   = r2 - r1;
+			y[2]   = (y2 * r2 - y1 * r1 - square * y[0]) / 2;
+			y[3]   = (r2 * r2 * r2 - r1 * r1 * r1) / 3 - square * y[1];
+			rho[0] = y[2] + square * y[0];
+			rho[1] = y[3] + square * y[1];
+			rho[2] = (y2 * r2 * r2 * r2 - y1 * r1 * r1 * r1 - square * rho[0]) / 4;
 			// y₂/r₂ − y₁/r₁ vanishes with h where the line points to the pole
 			overCubed[0] = y1 * y2 > 0 ? (y2 - y1) * (y2 + y1) / (r1 * r2 * (y2 * r1 + y1 * r2)) : (y2 / r2 - y1 / r1) / square;
 			overCubed[1] = 1 / r1 - 1 / r2;
@@ -52,8 +53,8 @@ namespace {
 	/// Across a sliver nothing is known of it.
 	Vector2 gradientOf(const OutlineMoments& moments, const Vector2& axis, Real total, const Vector2& offset)
 	{
-		const Real    mean = (moments.second[0] + moments.second[2]) / 2, half = (moments.second[0] - moments.second[2]) / 2;
-		const Real    largest = mean + sqrt(half * half + moments.second[1] * moments.second[1]);
+		const Real mean = (moments.second[0] + moments.second[2]) / 2, half = (moments.second[0] - moments.second[2]) / 2;
+		const Real largest = mean + sqrt(half * half + moments.second[1] * moments.second[1]);
 		// mean − radius loses the digits of a narrow outline
 		const Real least
 		        = largest > 0 ? (moments.second[0] * moments.second[2] - moments.second[1] * moments.second[1]) / largest : Real(0);
@@ -122,7 +123,8 @@ void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole,
 {
 	const Real length = (to - from).norm();
 	if (!(length > 0)) return;
-	if (!(abs(cross(from, to)) > Real(tolerance::shearPole) * length * length) || !(from.squaredNorm() > 0 && to.squaredNorm() > 0)) return;
+	if (!(abs(cross(from, to)) > Real(tolerance::shearPole) * length * length) || !(from.squaredNorm() > 0 && to.squaredNorm() > 0))
+		return;
 	const LineIntegrals line(from, to);
 	const Vector2 &     e = line.e, &m = line.m; // outwards of a pole inside
 	const Real          h = line.h, square = h * h, gm = gradient_.dot(m), ge = gradient_.dot(e);
@@ -162,7 +164,7 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 	                  heavy = (322 + 13 * sqrt(Real(70))) / 1800, light = (322 - 13 * sqrt(Real(70))) / 1800,
 	                  place[5]  = { Real(0.5) - outer, Real(0.5) - inner, Real(0.5), Real(0.5) + inner, Real(0.5) + outer },
 	                  weight[5] = { light, heavy, Real(64) / 225, heavy, light };
-	const Vector2 across = left(axis_);
+	const Vector2 across        = left(axis_);
 	const Real    along1 = from.dot(axis_), along2 = to.dot(axis_), width1 = from.dot(across), width2 = to.dot(across);
 	if (along1 == along2) return;
 	for (int i = 0; i < 5; ++i) {
@@ -172,7 +174,8 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 		if ((x2 - x1).squaredNorm() * Real(tolerance::shearShort * tolerance::shearShort) < (x1 - pole).squaredNorm()) {
 			for (int j = 0; j < 5; ++j) {
 				const Vector2 x = x1 + place[j] * (x2 - x1), d = (x - pole).normalized();
-				const Real    part = whole * weight[j] * (width1 + place[j] * (width2 - width1)) * at(x), distance = (x - pole).norm();
+				const Real    part  = whole * weight[j] * (width1 + place[j] * (width2 - width1)) * at(x),
+				           distance = (x - pole).norm();
 				sums.radial += part * d;
 				sums.distance += part * distance;
 				for (int k = 0; k < 3; ++k)
@@ -199,7 +202,8 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 		sums.radial += radial[0] * h * m + radial[1] * e;
 		for (int k = 0; k < 3; ++k) {
 			const int a = k / 2, b = (k + 1) / 2;
-			sums.tensor[k] += tensor[0] * h * h * m[a] * m[b] + tensor[1] * h * (m[a] * e[b] + e[a] * m[b]) + tensor[2] * e[a] * e[b];
+			sums.tensor[k]
+			        += tensor[0] * h * h * m[a] * m[b] + tensor[1] * h * (m[a] * e[b] + e[a] * m[b]) + tensor[2] * e[a] * e[b];
 		}
 	}
 }

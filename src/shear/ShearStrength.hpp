@@ -56,7 +56,7 @@ private:
 	int            count_;
 	Real           total_;
 	Vector2        centre_;
-	Vector2        axis_; ///< the long one of the outline
+	Vector2        axis_;                          ///< the long one of the outline
 	Vector2        shift_       = Vector2::Zero(); ///< from the outline's origin to that of x, the strength's centre
 	Real           atCentre_    = 0;               ///< τ there [Pa]
 	Vector2        gradient_    = Vector2::Zero(); ///< of τ [Pa/m]

@@ -139,8 +139,8 @@ TEST(ShearStrength, SlopeIsTheDerivativeAndPowerIsTheWork)
 Vector3 byParts(Real length, Real width, const Vector2& offset, const Vector3& slip)
 {
 	const int      parts    = 1000;
-	constexpr Real place[5] = { -0.906179845938663992797626878299L, -0.538469310105683091036314420701L, 0, 0.538469310105683091036314420701L,
-		    0.906179845938663992797626878299L },
+	constexpr Real place[5] = { -0.906179845938663992797626878299L, -0.538469310105683091036314420701L, 0,
+		0.538469310105683091036314420701L, 0.906179845938663992797626878299L },
 	               heavy = 0.478628670499366468041291514836L, light = 0.236926885056189087514264040720L,
 	               weight[5] = { light, heavy, 0.568888888888888888888888888889L, heavy, light };
 	const Vector2 gradient(12 * offset[0] / (length * length), 12 * offset[1] / (width * width)); // over the mean
@@ -168,16 +168,17 @@ TEST(ShearStrength, ResistanceOfANarrowOutline)
 				const Corners corners = rectangleOutline(1, width);
 				const Vector3 slip(pole[1] - offset[1], offset[0] - pole[0], 1); // no motion at the pole
 				const Vector3 parts = byParts(1, width, offset, slip), found = strengthOf(corners, offset).resistance(slip);
-				EXPECT_LT((found - parts).norm(), 1e-13) << width << " / " << offset.transpose() << " / " << pole.transpose();
+				EXPECT_LT((found - parts).norm(), 1e-13)
+				        << width << " / " << offset.transpose() << " / " << pole.transpose();
 				// as the outline lies, too
 				const Eigen::Rotation2D<Real> turn(0.7);
 				Corners                       turned = corners;
 				for (Vector2& corner : turned)
 					corner = turn * corner;
-				Vector3 there = slip;
+				Vector3 there   = slip;
 				there.head<2>() = turn * slip.head<2>();
-				Vector3 back = strengthOf(turned, turn * offset).resistance(there);
-				back.head<2>() = turn.inverse() * back.head<2>();
+				Vector3 back    = strengthOf(turned, turn * offset).resistance(there);
+				back.head<2>()  = turn.inverse() * back.head<2>();
 				EXPECT_LT((back - found).norm(), 1e-14 / width); // corners are rounded, which is more of a narrow outline
 			}
 }
