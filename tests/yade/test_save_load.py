@@ -115,6 +115,7 @@ def shearedCell():
 def clumps():
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
 	loop(False, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.1)
+	O.engines[2].loopOnSortedInteractions = True  # as in heap()
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
 	for k in range(3):
 		at = Vector3(.3 * k, .1 * k, .35 + .8 * k)
