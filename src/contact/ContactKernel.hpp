@@ -125,7 +125,8 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	failUnlessFinite<D>(memory, out);
 }
 
-template <class R, int D, int W>
+/// `Surface`: for models that have one (hasSurface()), and for them alone: the other contacts' instructions are not to change with it.
+template <class R, int D, int W, bool Surface>
 POLYTOPE_INLINE void contactKernel(
         const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
@@ -173,14 +174,15 @@ POLYTOPE_INLINE void contactKernel(
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
 	const bool aligned = alignFrame<R, D, W>(in, start, pivots > 0, basis, f, planes, x, dual);
-	if (settings.contactModel == ContactModel::Conservative) {
+	if constexpr (Surface) {
+		// across a gap there is none: the paper's geometry is as good a place for a law to end at
+		if (touching) {
+			surfaceContact<R, D, W>(in, settings, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
+			timer.end(out.centreNanoseconds);
+			return;
+		}
+	} else if (settings.contactModel == ContactModel::Conservative) {
 		conservativeContact<R, D, W>(in, settings, planes, f, basis, x, limits.reach, memory, workspace, out);
-		timer.end(out.centreNanoseconds);
-		return;
-	}
-	// across a gap there is no surface: the paper's geometry is as good a place for a law to end at
-	if (hasSurface(settings.contactModel) && touching) {
-		surfaceContact<R, D, W>(in, settings, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
 		timer.end(out.centreNanoseconds);
 		return;
 	}

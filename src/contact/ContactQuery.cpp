@@ -72,8 +72,8 @@ namespace {
 	using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
 
 	struct Kernels {
-		Kernel      flat;  ///< 2-D
-		Kernel      solid; ///< 3-D
+		Kernel      flat[2];  ///< 2-D; of models without and with a surface
+		Kernel      solid[2]; ///< 3-D
 		const char* name;
 	};
 
@@ -81,11 +81,11 @@ namespace {
 	// of libraries that the linker merges across files stay baseline code.
 #if defined(__x86_64__) && !defined(POLYTOPE_REAL)
 #define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
-	template <int D>                                                                                                                   \
+	template <int D, bool Surface>                                                                                                     \
 	__attribute__((target(TARGET))) void NAME(                                                                                         \
 	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out) \
 	{                                                                                                                                  \
-		contactKernel<Real, D, WIDTH>(in, settings, memory, workspace, out);                                                       \
+		contactKernel<Real, D, WIDTH, Surface>(in, settings, memory, workspace, out);                                              \
 	}
 	// four lanes with AVX-512 too: bodies have few faces, and its 32 registers hold the Hessian's sums
 	POLYTOPE_KERNEL(kernelV4, "arch=x86-64-v4", 4)
@@ -99,18 +99,18 @@ namespace {
 		const std::string name   = asked ? asked : "";
 		const bool        upToV3 = name == "AVX2", upToV1 = name == "SSE2";
 		__builtin_cpu_init();
-		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1) return { kernelV4<2>, kernelV4<3>, "AVX-512" };
-		if (__builtin_cpu_supports("x86-64-v3") && !upToV1) return { kernelV3<2>, kernelV3<3>, "AVX2" };
-		return { kernelV1<2>, kernelV1<3>, "SSE2" };
+		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1) return { { kernelV4<2, false>, kernelV4<2, true> }, { kernelV4<3, false>, kernelV4<3, true> }, "AVX-512" };
+		if (__builtin_cpu_supports("x86-64-v3") && !upToV1) return { { kernelV3<2, false>, kernelV3<2, true> }, { kernelV3<3, false>, kernelV3<3, true> }, "AVX2" };
+		return { { kernelV1<2, false>, kernelV1<2, true> }, { kernelV1<3, false>, kernelV1<3, true> }, "SSE2" };
 	}
 #else
-	template <int D>
+	template <int D, bool Surface>
 	void kernelScalar(
 	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 	{
-		contactKernel<Real, D, 1>(in, settings, memory, workspace, out);
+		contactKernel<Real, D, 1, Surface>(in, settings, memory, workspace, out);
 	}
-	Kernels chooseKernels() { return { kernelScalar<2>, kernelScalar<3>, "scalar" }; }
+	Kernels chooseKernels() { return { { kernelScalar<2, false>, kernelScalar<2, true> }, { kernelScalar<3, false>, kernelScalar<3, true> }, "scalar" }; }
 #endif
 
 	const Kernels kernels = chooseKernels();
@@ -120,7 +120,8 @@ namespace {
 void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
         const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
-	const Kernel kernel = shape1.dimension() == 2 ? kernels.flat : kernels.solid;
+	const bool   surface = hasSurface(settings.contactModel);
+	const Kernel kernel  = (shape1.dimension() == 2 ? kernels.flat : kernels.solid)[surface];
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;

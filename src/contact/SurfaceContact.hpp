@@ -85,10 +85,9 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 	return some;
 }
 
-/// After the linear program of a pair that touches; x: its point, in the planes' frame. Apart from the caller, whose instructions for the other
-/// contacts it would change.
+/// After the linear program of a pair that touches; x: its point, in the planes' frame.
 template <class R, int D, int W>
-POLYTOPE_APART void surfaceContact(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
+POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
         const ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, const R* x, const R* dual, PairMemory& memory,
         ContactWorkspace& workspace, ContactResult& out)
 {
