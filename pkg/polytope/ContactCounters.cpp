@@ -20,6 +20,7 @@ void Ig2_Polytope_Polytope_PolytopeGeom::count(const polytope::ContactResult& re
 	count.newtonIterations += result.newtonIterations;
 	count.ipoptSolves += result.ipoptSolved;
 	count.ipoptIterations += result.ipoptIterations;
+	count.surfacesKept += result.surfaceKept;
 	if (timing) {
 		count.lpNanoseconds += result.lpNanoseconds;
 		count.centreNanoseconds += result.centreNanoseconds;
@@ -38,6 +39,7 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 		sum.newtonIterations += one.newtonIterations;
 		sum.ipoptSolves += one.ipoptSolves;
 		sum.ipoptIterations += one.ipoptIterations;
+		sum.surfacesKept += one.surfacesKept;
 		sum.lpNanoseconds += one.lpNanoseconds;
 		sum.centreNanoseconds += one.centreNanoseconds;
 		sum.timedPairs += one.timedPairs;
@@ -59,6 +61,7 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	all["newtonIterations"] = sum.newtonIterations;
 	all["ipoptSolves"]      = sum.ipoptSolves;
 	all["ipoptIterations"]  = sum.ipoptIterations;
+	all["surfacesKept"]     = sum.surfacesKept;
 	all["rescued"]          = of(ContactStatus::CentreByIpopt);
 	all["fallbacks"]        = unanswered - of(ContactStatus::Failed);
 	all["failures"]         = unanswered;

@@ -30,6 +30,13 @@ polytope::PairMemory PolytopeGeom::memory() const
 	(hasPoint ? memory.dualDirection : memory.weights) = direction;
 	memory.point                                       = { point1, point2 };
 	memory.level                                       = level;
+	if (const auto* codes = surface.get(); codes && codes->size() >= 2) {
+		const std::size_t used   = std::min(codes->size() - 2, memory.surface.number.size());
+		memory.surface.parts     = std::uint8_t((*codes)[0]);
+		memory.surface.exchanged = std::uint8_t((*codes)[1]);
+		memory.surface.used      = std::uint16_t(used);
+		std::copy_n(codes->begin() + 2, used, memory.surface.number.begin());
+	}
 	return memory;
 }
 
@@ -44,6 +51,13 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point2    = memory.point[1];
 	level     = memory.level;
 	direction = hasPoint ? memory.dualDirection : memory.weights;
+	if (memory.surface.used == 0 && !surface.get()) return;
+	// in the memory that it has: needs new only where there are more pieces than ever before
+	std::vector<std::uint16_t>& codes = surface.make();
+	codes.resize(2 + std::size_t(memory.surface.used));
+	codes[0] = memory.surface.parts;
+	codes[1] = memory.surface.exchanged;
+	std::copy_n(memory.surface.number.begin(), memory.surface.used, codes.begin() + 2);
 }
 
 boost::python::list PolytopeGeom::outlineCorners() const
@@ -149,6 +163,7 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settingsOfLoop() c
 	polytope::ContactSettings settings = settings_;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
+	settings.energy                    = computeEnergy || scene->trackEnergy;
 	return settings;
 }
 
@@ -277,6 +292,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.outline.set(result.outline, result.outlineCount);
 	const bool hasEnergy = settings_.contactModel != polytope::ContactModel::Paper
 	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
+	geom.hasPressure        = hasEnergy;
 	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);

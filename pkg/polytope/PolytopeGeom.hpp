@@ -40,6 +40,8 @@ public:
 	using BasisCodes = std::array<std::uint16_t, 4>;
 	/// 2 × plane + body.
 	using PlaneCodes = Seldom<std::vector<int>>;
+	/// Of polytope::KeptSurface: its parts and whether the bodies are exchanged, then the numbers in use.
+	using SurfaceCodes = Seldom<std::vector<std::uint16_t>>;
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
@@ -66,12 +68,13 @@ public:
 		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as those of rock joints do; set when they are made."))
 		((bool, atOnePoint, false, (Attr::readonly | Attr::hidden), "Whether shear acts at the contact point, as in the paper"))
+		((bool, hasPressure, false, (Attr::readonly | Attr::hidden), "Whether point and depth are those of a pressure over the contact area"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; :yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
 		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
-		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *conservative* contacts $2\\Phi^2$; *foundation* and *spring* the volume's; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 for others, whose energy is half the square of the depth."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *conservative* contacts $2\\Phi^2$; *spring* and *foundation* the volume's, the latter while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 where it is not known, and for others, whose energy is half the square of the depth."))
 		((Real, turningArm, 0, Attr::readonly, "Contacts *foundation* and *spring*: moment about the normal that a force at the contact point leaves out, over that force [m]; positive: it turns body 2 about the normal."))
 		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
 		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, the next step's warm-start value"))
@@ -79,6 +82,7 @@ public:
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
+		((SurfaceCodes, surface, , (Attr::readonly | Attr::hidden), "Pieces of the last contact surface of the models that have one, by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
@@ -133,10 +137,11 @@ public:
 		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
 		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "The analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in double) to 0.1."))
 		((bool, computeArea, false, , "Compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this is done automatically)."))
+		((bool, computeEnergy, false, , "Contact *foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes half as long again; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
 		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts *foundation* and *spring* whose surface has the pieces of the step before), *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on

@@ -135,7 +135,7 @@ namespace {
 		const Vector3r              point = pair.point();
 		const polytope::PlacedShape body1 { *shape1, state1.pos - point, rotation1 },
 		        body2 { *shape2, state2.pos + pair.shift2 - point, rotation2 };
-		if (geom.energyPerStiffness >= 0) { // a pressure
+		if (geom.hasPressure) {
 			std::vector<polytope::Plane> planes;
 			polytope::addPlanesOf(body1, planes);
 			polytope::addPlanesOf(body2, planes);

@@ -3,6 +3,7 @@
 
 from yade import O, NewtonIntegrator, Vector3
 
+from ._scene import geometryFunctors
 from .bonding import bonds
 
 __all__ = ['mechanicalEnergy']
@@ -26,7 +27,14 @@ def mechanicalEnergy():
 	if not integrators:
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
 	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
-	O.step()
+	geometries = [geometry for geometry in geometryFunctors() if not geometry.computeEnergy]
+	for geometry in geometries:
+		geometry.computeEnergy = True
+	try:
+		O.step()
+	finally:
+		for geometry in geometries:
+			geometry.computeEnergy = False
 	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal) + sum(bond.energy for bond in _bonds())
 	return sum(_energy(*one, integrators[0].gravity) for one in moving) + stored
 

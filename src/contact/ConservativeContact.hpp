@@ -101,7 +101,7 @@ POLYTOPE_INLINE void conservativeSection(const PairInput& in, const ContactSetti
 	for (int i = 0; i < planes.total; ++i)
 		planes.offset[i] += grown;
 	moveInside<R, D, W>(planes, x, target);
-	contactSection<R, D>(in, settings, f, planes, x, n, target, workspace, out);
+	contactSection<R, D>(in, settings, f, planes, x, n, target, workspace.polygons(sectionNumbers(planes.total)), workspace, out);
 }
 
 /// After the linear program, whose point x is in the planes' frame.

@@ -10,7 +10,7 @@
 #include <cmath>
 
 /// Where a plane cuts the overlap of both bodies: polygon, area, centroid (3-D); length and midpoint (2-D).
-/// Used for the contact section (plane through the contact point, normal to n) and for the faces of the overlap.
+/// The contact section is that of the plane through the contact point, normal to n.
 namespace polytope {
 
 template <class R, int D> struct Section {
@@ -19,15 +19,6 @@ template <class R, int D> struct Section {
 	const R* corner      = nullptr; ///< 3-D: (u, v) along axesAround(normal) from the origin of the plane, in the buffer
 	int      count       = 0;
 };
-
-/// True if plane j lies on plane i (same normal and offset to rounding): of such planes only the first makes a face.
-template <class R, int D> POLYTOPE_INLINE bool coincident(const PairPlanes<R, D>& planes, int i, int j, R size)
-{
-	R difference = 0;
-	for (int k = 0; k < D; ++k)
-		difference += abs(planes.normal[k][i] - planes.normal[k][j]);
-	return difference <= R(tolerance::violation) && abs(planes.offset[i] - planes.offset[j]) <= R(tolerance::violation) * size;
-}
 
 /// Area and centroid of the polygon of `count` corners u, v about the origin along the axes, by a fan of triangles from its first corner.
 template <class R> POLYTOPE_INLINE Section<R, 3> polygonSection(const R* corner, int count, const R* origin, const Rotation<R, 3>& axes)
@@ -53,45 +44,51 @@ template <class R> POLYTOPE_INLINE Section<R, 3> polygonSection(const R* corner,
 	return section;
 }
 
-/// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half
-/// width; without the planes that lie on plane `skip`, if that is not −1. `buffer` holds 4 (total + 5) numbers.
+/// How many numbers clipPlane() needs for that many planes.
+constexpr int sectionNumbers(int planes) { return 5 * (planes + 5); }
+
+/// The polygon {p = origin + u t1 + v t2 : a_i·p ≤ d_i for all i} by successive clipping of a square of the given half width.
 template <class R>
-POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer, int skip)
+POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R* origin, const R* normal, R halfWidth, R* buffer)
 {
 	const Rotation<R, 3> axes       = axesAround<R, 3>(normal);
 	R*                   here       = buffer;
 	R*                   there      = buffer + 2 * (planes.total + 5);
+	R* const             value      = buffer + 4 * (planes.total + 5);
 	const R              corners[8] = { -halfWidth, -halfWidth, halfWidth, -halfWidth, halfWidth, halfWidth, -halfWidth, halfWidth };
 	int                  count      = 4;
 	for (int k = 0; k < 8; ++k)
 		here[k] = corners[k];
 	for (int i = 0; i < planes.total && count > 0; ++i) {
-		if (skip >= 0 && coincident<R, 3>(planes, skip, i, halfWidth)) continue;
 		R a[3], d;
 		planes.plane(i, a, d);
 		if (d >= R(padOffset) / 2) continue;
 		const R au = dot<R, 3>(a, axes.m[0]), av = dot<R, 3>(a, axes.m[1]);
-		const R rest  = d - dot<R, 3>(a, origin);
-		int     kept  = 0;
-		R       lastU = here[2 * count - 2], lastV = here[2 * count - 1];
-		R       last = au * lastU + av * lastV - rest;
+		const R rest = d - dot<R, 3>(a, origin);
+		R       most = -R(padOffset);
 		for (int k = 0; k < count; ++k) {
-			const R u = here[2 * k], v = here[2 * k + 1];
-			const R value = au * u + av * v - rest;
-			if ((value > 0) != (last > 0)) {
-				const R t           = last / (last - value);
+			value[k] = au * here[2 * k] + av * here[2 * k + 1] - rest;
+			most     = maxOf<R>(most, value[k]);
+		}
+		if (!(most > 0)) continue;
+		int kept = 0;
+		R   lastU = here[2 * count - 2], lastV = here[2 * count - 1], last = value[count - 1];
+		for (int k = 0; k < count; ++k) {
+			const R u = here[2 * k], v = here[2 * k + 1], own = value[k];
+			if ((own > 0) != (last > 0)) {
+				const R t           = last / (last - own);
 				there[2 * kept]     = lastU + t * (u - lastU);
 				there[2 * kept + 1] = lastV + t * (v - lastV);
 				++kept;
 			}
-			if (!(value > 0)) {
+			if (!(own > 0)) {
 				there[2 * kept]     = u;
 				there[2 * kept + 1] = v;
 				++kept;
 			}
 			lastU = u;
 			lastV = v;
-			last  = value;
+			last  = own;
 		}
 		R* swap = here;
 		here    = there;
@@ -103,12 +100,11 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 
 /// 2-D: the segment of the line through origin, normal to `normal`, inside both bodies.
 template <class R>
-POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R* origin, const R* normal, R halfWidth, R*, int skip)
+POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R* origin, const R* normal, R halfWidth, R*)
 {
 	const Rotation<R, 2> axes = axesAround<R, 2>(normal);
 	R                    low = -halfWidth, high = halfWidth;
 	for (int i = 0; i < planes.total; ++i) {
-		if (skip >= 0 && coincident<R, 2>(planes, skip, i, halfWidth)) continue;
 		R a[2], d;
 		planes.plane(i, a, d);
 		const R rate = dot<R, 2>(a, axes.m[0]);
@@ -126,12 +122,12 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 }
 
 /// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n. Its outline is from `point`, or where that is null
-/// from the centroid.
+/// from the centroid. `buffer`: of sectionNumbers().
 template <class R, int D>
 POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
-        const PairPlanes<R, D>& planes, const R* x, const R* n, const R* point, ContactWorkspace& workspace, ContactResult& out)
+        const PairPlanes<R, D>& planes, const R* x, const R* n, const R* point, R* buffer, ContactWorkspace& workspace, ContactResult& out)
 {
-	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, workspace.polygons(4 * (planes.total + 5)), -1);
+	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, buffer);
 	out.area                    = section.area;
 	if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
 	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));

@@ -3,6 +3,7 @@
 
 #include "contact/Status.hpp"
 #include "numbers/Tolerances.hpp"
+#include "surface/KeptSurface.hpp"
 
 #include <array>
 #include <vector>
@@ -96,7 +97,7 @@ struct ContactSettings {
 	const InternalPlanes* internal = nullptr;
 	/// Where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
-	/// Foundation: also the energy, which takes half as long again.
+	/// Foundation: also the energy, which takes half as long again; else it is −1.
 	bool energy = true;
 	/// Measure the LP's and the centre's time.
 	bool timed = false;
@@ -114,6 +115,8 @@ struct PairMemory {
 	Vector3 dualDirection { Vector3::Zero() };
 	/// Last s of the conservative contact's minimiser [m]. Any value is safe.
 	Real level = 0;
+	/// Of the models with a surface.
+	KeptSurface surface;
 };
 
 struct ContactResult {
@@ -142,6 +145,7 @@ struct ContactResult {
 	Vector3 common     = Vector3::
 	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre
 	bool                dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
+	bool                surfaceKept      = false; ///< foundation, spring: its pieces are those of the last step
 	int                 simplexPivots    = 0;
 	int                 newtonIterations = 0;
 	bool                ipoptSolved      = false; ///< Ipopt was called, with or without success

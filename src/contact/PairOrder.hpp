@@ -44,6 +44,7 @@ inline void exchangeBodies(PairMemory& memory)
 	memory.point[0]      = memory.point[1];
 	memory.point[1]      = first;
 	memory.dualDirection = -memory.dualDirection;
+	memory.surface.exchanged ^= 1;
 }
 
 /// The result for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

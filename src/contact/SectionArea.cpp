@@ -11,13 +11,13 @@ namespace {
 	{
 		static thread_local std::vector<Real> rows, buffer;
 		rows.resize((D + 1) * list.size());
-		buffer.resize(4 * (list.size() + 5));
+		buffer.resize(std::size_t(sectionNumbers(int(list.size()))));
 		const PairPlanes<Real, D> planes    = planesInRows<D>(list, rows.data());
 		const Real                origin[D] = {};
 		Real                      n[D];
 		for (int k = 0; k < D; ++k)
 			n[k] = normal[k];
-		return clipPlane<Real>(planes, origin, n, halfWidth, buffer.data(), -1).area;
+		return clipPlane<Real>(planes, origin, n, halfWidth, buffer.data()).area;
 	}
 
 } // namespace

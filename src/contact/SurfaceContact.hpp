@@ -59,20 +59,24 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 	}
 }
 
-/// The contact surface of the planes that matter; energy only if asked for.
+/// The contact surface of the planes that matter, which are left in `nearest`, with room for a section of them in `spare`; energy only if asked for.
+/// `kept`: ContactSurface.hpp.
 template <class R, int D, int W>
-POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy,
-        ContactWorkspace& workspace, SurfaceSums<R, D>& sums)
+POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptSurface* kept,
+        ContactWorkspace& workspace, SurfaceSums<R, D>& sums, PairPlanes<R, D>& nearest, R*& spare)
 {
-	const int most   = planes.total + 2 * padWidth;
-	R* const numbers = workspace.polygons(NearPlanes<R, D, W>::numbersNeeded(planes.total) + SurfaceBuffers<R, D>::numbersNeeded(most));
-	LpBasis<R, D>              basis = optimum;
-	NearPlanes<R, D, W>        near(planes, basis, size, numbers);
-	const int                  total = near.planes().total;
-	const SurfaceBuffers<R, D> buffers(total, numbers + NearPlanes<R, D, W>::numbersNeeded(planes.total),
-	        workspace.indices(SurfaceBuffers<R, D>::indicesNeeded(most)));
-	const SurfaceParts         parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
-	return contactSurface<R, D, W>(near.planes(), basis.plane, D + 1, size, -optimum.infeasibility, parts, buffers, sums);
+	using Near     = NearPlanes<R, D, W>;
+	using Buffers  = SurfaceBuffers<R, D>;
+	const int most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total), ownIndices = Near::indicesNeeded(planes.total);
+	R* const  numbers = workspace.polygons(own + Buffers::numbersNeeded(most) + sectionNumbers(most));
+	int* const    indices = workspace.indices(ownIndices + Buffers::indicesNeeded(most));
+	LpBasis<R, D> basis   = optimum;
+	Near          near(planes, basis, size, numbers, indices);
+	nearest = near.planes();
+	spare   = numbers + own + Buffers::numbersNeeded(most);
+	const Buffers      buffers(nearest.total, numbers + own, indices + ownIndices);
+	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
+	return contactSurface<R, D, W>(nearest, basis.plane, D + 1, size, -optimum.infeasibility, parts, buffers, sums, kept, near.names());
 }
 
 /// The force's direction; where there is no force the dual's, or any: coincident bodies, or one wholly within the other, are in equilibrium.
@@ -94,7 +98,11 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	SurfaceSums<R, D>   sums;
 	const R             deepest = -basis.infeasibility;
 	const bool          energy  = settings.energy || settings.contactModel == ContactModel::Spring;
-	const SurfaceStatus found   = surfaceOfPair<R, D, W>(planes, basis, f.size, energy, workspace, sums);
+	PairPlanes<R, D>    nearest;
+	R*                  spare;
+	const SurfaceStatus found = surfaceOfPair<R, D, W>(
+	        planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, sums, nearest, spare);
+	out.surfaceKept           = sums.kept;
 
 	const SurfaceLoad<R, D> load(settings.contactModel, sums);
 	const R                 length = norm<R, D>(load.force);
@@ -112,7 +120,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	area   = maxOf<R>(area, sums.pressure / deepest);
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
 	out.depth  = perArea ? length / area : length;
-	out.energy = perArea ? load.energy / area : load.energy;
+	out.energy = !energy ? R(-1) : perArea ? load.energy / area : load.energy;
 	out.area   = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
 
 	const bool whole = found == SurfaceStatus::Found || found == SurfaceStatus::None;
@@ -126,7 +134,8 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	if constexpr (D == 3) {
 		if (settings.outline) { // where friction acts: the plane through the point, on which a contact surface of two faces lies
 			const Real surface = out.area;
-			contactSection<R, 3>(in, settings, f, planes, point, n, point, workspace, out);
+			// of planes that are near: of the others none bounds the overlap
+			contactSection<R, 3>(in, settings, f, nearest, point, n, point, spare, workspace, out);
 			out.area            = surface;
 			out.sectionCentroid = out.point;
 		}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "surface/KeptSurface.hpp"
 #include "surface/PieceQueue.hpp"
 #include "surface/SurfaceSums.hpp"
 #include "surface/TwinPlanes.hpp"
@@ -40,12 +41,36 @@ enum class SurfaceStatus : int {
 
 template <class R, int D, int W> class SurfaceWalk {
 public:
-	POLYTOPE_INLINE SurfaceWalk(
-	        PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts, int order)
+	POLYTOPE_INLINE SurfaceWalk(PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts, int order,
+	        SurfaceRecord& record)
 	        : planes_(planes), buffers_(buffers), reach_(R(tolerance::pieceBox) * size), deepest_(deepest),
 	          all_(parts == SurfaceParts::Cells), faces_(parts != SurfaceParts::Facing), twins_(planes, buffers, size, order),
-	          queue_(buffers), cones_(buffers)
+	          queue_(buffers), cones_(buffers), record_(record)
 	{
+	}
+
+	/// From the pieces of the last step; false if they are not this step's.
+	///
+	/// Each is the whole piece if its vertices are (SurfaceCut), and where the surface goes on at its edges is in what is kept, too: so what is connected
+	/// with it is all there. Other parts are missed as little as by run(), whose sum of area vectors is asked here as well.
+	POLYTOPE_INLINE bool again(KeptPieces pieces, SurfaceSums<R, D>& sums)
+	{
+		reset(sums);
+		while (pieces.next()) {
+			SurfacePiece<R, D> piece;
+			if (!placePiece<R, D>(planes_, pieces.i, pieces.j, reach_, piece)) return false;
+			planesOnPiece<R, D, W>(planes_, piece, buffers_);
+			const SurfaceCut<R, D, W> cut(buffers_, deepest_, pieces.tag, pieces.edges);
+			if (cut.count() == 0) return false;
+			const PieceIntegrals<R, D> of = integrate<R, W>(piece, cut);
+			if (!(of.area > 0)) return false;
+			sum(piece, of, sums);
+			sums.vertices += cut.count();
+		}
+		SurfaceStatus status;
+		close(status, sums);
+		sums.kept = pieces.atEnd() && status == SurfaceStatus::Found;
+		return sums.kept;
 	}
 
 	/// `basis`: planes that are nearest somewhere. True if planes of both bodies coincide, so that the sums depend on the order.
@@ -62,19 +87,26 @@ public:
 				look(piece, sums);
 			close(status, sums);
 		}
+		if (twins_.shared() || status != SurfaceStatus::Found) record_.giveUp();
 		twins_.restore();
 		return twins_.shared();
 	}
 
 private:
-	POLYTOPE_INLINE void begin(const int* basis, int count, bool everywhere, SurfaceSums<R, D>& sums)
+	POLYTOPE_INLINE void reset(SurfaceSums<R, D>& sums)
 	{
 		sums      = SurfaceSums<R, D>();
 		faceArea_ = 0;
 		for (int k = 0; k < D; ++k)
 			face_[0][k] = face_[1][k] = 0;
-		queue_.clear();
 		if (all_) cones_.clear();
+	}
+
+	POLYTOPE_INLINE void begin(const int* basis, int count, bool everywhere, SurfaceSums<R, D>& sums)
+	{
+		reset(sums);
+		queue_.clear();
+		record_.begin();
 		int edge[tolerance::planesInAnEdge];
 		for (int k = 0; k < count; ++k)
 			edge[k] = basis[k];
@@ -118,8 +150,11 @@ private:
 		planesOnPiece<R, D, W>(planes_, piece, buffers_);
 		const SurfaceCut<R, D, W> cut(buffers_, reach_, deepest_, queue_.known(number));
 		if (cut.count() == 0) return;
-		sum(piece, integrate<R, W>(piece, cut), sums);
+		const PieceIntegrals<R, D> of = integrate<R, W>(piece, cut);
+		sum(piece, of, sums);
 		sums.vertices += cut.count();
+		if (!cut.hasPlainEdges()) record_.giveUp();
+		else if (of.area > 0) record_.add(i, j, cut);
 		for (int t = 0; t < cut.count(); ++t)
 			goOn(piece, cut, t);
 	}
@@ -197,6 +232,7 @@ private:
 	TwinPlanes<R, D, W>         twins_;
 	PieceQueue<R, D>            queue_;
 	CellCones<R, D>             cones_;
+	SurfaceRecord&              record_;
 	R                           face_[2][D] = {}; ///< area vectors of the overlap's faces of each body
 	R                           faceArea_   = 0;
 };
@@ -204,19 +240,28 @@ private:
 /// Of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller body's
 /// circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre, and the digits there: best at the optimum. Offsets of
 /// the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
+/// `kept`: the pieces of the last step, and then of this, or null; `names`: of the planes.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,
-        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums)
+        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {})
 {
+	SurfaceRecord record(D == 3 ? kept : nullptr, names);
+	if constexpr (D == 3) {
+		if (kept && kept->used > 0 && kept->parts == int(parts) && !kept->exchanged) {
+			SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, 0, record);
+			if (walk.again(KeptPieces(*kept, names), sums)) return SurfaceStatus::Found;
+		}
+	}
 	SurfaceStatus status[2] = { SurfaceStatus::Found, SurfaceStatus::Found };
 	bool          shared    = true;
 	for (int order = 0; order < 2 && shared; ++order) {
-		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order);
+		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record);
 		SurfaceSums<R, D>    own;
 		shared = walk.run(basis, count, status[order], own);
 		if (order == 0) sums = own;
 		else sums.average(own);
 	}
+	record.end(int(parts), parts != SurfaceParts::Cells, parts != SurfaceParts::Facing);
 	const auto worse = status[0] > status[1] ? status[0] : status[1];
 	// of a surface that is there in one order alone the mean is as good
 	return worse == SurfaceStatus::None && sums.pieces > 0 ? SurfaceStatus::Found : worse;

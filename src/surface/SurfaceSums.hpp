@@ -30,8 +30,9 @@ template <class R, int D> struct SurfaceSums {
 	R   moment[turns]     = {}; ///< ∫ x × p n dS, about the frame's origin [m⁴]
 	R   deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
 	R   deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
-	int pieces            = 0;
-	int vertices          = 0;
+	int  pieces           = 0;
+	int  vertices         = 0;
+	bool kept             = false; ///< they are those of the last step
 
 	// over all cells, if asked for
 	R overlap = 0; ///< ∫ dV over the overlap [m³]

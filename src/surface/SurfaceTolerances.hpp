@@ -22,6 +22,9 @@ constexpr Real crossingLines = 1e-3;
 /// tell, and the surface may go on between any two of them. Pieces looked at in vain cost time alone, so that this is far above rounding.
 constexpr Real meetingPlanes = 65536 * rounding;
 
+/// × extent of a piece: a vertex that is found anew from the planes of the last step may lie beyond others by this, which rounding explains.
+constexpr Real keptVertex = 64 * rounding;
+
 /// Largest sum of the surface's area vectors over its area where it ought to be closed, and what is added to it × size over the overlap's
 /// thickness: rounding leaves less, a piece that is missing more, unless it is so small that it is of no account.
 constexpr Real openSurface = 1e-7, openThin = 64 * rounding;

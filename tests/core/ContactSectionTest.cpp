@@ -19,8 +19,8 @@ struct Cut {
 template <int D> Cut cut(const HalfSpaces& set1, const HalfSpaces& set2, const Vector3& origin, const Vector3& normal, Real halfWidth = 10)
 {
 	PlaneRows<Real, D> rows(set1, set2);
-	std::vector<Real>  buffer(4 * std::size_t(rows.planes.total + 5));
-	const auto         section = clipPlane(rows.planes, origin.data(), normal.data(), halfWidth, buffer.data(), -1);
+	std::vector<Real>  buffer(std::size_t(sectionNumbers(rows.planes.total)));
+	const auto         section = clipPlane(rows.planes, origin.data(), normal.data(), halfWidth, buffer.data());
 	return { section.area, vectorOf(section.centroid, D) };
 }
 

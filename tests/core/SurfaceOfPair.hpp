@@ -53,7 +53,8 @@ private:
 			basis.plane[k] = rows.row(program.basis[k] & 1, program.basis[k] >> 1);
 		std::vector<Real>          numbers(std::size_t(NearPlanes<Real, D, width>::numbersNeeded(rows.planes.total)), Real(NAN));
 		LpBasis<Real, D>           ofNear = basis;
-		NearPlanes<Real, D, width> near(rows.planes, ofNear, pair.size(), numbers.data());
+		std::vector<int>           indices(std::size_t(NearPlanes<Real, D, width>::indicesNeeded(rows.planes.total)), -77);
+		NearPlanes<Real, D, width> near(rows.planes, ofNear, pair.size(), numbers.data(), indices.data());
 		facing = near.facing();
 		if (start == NearPlanesAlone) walk(near.planes(), ofNear.plane, D + 1, pair.size(), parts);
 		else walk(rows.planes, basis.plane, start == Basis ? D + 1 : 0, pair.size(), parts);

@@ -47,6 +47,11 @@ def conservativeHeap():
 	heap()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
 
+def surfaceHeap():
+	"""The pieces of contact surfaces that are kept from step to step are saved."""
+	heap()
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'spring'
+
 def slide(perArea):
 	"""A prism slides over the joints of three flush plates that meet in a T."""
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.1)
@@ -168,7 +173,7 @@ def testEnergiesAreResumed(tmp_path):
 	assert resumed == uninterrupted
 
 
-@pytest.mark.parametrize('scene', ['heap', 'conservativeHeap'])
+@pytest.mark.parametrize('scene', ['heap', 'conservativeHeap', 'surfaceHeap'])
 def testHeapIsResumed(scene, tmp_path):
 	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
 	# nine and sixteen contacts in double; how many there are just then differs with the numbers' rounding
