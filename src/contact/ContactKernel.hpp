@@ -119,8 +119,8 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 	if (settings.depthRule != DepthRule::Chord && !distributed) out.energy = touching ? out.depth * out.depth / 2 : R(0);
 	if (settings.section && !distributed) {
 		const bool toCentroid = settings.depthRule == DepthRule::Mean;
-		contactSection<R, D>(in, settings, f, planes, x, n, toCentroid ? nullptr : x, workspace.polygons(sectionNumbers(planes.total)),
-		        workspace, out);
+		contactSection<R, D>(in, settings, f, planes, x, n, toCentroid ? nullptr : x,
+		        workspace.polygons(sectionNumbers(planes.total)), workspace, out);
 		if (toCentroid) out.point = out.sectionCentroid;
 	}
 	failUnlessFinite<D>(memory, out);

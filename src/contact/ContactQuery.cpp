@@ -99,8 +99,10 @@ namespace {
 		const std::string name   = asked ? asked : "";
 		const bool        upToV3 = name == "AVX2", upToV1 = name == "SSE2";
 		__builtin_cpu_init();
-		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1) return { { kernelV4<2, false>, kernelV4<2, true> }, { kernelV4<3, false>, kernelV4<3, true> }, "AVX-512" };
-		if (__builtin_cpu_supports("x86-64-v3") && !upToV1) return { { kernelV3<2, false>, kernelV3<2, true> }, { kernelV3<3, false>, kernelV3<3, true> }, "AVX2" };
+		if (__builtin_cpu_supports("x86-64-v4") && !upToV3 && !upToV1)
+			return { { kernelV4<2, false>, kernelV4<2, true> }, { kernelV4<3, false>, kernelV4<3, true> }, "AVX-512" };
+		if (__builtin_cpu_supports("x86-64-v3") && !upToV1)
+			return { { kernelV3<2, false>, kernelV3<2, true> }, { kernelV3<3, false>, kernelV3<3, true> }, "AVX2" };
 		return { { kernelV1<2, false>, kernelV1<2, true> }, { kernelV1<3, false>, kernelV1<3, true> }, "SSE2" };
 	}
 #else
@@ -110,7 +112,10 @@ namespace {
 	{
 		contactKernel<Real, D, 1, Surface>(in, settings, memory, workspace, out);
 	}
-	Kernels chooseKernels() { return { { kernelScalar<2, false>, kernelScalar<2, true> }, { kernelScalar<3, false>, kernelScalar<3, true> }, "scalar" }; }
+	Kernels chooseKernels()
+	{
+		return { { kernelScalar<2, false>, kernelScalar<2, true> }, { kernelScalar<3, false>, kernelScalar<3, true> }, "scalar" };
+	}
 #endif
 
 	const Kernels kernels = chooseKernels();

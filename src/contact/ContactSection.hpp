@@ -71,7 +71,7 @@ POLYTOPE_INLINE Section<R, 3> clipPlane(const PairPlanes<R, 3>& planes, const R*
 			most     = maxOf<R>(most, value[k]);
 		}
 		if (!(most > 0)) continue;
-		int kept = 0;
+		int kept  = 0;
 		R   lastU = here[2 * count - 2], lastV = here[2 * count - 1], last = value[count - 1];
 		for (int k = 0; k < count; ++k) {
 			const R u = here[2 * k], v = here[2 * k + 1], own = value[k];

@@ -62,13 +62,14 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 /// The contact surface of the planes that matter, which are left in `nearest`, with room for a section of them in `spare`; energy only if asked for.
 /// `kept`: ContactSurface.hpp.
 template <class R, int D, int W>
-POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptSurface* kept,
-        ContactWorkspace& workspace, SurfaceSums<R, D>& sums, PairPlanes<R, D>& nearest, R*& spare)
+POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy,
+        KeptSurface* kept, ContactWorkspace& workspace, SurfaceSums<R, D>& sums, PairPlanes<R, D>& nearest, R*& spare)
 {
 	using Near     = NearPlanes<R, D, W>;
 	using Buffers  = SurfaceBuffers<R, D>;
-	const int most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total), ownIndices = Near::indicesNeeded(planes.total);
-	R* const  numbers = workspace.polygons(own + Buffers::numbersNeeded(most) + sectionNumbers(most));
+	const int most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total),
+	          ownIndices  = Near::indicesNeeded(planes.total);
+	R* const      numbers = workspace.polygons(own + Buffers::numbersNeeded(most) + sectionNumbers(most));
 	int* const    indices = workspace.indices(ownIndices + Buffers::indicesNeeded(most));
 	LpBasis<R, D> basis   = optimum;
 	Near          near(planes, basis, size, numbers, indices);
@@ -102,7 +103,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	R*                  spare;
 	const SurfaceStatus found = surfaceOfPair<R, D, W>(
 	        planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, sums, nearest, spare);
-	out.surfaceKept           = sums.kept;
+	out.surfaceKept = sums.kept;
 
 	const SurfaceLoad<R, D> load(settings.contactModel, sums);
 	const R                 length = norm<R, D>(load.force);

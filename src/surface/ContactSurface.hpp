@@ -41,8 +41,8 @@ enum class SurfaceStatus : int {
 
 template <class R, int D, int W> class SurfaceWalk {
 public:
-	POLYTOPE_INLINE SurfaceWalk(PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts, int order,
-	        SurfaceRecord& record)
+	POLYTOPE_INLINE SurfaceWalk(PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts,
+	        int order, SurfaceRecord& record)
 	        : planes_(planes), buffers_(buffers), reach_(R(tolerance::pieceBox) * size), deepest_(deepest),
 	          all_(parts == SurfaceParts::Cells), faces_(parts != SurfaceParts::Facing), twins_(planes, buffers, size, order),
 	          queue_(buffers), cones_(buffers), record_(record)

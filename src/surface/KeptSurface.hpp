@@ -83,7 +83,7 @@ private:
 		for (int at = 0; at < used_; at += 3 + number(at + 2))
 			for (int t = 0; t < number(at + 2); ++t)
 				for (int side = 0; side < 2; ++side) {
-					const int i = number(at + side), k = number(at + 3 + t), none = PlaneNames::noPressure;
+					const int  i = number(at + side), k = number(at + 3 + t), none = PlaneNames::noPressure;
 					const bool asked = i == none || k == none ? faces : !between || (i & 1) != (k & 1);
 					if (asked && !has(i, k)) return false;
 				}

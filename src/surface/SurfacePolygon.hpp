@@ -32,7 +32,8 @@ public:
 
 	/// Of the piece as it was, with these planes along its edges in turn. Its vertices are where neighbouring edges meet. If no plane cuts any of them
 	/// off, none cuts the polygon, and it is the piece; else nothing is left.
-	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R deepest, const int* tag, int edges) : buffers_(buffers), deepest_(deepest)
+	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R deepest, const int* tag, int edges)
+	        : buffers_(buffers), deepest_(deepest)
 	{
 		for (int t = 0; t < edges; ++t) {
 			buffers_.line[0][t]    = buffers_.rate[0][tag[t]];

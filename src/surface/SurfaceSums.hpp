@@ -22,17 +22,17 @@ template <class R, int D> struct SurfaceSums {
 	static constexpr int turns = D == 3 ? 3 : 1;
 
 	// over the contact surface, where the least slacks of both bodies are p; n its unit normal from body 1 to body 2
-	R   area              = 0;  ///< ∫ dS [m²]
-	R   areaVector[D]     = {}; ///< ∫ n dS
-	R   pressure          = 0;  ///< ∫ p dS [m³]
-	R   centre[D]         = {}; ///< ∫ p x dS [m⁴]
-	R   force[D]          = {}; ///< ∫ p n dS = −∂V/∂(centre 2) [m³], V the volume below
-	R   moment[turns]     = {}; ///< ∫ x × p n dS, about the frame's origin [m⁴]
-	R   deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
-	R   deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
-	int  pieces           = 0;
-	int  vertices         = 0;
-	bool kept             = false; ///< they are those of the last step
+	R    area              = 0;  ///< ∫ dS [m²]
+	R    areaVector[D]     = {}; ///< ∫ n dS
+	R    pressure          = 0;  ///< ∫ p dS [m³]
+	R    centre[D]         = {}; ///< ∫ p x dS [m⁴]
+	R    force[D]          = {}; ///< ∫ p n dS = −∂V/∂(centre 2) [m³], V the volume below
+	R    moment[turns]     = {}; ///< ∫ x × p n dS, about the frame's origin [m⁴]
+	R    deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
+	R    deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
+	int  pieces            = 0;
+	int  vertices          = 0;
+	bool kept              = false; ///< they are those of the last step
 
 	// over all cells, if asked for
 	R overlap = 0; ///< ∫ dV over the overlap [m³]

@@ -204,7 +204,7 @@ TEST(SurfaceContact, AnyKeptSurfaceIsAGoodEnoughStart)
 	for (const ContactModel model : models)
 		for (int trial = 0; trial < 400; ++trial) {
 			SCOPED_TRACE(trial);
-			Pair                pair   = randomPair(shapes, random);
+			Pair                pair = randomPair(shapes, random);
 			PairMemory          memory;
 			const ContactResult cold = query(pair, with(model));
 			memory.surface           = before.surface; // of another pair
