@@ -102,7 +102,7 @@ void PolytopeBonds::act(PolytopeBond& bond) const
 		bond.energy              = 0;
 		return;
 	}
-	if (const char* strength = bond.exceeded()) bond.failure = strength;
+	if (const char* strength = unbreakable ? nullptr : bond.exceeded()) bond.failure = strength;
 	scene->forces.addForce(bond.id1, -bond.force);
 	scene->forces.addForce(bond.id2, bond.force);
 	scene->forces.addTorque(bond.id1, -(bond.arm1.cross(bond.force) + bond.moment));

@@ -47,6 +47,7 @@ public:
 
 With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
+		((bool, unbreakable, false, , "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*."))
 		, /*ctor*/
 		, /*py*/
 		.def_readwrite("_divided", &PolytopeBonds::divided)

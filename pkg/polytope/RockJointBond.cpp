@@ -97,8 +97,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	phys.setStiffnesses(1);
 	// what rounding of positions leaves is no shear: a joint without cohesion has no strength against it when pulled
 	const Real shown   = Real(polytope::tolerance::rounding) * phys.shearStiffness * math::min(geom.refR1, geom.refR2);
-	const bool parted  = !(bond.edgeStress <= phys.tensileStrength);
-	const bool sheared = !(bond.shearStress <= math::max(phys.shearStrength(elastic) / bond.area, shown));
+	const bool parted  = !unbreakable && !(bond.edgeStress <= phys.tensileStrength);
+	const bool sheared = !unbreakable && !(bond.shearStress <= math::max(phys.shearStrength(elastic) / bond.area, shown));
 	if (parted || sheared) {
 		if (sheared) phys.fail();
 		else phys.losesTension();

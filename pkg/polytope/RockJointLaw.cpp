@@ -41,7 +41,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	shear.move(geom.shearIncrement());
 
 	const Real elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation - phys.restOverlap);
-	if (elasticNormal < 0 && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, shear);
+	if (elasticNormal < 0 && !(unbreakable && phys.intact) && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, shear);
 	const Real viscous = normalDamping > 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
@@ -83,6 +83,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 /// Brings the trial shear force back to the strength; an intact joint fails there. False if that leaves it open.
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys, Real normal, Shear& shear) const
 {
+	phys.isSliding = false;
+	if (unbreakable) return true;
 	if (phys.intact) {
 		Shear asIntact(shear);
 		phys.isSliding = asIntact.limit(phys, normal);

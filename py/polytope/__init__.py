@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -45,6 +45,7 @@ from .pictures import picture
 from .requirements import requirements
 from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
+from .settling import settle
 from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
 from .timeStep import stableTimeStep
@@ -105,6 +106,7 @@ __all__ = [
 	'requirements',
 	'sample',
 	'settings',
+	'settle',
 	'shearBox',
 	'simpleShear',
 	'sizeDistribution',

@@ -740,3 +740,31 @@ def testRefusals():
 			polytope.check(O)
 	finally:
 		O.pause()
+
+
+def cohesive(gap=0.0, **joint):
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5, **joint))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.5 + gap), (0.5, 0.5, 0.5)))
+
+
+@pytest.mark.parametrize(
+	'gap,gravity,joint,found',
+	[
+		(0, 9.81, {'cohesion': 1e5}, True),
+		(0, 9.81, {'cohesion': 1e5, 'tensileStrength': 1e4}, True),
+		(0, 0, {'cohesion': 1e5}, False),
+		(0.1, 9.81, {'cohesion': 1e5}, False),  # it falls onto the floor: nothing is glued yet
+		(0, 9.81, {}, False),
+		(0, 9.81, {'cohesion': 1e5, 'residualCohesion': 1e5}, False),  # perfectly plastic: nothing is lost
+	],
+)
+def testGravityAtOnceOnJointsWithAStrength(gap, gravity, joint, found):
+	cohesive(gap, **joint)
+	with warnings.catch_warnings(record=True) as told:
+		warnings.simplefilter('always')
+		O.engines = polytope.engines(gravity=(0, 0, -gravity))
+	assert any('polytope.settle()' in str(one.message) for one in told) == found
+	assert any(one.what == 'gravity at once' for one in polytope.check(O)) == found
+	O.step()
+	assert not any(one.what == 'gravity at once' for one in polytope.check(O))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of where bodies are and how they meet there, of polytope.check(). Each yields (what, seen, advice)."""
 
+import itertools
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ import scipy  # loads its packages at their first use: half a second
 from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
 
 from ..arrays import arrays
+from ..bonding import bonds
 
 __all__ = ['notNumbers', 'placeFindings']
 
@@ -22,9 +24,15 @@ half = 0.5
 deep = 0.3
 """Overlap over the sum of both inscribed radii above which two bodies were placed into each other: their contact shoots them apart."""
 
+touching = 1e-6
+"""Gap over the smaller circumscribed radius up to which bodies are in touch from the start."""
+
+looks = 2000
+"""Pairs of neighbours to look at for one that touches: blocks of a rock mass do, grains of a cloud do not."""
+
 
 def placeFindings(scene):
-	for one in (coincidence, overlaps, spanning, stiffness):
+	for one in (coincidence, overlaps, spanning, stiffness, suddenGravity):
 		yield from one(scene)
 
 
@@ -83,6 +91,43 @@ def overlaps(scene):
 		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
 		seen = f'body {first[0]} and body {first[1]} lie deep in each other{more}: they are shot apart'
 		yield 'overlap', seen, 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
+
+
+def suddenGravity(scene):
+	"""Joints with a strength that they can lose, between bodies in touch, and gravity that begins with the first step."""
+	if scene.O.iter > 0 or not scene.gravity() > 0:
+		return
+	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body.material)]
+	bonded = bonds() and any(bond.intact and math.isfinite(bond.tensileStrength) for bond in bonds().bonds)
+	if not bonded and (len(strong) < 2 or not _anyTouch(scene, strong)):
+		return
+	what = 'bonds' if bonded else 'joints with cohesion or tensile strength'
+	seen = f'{what} and gravity that begins at once: the first swing loads them up to twice, and what fails then is lost although it would hold at rest'
+	yield 'gravity at once', seen, 'polytope.settle() before the run: at rest first, then the true strengths'
+
+
+def _canLoseStrength(material):
+	return isinstance(material, RockJointMat) and (material.cohesion > material.residualCohesion or material.tensileStrength > 0)
+
+
+def _anyTouch(scene, bodies):
+	radii = np.array([float(body.shape.circumscribedRadius) for body in bodies])
+	rows = arrays().bodies
+	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
+	near = scipy.spatial.cKDTree(places).query_ball_point(places, 2 * radii)
+	pairs = ((i, j) for i, others in enumerate(near) for j in others if j != i and radii[j] <= radii[i])
+	for i, j in itertools.islice(pairs, looks):
+		one, other = bodies[i], bodies[j]
+		if _meet(scene, one, other) and _gap(one, other) < touching * min(radii[i], radii[j]):
+			return True
+	return False
+
+
+def _gap(one, other):
+	try:
+		return float(_polytope.contact(one, other).infeasibility)
+	except ValueError:  # a polygon and a polyhedron
+		return math.inf
 
 
 def _meet(scene, one, other):

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.settle: joints that gravity's first swing would break bear what they can bear at rest."""
+
+import math
+
+import pytest
+from yade import NewtonIntegrator, O, PolytopeBonds, Quaternion, RockJointMat, Vector3, polytope
+
+dip, friction = math.radians(35), math.radians(30)
+halfLength, halfWidth, height = 5.0, 5.0, 5.0
+area, weight = 4 * halfLength * halfWidth, 2600 * 9.81 * 4 * halfLength * halfWidth * height
+
+
+def slope(factor, **joint):
+	"""A block on a plane, held by friction and cohesion with this factor of safety."""
+	cohesion = (factor * weight * math.sin(dip) - weight * math.cos(dip) * math.tan(friction)) / area
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=friction, cohesion=cohesion, **joint))
+	turn = Quaternion((0, 1, 0), dip)
+	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -1), (20, 20, 1), orientation=turn, fixed=True))
+	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, height / 2), (halfLength, halfWidth, height / 2), orientation=turn))
+	O.engines = polytope.engines()
+	return O.bodies[1]
+
+
+def hanging(factor):
+	"""A block that hangs from a roof by the tensile strength of its joint, with this factor of safety."""
+	strength = factor * weight / area
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, cohesion=10 * strength, tensileStrength=strength))
+	O.bodies.append(polytope.cuboid((0, 0, 1), (20, 20, 1), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 1e-6 - height / 2), (halfLength, halfWidth, height / 2)))  # in touch
+	O.engines = polytope.engines()
+	return O.bodies[1]
+
+
+def stays(block, seconds=1.0):
+	begin, end = Vector3(block.state.pos), O.time + seconds
+	while O.time < end:
+		O.run(50, wait=True)
+	return (block.state.pos - begin).norm() < 1e-3
+
+
+@pytest.mark.parametrize('factor', [0.98, 1.02])
+def testABlockOnASlopeStaysByItsFactorOfSafety(factor):
+	block = slope(factor)
+	assert polytope.settle() > 0
+	assert block.state.vel.norm() < 1e-5
+	assert O.interactions[0, 1].phys.intact
+	assert stays(block) == (factor > 1)
+
+
+def testGravityAtOnceBreaksIt():
+	"""What it is for: a factor of safety of 1.5 is lost in the first swing."""
+	assert not stays(slope(1.5), 3)
+
+
+@pytest.mark.parametrize('factor', [0.98, 1.02])
+def testAHangingBlockStaysByItsFactorOfSafety(factor):
+	block = hanging(factor)
+	polytope.settle()
+	assert stays(block) == (factor > 1)
+
+
+@pytest.mark.parametrize('factor', [0.98, 1.02])
+def testSoDoesOneThatHangsByABond(factor):
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9))
+	O.bodies.append(polytope.cuboid((0, 0, 1), (20, 20, 1), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, -height / 2), (halfLength, halfWidth, height / 2)))
+	O.engines = polytope.engines()
+	polytope.bond(normalStiffness=1e9, shearStiffness=1e9, tensileStrength=factor * weight / area)
+	polytope.settle()
+	assert not next(engine for engine in O.engines if isinstance(engine, PolytopeBonds)).unbreakable
+	assert stays(O.bodies[1]) == (factor > 1)
+
+
+def testTheSceneHasItsOwnStrengthAndDampingAgain():
+	block = slope(1.2)
+	integrator = next(engine for engine in O.engines if isinstance(engine, NewtonIntegrator))
+	law = O.engines[2].lawDispatcher.functors[0]
+	integrator.damping = 0.15
+	polytope.settle()
+	assert integrator.damping == 0.15 and not law.unbreakable
+	block.state.vel = (1, 0, 0)  # not at rest in time
+	with pytest.raises(RuntimeError, match='not at rest after 50'):
+		polytope.settle(steps=50)
+	assert integrator.damping == 0.15 and not law.unbreakable
+
+
+def testWithoutElasticJointsKeepTheirStrength():
+	block = slope(1.02)
+	with pytest.raises(RuntimeError, match='not at rest'):
+		polytope.settle(elastic=False, steps=4000)
+	assert not O.interactions[0, 1].phys.intact
+	assert block.state.vel.norm() > 0.1
+
+
+@pytest.mark.parametrize('name,value', [('unbalanced', 0), ('damping', 1), ('damping', 0), ('steps', 0), ('unbalanced', 'no')])
+def testWhatIsOutOfRangeIsNamed(name, value):
+	slope(1.2)
+	with pytest.raises((ValueError, TypeError), match=name):
+		polytope.settle(**{name: value})
+
+
+def testWithoutAnIntegratorItIsRefused():
+	with pytest.raises(ValueError, match='NewtonIntegrator'):
+		polytope.settle()
