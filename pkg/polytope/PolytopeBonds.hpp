@@ -47,7 +47,7 @@ public:
 
 With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
-		((bool, unbreakable, false, , "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*."))
+		((bool, unbreakable, false, Attr::noSave, "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
 		, /*ctor*/
 		, /*py*/
 		.def_readwrite("_divided", &PolytopeBonds::divided)

@@ -30,13 +30,7 @@ polytope::PairMemory PolytopeGeom::memory() const
 	(hasPoint ? memory.dualDirection : memory.weights) = direction;
 	memory.point                                       = { point1, point2 };
 	memory.level                                       = level;
-	if (const auto* codes = surface.get(); codes && codes->size() >= 2) {
-		const std::size_t used   = std::min(codes->size() - 2, memory.surface.number.size());
-		memory.surface.parts     = std::uint8_t((*codes)[0]);
-		memory.surface.exchanged = std::uint8_t((*codes)[1]);
-		memory.surface.used      = std::uint16_t(used);
-		std::copy_n(codes->begin() + 2, used, memory.surface.number.begin());
-	}
+	surface.get(memory.surface);
 	return memory;
 }
 
@@ -51,13 +45,7 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	point2    = memory.point[1];
 	level     = memory.level;
 	direction = hasPoint ? memory.dualDirection : memory.weights;
-	if (memory.surface.used == 0 && !surface.get()) return;
-	// in the memory that it has: needs new only where there are more pieces than ever before
-	std::vector<std::uint16_t>& codes = surface.make();
-	codes.resize(2 + std::size_t(memory.surface.used));
-	codes[0] = memory.surface.parts;
-	codes[1] = memory.surface.exchanged;
-	std::copy_n(memory.surface.number.begin(), memory.surface.used, codes.begin() + 2);
+	surface.set(memory.surface);
 }
 
 boost::python::list PolytopeGeom::outlineCorners() const

@@ -9,6 +9,7 @@
 #include "Seldom.hpp"
 #include "StiffnessRules.hpp"
 #include "StoredOutline.hpp"
+#include "StoredSurface.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -40,8 +41,6 @@ public:
 	using BasisCodes = std::array<std::uint16_t, 4>;
 	/// 2 × plane + body.
 	using PlaneCodes = Seldom<std::vector<int>>;
-	/// Of polytope::KeptSurface: its parts and whether the bodies are exchanged, then the numbers in use.
-	using SurfaceCodes = Seldom<std::vector<std::uint16_t>>;
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
@@ -82,7 +81,7 @@ public:
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
-		((SurfaceCodes, surface, , (Attr::readonly | Attr::hidden), "Pieces of the last contact surface of the models that have one, by their planes"))
+		((StoredSurface, surface, , (Attr::readonly | Attr::hidden), "Pieces of the last contact surface of the models that have one, by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/

@@ -42,7 +42,7 @@ With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (
 		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
 		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
 		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0."))
-		((bool, unbreakable, false, , "Joints that touch do not slip, and intact ones do not fail and bear any tension: for coming to rest under loads that begin at once, see *polytope.settle*."))
+		((bool, unbreakable, false, Attr::noSave, "Joints that touch do not slip, and intact ones do not fail and bear any tension: for coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
 		((StiffnessSums, stiffnessSums, , (Attr::readonly | Attr::hidden), "What contacts each body has, for dampers"))
 		, /*ctor*/
 		, /*py*/

@@ -35,7 +35,7 @@ def mechanicalEnergy():
 	finally:
 		for geometry in geometries:
 			geometry.computeEnergy = False
-	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal) + sum(bond.energy for bond in _bonds())
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(bond.energy for bond in _bonds())
 	return sum(_energy(*one, integrators[0].gravity) for one in moving) + stored
 
 
@@ -52,6 +52,12 @@ def _energy(state, position, toBody, velocity, spin, gravity):
 	before, after = toBody * spin, toBody * state.angVel
 	rotation = sum(moment * one * other for moment, one, other in zip(state.inertia, before, after, strict=True))
 	return (state.mass * velocity.dot(state.vel) + rotation) / 2 - state.mass * gravity.dot(position)
+
+
+def _moves(contact):
+	"""Whether forces can move one of the bodies, or its clump: what those that are held store is nobody's."""
+	bodies = (O.bodies[key] for key in (contact.id1, contact.id2))
+	return any((O.bodies[body.clumpId] if body.isClumpMember else body).dynamic for body in bodies)
 
 
 def _stored(contact):

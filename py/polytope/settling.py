@@ -3,8 +3,9 @@
 
 import math
 
+import numpy as np
 from tqdm import tqdm
-from yade import NewtonIntegrator, O, Vector3, utils
+from yade import NewtonIntegrator, O, Vector3
 
 from ._scene import laws
 from .arguments import flag, namedArguments, number
@@ -28,8 +29,10 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 	and the scene its damping again. What they can't bear fails in the steps that follow, from rest.
 
 	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run.
+	A state that is saved meanwhile has joints with their strength, but this damping.
 
-	:param unbalanced: mean unbalanced force over the mean force of a contact or bond, below which the bodies count as being at rest [-]
+	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts and bonds bear where that is more, below which it counts as
+	    being at rest [-]; of all bodies that can move
 	:param elastic: False: joints keep their strength, only damping is changed
 	:param damping: of NewtonIntegrator meanwhile [-], above 0 and below 1
 	:param steps: most steps to take
@@ -64,30 +67,51 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 
 
 def _untilRest(unbalanced, steps):
-	quiet, force = 0, math.nan
+	quiet, taken = 0, 0
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
-		for taken in range(between, steps + between, between):
-			O.run(between, wait=True)
-			force = _unbalancedForce()  # not a number where nothing bears a force
+		while taken < steps:
+			now = min(between, steps - taken)
+			O.run(now, wait=True)
+			taken += now
+			force = _unbalancedForce()
 			bar.set_postfix_str(f'unbalanced force {force:.2g} for {unbalanced:g}', refresh=False)
-			bar.update(between)
+			bar.update(now)
 			quiet = quiet + 1 if force < unbalanced else 0
 			if quiet == looks:
 				return taken
-	seen = 'nothing bears a force' if math.isnan(force) else f'unbalanced force {force:.2g} for {unbalanced:g}'
-	raise RuntimeError(f'steps: not at rest after {taken} ({seen}); more steps, a larger *unbalanced*, or a support for bodies that fall')
+	raise RuntimeError(
+		f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}); more steps, a larger *unbalanced*, or a support for bodies that fall'
+	)
 
 
 def _unbalancedForce():
-	"""YADE's, in which forces of bonds count as those of contacts."""
-	borne = [bond.force.norm() for bond in bonds().bonds if bond.intact] if bonds() else []
-	if not borne:
-		return float(utils.unbalancedForce())
-	borne += [(contact.phys.normalForce + contact.phys.shearForce).norm() for contact in O.interactions if contact.isReal]
+	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts and bonds press and pull it with, where that is more."""
+	last = len(O.bodies)
+	owner, borne = np.arange(last), np.zeros(last)  # a clump moves as one
+	moving = []
+	for body in O.bodies:
+		if body.isClumpMember:
+			owner[body.id] = body.clumpId
+		elif body.dynamic:
+			moving.append(body)
+	for contact in O.interactions:
+		if contact.isReal:
+			force = float((contact.phys.normalForce + contact.phys.shearForce).norm())
+			borne[owner[contact.id1]] += force / 2
+			borne[owner[contact.id2]] += force / 2
+	for bond in bonds().bonds if bonds() else ():
+		if bond.intact:
+			force = float(bond.force.norm())
+			borne[owner[bond.id1]] += force / 2
+			borne[owner[bond.id2]] += force / 2
 	gravity = next(engine.gravity for engine in O.engines if isinstance(engine, NewtonIntegrator))
-	moving = [body for body in O.bodies if body.dynamic and not body.isClumpMember]
-	left = [(_force(body) + body.state.mass * gravity).norm() for body in moving]
-	return float(sum(left) / len(left) / (sum(borne) / len(borne))) if left and sum(borne) > 0 else math.nan
+	worst = 0.0
+	for body in moving:
+		weight = body.state.mass * gravity
+		scale = max(float(weight.norm()), borne[body.id])
+		if scale > 0:
+			worst = max(worst, float((_force(body) + weight).norm()) / scale)
+	return worst
 
 
 def _force(body):

@@ -111,10 +111,23 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	const bool perArea = settings.contactModel == ContactModel::Foundation;
 	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;
 	R          n[D], centre[D], point[D];
-	const bool directed = directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
+	bool       directed = directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
 	for (int k = 0; k < D; ++k)
 		point[k] = centre[k] = sums.pressure > 0 ? sums.centre[k] / sums.pressure : x[k];
-	if (directed) out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
+	if (directed) {
+		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
+		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere
+		R aside = 0;
+		for (int k = 0; k < D; ++k)
+			aside += (point[k] - centre[k]) * (point[k] - centre[k]);
+		const R farthest = R(tolerance::lineOfAction) * f.size;
+		directed         = aside <= farthest * farthest && abs(out.turningArm) <= farthest;
+		if (!directed) {
+			out.turningArm = 0;
+			for (int k = 0; k < D; ++k)
+				point[k] = centre[k];
+		}
+	}
 
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
 	R area = dot<R, D>(sums.areaVector, n);

@@ -10,7 +10,7 @@ namespace polytope {
 
 /// Values, no pointers: copied and saved with the interaction. Any value is safe.
 struct KeptSurface {
-	static constexpr int room = 252, mostEdges = 16;
+	static constexpr int room = 508, mostEdges = 16;
 
 	std::uint16_t used      = 0; ///< numbers; 0: nothing is kept
 	std::uint8_t  parts     = 0; ///< SurfaceParts

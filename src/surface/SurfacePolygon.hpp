@@ -45,7 +45,7 @@ public:
 		bool crosses = edges > 2;
 		for (int t = 0; t < edges && crosses; ++t) {
 			R uv[2];
-			crosses  = cross(t > 0 ? t - 1 : edges - 1, t, uv);
+			crosses  = cross(t > 0 ? t - 1 : edges - 1, t, R(tolerance::keptCrossing), uv);
 			at(U, t) = uv[0];
 			at(Y, t) = uv[1];
 		}
@@ -188,7 +188,7 @@ private:
 			}
 			if (in == nextIn) continue;
 			R crossing[2];
-			if (!cross(edge[t], line, crossing)) {
+			if (!cross(edge[t], line, R(tolerance::crossingLines), crossing)) {
 				const R part = here / (here - there);
 				crossing[0]  = u[t] + part * (u[next] - u[t]);
 				crossing[1]  = v[t] + part * (v[next] - v[t]);
@@ -203,13 +203,13 @@ private:
 		setCloseness();
 	}
 
-	/// Where two lines cross; false where the angle between them is too small to say.
-	bool cross(int first, int second, R* uv) const
+	/// Where two lines cross; false where the sine of the angle between them is less than `sharp`.
+	bool cross(int first, int second, R sharp, R* uv) const
 	{
 		R* const* const line = buffers_.line;
 		const R         a = line[0][first], b = line[1][first], c = line[2][first];
 		const R         p = line[0][second], q = line[1][second], r = line[2][second];
-		const R         sine = a * q - p * b, sharp = R(tolerance::crossingLines);
+		const R         sine = a * q - p * b;
 		if (!(sine * sine > sharp * sharp * (a * a + b * b) * (p * p + q * q))) return false;
 		const R inverse = 1 / sine;
 		uv[0]           = (b * r - q * c) * inverse;

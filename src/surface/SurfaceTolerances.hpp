@@ -25,6 +25,10 @@ constexpr Real meetingPlanes = 65536 * rounding;
 /// × extent of a piece: a vertex that is found anew from the planes of the last step may lie beyond others by this, which rounding explains.
 constexpr Real keptVertex = 64 * rounding;
 
+/// Sine of the angle between two neighbouring edges below which their planes are not taken for a vertex again. Above, what rounding moves the vertex
+/// by is along both edges, so that the area between them changes by its square.
+constexpr Real keptCrossing = 1e-8;
+
 /// Largest sum of the surface's area vectors over its area where it ought to be closed, and what is added to it × size over the overlap's
 /// thickness: rounding leaves less, a piece that is missing more, unless it is so small that it is of no account.
 constexpr Real openSurface = 1e-7, openThin = 64 * rounding;
@@ -41,6 +45,9 @@ constexpr Real simplexNoise = 1e-9 * finer, simplexRoom = 1.001;
 
 /// By how much the planes of two bodies must differ in their direction along the normal to count as facing each other.
 constexpr Real facing = 1e-9;
+
+/// × size: a force whose line of action is farther than this from the centre of pressure is what is left of pressures that cancel. It has no place.
+constexpr Real lineOfAction = 2;
 
 /// Planes that are known to meet a piece from the one before it: that on the other side of their edge, and those at its ends.
 constexpr int knownPlanes = 3;

@@ -768,3 +768,20 @@ def testGravityAtOnceOnJointsWithAStrength(gap, gravity, joint, found):
 	assert any(one.what == 'gravity at once' for one in polytope.check(O)) == found
 	O.step()
 	assert not any(one.what == 'gravity at once' for one in polytope.check(O))
+
+
+@pytest.mark.parametrize('kind', ['box', 'facet', 'wall'])
+@pytest.mark.parametrize('gap', [0, 0.1])
+def testGravityAtOnceOnYadesOwnSupports(kind, gap):
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5, cohesion=1e5))
+	supports = {
+		'box': lambda: yade.utils.box((0, 0, -0.5), (2, 2, 0.5), fixed=True),
+		'facet': lambda: yade.utils.facet([(-4, -4, 0), (4, -4, 0), (0, 4, 0)]),
+		'wall': lambda: yade.utils.wall(0, axis=2),
+	}
+	O.bodies.append(supports[kind]())
+	O.bodies.append(polytope.cuboid((0, 0, 0.5 + gap), (0.5, 0.5, 0.5)))
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines()
+	assert any(one.what == 'gravity at once' for one in polytope.check(O)) == (gap == 0)

@@ -186,3 +186,21 @@ def testEnergyIsThereWhereItIsAskedFor():
 	O.step()
 	assert geom.energyPerStiffness == pytest.approx(geom.penetrationDepth**2 / 2, rel=1e-3)
 	assert O.energy['elastPotential'] == pytest.approx(1e9 * geom.contactArea * geom.energyPerStiffness, rel=1e-9)
+
+
+@pytest.mark.parametrize('taper', [1e-3, 1e-9])
+def testACoupleIsNoForceFarAway(taper):
+	"""A needle through a plate: pressures on its sides cancel, and what is left of the force has a line of action that is anywhere."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5))
+	plate = O.bodies.append(polytope.cuboid((0, 0, 0), (0.3, 0.4, 0.05), fixed=True))
+	ends = [(-0.6, 0.02), (0.6, 0.02 * (1 + taper))]
+	needle = polytope.fromVertices([(x * r, y * r, z) for z, r in ends for x in (-1, 1) for y in (-1, 1)])
+	needle.state.ori = Quaternion((1, 0, 0), 0.2) * needle.state.ori
+	needle.state.angVel = (0.5, 0, 0)
+	needle = O.bodies.append(needle)
+	O.engines = polytope.engines(gravity=(0, 0, 0), geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel='foundation'))
+	O.run(50, wait=True)
+	geom = O.interactions[plate, needle].geom
+	assert geom.status == 'noDirection'
+	assert geom.contactPoint.norm() < 0.1 and O.dt > 1e-6
+	assert O.bodies[needle].state.angVel.norm() <= 0.5 + 1e-6

@@ -103,3 +103,41 @@ def testWhatIsOutOfRangeIsNamed(name, value):
 def testWithoutAnIntegratorItIsRefused():
 	with pytest.raises(ValueError, match='NewtonIntegrator'):
 		polytope.settle()
+
+
+def testFixedBodiesThatOverlapDoNotCount():
+	"""Their contact bears any force, and would make all others small beside it."""
+	block = slope(1.02)
+	for x in (30, 30.9):
+		O.bodies.append(polytope.cuboid((x, 0, 0), (1, 1, 1), fixed=True))
+	polytope.settle()
+	assert block.state.vel.norm() < 1e-5 and stays(block)
+
+
+def testASmallBodyThatFallsBesideALargeOneIsNotAtRest():
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=friction))
+	O.bodies.append(polytope.cuboid((0, 0, -1), (20, 20, 1), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 5), (5, 5, 5)))
+	small = O.bodies[O.bodies.append(polytope.cuboid((10, 0, 3), (0.1, 0.1, 0.1)))]
+	O.engines = polytope.engines()
+	polytope.settle()
+	assert small.state.pos[2] == pytest.approx(0.1, abs=1e-3) and small.state.vel.norm() < 1e-5
+
+
+def testAStateSavedMeanwhileHasItsStrength(tmp_path):
+	slope(0.9)
+	law = O.engines[2].lawDispatcher.functors[0]
+	law.unbreakable = True
+	O.run(500, wait=True)
+	assert O.interactions[0, 1].phys.intact
+	O.save(str(tmp_path / 'meanwhile.yade'))
+	O.load(str(tmp_path / 'meanwhile.yade'))
+	O.run(100, wait=True)
+	assert not O.interactions[0, 1].phys.intact
+
+
+def testNoMoreStepsThanAskedFor():
+	slope(1.2)
+	with pytest.raises(RuntimeError, match='not at rest after 7 '):
+		polytope.settle(steps=7)
+	assert O.iter == 7

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
+from yade import Box, Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall, _polytope
 
 from ..arrays import arrays
 from ..bonding import bonds
@@ -99,7 +99,8 @@ def suddenGravity(scene):
 		return
 	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body.material)]
 	bonded = bonds() and any(bond.intact and math.isfinite(bond.tensileStrength) for bond in bonds().bonds)
-	if not bonded and (len(strong) < 2 or not _anyTouch(scene, strong)):
+	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body.material)]
+	if not bonded and not _anyTouch(scene, strong) and not _anyRests(scene, strong, supports):
 		return
 	what = 'bonds' if bonded else 'joints with cohesion or tensile strength'
 	seen = f'{what} and gravity that begins at once: the first swing loads them up to twice, and what fails then is lost although it would hold at rest'
@@ -111,6 +112,8 @@ def _canLoseStrength(material):
 
 
 def _anyTouch(scene, bodies):
+	if len(bodies) < 2:
+		return False
 	radii = np.array([float(body.shape.circumscribedRadius) for body in bodies])
 	rows = arrays().bodies
 	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
@@ -121,6 +124,32 @@ def _anyTouch(scene, bodies):
 		if _meet(scene, one, other) and _gap(one, other) < touching * min(radii[i], radii[j]):
 			return True
 	return False
+
+
+def _anyRests(scene, bodies, supports):
+	"""Whether a vertex of one of the bodies lies on a box, facet or wall."""
+	pairs = ((body, support) for body in bodies if scene.moves(body) for support in supports if body.mask & support.mask)
+	for body, support in itertools.islice(pairs, looks):
+		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+		vertices = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
+		if _distances(support, vertices).min(initial=math.inf) < touching * float(body.shape.circumscribedRadius):
+			return True
+	return False
+
+
+def _distances(support, points):
+	"""Of points to the surface of a box, facet or wall [m]; below zero: in a box."""
+	shape, towards = support.shape, points - np.array(support.state.pos, float)
+	if isinstance(shape, Wall):
+		return np.abs(towards[:, shape.axis])
+	own = towards @ np.array(support.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	if isinstance(shape, Box):
+		return (np.abs(own) - np.array(shape.extents, float)).max(axis=1)
+	corners = np.array([list(corner) for corner in shape.vertices], float)
+	normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+	normal /= np.linalg.norm(normal)
+	above = np.linalg.norm(own, axis=1) <= np.linalg.norm(corners, axis=1).max()
+	return np.where(above, np.abs((own - corners[0]) @ normal), math.inf)
 
 
 def _gap(one, other):
