@@ -20,8 +20,8 @@ public:
 	void set(const polytope::KeptSurface& kept)
 	{
 		if (kept.used == 0 && !codes_.get()) return;
-		const auto        begin = kept.number.begin(), end = begin + kept.used;
-		const bool        wide  = std::any_of(begin, end, [](int number) { return number >= noPressure && number != Names::noPressure; });
+		const auto begin = kept.number.begin(), end = begin + kept.used;
+		const bool wide = std::any_of(begin, end, [](int number) { return number >= noPressure && number != Names::noPressure; });
 		std::vector<Byte>& codes = codes_.make();
 		codes.resize(header + std::size_t(kept.used) * (wide ? 2 : 1));
 		codes[0] = kept.parts;
@@ -51,8 +51,8 @@ public:
 	}
 
 private:
-	using Byte  = std::uint8_t;
-	using Names = polytope::PlaneNames;
+	using Byte                              = std::uint8_t;
+	using Names                             = polytope::PlaneNames;
 	static constexpr int         noPressure = 255;
 	static constexpr std::size_t header     = 3; ///< parts, exchanged, and whether a number has two bytes
 
