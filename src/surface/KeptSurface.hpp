@@ -62,8 +62,8 @@ public:
 		if (!kept_ || used_ + 3 + edges > KeptSurface::room || edges > KeptSurface::mostEdges) return giveUp();
 		put(names_.name(i));
 		put(names_.name(j));
-		kept_->number[std::size_t(used_++)] = std::uint16_t(edges);
-		for (int t = 0; t < edges && used_ <= KeptSurface::room; ++t)
+		put(edges);
+		for (int t = 0; t < edges; ++t)
 			put(names_.name(cut.tag(t)));
 	}
 
@@ -97,10 +97,10 @@ private:
 	}
 	int number(int at) const { return kept_->number[std::size_t(at)]; }
 
-	void put(int name)
+	void put(int number)
 	{
-		if (name == PlaneNames::unknown) giveUp();
-		else if (used_ < KeptSurface::room) kept_->number[std::size_t(used_++)] = std::uint16_t(name);
+		if (number == PlaneNames::unknown) giveUp();
+		else if (used_ < KeptSurface::room) kept_->number[std::size_t(used_++)] = std::uint16_t(number);
 	}
 
 	KeptSurface* kept_;
