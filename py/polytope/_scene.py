@@ -1,9 +1,29 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Engines and functors of the present scene that *check*, *tradeoff*, *requirements* and *frictionReduction* read or change."""
+"""Engines, functors and bodies of the present scene that several modules read or change."""
 
-from yade import Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, O
+import contextlib
 
-__all__ = ['colliders', 'geometryFunctors', 'interactionLoops', 'laws', 'notConservative', 'stiffnessesPerArea', 'unitOfModel']
+from yade import (
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InsertionSortCollider,
+	InteractionLoop,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	NewtonIntegrator,
+	O,
+)
+
+__all__ = [
+	'canMove',
+	'colliders',
+	'geometryFunctors',
+	'integrators',
+	'interactionLoops',
+	'laws',
+	'meanwhile',
+	'notConservative',
+	'stiffnessesPerArea',
+	'unitOfModel',
+]
 
 notConservative = (
 	'the conservative contact with stiffnesses per area',
@@ -24,6 +44,10 @@ def geometryFunctors():
 	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
 
 
+def integrators():
+	return [engine for engine in O.engines if isinstance(engine, NewtonIntegrator)]
+
+
 def colliders():
 	return [engine for engine in O.engines if isinstance(engine, InsertionSortCollider)]
 
@@ -38,3 +62,21 @@ def stiffnessesPerArea(loops):
 	"""Whether these loops make joints whose stiffness is per area."""
 	makers = (functor for loop in loops for functor in loop.physDispatcher.functors)
 	return any(getattr(functor, 'stiffnessPerArea', False) for functor in makers)
+
+
+def canMove(body):
+	"""Whether forces move it: a member of a clump moves with the clump."""
+	return (O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
+
+
+@contextlib.contextmanager
+def meanwhile(settings):
+	"""Attributes with other values, as (object, name, value), until the block ends; then they are what they were."""
+	before = [(one, name, getattr(one, name)) for one, name, _ in settings]
+	for one, name, value in settings:
+		setattr(one, name, value)
+	try:
+		yield
+	finally:
+		for one, name, value in before:
+			setattr(one, name, value)

@@ -9,7 +9,7 @@ from yade import Clump, InteractionLoop, NewtonIntegrator, O, Polytope, Polytope
 from .arguments import namedArguments, warn
 from .precision import isNumber, real
 
-__all__ = ['bond', 'bonds', 'removedBonds']
+__all__ = ['bond', 'bonds', 'madeBonds', 'removedBonds']
 
 facing = 0.01
 """Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
@@ -94,6 +94,12 @@ def bonds():
 		lastSeen[0] = found
 		found._meetBodies()  # loaded bonds do not know theirs yet; in another scene they would take what has the same ids
 	return found
+
+
+def madeBonds():
+	"""All bonds of the scene, failed ones too."""
+	engine = bonds()
+	return engine.bonds if engine else []
 
 
 def removedBonds():

@@ -8,7 +8,7 @@ from yade import O, Polytope, Quaternion, Vector3, _polytope
 from ._ranks import refuseDivided
 from .arguments import namedArguments, number, vector, vectors
 from .bodies import defaultCornerFraction, isotropyTolerance
-from .bonding import bonds
+from .bonding import madeBonds
 from .loading.sample import replaceInSamples
 
 __all__ = ['split']
@@ -63,7 +63,7 @@ def _bodyOf(id):
 		raise ValueError(f'id: body {id} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder')
 	if body.isClumpMember:
 		raise ValueError(f'id: body {id} is a member of clump {body.clumpId}; O.bodies.releaseFromClump it first')
-	if bonds() and any(bond.intact and id in (bond.id1, bond.id2) for bond in bonds().bonds):
+	if any(bond.intact and id in (bond.id1, bond.id2) for bond in madeBonds()):
 		raise ValueError(f'id: body {id} has bonds, of which it is not known on which piece they would be; break bonded bodies by their bonds')
 	return body
 

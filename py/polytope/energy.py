@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The mechanical energy of a scene, as exactly as its time steps define it."""
 
-from yade import O, NewtonIntegrator, Vector3
+from yade import O, Vector3
 
-from ._scene import geometryFunctors
-from .bonding import bonds
+from ._scene import canMove, geometryFunctors, integrators, meanwhile
+from .bonding import madeBonds
 
 __all__ = ['mechanicalEnergy']
 
@@ -23,24 +23,13 @@ def mechanicalEnergy():
 	:returns: [J]
 	:raises ValueError: if O.engines has no NewtonIntegrator
 	"""
-	integrators = [engine for engine in O.engines if isinstance(engine, NewtonIntegrator)]
-	if not integrators:
+	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
 	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
-	geometries = [geometry for geometry in geometryFunctors() if not geometry.computeEnergy]
-	for geometry in geometries:
-		geometry.computeEnergy = True
-	try:
+	with meanwhile([(geometry, 'computeEnergy', True) for geometry in geometryFunctors()]):
 		O.step()
-	finally:
-		for geometry in geometries:
-			geometry.computeEnergy = False
-	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(bond.energy for bond in _bonds())
-	return sum(_energy(*one, integrators[0].gravity) for one in moving) + stored
-
-
-def _bonds():
-	return bonds().bonds if bonds() else ()
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(bond.energy for bond in madeBonds())
+	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
 
 
 def _motion(state):
@@ -56,8 +45,7 @@ def _energy(state, position, toBody, velocity, spin, gravity):
 
 def _moves(contact):
 	"""Whether forces can move one of the bodies, or its clump: what those that are held store is nobody's."""
-	bodies = (O.bodies[key] for key in (contact.id1, contact.id2))
-	return any((O.bodies[body.clumpId] if body.isClumpMember else body).dynamic for body in bodies)
+	return canMove(O.bodies[contact.id1]) or canMove(O.bodies[contact.id2])
 
 
 def _stored(contact):

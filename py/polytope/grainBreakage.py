@@ -9,7 +9,7 @@ from yade import O, Polytope
 
 from ._ranks import refuseDivided
 from .arguments import namedArguments, number, vector
-from .bonding import bonds
+from .bonding import madeBonds
 from .breakage import split
 from .heap import namedBodies
 from .measures import bodyStress
@@ -116,7 +116,7 @@ def _breakable(ids):
 	flat = next((k for k in chosen if O.bodies[k].shape.dimension == 2), None)
 	if flat is not None:
 		raise ValueError(f'ids: body {flat} is a polygon; only polyhedra break by their stress (polytope.split breaks polygons)')
-	held = {k for bond in (bonds().bonds if bonds() else ()) if bond.intact for k in (bond.id1, bond.id2)}
+	held = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}
 	return [k for k in chosen if k not in held]
 
 

@@ -12,7 +12,7 @@ from yade import O, Polytope, Sphere, Vector3, _polytope
 from ._faces import localVertices
 from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
-from .bonding import bonds
+from .bonding import madeBonds
 
 __all__ = ['Coordination', 'coordinationNumber', 'moverOf', 'namedBodies', 'partsOf', 'porosity', 'solidVolume', 'volumeInside', 'volumeWithin']
 
@@ -196,7 +196,7 @@ def coordinationNumber(ids=None):
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
 	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
-	pairs += {(bond.id1, bond.id2) for bond in (bonds().bonds if bonds() else ()) if bond.intact}
+	pairs += {(bond.id1, bond.id2) for bond in madeBonds() if bond.intact}
 	for k in map(moverOf, itertools.chain(*pairs)):
 		if k in touching:
 			touching[k] += 1

@@ -10,7 +10,7 @@ import numpy as np
 from yade import O, Polytope, Sphere, Vector3
 
 from ._faces import localVertices, worldVertices
-from .bonding import bonds
+from .bonding import madeBonds
 from .heap import namedBodies, solidVolume
 
 __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'sizeDistribution']
@@ -145,7 +145,7 @@ def _bearing():
 
 
 def _intactBonds():
-	return [bond for bond in bonds().bonds if bond.intact] if bonds() else []
+	return [bond for bond in madeBonds() if bond.intact]
 
 
 def _whole(k):

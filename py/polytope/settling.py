@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene brought to rest under its loads, before its joints have to bear them."""
 
-import math
-
 import numpy as np
 from tqdm import tqdm
-from yade import NewtonIntegrator, O, Vector3
+from yade import O, Vector3
 
-from ._scene import laws
+from ._scene import integrators, laws, meanwhile
 from .arguments import flag, namedArguments, number
-from .bonding import bonds
+from .bonding import bonds, madeBonds
 
 __all__ = ['settle']
 
@@ -49,21 +47,14 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 		raise ValueError(f'steps: {steps:g}; at least 1')
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
-	integrators = [engine for engine in O.engines if isinstance(engine, NewtonIntegrator)]
-	if not integrators:
+	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose damping counts')
-	changed = [(integrator, 'damping', damping) for integrator in integrators]
+	changed = [(integrator, 'damping', damping) for integrator in integrators()]
 	if flag(elastic, 'elastic'):
 		breakable = [*laws(), *([bonds()] if bonds() else [])]
 		changed += [(one, 'unbreakable', True) for one in breakable]
-	before = [(one, name, getattr(one, name)) for one, name, _ in changed]
-	for one, name, value in changed:
-		setattr(one, name, value)
-	try:
+	with meanwhile(changed):
 		return _untilRest(unbalanced, int(steps))
-	finally:
-		for one, name, value in before:
-			setattr(one, name, value)
 
 
 def _untilRest(unbalanced, steps):
@@ -94,17 +85,12 @@ def _unbalancedForce():
 			owner[body.id] = body.clumpId
 		elif body.dynamic:
 			moving.append(body)
-	for contact in O.interactions:
-		if contact.isReal:
-			force = float((contact.phys.normalForce + contact.phys.shearForce).norm())
-			borne[owner[contact.id1]] += force / 2
-			borne[owner[contact.id2]] += force / 2
-	for bond in bonds().bonds if bonds() else ():
-		if bond.intact:
-			force = float(bond.force.norm())
-			borne[owner[bond.id1]] += force / 2
-			borne[owner[bond.id2]] += force / 2
-	gravity = next(engine.gravity for engine in O.engines if isinstance(engine, NewtonIntegrator))
+	forces = [(contact, contact.phys.normalForce + contact.phys.shearForce) for contact in O.interactions if contact.isReal]
+	forces += [(bond, bond.force) for bond in madeBonds() if bond.intact]
+	for link, force in forces:
+		for key in (link.id1, link.id2):
+			borne[owner[key]] += float(force.norm()) / 2
+	gravity = integrators()[0].gravity
 	worst = 0.0
 	for body in moving:
 		weight = body.state.mass * gravity

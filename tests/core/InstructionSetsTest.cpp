@@ -32,18 +32,23 @@ void twoLanes(const PairInput& in, const ContactSettings& settings, PairMemory& 
 	contactKernel<Real, D, 2, Surface>(in, settings, memory, workspace, out);
 }
 
-/// The conservative contact of the same pair as query() gives, from another kernel.
-void expectSameValue(const Pair& pair, const Kernel kernel)
+ContactResult from(const Kernel kernel, const Pair& pair, const ContactSettings& settings)
 {
 	ContactWorkspace workspace;
 	PairMemory       memory;
-	ContactResult    other;
-	ContactSettings  settings;
+	ContactResult    result;
+	const PairInput  in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
+	kernel(in, settings, memory, workspace, result);
+	return result;
+}
+
+/// The conservative contact of the same pair as query() gives, from another kernel.
+void expectSameValue(const Pair& pair, const Kernel kernel)
+{
+	ContactSettings settings;
 	settings.contactModel      = ContactModel::Conservative;
 	settings.geometryAcrossGap = true;
-	const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
-	const ContactResult result = query(pair, settings);
-	kernel(in, settings, memory, workspace, other);
+	const ContactResult result = query(pair, settings), other = from(kernel, pair, settings);
 	EXPECT_NEAR(other.barrierValue, result.barrierValue,
 	        1e-10 * settings.barrier * pair.inscribedRadius() + 8 * tolerance::rounding * pair.reach());
 	const Vector3 f = result.depth * result.normal, g = other.depth * other.normal;
@@ -54,14 +59,9 @@ void expectSameValue(const Pair& pair, const Kernel kernel)
 /// The foundation of the same pair as query() gives, from another kernel.
 void expectSameFoundation(const Pair& pair, const Kernel kernel)
 {
-	ContactWorkspace workspace;
-	PairMemory       memory;
-	ContactResult    other;
-	ContactSettings  settings;
-	settings.contactModel = ContactModel::Foundation;
-	const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
-	const ContactResult result = query(pair, settings);
-	kernel(in, settings, memory, workspace, other);
+	ContactSettings settings;
+	settings.contactModel      = ContactModel::Foundation;
+	const ContactResult result = query(pair, settings), other = from(kernel, pair, settings);
 	ASSERT_EQ(result.inContact, other.inContact);
 	if (!result.inContact) return;
 	const Real whole = result.depth * result.area, thickness = -result.infeasibility;
@@ -80,14 +80,8 @@ void expectSameFrom(const Kernel* kernels)
 		const Shapes shapes   = randomShapes(60, random, dimension);
 		int          contacts = 0;
 		for (int trial = 0; trial < 1500 && !testing::Test::HasFailure(); ++trial) {
-			const Pair          pair = randomPair(shapes, random);
-			ContactWorkspace    workspace;
-			PairMemory          memory;
-			ContactResult       other;
-			const PairInput     in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] },
-                                &pair.centre2 };
-			const ContactResult result = query(pair);
-			kernels[dimension - 2](in, {}, memory, workspace, other);
+			const Pair          pair   = randomPair(shapes, random);
+			const ContactResult result = query(pair), other = from(kernels[dimension - 2], pair, {});
 			ASSERT_EQ(result.inContact, other.inContact);
 			expectSameValue(pair, kernels[dimension - 2]);
 			// the order of the bodies is the query's business, not the kernel's

@@ -9,7 +9,7 @@ import scipy  # loads its packages at their first use: half a second
 from yade import Box, Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall, _polytope
 
 from ..arrays import arrays
-from ..bonding import bonds
+from ..bonding import madeBonds
 
 __all__ = ['notNumbers', 'placeFindings']
 
@@ -98,7 +98,7 @@ def suddenGravity(scene):
 	if scene.O.iter > 0 or not scene.gravity() > 0:
 		return
 	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body.material)]
-	bonded = bonds() and any(bond.intact and math.isfinite(bond.tensileStrength) for bond in bonds().bonds)
+	bonded = any(bond.intact and math.isfinite(bond.tensileStrength) for bond in madeBonds())
 	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body.material)]
 	if not bonded and not _anyTouch(scene, strong) and not _anyRests(scene, strong, supports):
 		return

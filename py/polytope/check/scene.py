@@ -7,6 +7,8 @@ import itertools
 import yade
 from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
 
+from .._scene import canMove
+
 __all__ = ['Kind', 'SceneToCheck']
 
 Kind = collections.namedtuple('Kind', 'shape variant material')
@@ -34,8 +36,7 @@ class SceneToCheck:
 		return [engine for engine in self.engines if isinstance(engine, classes)]
 
 	def moves(self, body):
-		"""Whether forces move it: a member of a clump moves with the clump."""
-		return (self.O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
+		return canMove(body)
 
 	def gravity(self):
 		"""Largest of the integrators [m/s²]."""
