@@ -175,6 +175,7 @@ case $command in
 	search) buildPrecision double polytope_search && search "$@" ;;
 	accuracy) buildWith polytope_extremes && exec python3 "$project/tools/measure/accuracy/report.py" "$@" ;;
 	paper) build && exec python3 "$project/examples/paper/report.py" "$@" ;;
+	docs) build && exec python3 "$project/tools/site/build.py" "$@" ;;
 	figures) . "$project/tools/figures.sh" && figures "$@" ;;
 	bench) . "$project/tools/bench.sh" && benchmark "$@" ;;
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own

@@ -5,7 +5,8 @@
 
 purposesOf() { # VERB ARGUMENTS…
 	case $1 in
-		test) echo base test fuzz revision ;; # fuzz: tests/yade/test_verbs.py configures it
+		test) echo base test docs fuzz revision ;; # fuzz: tests/yade/test_verbs.py configures it
+		docs) echo base docs ;;
 		shell) echo base test ;; # for pytest
 		search | accuracy | tradeoff | paper) echo base revision ;;
 		figures) if [ "${2:-}" = --measure ]; then echo base peers revision; else echo base; fi ;;
@@ -53,7 +54,7 @@ checkArguments() { # VERB ARGUMENTS…
 	shift
 	options=$(optionsOf "$verb") names=$(namesOf "$verb")
 	case $verb in
-		demo | paper | tradeoff | bench | fuzz | sanitize | accuracy | search) options+=" --help -h" ;;
+		demo | paper | tradeoff | bench | fuzz | sanitize | accuracy | search | docs) options+=" --help -h" ;;
 		test) checkTestArguments "$@" && return ;;
 		format | build) ;;
 		*) return 0 ;; # yade, python, shell: options of those programs

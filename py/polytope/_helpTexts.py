@@ -64,6 +64,7 @@ def plain(text, default=None):
 	:param default: value of the attribute that it describes
 	"""
 	text = re.sub(r':ydefault:`(?:[^`]*)`', '' if default is None else f'Default: {default!r}.', text)
+	text = re.sub(r'\.\. ystaticattr:: \w+\.(\w+)\(=(.*)\)\n', r'\1, default \2:\n', text)
 	text = re.sub(r'\s*:yattr(?:type|flags):`[^`]*`', '', text)
 	text = re.sub(r':\w+:`([^`<]*?)\s*<[^`]*>`', r'\1', text)
 	text = re.sub(r':\w+:`([^`]*)`', r'\1', text)

@@ -25,6 +25,7 @@ import random
 import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
+from ._sharedArguments import withShared
 from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon']
@@ -51,6 +52,7 @@ randomColor = (-1, -1, -1)
 
 def builder(make=None, *, lacks=()):
 	"""Decorates a function that makes a body or several: where a keyword is unknown it is named, and what the function takes.
+	Its help text gets the arguments that all bodies have.
 
 	:param lacks: arguments of all bodies that this one does not have
 	"""
@@ -67,6 +69,7 @@ def builder(make=None, *, lacks=()):
 				raise TypeError(f'{make.__name__}: there is no argument {name!r}; it takes {takes}')
 		return make(*given, **named)
 
+	checked.__doc__ = withShared(make.__doc__, __doc__, {*own, *lacks})
 	return checked
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The friction angle at which a scene of rock joints fails, found by reducing it step by step.
+"""The friction angle at which a scene of rock joints fails, found by reducing it step by step::
 
 	from yade.polytope.frictionReduction import FrictionReduction
 

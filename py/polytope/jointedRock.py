@@ -113,7 +113,7 @@ class JointedRock:
 
 
 def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
-	"""Cut a convex region of rock into blocks by sets of joints.
+	"""Cut a convex region of rock into blocks by sets of joints::
 
 		slope = polytope.jointedRock(normals, offsets, [polytope.JointSet(radians(35), radians(90), spacing=2), …])
 		O.bodies.append([polytope.fromHalfSpaces(*block) for block in slope.blocks])

@@ -108,7 +108,7 @@ class MotionRecord:
 		return -self.inertia * self.damping * np.abs(acceleration) * np.sign(middle)
 
 	def momentumError(self):
-		"""Largest |Δ(m v) − ∫(F + F_damping) dt − m g t| at any time, in any direction, over ∫|F| dt + m |g| t of the whole run [-]."""
+		"""Largest ``|Δ(m v) − ∫(F + F_damping) dt − m g t|`` at any time, in any direction, over ``∫|F| dt + m |g| t`` of the whole run [-]."""
 		impulse = np.cumsum(self.contactForce + self.dampingForce() + self.mass * self.gravity, axis=0) * self.timeStep
 		change = self.mass * (self.velocityAfter - self.velocityBefore[0])
 		scale = self.timeStep * np.sum(np.linalg.norm(self.contactForce, axis=1) + self.mass * np.linalg.norm(self.gravity))

@@ -13,9 +13,9 @@ import time
 import pytest
 import yade
 from yade import polytope
-from yade.polytope import _helpTexts
+from yade.polytope import _helpTexts, _sharedArguments
 
-markup = re.compile(r':y?[a-z]+:`|::\w|\$|\]_|``')
+markup = re.compile(r'\.\. \w+::|:y?[a-z]+:`|::\w|\$|\]_|``')
 """Roles of Sphinx, C++ names, formulas of LaTeX, citations."""
 ownMethods = {'make', 'nonFiniteForces', 'notedSignal', 'postpone', 'ratioSlidingContacts', 'resetStats', 'stats', 'watchSignals', 'write'}
 """Of the plug-in's classes; their signatures name Python's types alone."""
@@ -60,6 +60,26 @@ def testAttributesStillWork():
 def testHelpOfFunctionsIsPlainText(name):
 	text = pydoc.plain(pydoc.render_doc(getattr(polytope, name)))
 	assert not re.search(r':yref:`|polytope::|std::', text)
+
+
+@pytest.mark.parametrize(
+	'name', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes randomGrain grains plates tube terrain'.split()
+)
+def testHelpOfBodiesHasTheSharedArguments(name):
+	"""Each once, before what is returned and raised."""
+	text = getattr(polytope, name).__doc__
+	for argument in ('material', 'fixed', 'color', 'cornerRadius', 'velocity'):
+		assert len(re.findall(rf'^:param (?:\w+ )?{argument}: ', text, re.MULTILINE)) == 1, argument
+	own = set(inspect.signature(getattr(polytope, name)).parameters)
+	assert all(len(re.findall(rf':param (?:\w+ )?{one}: ', text)) <= 1 for one in own)
+	assert text.index(':param bool fixed: ') < text.index(':raises ')
+
+
+def testSharedArgumentsOnesOwnComesFirst():
+	shared = '\tOf all.\n\n\t:param int a: first\n\t    and more\n\t:param b: second\n'
+	assert _sharedArguments.withShared('Does it.\n\n\t:param b: own\n\t:returns: it\n\t', shared, {'b'}) == (
+		'Does it.\n\n:param b: own\n:param int a: first\n    and more\n:returns: it'
+	)
 
 
 def testPlain():

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Settings of Sphinx; build.py calls it, in a Python that has imported YADE."""
+
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import yadeText
+from docutils import nodes
+from sphinx import addnodes
+from yade import polytope
+
+project = 'yade-polytope'
+version = release = polytope.__version__
+copyright = 'the authors of yade-polytope; GPL-2.0-or-later'
+extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.autosummary', 'sphinx.ext.mathjax']
+
+# pages: headings have the anchors that GitHub gives them, $…$ is a formula
+myst_enable_extensions = ['dollarmath']
+myst_heading_anchors = 4
+myst_dmath_double_inline = True
+suppress_warnings = ['myst.header']  # a page may skip a level of headings
+
+# help texts
+autosummary_generate = False
+autodoc_member_order = 'bysource'
+autodoc_typehints = 'none'
+add_module_names = False
+toc_object_entries_show_parents = 'hide'
+default_role = 'py:obj'
+python_maximum_signature_line_length = 100
+
+# appearance
+html_theme = 'furo'
+html_title = f'yade-polytope {version}'
+html_static_path = [str(pathlib.Path(__file__).parent / 'static')]
+html_css_files = ['site.css']
+html_copy_source = html_show_sphinx = False
+html_show_search_summary = False  # it would fetch pages, which a browser refuses to do from a folder
+html_theme_options = {'source_edit_link': '', 'source_view_link': ''}
+pygments_style, pygments_dark_style = 'friendly', 'monokai'
+
+# formulas, without a network
+mathjax_path = 'mathjax/MathJax.js?config=TeX-AMS_SVG'
+mathjax2_config = {
+	'messageStyle': 'none',
+	'showMathMenu': False,
+	'tex2jax': {'inlineMath': [['\\(', '\\)']], 'displayMath': [['\\[', '\\]']], 'ignoreClass': '.*', 'processClass': 'math'},
+	'SVG': {'linebreaks': {'automatic': True}, 'scale': 90},
+}
+
+
+def clean(app, what, name, obj, options, lines):
+	"""Python's help texts name pages as the reader of a prompt needs it."""
+	lines[:] = yadeText.links('\n'.join(lines)).split('\n')
+
+
+def linkExamples(app, tree):
+	"""A file of examples/ that a page names becomes a link to its source."""
+	for literal in list(tree.findall(nodes.literal)):
+		name = yadeText.example(literal.astext())
+		if name and f'examples/{name}' in app.env.found_docs and not isinstance(literal.parent, nodes.reference | addnodes.pending_xref):
+			target = addnodes.pending_xref(
+				'', refdomain='std', reftype='doc', reftarget=f'/examples/{name}', refexplicit=True, refwarn=True
+			)
+			target['refdoc'] = app.env.docname
+			literal.replace_self(target)
+			target += literal
+
+
+def setup(app):
+	app.connect('autodoc-process-docstring', clean)
+	app.connect('doctree-read', linkExamples)
