@@ -20,4 +20,4 @@ while O.time < 0.15:
 
 failures = [bond.failure for bond in polytope.bonds().bonds]
 print(made, 'bonds:', polytope.bonds().intactCount, 'intact,', failures.count('tension'), 'failed in tension,', failures.count('shear'), 'in shear')
-polytope.picture('bondedCube.png')
+polytope.picture('output/bondedCube.png')

@@ -31,6 +31,6 @@ print(f'largest stress {strength / 1e6:.2f} MPa; {polytope.bonds().intactCount} 
 print(f'work {work:.5g} J:', ', '.join(f'{name} {100 * value / work:.2f} %' for name, value in parts.items()))
 print(f'missing: {100 * (1 - sum(parts.values()) / work):.2f} %')
 polytope.picture(
-	'crushedCube.png', colorBy='displacement', legend='moved [m]', fixed=lambda body: 'glass' if body.id == plate else 'solid',
+	'output/crushedCube.png', colorBy='displacement', legend='moved [m]', fixed=lambda body: 'glass' if body.id == plate else 'solid',
 	view=(-0.6, -1, 0.25), size=(1200, 1000)
 )

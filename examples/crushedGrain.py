@@ -32,4 +32,4 @@ print(f'{len(pieces)} pieces; broken at', ', '.join(f'{force:.0f} N' for force i
 print(f'volume of the pieces over that of the grain: {sum(piece.shape.volume for piece in pieces) / volume:.12f}')
 for piece, color in zip(pieces, ((0.85, 0.45, 0.3), (0.35, 0.6, 0.75), (0.95, 0.8, 0.45), (0.5, 0.7, 0.45)), strict=False):
 	piece.shape.color = color
-polytope.picture('crushedGrain.png', view=(-0.5, -1, 0.3))
+polytope.picture('output/crushedGrain.png', view=(-0.5, -1, 0.3))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Triaxial compression of 1000 random grains between smooth walls: curves in triaxial.png, the sample in triaxialSample.png.
+"""Triaxial compression of 1000 random grains between smooth walls: curves in output/triaxial.png, the sample in
+output/triaxialSample.png.
 
 ./run python examples/triaxial.py
 """
@@ -15,8 +16,8 @@ sample = polytope.pack(grains, (0, 0, 0), (0.07, 0.07, 0.07), stress=1e5, fricti
 print(f'{len(sample.ids)} grains, porosity {sample.porosity:.3f}')
 test = polytope.triaxial(sample, stress=1e5, inertialNumber=5e-3)
 test.run(0.2)
-test.plot('triaxial.png')
-polytope.picture('triaxialSample.png', colorBy='displacement', legend='displacement [m]', fixed='hidden')
+test.plot('output/triaxial.png')
+polytope.picture('output/triaxialSample.png', colorBy='displacement', legend='displacement [m]', fixed='hidden')
 
 columns = test.columns
 sample.settle()

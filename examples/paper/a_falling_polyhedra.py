@@ -140,7 +140,7 @@ def main():
 	save(results, given.output)
 	firsts = [r for r in results if r['seed'] == given.seed]
 	showCosts(firsts)
-	showOutcome(firsts, expected if given.reference else {}, f'{fullNumber} particles, {fullSteps} steps and the usual parameters')
+	showOutcome(firsts, expected if given.reference else {}, f'{fullNumber} particles, {fullSteps} steps and the usual parameters', scatter)
 	showStates(firsts)
 
 	findings = Findings('A', 'Falling polyhedra', given.output, shown(given))

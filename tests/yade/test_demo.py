@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The examples run as a user runs them: as programs of their own, in an empty folder."""
+import importlib
 import json
 import os
 import pathlib
@@ -55,6 +56,19 @@ def testDemoDrawsAndRecords(tmp_path):
 def testDemoRefusesNonsense(tmp_path):
 	assert run(tmp_path, 'paper/a_falling_polyhedra.py', '--number', '0').returncode == 2
 	assert run(tmp_path, 'paper/a_falling_polyhedra.py', '--shape', 'sphere').returncode == 2
+
+
+def testNumbersOfAChaoticHeapGetNoVerdict(monkeypatch, capsys):
+	"""What is a bound gets one."""
+	monkeypatch.setattr(sys, 'path', [str(examples / 'paper'), *sys.path])
+	tables = importlib.import_module('boon2012.falling.tables')
+	result = {**dict.fromkeys(tables.quantities, 1.0), 'number': 5, 'inside': 5, 'failures': 0, 'shape': 'cube', 'contacts': 500, 'overlap': 0.1}
+	tables.showOutcome([result], {'contacts': (373, 469), 'overlap': (0, 0.005), 'deepestOverlap': (0, 2)}, 'all', {'contacts': (1, 2)})
+	lines = {line.split('  ')[0]: line for line in capsys.readouterr().out.splitlines()}
+	contacts = lines[tables.quantities['contacts'] + ' *']
+	assert '373 … 469' in contacts and '500' in contacts and 'outside' not in contacts
+	assert lines[tables.quantities['overlap']].endswith('outside') and lines[tables.quantities['deepestOverlap']].endswith('ok')
+	assert any(line.startswith('* least and largest') for line in lines)
 
 
 def testHelloPrintsTheContact(tmp_path):

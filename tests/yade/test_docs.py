@@ -161,12 +161,23 @@ def runs(page):
 	return given
 
 
+prints = {
+	'docs/stiffness.md': [r'wanted one: (1\.0000|0\.9999)', '^normalDamping=0.255$'],
+	'docs/moving-walls.md': [r'^0\.5$', '^True$'],
+	'docs/hopper.md': [r'^nothing was found that is wrong$', r'^[12]\.\d kg/s; empty after 0\.\d\d s$'],
+	'docs/ballast.md': [r'^36 stones; porosity of the lower 5 cm: 0\.[4-7]', r'^settlement \d{1,2}\.\d mm$'],
+}
+"""Lines that the snippets of a page print, as its text or its comments say."""
+
+
 @pytest.mark.parametrize('name', [name for name in names if '```python' in (project / name).read_text()])
-def testSnippetsRun(name, tmp_path, monkeypatch):
+def testSnippetsRun(name, tmp_path, monkeypatch, capsys):
 	os.makedirs(tmp_path / 'output')
 	monkeypatch.chdir(tmp_path)
 	monkeypatch.setattr(sys, 'path', list(sys.path))
 	runs(project / name)
+	said = capsys.readouterr().out
+	assert all(re.search(pattern, said, re.MULTILINE) for pattern in prints.get(name, [])), said
 
 
 @pytest.mark.parametrize('name', ['README.md', 'docs/first-scene.md'])

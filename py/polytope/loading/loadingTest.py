@@ -2,6 +2,7 @@
 """What all loading tests share: steps until something is reached, a record of what was measured on the way, and its curves as a picture."""
 
 import math
+import os
 
 import numpy as np
 from yade import O
@@ -90,7 +91,7 @@ class LoadingTest:
 			self.note()
 
 	def plot(self, path):
-		"""Draws the record's curves into a PNG, SVG or PDF file."""
+		"""Draws the record's curves into a PNG, SVG or PDF file; makes its folder where there is none."""
 		from matplotlib.figure import Figure
 
 		if not self.record:
@@ -106,4 +107,5 @@ class LoadingTest:
 			else:
 				diagram.legend()
 			diagram.grid(alpha=0.3)
+		os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
 		figure.savefig(path, dpi=120)

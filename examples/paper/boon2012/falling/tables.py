@@ -33,18 +33,23 @@ def showCosts(results):
 	print(tabulate(rows, [title for _, title, _ in costColumns], stralign='right', disable_numparse=True))
 
 
-def showOutcome(results, ranges, known):
+def showOutcome(results, ranges, known, chaotic=()):
 	"""One column a run.
 
-	:param dict ranges: expected, name in the results → (from, to); empty where nothing is known
+	:param dict ranges: of the reference, name in the results → (from, to); empty where nothing is known
 	:param str known: for what it is known
+	:param chaotic: names of results whose range is that of single runs: another run may lie outside, and gets no verdict
 	"""
-	print('\nWhat came out' + ('' if ranges else f' (what is expected is known for {known})'))
+	print('\nWhat came out' + ('' if ranges else f' (the reference is known for {known})'))
 	rows = [['particles inside', results[0]['number'], *(r['inside'] for r in results)]]
 	rows.append(['queries without an answer', 0, *(r['failures'] for r in results)])
 	for key, label in quantities.items():
-		rows.append([label, _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], ranges.get(key)) for r in results)])
-	print(tabulate(rows, ['', 'expected', *[r['shape'] for r in results]], disable_numparse=True))
+		judged = None if key in chaotic else ranges.get(key)
+		rows.append([label + ' *' * (key in chaotic), _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results)])
+	print(tabulate(rows, ['', 'reference', *[r['shape'] for r in results]], disable_numparse=True))
+	if ranges and chaotic:
+		print('* least and largest of five runs of an independent program, one for each solid. Heaps are chaotic: a single run may well lie')
+		print('  outside. What must hold is compared below for all five solids, and by ./run paper --only A over eight seeds.')
 
 
 def _range(ends):
