@@ -7,7 +7,6 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import yadeText
 from docutils import nodes
-from sphinx import addnodes
 from yade import polytope
 
 project = 'yade-polytope'
@@ -55,19 +54,16 @@ def clean(app, what, name, obj, options, lines):
 	lines[:] = yadeText.links('\n'.join(lines)).split('\n')
 
 
-def linkExamples(app, tree):
+def linkExamples(app, tree, page):
 	"""A file of examples/ that a page names becomes a link to its source."""
 	for literal in list(tree.findall(nodes.literal)):
 		name = yadeText.example(literal.astext())
-		if name and f'examples/{name}' in app.env.found_docs and not isinstance(literal.parent, nodes.reference | addnodes.pending_xref):
-			target = addnodes.pending_xref(
-				'', refdomain='std', reftype='doc', reftarget=f'/examples/{name}', refexplicit=True, refwarn=True
-			)
-			target['refdoc'] = app.env.docname
-			literal.replace_self(target)
-			target += literal
+		if name and f'examples/{name}' in app.env.found_docs and not isinstance(literal.parent, nodes.reference):
+			link = nodes.reference('', internal=True, refuri=app.builder.get_relative_uri(page, f'examples/{name}'))
+			literal.replace_self(link)
+			link += literal
 
 
 def setup(app):
 	app.connect('autodoc-process-docstring', clean)
-	app.connect('doctree-read', linkExamples)
+	app.connect('doctree-resolved', linkExamples)
