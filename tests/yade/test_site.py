@@ -57,6 +57,11 @@ def testAllFunctionsAndClassesAreThere(site):
 	assert {'yade.Gl1_Polytope.edges', 'yade.Ig2_Polytope_Polytope_PolytopeGeom.stats'} <= places
 
 
+def testPagesLinkToThem(site):
+	text = (site / 'making-bodies.html').read_text()
+	assert 'href="api/bodies.html#yade.polytope.cuboid"' in text and 'href="examples/funnel.html"' in text
+
+
 def testAttributesHaveTypeAndDefault(site):
 	text = html.unescape(re.sub(r'<[^>]*>', '', (site / 'api/joints.html').read_text()))
 	assert re.search(r'cohesion: float = 0\.0', text) and 'Mohr-Coulomb strength' in text
@@ -110,3 +115,5 @@ def testTextsOfYadesClasses(part):
 		'Does it.\nWell.',
 	)
 	assert text.example('./run python examples/paper/f_collisions.py --quick') == 'paper/f_collisions' and text.example('examples/') is None
+	assert text.object_('polytope.cuboid(center, extents)') == 'yade.polytope.cuboid' and text.object_('polytope.mpi.divide') is None
+	assert text.object_('RockJointMat(density=1)') == 'yade.RockJointMat' and text.object_('O.dt') is None

@@ -18,6 +18,7 @@ extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.autosummary', 'sp
 myst_enable_extensions = ['dollarmath']
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
+smartquotes = False  # -- is the beginning of an option
 suppress_warnings = ['myst.header']  # a page may skip a level of headings
 
 # help texts
@@ -54,16 +55,29 @@ def clean(app, what, name, obj, options, lines):
 	lines[:] = yadeText.links('\n'.join(lines)).split('\n')
 
 
-def linkExamples(app, tree, page):
-	"""A file of examples/ that a page names becomes a link to its source."""
+def aimOf(app, text, page, named):
+	"""Where code in a sentence leads: to the source of an example; to a function or class, where the page names it first."""
+	name = yadeText.example(text)
+	if name and f'examples/{name}' in app.env.found_docs:
+		return app.builder.get_relative_uri(page, f'examples/{name}')
+	name = yadeText.object_(text)
+	entry = app.env.get_domain('py').objects.get(name)
+	if entry is None or name in named or page.startswith('api/'):
+		return None
+	named.add(name)
+	return f'{app.builder.get_relative_uri(page, entry.docname)}#{entry.node_id}'
+
+
+def linkCode(app, tree, page):
+	named = set()
 	for literal in list(tree.findall(nodes.literal)):
-		name = yadeText.example(literal.astext())
-		if name and f'examples/{name}' in app.env.found_docs and not isinstance(literal.parent, nodes.reference):
-			link = nodes.reference('', internal=True, refuri=app.builder.get_relative_uri(page, f'examples/{name}'))
+		aim = None if isinstance(literal.parent, nodes.reference | nodes.title) else aimOf(app, literal.astext(), page, named)
+		if aim:
+			link = nodes.reference('', internal=True, refuri=aim)
 			literal.replace_self(link)
 			link += literal
 
 
 def setup(app):
 	app.connect('autodoc-process-docstring', clean)
-	app.connect('doctree-resolved', linkExamples)
+	app.connect('doctree-resolved', linkCode)

@@ -6,7 +6,7 @@ YADE's own site has roles for Sphinx in its conf.py; its texts need no more than
 
 import re
 
-__all__ = ['attribute', 'boost', 'example', 'indented', 'links', 'rest', 'staticAttributes', 'title', 'wrapper']
+__all__ = ['attribute', 'boost', 'example', 'indented', 'links', 'object_', 'rest', 'staticAttributes', 'title', 'wrapper']
 
 flags = {1: 'not saved', 2: 'read only'}
 """Of YADE's attributes (its lib/serialization): those that a script notices."""
@@ -50,6 +50,12 @@ def example(text):
 	"""What the page of an example is called, where the text names one; None otherwise."""
 	found = re.search(r'(?:^|\s)examples/([\w/-]+)\.py\b', text)
 	return found and found[1]
+
+
+def object_(text):
+	"""The full name of what code in a sentence is: polytope.NAME(…) or a class of YADE; without a meaning for other code."""
+	found = re.match(r'(polytope\.\w+|[A-Z]\w+)(?![\w.])', text)
+	return found and f'yade.{found[1]}'
 
 
 def attribute(text):
