@@ -170,6 +170,15 @@ prints = {
 """Lines that the snippets of a page print, as its text or its comments say."""
 
 
+def testTestsThatAreNamedExist():
+	tests = project / 'tests/yade'
+	text = (project / 'docs/verification.md').read_text()
+	found = re.findall(r'`(test_\w+\.py)::(\w+)`', text)
+	assert len(found) == len(re.findall(r'^\| (?!problem|---)', text, re.MULTILINE)) > 25
+	for file, name in found:
+		assert f'def {name}(' in (tests / file).read_text(), f'{file} has no {name}'
+
+
 @pytest.mark.parametrize('name', [name for name in names if '```python' in (project / name).read_text()])
 def testSnippetsRun(name, tmp_path, monkeypatch, capsys):
 	os.makedirs(tmp_path / 'output')
