@@ -109,6 +109,10 @@ def testTextsOfYadesClasses(part):
 	assert text.rest(said, ['Polytope']) == (
 		'Limit :math:`a_i` of :py:obj:`this one <yade.Polytope.x>` and `Box <https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper.Box>`__, :doc:`/bonds`.'
 	)
+	assert (
+		text.separate(':param low, high: of it\n    all\n:returns: x')
+		== ':param low: of it\n    all\n:param high: of it\n    all\n:returns: x'
+	)
 	assert text.boost("\nf( (Law)arg1, (object)b [, (str)how='x']) -> int :\n    Does it.\n    Well.") == (
 		"b, how='x'",
 		'int',

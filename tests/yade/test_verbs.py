@@ -40,6 +40,7 @@ programs = {
 	'accuracy': ['tools/measure/accuracy/report.py'],
 	'bench': ['tools/measure/benchmark/bench.py', '--programs', 'none'],
 	'demo': ['examples/paper/a_falling_polyhedra.py'],
+	'docs': ['tools/site/build.py'],
 	'paper': ['examples/paper/report.py'],
 	'tradeoff': ['tools/measure/tradeoff/tradeoffPaper.py'],
 }

@@ -27,8 +27,8 @@ autodoc_member_order = 'bysource'
 autodoc_typehints = 'none'
 add_module_names = False
 toc_object_entries_show_parents = 'hide'
-default_role = 'py:obj'
-python_maximum_signature_line_length = 100
+default_role = 'literal'
+python_maximum_signature_line_length = 120
 
 # appearance
 html_theme = 'furo'
@@ -51,8 +51,8 @@ mathjax2_config = {
 
 
 def clean(app, what, name, obj, options, lines):
-	"""Python's help texts name pages as the reader of a prompt needs it."""
-	lines[:] = yadeText.links('\n'.join(lines)).split('\n')
+	"""Python's help texts name pages, and several arguments at once, as the reader of a prompt needs it."""
+	lines[:] = yadeText.links(yadeText.separate('\n'.join(lines))).split('\n')
 
 
 def aimOf(app, text, page, named):
@@ -78,6 +78,14 @@ def linkCode(app, tree, page):
 			link += literal
 
 
+def writeDashes(app, tree, page):
+	"""Between an argument and its meaning; in sentences, where smartquotes would write them, -- is an option."""
+	for text in list(tree.findall(nodes.Text)):
+		if text == ' -- ':
+			text.parent.replace(text, nodes.Text(' – '))
+
+
 def setup(app):
 	app.connect('autodoc-process-docstring', clean)
 	app.connect('doctree-resolved', linkCode)
+	app.connect('doctree-resolved', writeDashes)

@@ -25,10 +25,20 @@ topics = {
 """Page, title, names. tests/yade/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
-	'loading': ('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
-	'costs': ('tradeoff.table.TradeoffTable',),
+	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check'),
+	'loading': (
+		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
+		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
+	),
+	'costs': ('tradeoff.table.TradeoffTable', 'requirements.Requirements', 'requirements.Finding'),
 }
 """Classes of what functions of a topic return, which have no public name."""
+
+inner = (
+	'axes, titles, hold, measure, begin, note, until, move, replace, mustBePresent, close, deviation, inertialRate, '
+	'count, index, append, clear, copy, extend, insert, pop, remove, reverse, sort'
+)
+"""Members of these that no script needs, or that lists and tuples have."""
 
 modules = ('frictionReduction', 'fallingPolyhedra', 'motionRecord', 'mpi')
 """Those that are imported by their own names."""
@@ -60,7 +70,10 @@ def topic(page):
 		text += contactClass()
 	if returned.get(page):
 		text += title('What they return', '-')
-		text += ''.join(f'.. autoclass:: yade.polytope.{one}\n   :members:\n   :inherited-members:\n\n' for one in returned[page])
+		text += ''.join(
+			f'.. autoclass:: yade.polytope.{one}\n   :members:\n   :inherited-members:\n   :exclude-members: {inner}\n\n'
+			for one in returned[page]
+		)
 	return text
 
 

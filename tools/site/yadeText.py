@@ -6,7 +6,7 @@ YADE's own site has roles for Sphinx in its conf.py; its texts need no more than
 
 import re
 
-__all__ = ['attribute', 'boost', 'example', 'indented', 'links', 'object_', 'rest', 'staticAttributes', 'title', 'wrapper']
+__all__ = ['attribute', 'boost', 'example', 'indented', 'links', 'object_', 'rest', 'separate', 'staticAttributes', 'title', 'wrapper']
 
 flags = {1: 'not saved', 2: 'read only'}
 """Of YADE's attributes (its lib/serialization): those that a script notices."""
@@ -44,6 +44,15 @@ def boost(text):
 def links(text):
 	"""The name of a page in docs/ becomes a link to it."""
 	return re.sub(r'`{0,2}\bdocs/([\w-]+)\.md\b`{0,2}', r':doc:`/\1`', text)
+
+
+def separate(text):
+	""":param a, b: becomes one field for each, which Sphinx needs."""
+
+	def each(found):
+		return '\n'.join(f':param {name}:{found[2]}' for name in found[1].split(', '))
+
+	return re.sub(r'^:param ([^:\n]*, [^:\n]*):(.*(?:\n[ \t]+.*)*)', each, text, flags=re.MULTILINE)
 
 
 def example(text):
@@ -90,4 +99,4 @@ def rest(text, own):
 		return f':py:obj:`{shown} <yade.{target}>`' if first in own else f'`{shown} <{wrapper}{target}>`__'
 
 	text = re.sub(r'(?<!\\)\$([^$]+)\$', lambda found: f':math:`{found[1].strip()}`', text)
-	return links(re.sub(r':yref:`([^`]*)`', reference, text))
+	return links(separate(re.sub(r':yref:`([^`]*)`', reference, text)))
