@@ -107,7 +107,7 @@ def testTextsOfYadesClasses(part):
 	said, kind, hasDefault, meanings = text.attribute(said)
 	assert (kind, hasDefault, meanings) == ('float', True, ['not saved', 'read only'])
 	assert text.rest(said, ['Polytope']) == (
-		'Limit :math:`a_i` of :py:obj:`this one <yade.Polytope.x>` and `Box <https://yade-dem.org/doc/yade.wrapper.html#yade.wrapper.Box>`__, :doc:`/bonds`.'
+		f'Limit :math:`a_i` of :py:obj:`this one <yade.Polytope.x>` and `Box <{text.wrapper}Box>`__, :doc:`/bonds`.'
 	)
 	assert (
 		text.separate(':param low, high: of it\n    all\n:returns: x')

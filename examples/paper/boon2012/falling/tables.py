@@ -45,11 +45,11 @@ def showOutcome(results, ranges, known, chaotic=()):
 	rows.append(['queries without an answer', 0, *(r['failures'] for r in results)])
 	for key, label in quantities.items():
 		judged = None if key in chaotic else ranges.get(key)
-		rows.append([label + ' *' * (key in chaotic), _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results)])
+		rows.append([label + ' *' * (key in chaotic and key in ranges), _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results)])
 	print(tabulate(rows, ['', 'reference', *[r['shape'] for r in results]], disable_numparse=True))
 	if ranges and chaotic:
 		print('* least and largest of five runs of an independent program, one for each solid. Heaps are chaotic: a single run may well lie')
-		print('  outside. What must hold is compared below for all five solids, and by ./run paper --only A over eight seeds.')
+		print('  outside. What must hold is compared below where all five solids are run, and by ./run paper --only A over eight seeds.')
 
 
 def _range(ends):
