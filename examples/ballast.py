@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Railway ballast under a sleeper whose load comes and goes; prints the settlement after each cycle, draws it.
 
-./run python examples/ballast.py          one to three minutes; writes output/ballast.png
+./run python examples/ballast.py          less than a minute; writes output/ballast.png
 """
 
 from math import cos, pi, radians
