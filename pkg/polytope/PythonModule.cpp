@@ -262,7 +262,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; },
 	                "Centroid of the contact section, world coordinates [m].")
 	        .add_property("dualDirection", &field<Vector3r, &ContactResult::dualDirection>,
-	                "Σ over b1's planes of λ_i a_i, λ the linear program's dual: moved by ``|s*|/|dualDirection|`` along it, b2 is free "
+	                "Σ over b1's planes of λ_i a_i, λ the linear program's dual: moved by ``|s*|/|dualDirection|`` along it, b2 is "
+	                "free "
 	                "of b1.")
 	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
 	        .add_property(
