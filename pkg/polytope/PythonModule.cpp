@@ -263,8 +263,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "Centroid of the contact section, world coordinates [m].")
 	        .add_property("dualDirection", &field<Vector3r, &ContactResult::dualDirection>,
 	                "Σ over b1's planes of λ_i a_i, λ the linear program's dual: moved by ``|s*|/|dualDirection|`` along it, b2 is "
-	                "free "
-	                "of b1.")
+	                "free of b1.")
 	        .add_property("newtonIterations", &field<int, &ContactResult::newtonIterations>, "Iterations of the analytic centre.")
 	        .add_property(
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
