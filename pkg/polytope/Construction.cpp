@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What bodies.py, clumps.py and jointedRock.py of py/polytope call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill
-// together, a rock mass cut into blocks.
+// What bodies.py and clumps.py of py/polytope call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill together.
 #include "Construction.hpp"
 
 #include "Polytope.hpp"
@@ -12,7 +11,6 @@
 #include <core/Material.hpp>
 #include <core/State.hpp>
 
-#include <src/shape/JointedBlocks.hpp>
 #include <src/shape/RegularSolids.hpp>
 #include <src/shape/ShapeFactory.hpp>
 #include <src/shape/UnionOfParts.hpp>
@@ -137,46 +135,6 @@ namespace {
 		return py::make_tuple(all.volume, all.mass, Vector3r(origin + all.centre), tensor);
 	}
 
-	py::object bytesOf(const void* data, std::size_t size)
-	{
-		return py::object(py::handle<>(PyBytes_FromStringAndSize(static_cast<const char*>(data), Py_ssize_t(size))));
-	}
-
-	template <class Number> py::object bytesOf(const std::vector<Number>& numbers)
-	{
-		return bytesOf(numbers.data(), numbers.size() * sizeof(Number));
-	}
-
-	/// Blocks of a region cut by joints normals[j]·x = offsets[j], in arrays of doubles (and of 32-bit integers) as NumPy reads them.
-	py::dict jointedBlocks(const Vectors& normals, const py::object& offsets, const Vectors& jointNormals,
-	        const py::object& offsetsOfJoints, Real smallest)
-	{
-		const std::vector<Real>      jointOffsets = numbers(offsetsOfJoints);
-		std::vector<polytope::Plane> joints;
-		for (std::size_t j = 0; j < jointNormals.rows.size(); ++j)
-			joints.push_back({ jointNormals.rows[j], jointOffsets[j] });
-		const auto          rock = polytope::cutByJoints({ normals.rows, numbers(offsets), 3 }, joints, smallest);
-		std::vector<double> planes, volumes;
-		std::vector<int>    counts, cutting;
-		for (const polytope::Block& block : rock.blocks) {
-			for (int plane : block.planes) {
-				const auto& [normal, offset] = rock.planes[std::size_t(plane)];
-				planes.insert(planes.end(), { double(normal[0]), double(normal[1]), double(normal[2]), double(offset) });
-			}
-			counts.push_back(int(block.planes.size()));
-			volumes.push_back(double(block.volume()));
-		}
-		for (std::size_t j = 0; j < joints.size(); ++j)
-			if (rock.cutting[j]) cutting.push_back(int(j));
-		py::dict result;
-		result["planes"]  = bytesOf(planes);
-		result["counts"]  = bytesOf(counts);
-		result["volumes"] = bytesOf(volumes);
-		result["cutting"] = bytesOf(cutting);
-		result["uncut"]   = rock.uncut;
-		return result;
-	}
-
 } // namespace
 
 void defineConstruction()
@@ -193,7 +151,6 @@ void defineConstruction()
 	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, turn, fixed, isotropyTolerance, color or None.");
 	py::def("setClump", &setClump, "Mass and principal axes of a clump: body, mass, inertia, centre, axes, isotropyTolerance.");
 	py::def("unionOf", &unionOf, "Volume, mass, centre of mass and tensor of inertia (nine numbers) of what polyhedra fill together.");
-	py::def("jointedBlocks", &jointedBlocks, "Blocks of a region cut by joints: normals, offsets, those of the joints, smallest.");
 }
 
 } // namespace yade

@@ -3,7 +3,10 @@
 
 namespace yade {
 
-/// Defines the functions of yade._polytope that make shapes, bodies and blocks of rock (for PythonModule.cpp).
+/// Defines the functions of yade._polytope that make shapes and bodies (for PythonModule.cpp).
 void defineConstruction();
+
+/// Defines those that cut rock into blocks.
+void defineJointedRock();
 
 } // namespace yade

@@ -231,6 +231,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "a dictionary; None where nothing limits.");
 	yade::defineVectors();
 	yade::defineConstruction();
+	yade::defineJointedRock();
 	yade::defineArrays();
 	yade::defineWorkerContacts();
 	yade::defineWorkerSums();

@@ -43,6 +43,7 @@ from .meshes import fromMesh
 from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements
+from .rock.joint import Joint
 from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
 from .settling import settle
@@ -62,6 +63,7 @@ for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
 _helpTexts.rewrite()
 
 __all__ = [
+	'Joint',
 	'JointSet',
 	'JointedRock',
 	'VoronoiCells',

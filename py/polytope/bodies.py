@@ -17,6 +17,7 @@ share these keyword arguments (*body* below), with the meaning they have in yade
 :param Vector3 velocity: initial velocity [m/s]
 :param Vector3 angularVelocity: initial angular velocity [rad/s]
 """
+
 import functools
 import inspect
 import numbers
@@ -168,6 +169,10 @@ def refuseInside(placed, outline, shape):
 		)
 
 
+def randomColour():
+	return Vector3(colours.random(), colours.random(), colours.random())
+
+
 def bodyOf(
         shape,
         flat=False,
@@ -190,7 +195,7 @@ def bodyOf(
 		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
 	given = None if color is None else vector(color, 'color')
 	if given is None or tuple(given) == randomColor:
-		given = Vector3(colours.random(), colours.random(), colours.random())
+		given = randomColour()
 	body = _polytope.body(placed, materialOf(material), *_pose(center, orientation, flat), flag(fixed, 'fixed'), isotropyTolerance, given)
 	if flag(wire, 'wire'):
 		body.shape.wire = True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A rock mass cut into blocks by sets of joints.
+"""A rock mass cut into blocks by joints.
 
 Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/shape/JointedBlocks.hpp; Boon,
 Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
@@ -7,95 +7,33 @@ Houlsby & Utili 2015, "A new rock slicing method based on linear programming", C
 
 import dataclasses
 import itertools
-import math
 import numbers
 from collections.abc import Iterable
 
 import numpy as np
-import scipy  # loads its packages at their first use: half a second
-from yade import _polytope
+from yade import O, _polytope
 
-from .arguments import flag, numbersOf, vector, vectors
-from .precision import isNumber, real
+from .arguments import namedArguments
+from .bodies import fromHalfSpaces, randomColour
+from .clumps import rigid
+from .precision import real
+from .rock.joint import Joint, asArguments, finite
+from .rock.jointSets import JointSet
+from .rock.region import regionOf
+from .rock.termination import Earlier
 
 __all__ = ['JointSet', 'JointedRock', 'jointedRock']
 
-mostBlocks = 1e5
-"""Expected number of blocks: more are refused, since such a scene could not be run; a spacing in a wrong unit is more likely."""
+mostBlocks = 500000
+"""Blocks: more are refused, since such a scene could not be run; a spacing in a wrong unit is more likely."""
 
 smallestFraction = 0.01
 """Default inscribed radius of the smallest piece over the smallest spacing, or over the region's own inscribed radius if that is less: thinner
 pieces need a shorter time step and carry no load."""
 
-oneRounding = 1e-12
-"""[rad]: a dip this much above π/2 is vertical."""
-
-scatterReach = 3
-"""Over the region's radius: how far from its centre, along the mean normal, scattered joints still start that may cross it."""
-
-
-@dataclasses.dataclass(frozen=True)
-class JointSet:
-	"""Joints (discontinuities) of one family. Each is a plane that cuts through the whole rock mass: fully persistent.
-
-	:param float dip: angle of the planes below the horizontal [rad], 0…π/2
-	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
-	:param float spacing: mean distance between neighbouring joints along the mean normal [m]
-	:param through: a point on one of the joints [m]; default the region's centroid. Not with *exponential*.
-	:param bool exponential: distances drawn from the negative exponential distribution (Priest & Hudson 1976, Int. J. Rock Mech.
-	    Min. Sci. 13:135-148) rather than all equal
-	:param float fisher: constant κ of Fisher's distribution of the normals about the mean one (Fisher 1953, Proc. R. Soc. A
-	    217:295-305): the larger the closer together; None: all parallel
-	:raises ValueError: naming the argument
-	"""
-
-	dip: float
-	dipDirection: float
-	spacing: float
-	through: tuple = None
-	exponential: bool = False
-	fisher: float = None
-
-	def __post_init__(self):
-		if not _finite(self.dip) or not 0 <= self.dip <= math.pi / 2 + oneRounding:
-			raise ValueError(f'dip: must be from 0 to π/2 (radians), got {self.dip!r}')
-		if not _finite(self.dipDirection) or abs(self.dipDirection) > 2 * math.pi:
-			raise ValueError(f'dipDirection: must be an azimuth in radians, within ±2π, got {self.dipDirection!r}')
-		if not _finite(self.spacing) or not self.spacing > 0:
-			raise ValueError(f'spacing: must be positive and finite [m], got {self.spacing!r}')
-		flag(self.exponential, 'exponential')
-		if self.through is not None:
-			if self.exponential:
-				raise ValueError('through: random distances (exponential) have no joint at a given point; leave it out')
-			object.__setattr__(self, 'through', tuple(float(x) for x in vector(self.through, 'through')))
-		if self.fisher is not None and not (_finite(self.fisher) and self.fisher > 0):
-			raise ValueError(f"fisher: must be positive and finite (Fisher's constant), or None for parallel joints, got {self.fisher!r}")
-
-	@property
-	def normal(self):
-		"""Unit normal of the mean plane, upward."""
-		horizontal = math.sin(self.dip)
-		return np.array([horizontal * math.sin(self.dipDirection), horizontal * math.cos(self.dipDirection), math.cos(self.dip)])
-
-	def planes(self, centre, radius, random):
-		"""Joints that may cross a ball.
-
-		:param centre: of the ball [m], from which d is measured
-		:param float radius: of the ball [m]
-		:param numpy.random.Generator random: for distances and normals
-		:returns: (n, 4) array, rows a_x, a_y, a_z, d of planes a·x = d with unit normals
-		"""
-		reach = radius * (1 if self.fisher is None else scatterReach)
-		if self.exponential:
-			along = random.uniform(-reach, reach, random.poisson(2 * reach / self.spacing))
-		else:
-			first = 0.0 if self.through is None else float(self.normal @ (np.array(self.through) - centre))
-			along = first + self.spacing * np.arange(math.ceil((-reach - first) / self.spacing), math.floor((reach - first) / self.spacing) + 1)
-		if self.fisher is None:
-			normals = np.tile(self.normal, (len(along), 1))
-		else:
-			normals = scipy.stats.vonmises_fisher(self.normal, self.fisher, seed=random).rvs(len(along)).reshape(-1, 3)
-		return np.column_stack([normals, along * (normals @ self.normal)])
+smallestBridge = 1e-3
+"""Area over which rock goes on from one block to the next, over the smaller of the two faces, below which it is taken for broken: joints
+of a file that were meant to end at each other miss by the last of its digits."""
 
 
 @dataclasses.dataclass
@@ -103,82 +41,142 @@ class JointedRock:
 	"""What *jointedRock* made."""
 
 	blocks: list
-	"""(normals, offsets) of each block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
+	"""(normals, offsets) of each convex block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
 	volumes: np.ndarray
-	"""Of the blocks [m³]."""
+	"""Of the blocks [m³]; they add up to the region's."""
+	bodies: list
+	"""For each rigid body the numbers of its blocks: one, or several where no joint separates them wholly (*incomplete*)."""
 	joints: np.ndarray
 	"""(n, 4) planes a·x = d of all joints that cut a block, unit normals."""
+	faces: list
+	"""For each block the joint (row of *joints*) that made each of its planes; −1: the region's own."""
+	sets: np.ndarray
+	"""For each joint which of the *jointSets* it comes from."""
+	areas: np.ndarray
+	"""Area of each joint [m²] inside the blocks that it cut."""
+	sections: np.ndarray
+	"""Area of these blocks' sections [m²]: larger than *areas* where a joint ends inside a block."""
 	uncut: int
 	"""Cuts that were not made, as they would have left a piece below *smallest*."""
 
+	def append(self, **body):
+		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
 
-def jointedRock(normals, offsets, jointSets, smallest=None, seed=0):
-	"""Cut a convex region of rock into blocks by sets of joints::
+		Mass and inertia of a clump are the sums over its blocks, which do not overlap. There are no contacts between blocks of one clump.
+
+		:param body: arguments of *fromHalfSpaces*: material, fixed, color …
+		:returns: numbers in O.bodies, in the order of *bodies*: of the body, or of the clump
+		"""
+		given = body.get('color')
+		ids = []
+		for parts in self.bodies:
+			colour = randomColour() if given is None else given
+			made = [fromHalfSpaces(*self.blocks[k], **{**body, 'color': colour}) for k in parts]
+			ids.append(O.bodies.append(made[0]) if len(made) == 1 else rigid(made)[0])
+		return ids
+
+
+@namedArguments
+def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='clump'):
+	"""Cut a region of rock into blocks by joints::
 
 		slope = polytope.jointedRock(normals, offsets, [polytope.JointSet(radians(35), radians(90), spacing=2), …])
-		O.bodies.append([polytope.fromHalfSpaces(*block) for block in slope.blocks])
+		slope.append(material=…)
 
 	The blocks fill the region and touch without overlap, to the rounding of double (in YADE's wider precisions, too). Joints
-	cut one after the other, set by set: where *smallest* keeps a cut from being made, the order matters. For a region that is not convex cut convex parts of it.
+	cut one after the other, set by set: where *smallest* or *persistence* keeps a cut from being made, the order matters.
 
-	:param normals: (n, 3) outward normals of the region, of any length [-]
-	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}
-	:param jointSets: sequence of *JointSet*
+	A joint that ends in the rock cuts the blocks that it reaches into along its whole plane. What it separates only in part is one body, by default:
+	its blocks move together. Pieces that make one convex block are put together again.
+
+	:param normals: (n, 3) outward normals of the region, of any length [-]; for a region that is not convex a list of those of convex parts, which
+	    may share faces and must not overlap
+	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
+	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns
 	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
-	    of the smallest spacing or of the region's own inscribed radius
-	:param int seed: of the random distances and normals
+	    of the smallest spacing (1/P32) or of the region's own inscribed radius
+	:param int seed: of the random places, radii and normals
+	:param str incomplete: what becomes of blocks that a joint separates only in part: 'clump', they are one body; 'cut', each is a body, as if joints
+	    went on to the faces of the blocks that they reach into (Boon et al. 2015)
 	:returns: *JointedRock*
-	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 100 000
-	    blocks to be expected, *smallest* negative or above the region's inscribed radius, *seed* negative
+	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 500 000
+	    blocks, *smallest* negative or above the region's inscribed radius, *seed* negative
 	"""
-	jointSets = list(jointSets) if isinstance(jointSets, Iterable) else []
-	if not jointSets or not all(isinstance(joints, JointSet) for joints in jointSets):
-		raise ValueError('jointSets: must be a sequence of one or more JointSet')
-	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or seed < 0:
+	entries = _entriesOf(jointSets)
+	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or not 0 <= seed < 2**63:
 		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
-	given = _polytope.polyhedron(vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'))
-	# about the region's centroid, where numbers are small
-	centre, normals = (np.array(given[name], float) for name in ('centroid', 'normals'))
-	offsets = np.array(given['offsets'], float) - normals @ centre
-	radius = float(np.linalg.norm(np.array(given['vertices'], float) - centre, axis=1).max())
-	inscribedRadius = float(given['inscribedRadius'])
+	if incomplete not in ('clump', 'cut'):
+		raise ValueError(f"incomplete: must be 'clump' or 'cut', got {incomplete!r}")
+	region = regionOf(normals, offsets)
+	sets = [entry for entry in entries if isinstance(entry, JointSet)]
 	if smallest is None:
-		smallest = smallestFraction * min(inscribedRadius, *(joints.spacing for joints in jointSets))
-	if not _finite(smallest) or not 0 <= smallest <= inscribedRadius:
+		smallest = smallestFraction * min([region.inscribedRadius, *(1 / joints.intensity for joints in sets)])
+	if not finite(smallest) or not 0 <= smallest <= region.inscribedRadius:
 		raise ValueError(
-			f"smallest: must be from zero to the region's own inscribed radius, {inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
+			f"smallest: must be from zero to the region's own inscribed radius, {region.inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
 		)
-	expected = _expectedBlocks(float(given['volume']), jointSets)
+	expected = _expectedBlocks(region.volume, [joints for joints in sets if joints.radius is None and joints.persistence == 1])
 	if expected > mostBlocks:
-		raise ValueError(f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?')
-	random = np.random.default_rng(seed)
-	planes = np.concatenate([joints.planes(centre, radius, random) for joints in jointSets])
-	cut = _polytope.jointedBlocks(*_exactly(normals, offsets), *_exactly(planes[:, :3], planes[:, 3]), real(smallest))
-	faces = np.frombuffer(cut['planes']).reshape(-1, 4).copy()
-	normals, offsets = faces[:, :3], faces[:, 3] + faces[:, :3] @ centre
-	joints = planes[np.frombuffer(cut['cutting'], np.int32)]
-	joints[:, 3] += joints[:, :3] @ centre
-	ends = np.cumsum(np.frombuffer(cut['counts'], np.int32))
+		raise ValueError(
+			f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?'
+		)
+	cuts = _cuts(entries, region, np.random.default_rng(seed))
+	bridge = smallestBridge if incomplete == 'clump' else -1.0
+	made = _polytope.jointedBlocks(region.parts, asArguments(cuts, region.centre), real(smallest), real(bridge), mostBlocks, int(seed))
+	return _rock(made, cuts, region.centre)
+
+
+def _entriesOf(jointSets):
+	entries = list(jointSets) if isinstance(jointSets, Iterable) else []
+	lists = [entry if isinstance(entry, (list, tuple)) else [entry] for entry in entries if not isinstance(entry, JointSet)]
+	if not entries or not all(isinstance(joint, Joint) for joints in lists for joint in joints):
+		raise ValueError('jointSets: must be a sequence of one or more JointSet or Joint, or of lists of Joint')
+	return entries
+
+
+def _cuts(entries, region, random):
+	"""All joints in the order in which they cut."""
+	cuts = []
+	for number, entry in enumerate(entries):
+		if isinstance(entry, JointSet):
+			cuts += entry.cuts(region, Earlier(cuts), number, random)
+		else:
+			for joint in entry if isinstance(entry, (list, tuple)) else [entry]:
+				cuts.append(dataclasses.replace(joint.cut, entry=number))
+	return cuts
+
+
+def _rock(made, cuts, centre):
+	"""The result in world coordinates, with the joints that have cut."""
+	planes = np.frombuffer(made['planes']).reshape(-1, 4)
+	normals, offsets = planes[:, :3].copy(), planes[:, 3] + planes[:, :3] @ centre
+	areas, sections = np.frombuffer(made['areas']), np.frombuffer(made['sections'])
+	cutting = np.flatnonzero(sections > 0)
+	row = np.full(len(cuts) + 1, -1)  # the last one is the region's own, −1
+	row[cutting] = np.arange(len(cutting))
+	labels = row[np.frombuffer(made['labels'], np.int32)]
+	ends = np.cumsum(np.frombuffer(made['counts'], np.int32))
+	slices = [slice(begin, end) for begin, end in zip([0, *ends[:-1]], ends, strict=True)]
+	bodies = [[] for _ in range(max(np.frombuffer(made['bodies'], np.int32)) + 1)]
+	for block, body in enumerate(np.frombuffer(made['bodies'], np.int32).tolist()):
+		bodies[body].append(block)
 	return JointedRock(
-		[(normals[begin:end], offsets[begin:end]) for begin, end in zip([0, *ends[:-1]], ends, strict=True)],
-		np.frombuffer(cut['volumes']).copy(),
-		joints,
-		cut['uncut'],
+		[(normals[one], offsets[one]) for one in slices],
+		np.frombuffer(made['volumes']).copy(),
+		bodies,
+		np.array([[*cuts[j].normal, cuts[j].offset] for j in cutting]).reshape(-1, 4),
+		[labels[one] for one in slices],
+		np.array([cuts[j].entry for j in cutting], int),
+		areas[cutting],
+		sections[cutting],
+		made['uncut'],
 	)
 
 
 def _expectedBlocks(volume, jointSets):
 	"""As many as there are points in which three joints meet, within the region, lines on its surface in which two do, and so on."""
-	length, scaled = volume ** (1 / 3), [joints.normal / joints.spacing for joints in jointSets]
+	length, scaled = volume ** (1 / 3), [joints.normal * joints.intensity for joints in jointSets]
 	planes = sum(np.linalg.norm(a) for a in scaled)
 	lines = sum(np.linalg.norm(np.cross(a, b)) for a, b in itertools.combinations(scaled, 2))
 	points = sum(abs(np.linalg.det(three)) for three in itertools.combinations(scaled, 3))
 	return 1 + planes * length + lines * length**2 + points * volume
-
-
-def _finite(value):
-	return isNumber(value) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _exactly(normals, offsets):
-	return vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets')

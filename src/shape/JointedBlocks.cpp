@@ -2,74 +2,94 @@
 #include "shape/JointedBlocks.hpp"
 
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/Numbers.hpp"
+#include "shape/RockBridges.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace polytope {
 namespace {
 
-	/// The cuts made so far, with the boxes of what they cut.
+	/// Cuts a tree's blocks by one joint after the other.
 	class Cuts {
 	public:
-		Cuts(JointedBlocks& rock, Block region, const Real& smallest) : rock_(rock), blocks_ { std::move(region) }
+		Cuts(JointedBlocks& rock, std::vector<Block> regions, const Cutting& how) : rock_(rock), how_(how), random_(how.seed)
 		{
-			Real radius = 0;
-			for (const Vector3& corner : blocks_[0].corners)
-				radius = std::max(radius, corner.norm());
-			on_    = construction::flatness * radius;
-			least_ = std::max(smallest, on_);
-			nodes_.push_back(leaf(0));
+			tree_.regions = int(regions.size());
+			tree_.blocks  = std::move(regions);
+			for (const Block& region : tree_.blocks)
+				for (const Vector3& corner : region.corners)
+					extent_ = std::max(extent_, Real(corner.norm()));
+			on_    = construction::flatness * extent_;
+			least_ = std::max(how.smallest, on_);
+			for (int region = 0; region < tree_.regions; ++region)
+				tree_.nodes.push_back(leaf(region));
 		}
 
-		/// Cuts every block that the plane passes through. Whether there was any.
-		bool cut(int plane)
+		/// Cuts every block that the joint reaches into.
+		void cut(const FiniteJoint& joint, int plane)
 		{
-			const Plane joint = rock_.planes[std::size_t(plane)];
-			const auto  size  = nodes_.size();
-			waiting_.assign(1, 0);
+			rock_.areas.push_back(0);
+			rock_.sections.push_back(0);
+			const auto size = tree_.nodes.size();
+			startAtRoots();
 			while (!waiting_.empty()) {
 				const int n = waiting_.back();
 				waiting_.pop_back();
 				++rock_.boxes;
-				const Node& node = nodes_[std::size_t(n)];
-				if (abs(joint.normal.dot(node.middle) - joint.offset) >= joint.normal.cwiseAbs().dot(node.half)) continue;
-				if (node.block >= 0) cutLeaf(n, plane);
+				const CutNode& node = tree_.nodes[std::size_t(n)];
+				if (!mayReach(joint, node)) continue;
+				if (tree_.isLeaf(n)) cutLeaf(n, joint, plane);
 				else waiting_.insert(waiting_.end(), { node.below, node.below + 1 });
 			}
-			return nodes_.size() > size;
+			rock_.cutting.push_back(tree_.nodes.size() > size);
 		}
 
-		/// The blocks in the order of the tree.
-		void collect()
+		/// The blocks in the order of the trees; those of one body that cuts with nothing else between them have made are one again.
+		void collect(const std::vector<FiniteJoint>& joints)
 		{
-			rock_.blocks.reserve(blocks_.size());
-			waiting_.assign(1, 0);
+			std::vector<int> body(tree_.nodes.size(), -1);
+			if (how_.bridge >= 0) body = bodiesOfNodes(tree_, { rock_.planes, rock_.firstJoint, joints, extent_ }, how_.bridge);
+			std::vector<int> number(tree_.nodes.size(), -1);
+			int              bodies = 0;
+			startAtRoots();
 			while (!waiting_.empty()) {
-				const Node& node = nodes_[std::size_t(waiting_.back())];
+				const int n = waiting_.back(), whole = body[std::size_t(n)];
 				waiting_.pop_back();
-				if (node.block >= 0) rock_.blocks.push_back(std::move(blocks_[std::size_t(node.block)]));
-				else waiting_.insert(waiting_.end(), { node.below + 1, node.below });
+				const CutNode& node = tree_.nodes[std::size_t(n)];
+				if (whole < 0 && !tree_.isLeaf(n)) {
+					waiting_.insert(waiting_.end(), { node.below + 1, node.below });
+					continue;
+				}
+				rock_.blocks.push_back(std::move(tree_.blocks[std::size_t(node.block)]));
+				int& known = number[std::size_t(whole < 0 ? n : whole)];
+				if (known < 0) known = bodies++;
+				rock_.bodies.push_back(known);
 			}
 		}
 
 	private:
-		struct Node {
-			Vector3 middle, half; ///< of the box
-			int     block = -1;   ///< a leaf's
-			int     below = -1;   ///< the part below the cut; the one above follows it
-		};
+		JointedBlocks&   rock_;
+		const Cutting&   how_;
+		CutTree          tree_;
+		std::vector<int> waiting_;
+		Real             extent_ = 0, on_ = 0, least_ = 0;
+		std::mt19937_64  random_;
 
-		JointedBlocks&     rock_;
-		std::vector<Block> blocks_;
-		std::vector<Node>  nodes_;
-		std::vector<int>   waiting_;
-		Real               on_, least_;
-
-		Node leaf(int block) const
+		void startAtRoots()
 		{
-			const std::vector<Vector3>& corners = blocks_[std::size_t(block)].corners;
+			waiting_.resize(std::size_t(tree_.regions));
+			std::iota(waiting_.rbegin(), waiting_.rend(), 0);
+		}
+
+		CutNode leaf(int block) const
+		{
+			const std::vector<Vector3>& corners = tree_.blocks[std::size_t(block)].corners;
 			Vector3                     low = corners.front(), high = corners.front();
 			for (const Vector3& corner : corners) {
 				low  = low.cwiseMin(corner);
@@ -78,11 +98,27 @@ namespace {
 			return { (low + high) / 2, (high - low) / 2, block, -1 };
 		}
 
-		bool crosses(const Plane& joint, const Node& node) const
+		static bool mayReach(const FiniteJoint& joint, const CutNode& node)
+		{
+			const auto crosses = [&](const Plane& plane, bool wholly) {
+				const Real height = plane.normal.dot(node.middle) - plane.offset;
+				return (wholly ? height : Real(abs(height))) < plane.normal.cwiseAbs().dot(node.half);
+			};
+			if (!crosses(joint.plane, false)) return false;
+			if (joint.radius > 0) {
+				const Vector3 beyond = ((joint.centre - node.middle).cwiseAbs() - node.half).cwiseMax(Vector3::Zero());
+				if (beyond.squaredNorm() >= joint.radius * joint.radius) return false;
+			}
+			for (const Plane& edge : joint.edges)
+				if (!crosses(edge, true)) return false;
+			return true;
+		}
+
+		bool crosses(const Plane& joint, const CutNode& node) const
 		{
 			const Real least = std::max(Real(construction::touching * 2 * node.half.maxCoeff()), on_);
 			Real       low = 0, high = 0;
-			for (const Vector3& corner : blocks_[std::size_t(node.block)].corners) {
+			for (const Vector3& corner : tree_.blocks[std::size_t(node.block)].corners) {
 				const Real height = joint.normal.dot(corner) - joint.offset;
 				low               = std::min(low, height);
 				high              = std::max(high, height);
@@ -90,22 +126,54 @@ namespace {
 			return low < -least && high > least;
 		}
 
-		void cutLeaf(int n, int plane)
+		void cutLeaf(int n, const FiniteJoint& joint, int plane)
 		{
-			const int block = nodes_[std::size_t(n)].block;
-			if (!crosses(rock_.planes[std::size_t(plane)], nodes_[std::size_t(n)])) return;
-			Block below, above;
-			if (!parts(blocks_[std::size_t(block)], plane, below, above) || !below.holdsBall(rock_.planes, least_)
-			        || !above.holdsBall(rock_.planes, least_)) {
+			const int block = tree_.nodes[std::size_t(n)].block;
+			if (!crosses(joint.plane, tree_.nodes[std::size_t(n)])) return;
+			Block      below, above;
+			const bool both = parts(tree_.blocks[std::size_t(block)], plane, below, above);
+			if (!both) {
 				++rock_.uncut;
 				return;
 			}
-			blocks_[std::size_t(block)] = std::move(below);
-			blocks_.push_back(std::move(above));
-			nodes_[std::size_t(n)].block = -1;
-			nodes_[std::size_t(n)].below = int(nodes_.size());
-			nodes_.push_back(leaf(block));
-			nodes_.push_back(leaf(int(blocks_.size()) - 1));
+			const Polygon section = sectionOf(below, plane);
+			const Real whole = areaOf(section, joint.plane.normal), own = joint.bounded() ? areaWithin(joint, section) : whole;
+			if (own <= construction::touching * whole) return;
+			if (joint.persistence < 1 && double(random_() >> 11) * 0x1p-53 >= joint.persistence) return;
+			if (!below.holdsBall(rock_.planes, least_) || !above.holdsBall(rock_.planes, least_)) {
+				++rock_.uncut;
+				return;
+			}
+			rock_.areas.back() += own;
+			rock_.sections.back() += whole;
+			replace(n, std::move(below), std::move(above));
+		}
+
+		void replace(int n, Block&& below, Block&& above)
+		{
+			const int first = int(tree_.blocks.size());
+			tree_.blocks.push_back(std::move(below));
+			tree_.blocks.push_back(std::move(above));
+			if ((tree_.blocks.size() + std::size_t(tree_.regions)) / 2 > how_.most)
+				refuse("jointSets: they cut more than " + std::to_string(how_.most)
+				        + " blocks; is a spacing or a radius in another unit?");
+			CutNode& node = tree_.nodes[std::size_t(n)];
+			if (how_.bridge < 0) tree_.blocks[std::size_t(node.block)] = Block(); // bodies never become whole again
+			node.below = int(tree_.nodes.size());
+			tree_.nodes.push_back(leaf(first));
+			tree_.nodes.push_back(leaf(first + 1));
+		}
+
+		/// The face that the cut has made, counter-clockwise about its normal.
+		static Polygon sectionOf(const Block& below, int plane)
+		{
+			Polygon           section;
+			const std::size_t face
+			        = std::size_t(std::find(below.planes.begin(), below.planes.end(), plane) - below.planes.begin());
+			if (face == below.faces()) return section;
+			for (int k = below.begin(face); k < below.end(face); ++k)
+				section.push_back(below.corners[std::size_t(below.rings[std::size_t(k)])]);
+			return section;
 		}
 
 		/// False: a part is too flat to have an inside.
@@ -125,24 +193,38 @@ namespace {
 		}
 	};
 
+	/// The blocks that the regions are, and their planes at the front of the list.
+	std::vector<Block> wholeRegions(const std::vector<HalfSpaces>& regions, std::vector<Plane>& planes)
+	{
+		std::vector<std::vector<int>> which;
+		for (const HalfSpaces& region : regions) {
+			const HalfSpaces unit = withoutDuplicates(normalised(region));
+			which.emplace_back(unit.size());
+			std::iota(which.back().begin(), which.back().end(), int(planes.size()));
+			for (std::size_t i = 0; i < unit.size(); ++i)
+				planes.push_back({ unit.normals[i], unit.offsets[i] });
+		}
+		std::vector<Block> blocks;
+		for (const std::vector<int>& one : which)
+			blocks.push_back(blockOf(planes, one));
+		return blocks;
+	}
+
 } // namespace
 
-JointedBlocks cutByJoints(const HalfSpaces& region, const std::vector<Plane>& joints, const Real& smallest)
+JointedBlocks cutByJoints(const std::vector<HalfSpaces>& regions, const std::vector<FiniteJoint>& joints, const Cutting& how)
 {
-	const HalfSpaces unit = withoutDuplicates(normalised(region));
-	JointedBlocks    rock;
-	for (std::size_t i = 0; i < unit.size(); ++i)
-		rock.planes.push_back({ unit.normals[i], unit.offsets[i] });
-	std::vector<int> all(unit.size());
-	std::iota(all.begin(), all.end(), 0);
-	for (const Plane& joint : joints) {
-		rock.planes.push_back(joint);
-		rock.planes.push_back({ -joint.normal, -joint.offset });
+	JointedBlocks      rock;
+	std::vector<Block> whole = wholeRegions(regions, rock.planes);
+	rock.firstJoint          = rock.planes.size();
+	for (const FiniteJoint& joint : joints) {
+		rock.planes.push_back(joint.plane);
+		rock.planes.push_back({ -joint.plane.normal, -joint.plane.offset });
 	}
-	Cuts cuts(rock, blockOf(rock.planes, all), smallest);
+	Cuts cuts(rock, std::move(whole), how);
 	for (std::size_t j = 0; j < joints.size(); ++j)
-		rock.cutting.push_back(cuts.cut(int(unit.size() + 2 * j)));
-	cuts.collect();
+		cuts.cut(joints[j], int(rock.firstJoint + 2 * j));
+	cuts.collect(joints);
 	return rock;
 }
 

@@ -9,14 +9,16 @@ using namespace polytope::samples;
 
 namespace {
 
+FiniteJoint throughout(const Plane& plane) { return { plane, Vector3::Zero(), 0, {} }; }
+
 /// Sets of joints across the cube |x_k| ≤ length: `each` nearly normal to each axis.
-std::vector<Plane> threeSets(int each, Real scatter, Real length, std::mt19937_64& random)
+std::vector<FiniteJoint> threeSets(int each, Real scatter, Real length, std::mt19937_64& random)
 {
-	std::vector<Plane> joints;
+	std::vector<FiniteJoint> joints;
 	for (int k = 0; k < 3; ++k)
 		for (int i = 1; i <= each; ++i) {
 			const Vector3 normal = (Vector3::Unit(k) + scatter * someDirection(random)).normalized();
-			joints.push_back({ normal, (2 * Real(i) / (each + 1) - 1) * length * normal[k] });
+			joints.push_back(throughout({ normal, (2 * Real(i) / (each + 1) - 1) * length * normal[k] }));
 		}
 	return joints;
 }
@@ -70,7 +72,7 @@ TEST(JointedBlocks, fillTheRegionOnceAtEverySize)
 {
 	std::mt19937_64 random(71);
 	for (Real length : lengths) {
-		const auto rock = cutByJoints(box(length, length, length), threeSets(6, Real(0.3), length, random), 0);
+		const auto rock = cutByJoints({ box(length, length, length) }, threeSets(6, Real(0.3), length, random), {});
 		EXPECT_GT(rock.blocks.size(), 200u);
 		EXPECT_NEAR(volumeOf(rock) / (8 * length * length * length), 1, 1e-13);
 		for (const Block& block : rock.blocks)
@@ -97,17 +99,19 @@ TEST(JointedBlocks, jointsThroughEdgesAndCorners)
 	std::mt19937_64 random(72);
 	for (Real length : lengths)
 		for (int turn = 0; turn < 10; ++turn) {
-			const Matrix3      rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
-			std::vector<Plane> joints   = threeSets(3, 0, length, random);
+			const Matrix3 rotation = turn == 0 ? Matrix3(Matrix3::Identity()) : someRotation(random);
+			auto          joints   = threeSets(3, 0, length, random);
 			for (int sign : { -1, 1 })
 				for (int i = -2; i <= 2; ++i) {
-					joints.push_back({ Vector3(1, sign, 0).normalized(), Real(i) / 2 * length / std::sqrt(Real(2)) });
-					joints.push_back({ Vector3(1, 1, sign).normalized(), Real(i) / 2 * length / std::sqrt(Real(3)) });
+					joints.push_back(throughout(
+					        { Vector3(1, sign, 0).normalized(), Real(i) / 2 * length / std::sqrt(Real(2)) }));
+					joints.push_back(throughout(
+					        { Vector3(1, 1, sign).normalized(), Real(i) / 2 * length / std::sqrt(Real(3)) }));
 				}
-			for (Plane& joint : joints)
-				joint.normal = rotation * joint.normal;
-			const auto rock     = cutByJoints(moved(box(length, length, length), rotation, Vector3::Zero()), joints, 0);
-			const auto straight = cutByJoints(box(length, length, length), joints, 0);
+			for (FiniteJoint& joint : joints)
+				joint.plane.normal = rotation * joint.plane.normal;
+			const auto rock     = cutByJoints({ moved(box(length, length, length), rotation, Vector3::Zero()) }, joints, {});
+			const auto straight = cutByJoints({ box(length, length, length) }, joints, {});
 			EXPECT_GT(rock.blocks.size(), 300u);
 			EXPECT_EQ(rock.uncut, 0u);
 			EXPECT_NEAR(volumeOf(rock) / (8 * length * length * length), 1, 1e-12);
@@ -123,7 +127,7 @@ TEST(JointedBlocks, noPieceHoldsLessThanAsked)
 {
 	std::mt19937_64 random(73);
 	const auto      joints = threeSets(12, Real(0.5), 1, random);
-	const auto      fine = cutByJoints(box(1, 1, 1), joints, 0), coarse = cutByJoints(box(1, 1, 1), joints, Real(0.02));
+	const auto      fine = cutByJoints({ box(1, 1, 1) }, joints, {}), coarse = cutByJoints({ box(1, 1, 1) }, joints, { Real(0.02) });
 	EXPECT_GT(fine.blocks.size(), coarse.blocks.size());
 	EXPECT_GT(coarse.uncut, 0u);
 	EXPECT_NEAR(volumeOf(coarse), 8, 1e-12);
@@ -146,7 +150,7 @@ TEST(JointedBlocks, theWorkGrowsAsTheBlocks)
 	std::size_t     blocks[2];
 	for (int k = 0; k < 2; ++k) {
 		const auto joints = threeSets(k == 0 ? 8 : 30, Real(0.1), 1, random);
-		const auto rock   = cutByJoints(box(1, 1, 1), joints, Real(1e-4));
+		const auto rock   = cutByJoints({ box(1, 1, 1) }, joints, { Real(1e-4) });
 		blocks[k]         = rock.blocks.size();
 		each[k]           = Real(rock.boxes) / Real(blocks[k]);
 		EXPECT_LT(each[k], 40);
@@ -160,8 +164,8 @@ TEST(JointedBlocks, refusesARegionThatIsNone)
 	HalfSpaces open = box(1, 1, 1);
 	open.normals.pop_back();
 	open.offsets.pop_back();
-	EXPECT_TRUE(says(refusal([&] { cutByJoints(open, {}, 0); }), "normals: the set is unbounded"));
-	EXPECT_EQ(cutByJoints(box(1, 1, 1), {}, 0).blocks.size(), 1u);
+	EXPECT_TRUE(says(refusal([&] { cutByJoints({ open }, {}, {}); }), "normals: the set is unbounded"));
+	EXPECT_EQ(cutByJoints({ box(1, 1, 1) }, {}, {}).blocks.size(), 1u);
 }
 
 } // namespace

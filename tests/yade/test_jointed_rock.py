@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rock cut into blocks by sets of joints: the blocks fill the region once, joints are as requested."""
+
 from math import exp, pi, radians, tanh
 
 import numpy as np
@@ -148,7 +149,7 @@ def testWrongJointsAreRefused(arguments, named):
 		({'jointSets': []}, 'jointSets'),
 		({'jointSets': [3]}, 'jointSets'),
 		({'jointSets': 3}, 'jointSets'),
-		({'jointSets': [JointSet(0.5, 1, 1e-4)]}, 'jointSets'),
+		({'jointSets': [JointSet(0.5, 1, 1e-5)]}, 'jointSets'),
 		({'jointSets': [JointSet(0, 0, 0.05), JointSet(pi / 2, 0, 0.05), JointSet(pi / 2, pi / 2, 0.05)]}, 'jointSets'),
 		({'smallest': -1}, 'smallest'),
 		({'smallest': 6.01}, 'smallest'),
