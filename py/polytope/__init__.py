@@ -43,6 +43,7 @@ from .meshes import fromMesh
 from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements
+from .rock.files import readJoints
 from .rock.joint import Joint
 from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
@@ -103,6 +104,7 @@ __all__ = [
 	'porosity',
 	'prism',
 	'randomGrain',
+	'readJoints',
 	'readShapes',
 	'regular',
 	'requirements',

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints from text files: tables of discs, the files of YADE's BlockGen, polygons of FracMan and dfnWorks."""
+
+import math
+import os
+
+from ...arguments import namedArguments, number
+from . import fracMan, polygons, tables
+from .rows import Rows
+
+__all__ = ['readJoints']
+
+readers = {'table': tables.joints, 'blockGen': tables.blockGen, 'fracMan': fracMan.joints, 'dfnWorks': polygons.joints}
+
+
+@namedArguments
+def readJoints(path, format=None, scale=1):
+	"""Joints of a text file, for jointedRock: ``polytope.jointedRock(normals, offsets, polytope.readJoints('joints.csv'))``.
+
+	- ``'table'``: a first line with the names of columns, then a joint a line, separated by commas, semicolons or tabs. Columns *dip*, *dip_direction* [degrees],
+	  *x*, *y*, *z* [m]: x east, y north, z up; *radius* or *diameter* [m]: without it, or where it is empty, a plane through the whole rock; *set*,
+	  a whole number. Others are not read.
+	- ``'blockGen'``: what YADE's BlockGen reads, separated by semicolons after a first line that is passed over. Of 16 or 17 columns
+	  (*filenameProbabilistic*) rectangles: dip, dip direction, centre, half-lengths along strike and along dip; of 11 (*filenamePersistentPlanes*) sets of planes
+	  through the origin: dip, dip direction, spacing. Planes are where BlockGen puts them, in its axes: x north, y east, z down. Properties are not read.
+	- ``'fracMan'``: polygons of FracMan's ``.fab`` text, with their set. Tessellated fractures give one joint for each triangle.
+	- ``'dfnWorks'``: polygons of dfnWorks (``polygons.dat``: ``nPolygons: …``, then a polygon a line: number of corners, {x, y, z} …).
+
+	:param path: the file
+	:param str format: one of these names; default by the file's end and first line
+	:param float scale: factor on all lengths, for files in other units than metres
+	:returns: list of *Joint*, in the order of the file; of *JointSet* for BlockGen's persistent planes
+	:raises FileNotFoundError: if there is no such file
+	:raises ValueError: naming the argument, and for a malformed file the line, what is expected there and what to do
+	"""
+	if not isinstance(path, (str, os.PathLike)):
+		raise ValueError(f'path: must be the path of a file, got {path!r}')
+	if not os.path.exists(path):
+		raise FileNotFoundError(f"path: there is no file '{path}'")
+	if format is not None and format not in readers:
+		raise ValueError(f'format: must be one of {", ".join(readers)}, got {format!r}')
+	if not 0 < number(scale, 'scale') < math.inf:
+		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
+	rows = Rows(path, float(scale))
+	found = readers[format or _formatOf(rows)](rows)
+	if not found:
+		raise ValueError(f"path: '{path}' has no joints; is it a file of another format? format= names it")
+	return found
+
+
+def _formatOf(rows):
+	first = rows.lines[0].lower() if rows.lines else ''
+	if rows.path.lower().endswith('.fab') or first.startswith('begin format'):
+		return 'fracMan'
+	if first.startswith('npolygons'):
+		return 'dfnWorks'
+	if tables.isBlockGens(rows.lines):
+		return 'blockGen'
+	if tables.isTable(first):
+		return 'table'
+	columns = ', '.join(tables.needed)
+	raise rows.wrong(1, f'no columns named {columns}, and no beginning of another format', 'name the columns there, or give format=')

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints as tables: a joint a line, with named columns, or with those of YADE's BlockGen."""
+
+import csv
+import math
+
+import numpy as np
+
+from ..joint import Joint, anglesOf
+from ..jointSets import JointSet
+
+__all__ = ['blockGen', 'isBlockGens', 'isTable', 'joints', 'needed']
+
+needed = ('dip', 'dip_direction', 'x', 'y', 'z')
+names = {
+	**{name: name for name in (*needed, 'radius', 'diameter', 'set')},
+	**dict.fromkeys(('dipdirection', 'dip_dir', 'dipdir', 'dd'), 'dip_direction'),
+	**{f'{word}_{axis}': axis for word in ('position', 'centre', 'center') for axis in 'xyz'},
+}
+"""Of columns, in small letters with underscores."""
+ofPlanes, ofRectangles = 11, 16
+"""BlockGen's columns; those of rectangles end with a comment."""
+
+
+def separatorOf(line):
+	return next((one for one in ';\t' if one in line), ',')
+
+
+def columnsOf(line):
+	"""{column: place}"""
+	words = [word.strip().strip('"').lower().replace('-', '_').replace(' ', '_') for word in line.split(separatorOf(line))]
+	return {names[word]: place for place, word in enumerate(words) if word in names}
+
+
+def isTable(line):
+	return set(needed) <= set(columnsOf(line))
+
+
+def isBlockGens(lines):
+	"""Whether they have BlockGen's number of fields, and no radius, which BlockGen does not know."""
+	fields = [len(line.rstrip(';').split(';')) for line in lines[1:] if line]
+	size = {'radius', 'diameter'} & set(columnsOf(lines[0])) if lines else ()
+	return not size and bool(fields) and fields[0] >= ofPlanes
+
+
+def joints(rows):
+	heading = rows.lines[0] if rows.lines else ''
+	columns = columnsOf(heading)
+	missing = [name for name in needed if name not in columns]
+	if missing:
+		raise rows.wrong(1, f'there is no column {", ".join(missing)}', f'name the columns: {", ".join(needed)}, radius')
+	separator = separatorOf(heading)
+	found = []
+	for line, fields in enumerate(csv.reader(rows.lines, delimiter=separator), 1):
+		if line == 1 or not any(field.strip() for field in fields):
+			continue
+		if len(fields) <= max(columns.values()):
+			raise rows.wrong(line, f'{len(fields)} fields, {max(columns.values()) + 1} or more are expected', 'complete the line')
+		found.append(_joint(rows, line, {name: fields[place].strip() for name, place in columns.items()}))
+	return found
+
+
+def _joint(rows, line, fields):
+	dip, direction, *centre = (rows.number(line, fields[name], name) for name in needed)
+	_degrees(rows, line, dip, direction)
+	radius = None
+	for name, half in (('radius', 1), ('diameter', 0.5)):
+		if fields.get(name):
+			radius = half * rows.scale * rows.number(line, fields[name], name)
+	number = rows.whole(line, fields['set'], 'set') if fields.get('set') else 0
+	place = tuple(rows.scale * x for x in centre)
+	return rows.checked(line, lambda: Joint(math.radians(dip), math.radians(direction), place, radius, number))
+
+
+def blockGen(rows):
+	found = []
+	for line, text in enumerate(rows.lines, 1):
+		fields = [field.strip() for field in text.rstrip(';').split(';')]
+		if line == 1 or not text:
+			continue
+		if len(fields) not in (ofPlanes, ofRectangles, ofRectangles + 1):
+			remedy = f'BlockGen has {ofPlanes} for persistent planes, {ofRectangles} or one more for joints of finite size'
+			raise rows.wrong(line, f'{len(fields)} fields separated by semicolons', remedy)
+		dip, direction = (rows.number(line, fields[k], name) for k, name in ((0, 'dip'), (1, 'dip direction')))
+		_degrees(rows, line, dip, direction)
+		normal, strike = _normal(math.radians(dip), math.radians(direction))
+		if len(fields) == ofPlanes:
+			spacing = rows.scale * rows.number(line, fields[2], 'spacing')
+			found.append(rows.checked(line, lambda normal=normal, spacing=spacing: JointSet(*anglesOf(normal), spacing, through=(0, 0, 0))))
+			continue
+		centre = np.array(rows.point(line, fields[2:5]))
+		along, down = (rows.scale * rows.number(line, fields[k], 'a half-length') for k in (5, 6))
+		first, second = along * strike, down * np.cross(normal, strike)
+		corners = [centre + i * first + j * second for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+		found.append(rows.polygon(line, corners))
+	return found
+
+
+def _normal(dip, direction):
+	"""Normal and strike in BlockGen's axes, x north, y east, z down."""
+	normal = np.array([-math.sin(dip) * math.cos(direction), -math.sin(dip) * math.sin(direction), math.cos(dip)])
+	return normal, np.array([math.sin(direction), -math.cos(direction), 0.0])
+
+
+def _degrees(rows, line, dip, direction):
+	if not 0 <= dip <= 90:
+		raise rows.wrong(line, f'dip must be from 0 to 90 degrees, got {dip:g}', 'turn the dip direction by 180 for an overturned joint')
+	if not abs(direction) <= 360:
+		raise rows.wrong(line, f'dip direction must be an azimuth in degrees, got {direction:g}', 'correct it')

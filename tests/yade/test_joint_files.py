@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints from files: tables, BlockGen's, FracMan's and dfnWorks' polygons; malformed ones are refused by line."""
+
+from math import cos, radians, sin
+
+import numpy as np
+import pytest
+from yade import polytope
+
+box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+half = [10] * 6
+
+
+@pytest.fixture
+def read(tmp_path):
+	def make(text, name='joints.csv', **named):
+		path = tmp_path / name
+		path.write_text(text)
+		return polytope.readJoints(path, **named)
+
+	return make
+
+
+@pytest.mark.parametrize('separator', [',', ';', '\t'])
+def testTable(read, separator):
+	text = 'dip,dip_direction,x,y,z,radius,set,remark\n30,90,1,2,3,4,7,bedding\n\n90,0,0,0,-1,,,fault\n'.replace(',', separator)
+	disc, plane = read(text)
+	assert (disc.dip, disc.dipDirection, disc.centre, disc.radius, disc.set) == (radians(30), radians(90), (1, 2, 3), 4, 7)
+	assert (plane.radius, plane.set, plane.centre) == (None, 0, (0, 0, -1))
+	rock = polytope.jointedRock(box, half, [read(text)])
+	assert len(rock.bodies) == 2 and rock.sets.tolist() == [0, 0]
+
+
+def testTableWithOtherNamesAndUnits(read):
+	(disc,) = read('"Diameter",Position-X,Position-Y,position-z,Dip,Dip-Direction\n8000,1000,2000,3000,30,90\n', scale=1e-3)
+	assert disc.centre == pytest.approx((1, 2, 3)) and disc.radius == pytest.approx(4)
+
+
+def testBlockGensRectangles(read):
+	"""The corners fulfil what BlockGen asks of a joint's points: a·(x − c) = 0, and ± half-lengths along strike and dip."""
+	dip, direction, centre, along, down = 60.0, 230.0, np.array([1.0, -2, 0.5]), 3.0, 2.0
+	row = ';'.join(map(str, (dip, direction, *centre, along, down, *range(9), 'no remark')))
+	for line in (row + ';', row):
+		(joint,) = read(f'dip;dipdir;x;y;z;…\n{line}\n')
+		dipRad, opposite = radians(90 - dip), radians(direction - 180)
+		normal = np.array([cos(opposite) * cos(dipRad), sin(opposite) * cos(dipRad), sin(dipRad)])
+		strike = np.array([cos(radians(direction - 90)), sin(radians(direction - 90)), 0])
+		away = np.array(joint.corners) - centre
+		assert np.abs(away @ normal).max() < 1e-12
+		assert sorted(np.abs(away @ strike)) == pytest.approx([along] * 4)
+		assert sorted(np.abs(away @ np.cross(normal, strike))) == pytest.approx([down] * 4)
+		rock = polytope.jointedRock(box, half, [joint], incomplete='cut')
+		assert rock.areas.tolist() == pytest.approx([4 * along * down])
+
+
+def testBlockGensPersistentPlanes(read):
+	text = 'dip;dipdir;spacing;…\n40;90;5;1;2;3;4;5;6;7;8;\n90;0;4;1;2;3;4;5;6;7;8;\n'
+	first, second = read(text)
+	assert first.spacing == 5 and first.through == (0, 0, 0)
+	assert np.cross(first.normal, (0, -sin(radians(40)), cos(radians(40)))) == pytest.approx(0, abs=1e-12)
+	assert np.cross(second.normal, (1, 0, 0)) == pytest.approx(0, abs=1e-12)
+	assert len(polytope.jointedRock(box, half, read(text)).blocks) > 9
+
+
+fab = '''BEGIN FORMAT
+    Format = Ascii
+    No_Fractures = 2
+END FORMAT
+
+BEGIN PROPERTIES
+    Prop1    =    (Real*4)    "Transmissivity"
+END PROPERTIES
+
+BEGIN FRACTURE
+    1 4 1 1e-6
+        1 -11 -11 2
+        2 11 -11 2
+        3 11 11 2
+        4 -11 11 2
+    0 0 0 1
+    7 3 2 1e-6
+        1 0 0 -5
+        2 4 0 -5
+        3 0 4 -5
+    0 0 0 1
+END FRACTURE
+
+BEGIN TESSFRACTURE
+    9 4 2 5
+        1 -11 -11 -8
+        2 11 -11 -8
+        3 11 11 -8
+        4 -11 11 -8
+        1 1 2 3
+        2 1 3 4
+END TESSFRACTURE
+'''
+
+
+def testFracMan(read):
+	joints = read(fab, 'network.fab')
+	assert [(joint.set, len(joint.corners)) for joint in joints] == [(1, 4), (2, 3), (5, 3), (5, 3)]
+	rock = polytope.jointedRock(box, half, joints)
+	volumes = [rock.volumes[parts].sum() for parts in rock.bodies]
+	assert sorted(volumes) == pytest.approx([2 * 400, 8 * 400, 10 * 400]), 'the triangle at −5 ends inside, the two at −8 are one joint'
+	assert read(fab, 'network.txt')[0].corners == joints[0].corners, 'by its first line'
+
+
+def testDfnWorks(read):
+	joints = read('nPolygons: 2\n4 {-11, -11, 0} {11, -11, 0} {11, 11, 0} {-11, 11, 0}\n3 {0, 0, 5} {1, 0, 5} {0, 1, 5}\n', 'polygons.dat')
+	rock = polytope.jointedRock(box, half, joints)
+	assert rock.volumes[rock.bodies[0]].sum() == pytest.approx(4000) and len(rock.bodies) == 2
+
+
+table = 'dip,dip_direction,x,y,z,radius\n'
+
+
+@pytest.mark.parametrize(
+	'text, name, says',
+	[
+		('', 'a.csv', 'line 1: no columns named dip'),
+		('dip,x,y,z\n1,2,3,4\n', 'a.csv', 'line 1: no columns named dip'),
+		(table, 'a.csv', 'has no joints'),
+		(table + '30,90,0,0,0,2\n30,north,0,0,0,2\n', 'a.csv', "line 3: dip_direction must be a number, got 'north'"),
+		(table + '95,90,0,0,0,2\n', 'a.csv', 'line 2: dip must be from 0 to 90 degrees, got 95'),
+		(table + '30,900,0,0,0,2\n', 'a.csv', 'line 2: dip direction must be an azimuth'),
+		(table + '30,90,0,0,0,-2\n', 'a.csv', 'line 2: radius: must be positive'),
+		(table + '30,90,0,0\n', 'a.csv', 'line 2: 4 fields, 6 or more'),
+		(table + '30,90,0,0,nan,1\n', 'a.csv', 'line 2: z must be a number'),
+		('a;b\n1;2;3;4;5;6;7;8;9;10;11;12;13\n', 'a.csv', 'line 2: 13 fields separated by semicolons; BlockGen has 11'),
+		(fab.replace('END TESSFRACTURE\n', ''), 'a.fab', 'the file ends within the section TESSFRACTURE'),
+		(fab.replace('        2 1 3 4\n', '        2 1 3 6\n'), 'a.fab', 'line 31: a triangle names a node that is not there'),
+		(fab.replace('2 4 0 -5', '2 4 0'), 'a.fab', 'line 19: a corner must have three coordinates'),
+		(fab.replace('2 11 -11 2', '2 -11 -11 2').replace('3 11 11 2', '3 -11 11 2'), 'a.fab', 'line 11: corners: the polygon has no area'),
+		('nPolygons: 2\n3 {0, 0, 5} {1, 0, 5} {0, 1, 5}\n', 'a.dat', 'line 1: 2 polygons are told, 1 are there'),
+		('nPolygons: 1\n4 {0, 0, 5} {1, 0, 5} {0, 1, 5}\n', 'a.dat', 'line 2: 4 corners are told, 3 are there'),
+		('nPolygons: 1\n3 {0, 0, 5} {1, a, 5} {0, 1, 5}\n', 'a.dat', "line 2: a coordinate must be a number, got 'a'"),
+	],
+)
+def testMalformedFilesAreRefusedByLine(read, text, name, says):
+	with pytest.raises(ValueError, match='^path: ') as refused:
+		read(text, name)
+	assert name in str(refused.value) and says in str(refused.value)
+
+
+def testWrongArgumentsAreRefused(read, tmp_path):
+	with pytest.raises(FileNotFoundError, match='^path: there is no file'):
+		polytope.readJoints(tmp_path / 'none.csv')
+	with pytest.raises(ValueError, match='^format: must be one of table, blockGen'):
+		read(table, format='dxf')
+	with pytest.raises(ValueError, match='^scale:'):
+		read(table, scale=0)
+	(tmp_path / 'binary.csv').write_bytes(b'\xff\xfe\x00')
+	with pytest.raises(ValueError, match='is no text'):
+		polytope.readJoints(tmp_path / 'binary.csv')
