@@ -3,7 +3,7 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock*; a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
+*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Cost and accuracy of settings:
 *tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
@@ -45,6 +45,9 @@ from .pictures import picture
 from .requirements import requirements
 from .rock.files import readJoints
 from .rock.joint import Joint
+from .rock.keyBlocks import KeyBlock, keyBlocks
+from .rock.regions import meshRegion, regionWithout
+from .rock.report import RockReport, rockReport, scanLine, stereonet
 from .roses import contactRose, forceHistogram, particleRose
 from .settings import settings
 from .settling import settle
@@ -67,6 +70,8 @@ __all__ = [
 	'Joint',
 	'JointSet',
 	'JointedRock',
+	'KeyBlock',
+	'RockReport',
 	'VoronoiCells',
 	'aabbExtrema',
 	'arrays',
@@ -94,6 +99,8 @@ __all__ = [
 	'grains',
 	'jointedRock',
 	'mechanicalEnergy',
+	'keyBlocks',
+	'meshRegion',
 	'oedometer',
 	'pack',
 	'particleFabric',
@@ -106,9 +113,12 @@ __all__ = [
 	'randomGrain',
 	'readJoints',
 	'readShapes',
+	'regionWithout',
 	'regular',
 	'requirements',
+	'rockReport',
 	'sample',
+	'scanLine',
 	'settings',
 	'settle',
 	'shearBox',
@@ -116,6 +126,7 @@ __all__ = [
 	'sizeDistribution',
 	'split',
 	'stableTimeStep',
+	'stereonet',
 	'terrain',
 	'tradeoff',
 	'triaxial',

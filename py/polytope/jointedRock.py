@@ -56,6 +56,8 @@ class JointedRock:
 	"""Area of each joint [m²] inside the blocks that it cut."""
 	sections: np.ndarray
 	"""Area of these blocks' sections [m²]: larger than *areas* where a joint ends inside a block."""
+	network: list
+	"""For each joint its own extent (rock.joint.Cut): normal, centre, radius, edges."""
 	uncut: int
 	"""Cuts that were not made, as they would have left a piece below *smallest*."""
 
@@ -169,6 +171,7 @@ def _rock(made, cuts, centre):
 		np.array([cuts[j].entry for j in cutting], int),
 		areas[cutting],
 		sections[cutting],
+		[cuts[j] for j in cutting],
 		made['uncut'],
 	)
 

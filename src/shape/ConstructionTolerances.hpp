@@ -91,9 +91,13 @@ inline const Real unitLength = 4 * rounding;
 /// 2-D: a normal's z, or (× extent) a point's z, up to this is rounding (of a rotation, of a computed point) and is set to zero.
 inline const Real outOfPlane = 64 * rounding;
 
-/// × a block's size: a joint that passes no farther inside a block than this follows a face or a corner and does not cut. Joints that
-/// were meant to meet there are apart by rounding of the whole rock, which may be a million blocks wide.
+/// × the whole rock's radius: a joint that passes no farther inside a block than this follows a face or a corner and does not cut. Joints that
+/// were meant to meet there are apart by rounding of the whole rock. One length for all blocks, so that what follows a face is known afterwards.
 inline const Real touching = 1e-9;
+
+/// Difference of two unit normals, and × extent of two offsets: joints whose planes differ by less may cover a face together, where they pass it
+/// within `touching`. Triangles of one flat face in a file of eight digits do; of fewer digits, they cut each other.
+inline const Real nearPlane = 1e-6;
 
 /// Sides of the regular polygon that stands for a disc where several joints in one plane cover a face together: it is larger than the disc by
 /// 0.08 % of its area, less than the least bridge of rock that counts (py/polytope/jointedRock).

@@ -116,7 +116,7 @@ namespace {
 
 		bool crosses(const Plane& joint, const CutNode& node) const
 		{
-			const Real least = std::max(Real(construction::touching * 2 * node.half.maxCoeff()), on_);
+			const Real least = construction::touching * extent_;
 			Real       low = 0, high = 0;
 			for (const Vector3& corner : tree_.blocks[std::size_t(node.block)].corners) {
 				const Real height = joint.normal.dot(corner) - joint.offset;

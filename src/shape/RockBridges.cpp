@@ -28,26 +28,31 @@ namespace {
 		std::vector<int> parent_;
 	};
 
-	/// Planes of the list that lie in one place, whatever way they face: plane → the first of them.
-	std::vector<int> placesOf(const JointedPlanes& rock)
+	/// Pairs of planes of the list that are near each other, whatever way they face: near(i, j) for normals (and offsets, × extent) that differ by less.
+	template <class Near> void forNearPlanes(const JointedPlanes& rock, const Real& apart, const Near& near)
 	{
-		const std::size_t number = rock.planes.size();
-		std::vector<int>  order(number);
+		std::vector<int> order(rock.planes.size());
 		std::iota(order.begin(), order.end(), 0);
 		const auto distance = [&](int i) { return magnitude(rock.planes[std::size_t(i)].offset); };
 		std::sort(order.begin(), order.end(), [&](int i, int j) { return distance(i) < distance(j); });
-		Groups     places(number);
-		const Real apart = construction::touching * rock.extent;
-		for (std::size_t k = 0; k < number; ++k)
-			for (std::size_t m = k + 1; m < number && distance(order[m]) - distance(order[k]) <= apart; ++m) {
+		for (std::size_t k = 0; k < order.size(); ++k)
+			for (std::size_t m = k + 1; m < order.size() && distance(order[m]) - distance(order[k]) <= apart * rock.extent;
+			        ++m) {
 				const Plane &p = rock.planes[std::size_t(order[k])], &q = rock.planes[std::size_t(order[m])];
 				const Real   sign = p.normal.dot(q.normal) < 0 ? -1 : 1;
-				if ((p.normal - sign * q.normal).norm() <= construction::touching
-				        && magnitude(p.offset - sign * q.offset) <= apart)
-					places.join(order[k], order[m]);
+				if ((p.normal - sign * q.normal).norm() <= apart
+				        && magnitude(p.offset - sign * q.offset) <= apart * rock.extent)
+					near(order[k], order[m]);
 			}
-		std::vector<int> place(number);
-		for (std::size_t i = 0; i < number; ++i)
+	}
+
+	/// Planes of the list that lie in one place: plane → the first of them.
+	std::vector<int> placesOf(const JointedPlanes& rock)
+	{
+		Groups places(rock.planes.size());
+		forNearPlanes(rock, construction::touching, [&](int i, int j) { places.join(i, j); });
+		std::vector<int> place(rock.planes.size());
+		for (std::size_t i = 0; i < place.size(); ++i)
 			place[i] = places.of(int(i));
 		return place;
 	}
@@ -61,8 +66,8 @@ namespace {
 	};
 
 	struct Place {
-		std::vector<Face>               faces[2]; ///< of blocks below and above it
-		std::vector<const FiniteJoint*> joints;
+		std::vector<Face>               faces[2];          ///< of blocks below and above it
+		std::vector<const FiniteJoint*> joints;            ///< here and near
 		bool                            separates = false; ///< a joint without bounds
 	};
 
@@ -91,6 +96,16 @@ namespace {
 			at.joints.push_back(&rock.joints[j]);
 			at.separates = at.separates || !rock.joints[j].bounded();
 		}
+		const auto add = [&](int to, int plane) {
+			const std::size_t joint = (std::size_t(plane) - rock.firstJoint) / 2, at = std::size_t(place[std::size_t(to)]);
+			if (std::size_t(plane) < rock.firstJoint || place[std::size_t(plane)] == int(at)) return;
+			auto& known = places[at].joints;
+			if (std::find(known.begin(), known.end(), &rock.joints[joint]) == known.end()) known.push_back(&rock.joints[joint]);
+		};
+		forNearPlanes(rock, construction::nearPlane, [&](int i, int j) {
+			add(i, j);
+			add(j, i);
+		});
 		for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
 			if (!tree.isLeaf(int(n))) continue;
 			const Block& block = tree.blockOfNode(int(n));
@@ -105,8 +120,20 @@ namespace {
 		return places;
 	}
 
+	/// Whether joints leave more of what two faces share than a bridge of the smaller one: those that pass along it as near as they may without cutting.
+	bool rockGoesOn(const Polygon& common, const Vector3& normal, const Place& place, const Real& on, const Real& least)
+	{
+		std::vector<const FiniteJoint*> along;
+		for (const FiniteJoint* joint : place.joints)
+			if (std::all_of(common.begin(), common.end(), [&](const Vector3& corner) {
+				    return magnitude(joint->plane.normal.dot(corner) - joint->plane.offset) <= on;
+			    }))
+				along.push_back(joint);
+		return uncovered(common, normal, along) > least;
+	}
+
 	/// Joins leaves across one place. Faces are swept along the direction in which they reach farthest.
-	void joinAcross(Place& place, const Vector3& normal, const Real& bridge, Groups& leaves)
+	void joinAcross(Place& place, const Vector3& normal, const Real& on, const Real& bridge, Groups& leaves)
 	{
 		Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
 		for (const auto& side : place.faces)
@@ -134,7 +161,7 @@ namespace {
 					continue;
 				if (leaves.of(face.node) == leaves.of(other->node)) continue;
 				const Polygon common = commonPart(face.polygon, other->polygon, normal);
-				if (uncovered(common, normal, place.joints) > bridge * std::min(face.area, other->area))
+				if (rockGoesOn(common, normal, place, on, bridge * std::min(face.area, other->area)))
 					leaves.join(face.node, other->node);
 			}
 			open[side].push_back(&face);
@@ -149,7 +176,7 @@ std::vector<int> bodiesOfNodes(const CutTree& tree, const JointedPlanes& rock, c
 	std::vector<Place> places = facesByPlace(tree, rock);
 	for (std::size_t p = 0; p < places.size(); ++p)
 		if (!places[p].faces[0].empty() && !places[p].faces[1].empty())
-			joinAcross(places[p], rock.planes[p].normal, bridge, leaves);
+			joinAcross(places[p], rock.planes[p].normal, construction::touching * rock.extent, bridge, leaves);
 	std::vector<int> body(tree.nodes.size());
 	for (std::size_t n = tree.nodes.size(); n-- > 0;)
 		if (tree.isLeaf(int(n))) body[n] = leaves.of(int(n));

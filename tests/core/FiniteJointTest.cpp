@@ -180,6 +180,16 @@ TEST(RockBridges, RegionsThatShareAFaceAreOneBodyUnlessAJointRunsThere)
 	EXPECT_EQ(partsOf(cutByJoints({ lower, upper }, { disc({ 0, 0, 1 }, 1) }, clumps), 12), std::vector<int>({ 2 }));
 }
 
+/// Two halves of one joint whose planes differ by less than what is cut: together they divide the block.
+TEST(RockBridges, JointsThatDifferByTheDigitsOfAFileAreOne)
+{
+	std::vector<FiniteJoint> joints { rectangle(2, { -1, 0, 0 }, 1, 2), rectangle(2, { 1, 0, 0 }, 1, 2) };
+	for (Real angle : { 0., 1e-10, 4e-10, 1e-9, 5e-9, 1e-7, 1e-4 }) {
+		joints[1].plane.normal = Vector3(-angle, 0, 1).normalized(); // about the common edge
+		EXPECT_EQ(partsOf(cutByJoints({ box(1, 1, 2) }, joints, clumps), 16).size(), 2u) << angle;
+	}
+}
+
 TEST(RockBridges, RefusesMoreBlocksThanAllowed)
 {
 	std::vector<FiniteJoint> joints;

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -88,6 +88,14 @@ def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
 	with pytest.raises(SystemExit) as end:
 		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
 	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
+
+
+def testJointNetworkCutsWhatWasAskedFor(runs, capsys):
+	"""A third of its joints, and so fewer blocks than it wants."""
+	with pytest.raises(SystemExit) as end:
+		runs('jointNetwork', shorter={'asked, size = 0.35': 'asked, size = 0.12', '>= 100000': '>= 5000'})
+	out = capsys.readouterr().out
+	assert not end.value.code and 'cuts not made' in out and isPicture('output/stereonet.png'), out
 
 
 def testFunnelLetsGrainsOutBelowAlone(runs, capsys):

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Faces of a block: which corners are on a plane, and their polygon's area."""
+
+import numpy as np
+from yade import _polytope
+
+from ..arguments import numbersOf, vectors
+
+__all__ = ['areaOfFace', 'shapeOf']
+
+onPlane = 1e-9
+"""Of the block's extent: how far from a plane its corners may be computed."""
+
+
+def shapeOf(normals, offsets):
+	"""(corners, centroid, volume) of a block, computed about the first corner of its box, where numbers are small."""
+	middle = np.linalg.lstsq(normals, offsets, rcond=None)[0]
+	shape = _polytope.polyhedron(vectors(normals, 'normals', 3), numbersOf(offsets - normals @ middle, 'offsets'))
+	return np.array(shape['vertices'], float) + middle, np.array(shape['centroid'], float) + middle, float(shape['volume'])
+
+
+def areaOfFace(corners, normal, offset):
+	"""[m²]"""
+	extent = float(np.ptp(corners, axis=0).max())
+	on = corners[np.abs(corners @ normal - offset) < onPlane * extent]
+	if len(on) < 3:
+		return 0.0
+	away = on - on.mean(axis=0)
+	first = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
+	first /= np.linalg.norm(first)
+	x, y = away @ first, away @ np.cross(normal, first)
+	order = np.argsort(np.arctan2(y, x))
+	x, y = x[order], y[order]
+	return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
