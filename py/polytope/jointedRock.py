@@ -123,8 +123,9 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 			f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?'
 		)
 	cuts = _cuts(entries, region, np.random.default_rng(seed))
-	bridge = smallestBridge if incomplete == 'clump' else -1.0
-	made = _polytope.jointedBlocks(region.parts, asArguments(cuts, region.centre), real(smallest), real(bridge), mostBlocks, int(seed))
+	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
+	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
+	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
 	return _rock(made, cuts, region.centre)
 
 
@@ -137,14 +138,14 @@ def _entriesOf(jointSets):
 
 
 def _cuts(entries, region, random):
-	"""All joints in the order in which they cut."""
+	"""All joints in the order in which they cut, about the region's centre."""
 	cuts = []
 	for number, entry in enumerate(entries):
 		if isinstance(entry, JointSet):
 			cuts += entry.cuts(region, Earlier(cuts), number, random)
 		else:
 			for joint in entry if isinstance(entry, (list, tuple)) else [entry]:
-				cuts.append(dataclasses.replace(joint.cut, entry=number))
+				cuts.append(dataclasses.replace(joint.cut.moved(-region.centre), entry=number))
 	return cuts
 
 
@@ -166,12 +167,12 @@ def _rock(made, cuts, centre):
 		[(normals[one], offsets[one]) for one in slices],
 		np.frombuffer(made['volumes']).copy(),
 		bodies,
-		np.array([[*cuts[j].normal, cuts[j].offset] for j in cutting]).reshape(-1, 4),
+		np.array([[*cuts[j].normal, cuts[j].offset + cuts[j].normal @ centre] for j in cutting]).reshape(-1, 4),
 		[labels[one] for one in slices],
 		np.array([cuts[j].entry for j in cutting], int),
 		areas[cutting],
 		sections[cutting],
-		[cuts[j] for j in cutting],
+		[cuts[j].moved(centre) for j in cutting],
 		made['uncut'],
 	)
 

@@ -45,8 +45,10 @@ namespace {
 		const Real    turn   = 2 * Real(EIGEN_PI) / sides;
 		const Real    corner = (joint.radius > 0 ? joint.radius : reach) / cos(Real(turn / 2));
 		Polygon       polygon;
-		for (int k = 0; k < sides; ++k)
-			polygon.push_back(joint.centre + corner * (cos(Real(k * turn)) * first + sin(Real(k * turn)) * second));
+		for (int k = 0; k < sides; ++k) {
+			const Real angle = k * turn, across = corner * cos(angle), up = corner * sin(angle);
+			polygon.push_back(joint.centre + across * first + up * second);
+		}
 		for (const Plane& edge : joint.edges)
 			polygon = clipped(polygon, edge);
 		return polygon;
@@ -62,6 +64,7 @@ namespace {
 	/// Convex pieces that are left of convex ones where another one is taken out.
 	std::vector<Polygon> without(const std::vector<Polygon>& pieces, const Polygon& taken, const Vector3& normal)
 	{
+		if (taken.size() < 3) return pieces;
 		std::vector<Polygon> left;
 		for (Polygon piece : pieces)
 			for (std::size_t k = 0; k < taken.size() && piece.size() >= 3; ++k) {
@@ -90,7 +93,7 @@ Polygon clipped(const Polygon& polygon, const Plane& halfSpace)
 		const Vector3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
 		const Real     above = halfSpace.normal.dot(a) - halfSpace.offset, next = halfSpace.normal.dot(b) - halfSpace.offset;
 		if (above <= 0) part.push_back(a);
-		if ((above < 0 && next > 0) || (above > 0 && next < 0)) part.push_back(a + above / (above - next) * (b - a));
+		if ((above < 0 && next > 0) || (above > 0 && next < 0)) part.push_back(a + Real(above / (above - next)) * (b - a));
 	}
 	if (part.size() < 3) part.clear();
 	return part;

@@ -19,7 +19,7 @@ namespace {
 		Region           region { normalised(given) };
 		const Polyhedron shape = polyhedron(region.set);
 		for (const Vector3& vertex : shape.vertices)
-			region.middle += vertex / Real(shape.vertices.size());
+			region.middle += Vector3(vertex / Real(shape.vertices.size()));
 		for (const Vector3& vertex : shape.vertices)
 			region.radius = std::max(region.radius, Real((vertex - region.middle).norm()));
 		return region;
@@ -30,7 +30,8 @@ namespace {
 	{
 		const Real height = plane.normal.dot(region.middle) - plane.offset;
 		if (abs(height) >= region.radius) return {};
-		const Vector3 foot = region.middle - height * plane.normal, first = 2 * region.radius * plane.normal.unitOrthogonal(),
+		const Real    reach = 2 * region.radius;
+		const Vector3 foot = region.middle - height * plane.normal, first = reach * plane.normal.unitOrthogonal(),
 		              second = plane.normal.cross(first);
 		Polygon polygon { foot - first - second, foot + first - second, foot + first + second, foot - first + second };
 		for (std::size_t i = 0; i < region.set.size() && !polygon.empty(); ++i)

@@ -157,8 +157,7 @@ namespace {
 			                     [&](const Face* other) { return other->high[along] <= face.low[along]; }),
 			        others.end());
 			for (const Face* other : others) {
-				if ((other->low.array() > face.high.array()).any() || (face.low.array() > other->high.array()).any())
-					continue;
+				if ((other->low - face.high).maxCoeff() > on || (face.low - other->high).maxCoeff() > on) continue;
 				if (leaves.of(face.node) == leaves.of(other->node)) continue;
 				const Polygon common = commonPart(face.polygon, other->polygon, normal);
 				if (rockGoesOn(common, normal, place, on, bridge * std::min(face.area, other->area)))

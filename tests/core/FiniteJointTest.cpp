@@ -87,6 +87,9 @@ TEST(FiniteJoint, WhatSeveralInOnePlaneLeaveUncovered)
 	EXPECT_NEAR(uncovered(square(1, 0), up, { &left, &right }), 0, 1e-14);
 	EXPECT_NEAR(uncovered(square(2, 0), up, { &left, &middle }), 4, 1e-13);
 	EXPECT_NEAR(uncovered(square(2, 0), up, {}), 16, 1e-13);
+	FiniteJoint nothing = disc(Vector3::Zero(), 1);
+	nothing.edges.push_back({ Vector3::UnitX(), -2 });
+	EXPECT_NEAR(uncovered(square(1, 0), up, { &left, &nothing }), 2, 1e-14);
 	const FiniteJoint small = disc(Vector3::Zero(), 1), other = disc({ 3, 0, 0 }, Real(0.5));
 	EXPECT_NEAR(uncovered(square(5, 0), up, { &small, &other }), 100 - Real(1.25) * pi, Real(1.25) * pi * Real(9e-4));
 }
@@ -178,6 +181,17 @@ TEST(RockBridges, RegionsThatShareAFaceAreOneBodyUnlessAJointRunsThere)
 	EXPECT_EQ(partsOf(cutByJoints({ lower, upper }, {}, {}), 12), std::vector<int>({ 1, 1 }));
 	EXPECT_EQ(partsOf(cutByJoints({ lower, upper }, { disc({ 0, 0, 1 }, 3) }, clumps), 12), std::vector<int>({ 1, 1 }));
 	EXPECT_EQ(partsOf(cutByJoints({ lower, upper }, { disc({ 0, 0, 1 }, 1) }, clumps), 12), std::vector<int>({ 2 }));
+}
+
+TEST(RockBridges, RegionsThatShareAFaceToRounding)
+{
+	const HalfSpaces lower = box(1, 1, Real(0.1) * 3);
+	HalfSpaces       upper = moved(box(1, 1, Real(0.5)), Matrix3::Identity(), Vector3(0, 0, Real(0.8)));
+	for (std::size_t i = 0; i < upper.size(); ++i)
+		if (upper.normals[i][2] < 0) upper.offsets[i] = -Real(0.3) - Real(1e-15);
+	EXPECT_NE(Real(0.1) * 3, Real(0.3) + Real(1e-15));
+	EXPECT_EQ(cutByJoints({ lower, upper }, {}, clumps).bodies, std::vector<int>({ 0, 0 }));
+	EXPECT_EQ(cutByJoints({ upper, lower }, {}, clumps).bodies, std::vector<int>({ 0, 0 }));
 }
 
 /// Two halves of one joint whose planes differ by less than what is cut: together they divide the block.

@@ -124,19 +124,19 @@ def testDensityIsAsAskedFor(radius, fisher):
 
 def testSpacingOfDiscsIsThatOfAScanLine():
 	"""Lines along the mean normal meet scattered discs at the spacing that was asked for, in the region's middle and near its faces alike."""
-	joints = JointSet(radians(30), 1, spacing=0.5, radius=('exponential', 1), fisher=15)
+	joints = JointSet(radians(30), 1, spacing=0.5, radius=1, fisher=15)
 	region, random, direction, length = regionOf(box, half), np.random.default_rng(4), joints.normal, 0.5
-	middle = random.uniform(-1, 1, (2000, 3)) * (4, 4, 3)
-	edge = random.uniform(-1, 1, (2000, 3)) * (9.5, 7.5, 5.5)
+	middle = random.uniform(-1, 1, (1000, 3)) * (4, 4, 3)
+	edge = random.uniform(-1, 1, (1000, 3)) * (9.5, 7.5, 5.5)
 	edge[:, 0] = 9.5 * np.sign(edge[:, 0])
-	hits, networks = np.zeros(2), 12
+	hits, networks = np.zeros(2), 8
 	for _ in range(networks):
 		for one in joints.cuts(region, Earlier([]), 0, random):
 			for place, points in enumerate((middle, edge)):
 				along = (one.offset - points @ one.normal) / (one.normal @ direction)
 				at = points + along[:, None] * direction
 				hits[place] += ((np.abs(along) < length / 2) & (np.linalg.norm(at - one.centre, axis=1) < one.radius)).sum()
-	assert hits / (networks * 2000 * length) == pytest.approx(1 / 0.5, rel=0.06)
+	assert hits / (networks * 1000 * length) == pytest.approx(1 / 0.5, rel=0.07)  # some 2000 discs reach into each place: 2.2 % is a standard deviation
 
 
 @pytest.mark.parametrize('radius', [2.0, ('exponential', 1.5), ('lognormal', 2, 1), ('powerLaw', 1, 8, 2.5), ('powerLaw', 1, 8, 3)])

@@ -10,7 +10,7 @@ from yade import _polytope
 from ..arguments import numbersOf, vector, vectors
 from ..precision import isNumber
 
-__all__ = ['Cut', 'Joint', 'asArguments', 'checkedAngles', 'finite', 'positive', 'upwardNormal']
+__all__ = ['Cut', 'Joint', 'areasOf', 'asArguments', 'checkedAngles', 'finite', 'positive', 'upwardNormal']
 
 oneRounding = 1e-12
 """[rad]: a dip this much above π/2 is vertical."""
@@ -106,7 +106,7 @@ class Joint:
 
 @dataclasses.dataclass
 class Cut:
-	"""A joint as it cuts: a plane, or a disc (radius above 0), less what lies beyond its edges."""
+	"""A joint as it cuts, in any coordinates (jointedRock's about the region's centre, where numbers are small): a plane, or a disc (radius above 0), less what lies beyond its edges."""
 
 	normal: np.ndarray
 	centre: np.ndarray
@@ -121,25 +121,31 @@ class Cut:
 	def offset(self):
 		return float(self.normal @ self.centre)
 
+	def moved(self, by):
+		"""The same elsewhere."""
+		edges = self.edges.copy()
+		edges[:, 3] += edges[:, :3] @ by
+		return dataclasses.replace(self, centre=self.centre + by, edges=edges)
 
-def asArguments(cuts, origin):
-	"""Joints about an origin, as _polytope takes them."""
+
+def asArguments(cuts):
+	"""Joints as _polytope takes them."""
 	normals = np.array([cut.normal for cut in cuts]).reshape(-1, 3)
-	centres = np.array([cut.centre for cut in cuts]).reshape(-1, 3) - origin
+	centres = np.array([cut.centre for cut in cuts]).reshape(-1, 3)
 	edges = np.concatenate([np.empty((0, 4)), *(cut.edges for cut in cuts)])
 	return (
 		(vectors(normals, 'joints', 3), numbersOf(np.einsum('ij,ij->i', normals, centres), 'joints')),
 		vectors(centres, 'joints', 3),
 		numbersOf([cut.radius for cut in cuts], 'joints'),
-		(vectors(edges[:, :3], 'joints', 3), numbersOf(edges[:, 3] - edges[:, :3] @ origin, 'joints')),
+		(vectors(edges[:, :3], 'joints', 3), numbersOf(edges[:, 3], 'joints')),
 		numbersOf([len(cut.edges) for cut in cuts], 'joints'),
 		numbersOf([cut.persistence for cut in cuts], 'joints'),
 	)
 
 
-def areasOf(cuts, regions, origin):
-	"""Area [m²] of each joint inside regions that _polytope takes, about the origin."""
-	return np.frombuffer(_polytope.jointAreas(regions, asArguments(cuts, origin))).copy()
+def areasOf(cuts, regions):
+	"""Area [m²] of each joint inside regions that _polytope takes."""
+	return np.frombuffer(_polytope.jointAreas(regions, asArguments(cuts))).copy()
 
 
 def upwardNormal(dip, dipDirection):

@@ -118,19 +118,19 @@ class JointSet:
 		return np.column_stack([normals, along * (normals @ self.normal)])
 
 	def cuts(self, region, earlier, entry, random):
-		"""The set's joints in a region (jointedRock.Region), as they cut; the larger ones first.
+		"""The set's joints in a region (region.Region), about its centre; the larger ones first.
 
 		:param Earlier earlier: the joints that these may end at
 		:param int entry: number of the set
 		"""
 		if not self.random:
 			planes = self.planes(region.centre, region.radius, random)
-			return [Cut(row[:3], region.centre + row[3] * row[:3], persistence=self.persistence, entry=entry) for row in planes]
+			return [Cut(row[:3], row[3] * row[:3], persistence=self.persistence, entry=entry) for row in planes]
 		wanted, found, area = self.intensity * region.volume, [], 0.0
 		self._refuseTooMany(region, wanted)
 		while area < wanted:
 			drawn = self._drawn(region, earlier, entry, random)
-			for cut, own in zip(drawn, areasOf(drawn, region.parts, region.centre).tolist(), strict=True):
+			for cut, own in zip(drawn, areasOf(drawn, region.parts).tolist(), strict=True):
 				if not own > 0:
 					continue
 				nearer = area + own - wanted < wanted - area
@@ -145,7 +145,7 @@ class JointSet:
 		"""Some joints that may reach into the ball about the region: along its normal the centre of each is within the ball, across within the sum of both radii."""
 		normals = self._normals(drawnAtOnce, random)
 		heights = random.uniform(-region.radius, region.radius, drawnAtOnce)
-		centres = region.centre + heights[:, None] * normals
+		centres = heights[:, None] * normals
 		if self.radius is None:
 			return [Cut(n, c, persistence=self.persistence, entry=entry) for n, c in zip(normals, centres, strict=True)]
 		sizes = self._sizes(region.radius, random)

@@ -106,7 +106,7 @@ def regionWithout(normals, offsets, openings):
 def _cells(normals, offsets, faces):
 	"""Convex cells into which faces cut a region, each along its whole plane: (normals, offsets, a point inside, volume)."""
 	region = regionOf(normals, offsets)
-	made = _polytope.jointedBlocks(region.parts, asArguments(faces, region.centre), real(0), real(-1), mostParts, 0)
+	made = _polytope.jointedBlocks(region.parts, asArguments([face.moved(-region.centre) for face in faces]), real(0), real(-1), mostParts, 0)
 	planes, volumes = np.frombuffer(made['planes']).reshape(-1, 4), np.frombuffer(made['volumes'])
 	ends = np.cumsum(np.frombuffer(made['counts'], np.int32))
 	cells = []
