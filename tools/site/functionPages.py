@@ -11,7 +11,11 @@ topics = {
 	'bodies': ('Bodies', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split'),
 	'ground': ('Fixed pieces and ground', 'plates tube terrain'),
 	'grains': ('Random grains', 'randomGrain grains cloud'),
-	'rock': ('Jointed rock and cells', 'jointedRock JointSet JointedRock voronoi VoronoiCells'),
+	'rock': (
+		'Jointed rock and cells',
+		'jointedRock JointSet Joint JointedRock readJoints meshRegion regionWithout rockReport RockReport scanLine stereonet keyBlocks KeyBlock '
+		'voronoi VoronoiCells',
+	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'scene': ('Scenes', 'engines check settle stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),

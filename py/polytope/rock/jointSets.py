@@ -88,7 +88,7 @@ class JointSet:
 
 	@property
 	def intensity(self):
-		"""P32 that is asked for [1/m]. Along the mean normal scattered joints are hit 1/|cos| times less often than parallel ones."""
+		"""P32 that is asked for [1/m]. A line along the mean normal meets scattered joints less often than parallel ones, by the mean cosine."""
 		if self.p32 is not None:
 			return self.p32
 		return 1 / self.spacing / (1 if self.fisher is None else 1 - math.tanh(self.fisher / 2) / self.fisher)
