@@ -39,6 +39,7 @@ install(
 	PATTERN "*.png"
 	PATTERN "*.py"
 	PATTERN "__pycache__" EXCLUDE
-	PATTERN "output" EXCLUDE)
+	PATTERN "output" EXCLUDE
+	PATTERN "paper" EXCLUDE) # the reproduction is no part of what is installed
 
 configure_file(cmake/uninstall.cmake.in uninstall.cmake @ONLY)

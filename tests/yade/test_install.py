@@ -54,6 +54,7 @@ def testAPrefixOfOnesOwn(tmp_path):
 		(documents / name).is_file()
 		for name in ('LICENSE', 'README.md', 'CITATION.cff', 'docs/install.md', 'docs/funnel.png', 'examples/funnel.py')
 	)
+	assert not (documents / 'examples/paper').exists()
 	assert (prefix / libraries / files[1]).stat().st_size < (build / 'pkg/polytope/_polytope.so').stat().st_size, 'not stripped'
 	script = 'import yade; from yade import polytope; print(polytope.__file__, polytope.cuboid((0, 0, 0), (1, 1, 1)).shape)'
 	environment = {**os.environ, 'YADE_PREFIX': str(prefix)}
