@@ -28,7 +28,7 @@ buildPackage() {
 	sed -i "1s/([^)]*)/($version)/" "$tree/debian/changelog"
 	# without symbols for a debugger: with them YADE's headers take three times the memory
 	(
-		cd "$tree"
+		cd "$tree" || exit
 		unset PYTHONPATH YADE_PREFIX
 		export YADE_SOURCE_DIR=$yadeSource DEB_BUILD_OPTIONS="noautodbgsym parallel=$cores" DEB_CXXFLAGS_STRIP=-g
 		step "building the package $name" "Debian's rules are in debian/." dpkg-buildpackage --build=binary --no-sign "${profile[@]}"
