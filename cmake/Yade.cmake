@@ -62,7 +62,7 @@ get_filename_component(name "${YADE_LIBRARY_DIR}" NAME)
 set(YADE_INSTALL_DIR "${YADE_LIBRARY_PATH}/${name}")
 string(FIND "${YADE_LIBRARY_DIR}" "/${YADE_INSTALL_DIR}" end REVERSE)
 if(end LESS 1)
-	message(FATAL_ERROR "YADE's library folder is ${YADE_LIBRARY_DIR}, but by its own config.py it should end with ${YADE_INSTALL_DIR}.")
+	yade_not_usable("YADE's library folder is ${YADE_LIBRARY_DIR}, but by its own config.py it should end with ${YADE_INSTALL_DIR}.")
 endif()
 string(SUBSTRING "${YADE_LIBRARY_DIR}" 0 ${end} YADE_PREFIX)
 

@@ -37,6 +37,5 @@ buildPackage() {
 	rm -f "$output/$name"_*.deb
 	mv "$folder/$name"_*.deb "$output"
 	rm -rf "$folder"
-	echo "  $(compgen -G "$output/$name"_*.deb)"
-	echo "  Install it: sudo apt install ./output/package/$(cd "$output" && echo "$name"_*.deb)"
+	echo "  Install it, on a Debian with YADE $(dpkg-query -W -f '${Version}' libyade): sudo apt install $(compgen -G "$output/$name"_*.deb)"
 }
