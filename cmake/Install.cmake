@@ -38,6 +38,7 @@ install(
 	PATTERN "*.md"
 	PATTERN "*.png"
 	PATTERN "*.py"
+	PATTERN "*.obj" # a mesh that one of them reads
 	PATTERN "__pycache__" EXCLUDE
 	PATTERN "output" EXCLUDE
 	PATTERN "paper" EXCLUDE) # the reproduction is no part of what is installed

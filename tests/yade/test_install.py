@@ -52,7 +52,15 @@ def testAPrefixOfOnesOwn(tmp_path):
 	documents = prefix / 'share/doc/yade-polytope'
 	assert all(
 		(documents / name).is_file()
-		for name in ('LICENSE', 'README.md', 'CITATION.cff', 'docs/install.md', 'docs/funnel.png', 'examples/funnel.py')
+		for name in (
+			'LICENSE',
+			'README.md',
+			'CITATION.cff',
+			'docs/install.md',
+			'docs/funnel.png',
+			'examples/mesh.py',
+			'examples/pebble.obj',
+		)
 	)
 	assert not (documents / 'examples/paper').exists()
 	assert (prefix / libraries / files[1]).stat().st_size < (build / 'pkg/polytope/_polytope.so').stat().st_size, 'not stripped'
