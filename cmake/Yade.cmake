@@ -7,7 +7,7 @@
 # crashes without a message of compiler or linker. So the macros are derived from the features the binary reports, by the
 # rules of YADE's own CMakeLists.txt, and what is not understood is refused.
 #
-# Sets YADE_FOUND, YADE_VERSION, YADE_FEATURES, YADE_LIBRARY_DIR (…/yade-double), YADE_REAL_BIT, YADE_DEFINITIONS; the function
+# Sets YADE_FOUND, YADE_VERSION, YADE_FEATURES, YADE_LIBRARY_DIR (…/yade-double: YADE_PREFIX/YADE_INSTALL_DIR), YADE_REAL_BIT, YADE_DEFINITIONS; the function
 # polytope_use_yade(<target>) gives a target all it needs. cmake/YadeFeatures.cmake has the rules.
 
 include(YadeFeatures)
@@ -56,6 +56,15 @@ foreach(name VERSION FEATURES REAL_BIT REAL_DEC REAL_NAME LIBRARY_PATH MPMATH)
 	set(YADE_${name} "${CMAKE_MATCH_2}")
 endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${YADE_LIBRARY_DIR}/py/yade/config.py")
+
+# YADE_PREFIX/YADE_INSTALL_DIR is the library folder: where YADE looks for it
+get_filename_component(name "${YADE_LIBRARY_DIR}" NAME)
+set(YADE_INSTALL_DIR "${YADE_LIBRARY_PATH}/${name}")
+string(FIND "${YADE_LIBRARY_DIR}" "/${YADE_INSTALL_DIR}" end REVERSE)
+if(end LESS 1)
+	yade_not_usable("YADE's library folder is ${YADE_LIBRARY_DIR}, but by its own config.py it should end with ${YADE_INSTALL_DIR}.")
+endif()
+string(SUBSTRING "${YADE_LIBRARY_DIR}" 0 ${end} YADE_PREFIX)
 
 if(NOT EXISTS "${YADE_SOURCE_DIR}/core/Scene.hpp")
 	yade_not_usable("YADE ${YADE_VERSION} is installed, but its source tree is needed for the headers: set YADE_SOURCE_DIR (`./run build` fetches it).")

@@ -2,12 +2,18 @@
 #
 # The libraries whose headers YADE's headers include, according to the features; and polytope_use_yade(<target>).
 
-find_package(Boost 1.74 REQUIRED CONFIG COMPONENTS python${Python3_VERSION_MAJOR}${Python3_VERSION_MINOR} serialization iostreams log thread filesystem date_time regex)
+# Boost.Python for this version of Python. The target that has the library's file is Boost::python where Boost has that one (1.83; the other only
+# stands for it), else the one with the version in its name (1.92).
+set(boost_python python${Python3_VERSION_MAJOR}${Python3_VERSION_MINOR})
+find_package(Boost 1.74 REQUIRED CONFIG COMPONENTS ${boost_python} serialization iostreams log thread filesystem date_time regex)
+if(TARGET Boost::python)
+	set(boost_python python)
+endif()
+set(YADE_BOOST_PYTHON Boost::${boost_python})
 set(yade_include_dirs "${YADE_SOURCE_DIR}")
 set(yade_libraries
-	Python3::Module Eigen3::Eigen Boost::python${Python3_VERSION_MAJOR}${Python3_VERSION_MINOR} Boost::serialization Boost::iostreams Boost::log
+	Python3::Module Eigen3::Eigen ${YADE_BOOST_PYTHON} Boost::serialization Boost::iostreams Boost::log
 	Boost::thread Boost::filesystem Boost::date_time Boost::regex)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
 if("OPENMP" IN_LIST YADE_FEATURES)
 	find_package(OpenMP REQUIRED COMPONENTS CXX)

@@ -56,7 +56,7 @@ clean() {
 	{ [ -n "$what" ] && [ -d "$cache" ]; } || return 0
 	exec 8>"$cache/lock"
 	takeLock 8 set-up
-	for root in "$cache"/debian13 "$cache"/debian13-* "$cache"/*.partial; do
+	for root in "$cache"/debian13 "$cache"/debian13Clean "$cache"/debian13-* "$cache"/*.partial; do
 		case $root in *.lock | *.made | *.conf) continue ;; esac
 		[ ! -d "$root" ] || dropDebianRoot "$root" || result=1
 	done

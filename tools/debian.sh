@@ -93,18 +93,22 @@ debianMirror() {
 	fi
 }
 
+# Whether the archive at this address has the suite, and answers.
+reachable() { # MIRROR SUITE
+	local file result=0
+	file=$(mktemp)
+	/usr/lib/apt/apt-helper -o "APT::Sandbox::User=$(id -un)" download-file "${1%/}/dists/$2/InRelease" "$file" >/dev/null 2>&1 || result=1
+	rm -f "$file"
+	return $result
+}
+
 # The address of Debian's security archive that goes with the mirror $1; nothing where it cannot be reached.
 securityMirror() {
-	local candidate file
-	file=$(mktemp)
+	local candidate
 	for candidate in "${YADE_POLYTOPE_SECURITY:-}" "$(archivesOf Debian Debian-Security | cut -d ' ' -f 1 | head -n 1)" \
 		"$(sed -E 's,/debian/*$,/debian-security/,; t; d' <<<"$1")"; do
-		if [ -n "$candidate" ] && /usr/lib/apt/apt-helper -o "APT::Sandbox::User=$(id -un)" \
-			download-file "${candidate%/}/dists/trixie-security/InRelease" "$file" >/dev/null 2>&1; then
-			echo "$candidate" && break
-		fi
+		if [ -n "$candidate" ] && reachable "$candidate" trixie-security; then echo "$candidate" && break; fi
 	done
-	rm -f "$file"
 }
 
 # The machine's own access to its mirror, as lines of an apt.conf: proxies (perhaps with a password) and certificates.

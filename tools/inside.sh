@@ -181,6 +181,7 @@ case $command in
 	fuzz) . "$project/tools/fuzz.sh" && fuzz "$@" ;; # the core alone, in a folder of its own
 	sanitize) . "$project/tools/fuzz.sh" && sanitize "$@" ;;
 	shell) build && exec bash "$@" ;;
+	package) . "$project/tools/package.sh" && buildPackage "$@" ;;
 	format) format "$@" ;;
 	*) fail "inside.sh: no command $command" ;;
 esac

@@ -14,6 +14,7 @@ purposesOf() { # VERB ARGUMENTS…
 		fuzz) echo base fuzz ;;
 		sanitize) echo base test fuzz ;;
 		format) echo base style ;;
+		package) echo base package revision ;;
 		build) if [ $# -gt 1 ] && [ "${*:2}" != overlay ]; then echo base test; else echo base; fi ;;
 		*) echo base ;;
 	esac
@@ -34,6 +35,7 @@ optionsOf() { # VERB
 		sanitize) echo --only --dry-run ;;
 		search) echo --quick --pairs --seed --threads --family --trial --log ;;
 		format) echo --check ;;
+		package) echo --ipopt --test ;;
 	esac
 }
 
@@ -56,7 +58,7 @@ checkArguments() { # VERB ARGUMENTS…
 	case $verb in
 		demo | paper | tradeoff | bench | fuzz | sanitize | accuracy | search | docs) options+=" --help -h" ;;
 		test) checkTestArguments "$@" && return ;;
-		format | build) ;;
+		format | build | package) ;;
 		*) return 0 ;; # yade, python, shell: options of those programs
 	esac
 	for argument in "$@"; do
@@ -71,6 +73,7 @@ checkArguments() { # VERB ARGUMENTS…
 				case $argument in *=*) argument=${argument#*=} ;; *) continue ;; esac
 				;;
 		esac
+		[ "$verb" != package ] || fail "package: takes no '$argument'." "It takes --ipopt and --test."
 		[ "$verb" != format ] || fail "format: takes no '$argument'." "It formats all files; --check only checks them."
 		case $verb$of in
 			*--only | fuzz--target) [ -z "$names" ] || case " $names " in *" $argument "*) ;; *) fail "$verb: $of '$argument' is unknown." "They are: $names." ;; esac ;;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LayoutCheck.hpp"
+#include "BuildInfo.hpp"
 
 #include <core/Aabb.hpp>
 #include <core/Cell.hpp>
@@ -88,7 +89,7 @@ namespace {
 	shared_ptr<Factorable> refuse()
 	{
 		const std::string text = "The plug-in yade-polytope does not fit this YADE, although version and features agree:\n" + faults
-		        + "It was compiled with other settings than YADE. Build it again: `./run clean`, then `./run build`.";
+		        + "It was compiled with other settings than YADE. " + polytope::buildInfo::remedy;
 		PyErr_SetString(PyExc_ImportError, text.c_str());
 		boost::python::throw_error_already_set();
 		return nullptr;

@@ -133,9 +133,7 @@ __attribute__((constructor)) void loadPlugin()
 	std::string            fault  = differenceFromBuild();
 	if (fault.empty()) fault = loadClasses(folder);
 	if (fault.empty()) extendYadePath(folder + "/polytope-py");
-	else
-		refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault
-		        + ".\nBuild it again for this YADE: `./run build`.");
+	else refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault + ".\n" + polytope::buildInfo::remedy);
 	PyGILState_Release(gil);
 }
 

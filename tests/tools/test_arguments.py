@@ -9,7 +9,7 @@ from test_entry import call, clone, shell, tmp_path  # noqa: F401, the fixtures
         (['test', '-k', 'nothing', '--fats'], "'--fats'"), (['bench', '--onyl', 'kernels'], "'--onyl'"), (['bench', '--only=kernel'], "'kernel'"),
         (['accuracy', '--only', 'pairs', 'nosuch'], "'nosuch'"), (['tradeoff', '--only', 'B', 'X'], "'X'"), (['paper', '--quik'], "'--quik'"),
         (['search', '--pair', '5'], "'--pair'"), (['demo', '--nummer=5'], "'--nummer'"), (['fuzz', '--target', 'all'], "'all'"),
-        (['sanitize', '--only', 'nothing'], "'nothing'"), (['clean', '--root', '--all'], "'--root --all'")
+        (['sanitize', '--only', 'nothing'], "'nothing'"), (['clean', '--root', '--all'], "'--root --all'"), (['package', '--tset'], "'--tset'"), (['package', 'x.deb'], "'x.deb'")
 ])
 def testUnknownArgumentsAreRefusedFirst(clone, tmp_path, arguments, named):
 	"""Before the cache is even made, so before anything is installed, built or formatted."""
@@ -23,7 +23,7 @@ def testKnownArgumentsPass(clone, tmp_path):
 	lines = [
 		'accuracy --quick --only pairs scenes --output x --jobs 2', 'bench --only=kernels --output=x', 'paper --only ACF', 'demo --seed -1 --shape cube',
 		'test --fast -k one --ff -x --pdb', 'yade -n -x script.py --own', 'python script.py --own', 'shell -c ls', 'build overlay polytope_search', 'format --check',
-		'fuzz --target contact --seconds 5', 'sanitize --only core --only fuzz --help', 'search --pairs 5 --family solids'
+		'fuzz --target contact --seconds 5', 'package --ipopt --test', 'sanitize --only core --only fuzz --help', 'search --pairs 5 --family solids'
 	]
 	done = shell(clone, tmp_path, ''.join(f'checkArguments {line}\n' for line in lines) + 'echo passed')
 	assert done.stdout == 'passed\n' and done.returncode == 0, done.stderr

@@ -140,6 +140,6 @@ def testNothingOfReproductionAndMeasurementIsInstalled():
 	"""The module that runs here is the product's folder as the overlay links it; `cmake --install` copies the same one."""
 	assert pathlib.Path(polytope.__file__).resolve() == product / '__init__.py'
 	assert {path.name for path in (project / 'py').iterdir() if path.name != '__pycache__'} == {'polytope'}
-	rules = (project / 'pkg/polytope/CMakeLists.txt').read_text()
+	rules = (project / 'cmake/Install.cmake').read_text()
 	installed = re.findall(r'DIRECTORY\s+"\$\{PROJECT_SOURCE_DIR\}/([^"]+)"', rules)
-	assert installed == ['py/polytope/']
+	assert installed == ['py/polytope/'] and 'PATTERN "paper" EXCLUDE' in rules and 'tools' not in rules

@@ -1,0 +1,49 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+#
+# inRoot.sh otherYade|remove PACKAGE: what `./run package --test` tries in a clean root beside debian/tests/first-scene.
+set -euo pipefail
+
+fault() { echo "FAULT: $*" >&2 && exit 1; }
+
+# YADE of another version, by what it says of itself: it goes on without the plug-in, and says why and what to do.
+otherYade() {
+	local config said folder
+	config=$(echo /usr/lib/*/yade-double/py/yade/config.py)
+	folder=$(mktemp -d)
+	cd "$folder"
+	cp -a "$config" kept
+	sed -i "s/^version *= *'[^']*'/version='2042.1.0'/" "$config"
+	grep -q "2042.1.0" "$config" || fault "config.py has no line for the version any more"
+	echo 'O.bodies.append(sphere((0, 0, 0), 1)); print("went on")' >stock.py
+	echo 'from yade import polytope' >ours.py
+	said=$(yade -n -x stock.py 2>&1) || fault "YADE did not go on: $said"
+	grep -q 'went on' <<<"$said" || fault "YADE did not go on: $said"
+	for text in 'for YADE 2025' 'this is YADE 2042.1.0' "Install the package $1"; do
+		grep -q "$text" <<<"$said" || fault "no '$text' in: $said"
+	done
+	! grep -q 'run build' <<<"$said" || fault "a command for developers in: $said"
+	said=$(yade -n -x ours.py 2>&1) || true
+	grep -q 'ImportError: the plug-in yade-polytope' <<<"$said" || fault "no ImportError in: $said"
+	cp -a kept "$config"
+}
+
+# It depends on YADE's exact version and on no compiler; once it is gone no file of it is left.
+remove() {
+	local left compiler
+	dpkg-query -W -f '${Depends}\n' "$1" | grep -q "libyade (= $(dpkg-query -W -f '${Version}' libyade))" || fault "libyade's version is not among: $(dpkg-query -W -f '${Depends}' "$1")"
+	for compiler in gcc g++ cmake; do
+		! dpkg-query -W -f '${db:Status-Status}' "$compiler" 2>/dev/null | grep -q '^installed' || fault "$compiler was installed"
+	done
+	[ -n "$(find /usr/lib/*/yade-double/polytope-py -name '*.pyc' -print -quit)" ] || fault "the package's modules were not compiled"
+	apt-get purge -y "$1"
+	# SciPy has a file of that name, too
+	left=$(find / \( -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /root/try \) -prune -o -iname '*polytope*' -print |
+		while read -r file; do dpkg -S "$file" >/dev/null 2>&1 || echo "$file"; done)
+	[ -z "$left" ] || fault "left: $left"
+	dpkg --verify libyade python3-yade
+	echo 'O.bodies.append(sphere((0, 0, 0), 1)); O.step()' >/root/try/stock.py
+	yade -n -x /root/try/stock.py || fault "YADE does not run"
+}
+
+"$@"
