@@ -35,8 +35,8 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	using namespace polytope;
 	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
 	ContactSettings result;
-	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'paper', 'conservative', 'foundation' or 'spring'",
-	        { { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative },
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring', 'paper' or 'conservative'",
+	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative },
 	                { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring } });
 	requireWithin("barrier", barrier, limit::leastBarrier, limit::largestBarrier, "", "the smaller body's inscribed radius");
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
@@ -63,7 +63,8 @@ void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_Polytope
 {
 	auto options = std::tie(contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance);
 	try {
-		settings_ = checkedSettings();
+		settings_    = checkedSettings();
+		byStiffness_ = contactModel == "surface";
 	} catch (...) {
 		options = goodOptions_;
 		throw;

@@ -143,15 +143,16 @@ namespace {
 
 bool Ig2_Polytope_Polytope_PolytopeGeom::jointsHavePressure() const
 {
-	return depthRule(settings_, StiffnessRule::PerArea) == polytope::DepthRule::Mean;
+	return hasSurface(settings_.contactModel) || depthRule(settings_, StiffnessRule::PerArea) == polytope::DepthRule::Mean;
 }
 
-polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settingsOfLoop() const
+polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
 {
 	polytope::ContactSettings settings = settings_;
+	if (byStiffness_ && rule != StiffnessRule::PerArea) settings.contactModel = polytope::ContactModel::Spring;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.energy                    = computeEnergy || scene->trackEnergy;
+	settings.energy                    = computeEnergy || (scene && scene->trackEnergy);
 	return settings;
 }
 
@@ -161,8 +162,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& co
 {
 	polytope::PairMemory memory = candidates_.recall(c, scene->iter);
 	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = false;
+	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
+	settings.programAlone              = hasSurface(settings.contactModel);
 	polytope::ContactResult result;
-	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settingsOfLoop(), memory, workspace, result);
+	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	candidates_.remember(c, scene->iter, memory);
 	// a point without a contact: within the barrier of a conservative contact, whose next step begins there
 	if (result.inContact || memory.hasPoint) return false;
@@ -186,7 +189,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
 
 	auto&                     geom     = geometry(c);
-	polytope::ContactSettings settings = settingsOfLoop();
+	if (!wasReal && hasSurface(settings_.contactModel)) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
 	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
 	// the paper's own contact has friction at one point
 	const bool asPrinted
@@ -206,14 +210,15 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::InternalPlanes internal = geom.internalPlanes();
 	bool                     asPieces = false;
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	if (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper) {
+	const bool surface = hasSurface(settings.contactModel);
+	if (surface || (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper)) {
 		asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
 		if ((turn || !geom.internalKnown || !wasReal) && asPieces) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-	if (!wasReal && result.inContact) {
+	if (!wasReal && result.inContact && !surface) {
 		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *c);
 		geom.stiffnessRule       = std::int8_t(rule);
 		const auto before        = settings.depthRule;
@@ -221,11 +226,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 		if (settings.depthRule != before)
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	}
-	const bool mayShare = result.inContact && asPieces && geom.stiffnessRule != int(StiffnessRule::PerArea);
+	const bool mayShare = result.inContact && asPieces && !surface && geom.stiffnessRule != int(StiffnessRule::PerArea);
 	if (result.inContact && (settings.bounding || geom.internalFaces.get() || mayShare)) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			{ frame1.rotation, rotation2 }, frame1.origin + frame1.rotation * memory.point[0], result.normal,
-			-result.infeasibility };
+			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, result.normal, -result.infeasibility };
 		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
@@ -233,6 +237,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
 		SupportShare share;
+		share.share = math::max(result.share, Real(polytope::tolerance::leastShareOfSupport));
 		if (mayShare) {
 			const Vector3r& place = internal.none() ? result.point : result.common;
 			share                 = shareOfSupport(pair.at(frame1.origin + place, result.normal), internal);

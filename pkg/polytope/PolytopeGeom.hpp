@@ -115,7 +115,8 @@ public:
 	/// Refuses unknown names and settings out of range, naming the attribute, and restores the last good value.
 	void postLoad(Ig2_Polytope_Polytope_PolytopeGeom&);
 
-	const polytope::ContactSettings& settings() const { return settings_; }
+	/// Of a contact whose stiffness has this unit.
+	polytope::ContactSettings settings(StiffnessRule rule) const;
 	/// Whether rock joints get the depth and point of a pressure (MeanDepth.hpp).
 	bool                jointsHavePressure() const;
 	boost::python::dict stats() const;
@@ -127,7 +128,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
-		((string, contactModel, "paper", Attr::triggerPostLoad, "*paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear program with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *normal*, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area. *foundation* and *spring*: point, normal, depth and area of a force that is the gradient of the volume of the linear program's feasible set (docs/contact-surface.md), for stiffnesses per area and per contact; no setting below is used by them while the bodies overlap."))
+		((string, contactModel, "paper", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], *spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them for all contacts, point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear program's feasible set (docs/contact-surface.md); no setting below is used by them while the bodies overlap. *paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear program with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *normal*, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
 		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Pressed straight, edges and corners act as if blunted by 1.5 to 5 times this length; a face tilted by $\\theta$ carries $\\mu\\sqrt{2/\\theta}$ inside its edge (23 times where a block topples); face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it is not unique) or *centroid* (of the overlap, of highest cost)."))
 		((string, normal, "dualWeights", Attr::triggerPostLoad, "Contact normal of the model *paper*: *dualWeights* (from weights of the linear program on which both bodies agree: the normal of a face where an edge or vertex lies on it; faces that neighbours cover, as between flush plates, are left out) or *innerPotential* (average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>`, Eqs 13-17 of [Boon2012]_: inclined by up to 45° where an edge lies on a face, and at every seam of a floor; to reproduce the paper)."))
@@ -166,9 +167,6 @@ protected:
 	bool isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
 	        const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace, const Interaction& c);
 
-	/// Settings of all pairs.
-	polytope::ContactSettings settingsOfLoop() const;
-
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
@@ -187,6 +185,7 @@ protected:
 
 private:
 	polytope::ContactSettings    settings_;
+	bool                         byStiffness_ = false; ///< *surface*: *foundation* or *spring*, by the unit of the contact's stiffness
 	BondsInStep                  bonds_;
 	CandidateMemory              candidates_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());

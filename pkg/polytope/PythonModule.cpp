@@ -9,6 +9,7 @@
 #include "Construction.hpp"
 #include "PolytopeGeom.hpp"
 #include "PotentialContacts.hpp"
+#include "RockJoint.hpp"
 #include "Vectors.hpp"
 #include "WorkerContacts.hpp"
 
@@ -134,6 +135,17 @@ polytope::DepthRule depthRuleOf(const std::string& depth)
 	throw std::invalid_argument("depth: must be 'chord', 'mean' or 'meanOnFaces', not '" + depth + "'");
 }
 
+/// Of a contact of two bodies in the scene; without engines that say so, rock joints have a stiffness per area.
+yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
+{
+	const auto &material1 = body1.material, &material2 = body2.material;
+	if (!material1 || !material2) return yade::StiffnessRule::Unknown;
+	const auto rule = yade::stiffnessRuleOfNew(*yade::Omega::instance().getScene(), *material1, *material2);
+	if (rule != yade::StiffnessRule::Unknown) return rule;
+	const auto isJoint = [](const yade::Material& material) { return dynamic_cast<const yade::RockJointMat*>(&material) != nullptr; };
+	return isJoint(*material1) && isJoint(*material2) ? yade::StiffnessRule::PerArea : yade::StiffnessRule::Unknown;
+}
+
 Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
         yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
         const std::string& normal, const std::string& depth)
@@ -153,7 +165,8 @@ Contact contact(const py::object& b1, const py::object& b2, const std::string& c
 	functor.normal          = normal;
 	functor.barrier         = barrier;
 	functor.callPostLoad();
-	polytope::ContactSettings settings = functor.settings();
+	const auto                rule     = ruleOf(*body1, *body2);
+	polytope::ContactSettings settings = functor.settings(rule);
 	settings.section                   = true;
 	settings.depthRule                 = depthRuleOf(depth);
 	if (settings.depthRule != polytope::DepthRule::Chord

@@ -108,7 +108,10 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
 
 	R n[D];
 	if (touching) {
-		if (settings.bounding) boundingPlanes<R, D, W>(planes, x, *settings.bounding);
+		if (settings.bounding) {
+			boundingPlanes<R, D, W>(planes, x, *settings.bounding);
+			settings.bounding->point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, x));
+		}
 		const ContactStatus normal = normalInOverlap<R, D, W>(in, settings, planes, f, x, dual, n, out);
 		if (status == ContactStatus::Contact) status = normal;
 	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
@@ -178,7 +181,7 @@ POLYTOPE_INLINE void contactKernel(
 	if constexpr (Surface) {
 		// across a gap there is none: the paper's geometry is as good a place for a law to end at
 		if (touching) {
-			surfaceContact<R, D, W>(in, settings, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
+			surfaceContact<R, D, W>(in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
 			timer.end(out.centreNanoseconds);
 			return;
 		}

@@ -55,6 +55,7 @@ struct BoundingPlanes {
 	int                  plane[2][most];
 	Real                 slack[2][most];
 	Real                 leverage[2][most];
+	Vector3              point = Vector3::Zero(); ///< where the slacks are: world axes, from body 1's centre
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
@@ -140,6 +141,7 @@ struct ContactResult {
 	Real           barrierValue  = 0;     ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real           energy
 	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
+	Real    share = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	Real    rockingArm = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	Vector3 common     = Vector3::

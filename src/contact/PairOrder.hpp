@@ -4,6 +4,9 @@
 #include "contact/ContactTypes.hpp"
 #include "shape/ConvexShape.hpp"
 
+#include <algorithm>
+#include <utility>
+
 /// An order of a pair's two bodies that does not depend on which one the caller names first: sums of rounded numbers taken
 /// in it give both callers the same bits, so that exchanging the bodies exchanges the forces exactly.
 namespace polytope {
@@ -45,6 +48,27 @@ inline void exchangeBodies(PairMemory& memory)
 	memory.point[1]      = first;
 	memory.dualDirection = -memory.dualDirection;
 	memory.surface.exchanged ^= 1;
+}
+
+inline InternalPlanes exchangedBodies(const InternalPlanes& planes)
+{
+	InternalPlanes result;
+	for (int body = 0; body < 2; ++body) {
+		result.count[body] = planes.count[1 - body];
+		std::copy(planes.plane[1 - body], planes.plane[1 - body] + planes.count[1 - body], result.plane[body]);
+	}
+	return result;
+}
+
+/// Those of the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
+inline void exchangeBodies(BoundingPlanes& planes, const Vector3& centre2, int dimension)
+{
+	std::swap(planes.count[0], planes.count[1]);
+	std::swap(planes.plane[0], planes.plane[1]);
+	std::swap(planes.slack[0], planes.slack[1]);
+	std::swap(planes.leverage[0], planes.leverage[1]);
+	for (int k = 0; k < dimension; ++k)
+		planes.point[k] += centre2[k];
 }
 
 /// The result for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

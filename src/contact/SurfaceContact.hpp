@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/BoundingPlanes.hpp"
 #include "contact/ContactFrame.hpp"
+#include "contact/ContactPointRules.hpp"
 #include "contact/ContactSection.hpp"
 #include "contact/ContactTypes.hpp"
+#include "contact/NormalAndDepth.hpp"
+#include "contact/PhaseOne.hpp"
 #include "contact/WarmStart.hpp"
 #include "program/LpBasis.hpp"
 #include "surface/ContactSurface.hpp"
@@ -59,11 +63,24 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 	}
 }
 
-/// The contact surface of the planes that matter, which are left in `nearest`, with room for a section of them in `spare`; energy only if asked for.
-/// `kept`: ContactSurface.hpp.
+/// Of a pair: what its surface is found from, and the surface.
+template <class R, int D> struct PairSurface {
+	SurfaceSums<R, D>       sums;
+	SurfaceOnPiece<R, D>*   on = nullptr; ///< if internal faces are left out
+	const PairPlanes<R, D>* bounds;       ///< planes that bound the section
+	PairPlanes<R, D>        nearest;      ///< those of the program that matter
+	R*                      spare;        ///< room for a section
+	R                       deepest;      ///< −s*
+	SurfaceStatus           status;
+
+	/// Part of the solid's contact that is this contact's: all pieces add up to one.
+	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
+};
+
+/// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: ContactSurface.hpp.
 template <class R, int D, int W>
-POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy,
-        KeptSurface* kept, ContactWorkspace& workspace, SurfaceSums<R, D>& sums, PairPlanes<R, D>& nearest, R*& spare)
+POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptSurface* kept,
+        ContactWorkspace& workspace, PairSurface<R, D>& surface)
 {
 	using Near     = NearPlanes<R, D, W>;
 	using Buffers  = SurfaceBuffers<R, D>;
@@ -73,11 +90,13 @@ POLYTOPE_INLINE SurfaceStatus surfaceOfPair(const PairPlanes<R, D>& planes, cons
 	int* const    indices = workspace.indices(ownIndices + Buffers::indicesNeeded(most));
 	LpBasis<R, D> basis   = optimum;
 	Near          near(planes, basis, size, numbers, indices);
-	nearest = near.planes();
-	spare   = numbers + own + Buffers::numbersNeeded(most);
-	const Buffers      buffers(nearest.total, numbers + own, indices + ownIndices);
+	surface.nearest = near.planes();
+	surface.spare   = numbers + own + Buffers::numbersNeeded(most);
+	surface.deepest = -optimum.infeasibility;
+	const Buffers      buffers(surface.nearest.total, numbers + own, indices + ownIndices);
 	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
-	return contactSurface<R, D, W>(nearest, basis.plane, D + 1, size, -optimum.infeasibility, parts, buffers, sums, kept, near.names());
+	surface.status           = contactSurface<R, D, W>(
+                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, buffers, surface.sums, kept, near.names(), surface.on);
 }
 
 /// The force's direction; where there is no force the dual's, or any: coincident bodies, or one wholly within the other, are in equilibrium.
@@ -90,23 +109,92 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 	return some;
 }
 
+/// The planes that bound the overlap, with their slacks at its analytic centre. x and dual turn with the frame.
+template <class R, int D, int W>
+POLYTOPE_APART void boundingPlanesOf(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
+        R* x, R* dual, ContactResult& out)
+{
+	R centre[D];
+	for (int k = 0; k < D; ++k)
+		centre[k] = x[k];
+	newtonCentre<R, D, W>(planes, f, centre, R(settings.newtonTolerance), x, dual, out);
+	boundingPlanes<R, D, W>(planes, centre, *settings.bounding);
+	settings.bounding->point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, centre));
+}
+
+/// The surface without the planes of internal faces, and the part of it on the piece that has them. False where there is none, or where the overlap is not one
+/// of a body that slides on these pieces.
+template <class R, int D, int W>
+POLYTOPE_APART bool surfaceOnPieces(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
+        PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, bool energy, PairMemory& memory, ContactWorkspace& workspace,
+        PairSurface<R, D>& surface)
+{
+	const InternalPlanes& internal = *settings.internal;
+	surface.on->clips.count        = 0;
+	for (int body = 0; body < 2; ++body)
+		for (int k = 0; k < internal.count[body]; ++k)
+			surface.on->clips.add(planes, planes.begin(body) + internal.plane[body][k]);
+	R offset[2 * BoundingPlanes::most];
+	takeOut<R, D>(planes, internal, offset);
+	// the program of what is left, from the ball of the body that has no internal face
+	PairMemory    start;
+	LpBasis<R, D> basis;
+	R             dual[D];
+	int           pivots = 0;
+	const int     ball   = internal.count[0] > 0 ? 1 : 0;
+	bool          found  = in.shape[ball]->inscribedRadius() < R(padOffset) && !surface.on->clips.full();
+	if (found) {
+		for (int k = 0; k <= D; ++k)
+			start.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+		found = startFrom<R, D>(in, f, start.basis, basis, dual);
+	}
+	if (found) {
+		recallBasis<R, D>(planes, start, basis);
+		ProgramLimits<R> all = limits;
+		all.dismissAbove     = R(padOffset);
+		found                = solvePhaseOne<R, D, W>(StartBasis::Aimed, planes, all, f.size, basis, pivots) == LpStatus::Optimal;
+		found                = found && basis.infeasibility < -limits.tolerance;
+	}
+	if (found) findSurface<R, D, W>(planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
+	putBack<R, D>(planes, internal, offset);
+	if (!found || surface.status != SurfaceStatus::Found) return false;
+	const R length = norm<R, D>(surface.sums.force);
+	if (!(length > 0)) return false;
+	R n[D];
+	for (int k = 0; k < D; ++k)
+		n[k] = surface.sums.force[k] / length;
+	const R area = dot<R, D>(surface.sums.areaVector, n);
+	return area > 0 && 2 * length < area * internalDepth<R, D>(in, f, internal, n);
+}
+
 /// After the linear program of a pair that touches; x: its point, in the planes' frame.
 template <class R, int D, int W>
-POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
-        const ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, const R* x, const R* dual, PairMemory& memory,
+POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
+        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, R* x, R* dual, PairMemory& memory,
         ContactWorkspace& workspace, ContactResult& out)
 {
-	SurfaceSums<R, D>   sums;
-	const R             deepest = -basis.infeasibility;
-	const bool          energy  = settings.energy || settings.contactModel == ContactModel::Spring;
-	PairPlanes<R, D>    nearest;
-	R*                  spare;
-	const SurfaceStatus found = surfaceOfPair<R, D, W>(
-	        planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, sums, nearest, spare);
-	out.surfaceKept = sums.kept;
+	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring;
+	if (settings.bounding) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
+	PairSurface<R, D>    surface;
+	SurfaceOnPiece<R, D> piece;
+	surface.bounds = &surface.nearest; // of the other planes none bounds the overlap
+	if (settings.internal) {
+		surface.on     = &piece;
+		surface.bounds = &planes;
+		if (!surfaceOnPieces<R, D, W>(in, settings, limits, planes, f, energy, memory, workspace, surface)) {
+			surface.on     = nullptr;
+			surface.bounds = &surface.nearest;
+		}
+	}
+	if (!surface.on)
+		findSurface<R, D, W>(planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
+	out.surfaceKept = surface.sums.kept;
 
-	const SurfaceLoad<R, D> load(settings.contactModel, sums);
-	const R                 length = norm<R, D>(load.force);
+	// all pieces of a solid have its force, point and depth, and each the part that it has of the pressure: no piece is pressed aside by an edge on its seam
+	const SurfaceSums<R, D>& sums    = surface.sums;
+	const R                  deepest = surface.deepest;
+	const SurfaceLoad<R, D>  load(settings.contactModel, sums);
+	const R                  length  = norm<R, D>(load.force);
 	// what a pressure everywhere along one direction would be: rounding of that is no force
 	const bool perArea = settings.contactModel == ContactModel::Foundation;
 	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;
@@ -135,9 +223,11 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
 	out.depth  = perArea ? length / area : length;
 	out.energy = !energy ? R(-1) : perArea ? load.energy / area : load.energy;
-	out.area   = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
+	out.share  = surface.share();
+	if (perArea) area *= out.share;
+	out.area = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
 
-	const bool whole = found == SurfaceStatus::Found || found == SurfaceStatus::None;
+	const bool whole = surface.status == SurfaceStatus::Found || surface.status == SurfaceStatus::None;
 	publishContact<R, D>(in, f,
 	        !optimal            ? ContactStatus::LpNotConverged
 	                : !whole    ? ContactStatus::SurfaceIncomplete
@@ -147,10 +237,9 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
 		if (settings.outline) { // where friction acts: the plane through the point, on which a contact surface of two faces lies
-			const Real surface = out.area;
-			// of planes that are near: of the others none bounds the overlap
-			contactSection<R, 3>(in, settings, f, nearest, point, n, point, spare, workspace, out);
-			out.area            = surface;
+			const Real all = out.area;
+			contactSection<R, 3>(in, settings, f, *surface.bounds, point, n, point, surface.spare, workspace, out);
+			out.area            = all;
 			out.sectionCentroid = out.point;
 		}
 	}

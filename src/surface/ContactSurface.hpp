@@ -39,13 +39,20 @@ enum class SurfaceStatus : int {
 	NoRoom, ///< more pieces than tolerance::piecesPerPlane
 };
 
+/// A piece of a larger solid, and what there is on it.
+template <class R, int D> struct SurfaceOnPiece {
+	SurfaceClips<R, D> clips;
+	R                  pressure = 0; ///< ∫ p dS over the part of the surface that lies on the piece [m³]
+};
+
 template <class R, int D, int W> class SurfaceWalk {
 public:
+	/// `on`: a piece of a larger solid, or null.
 	POLYTOPE_INLINE SurfaceWalk(PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts,
-	        int order, SurfaceRecord& record)
+	        int order, SurfaceRecord& record, SurfaceOnPiece<R, D>* on)
 	        : planes_(planes), buffers_(buffers), reach_(R(tolerance::pieceBox) * size), deepest_(deepest),
 	          all_(parts == SurfaceParts::Cells), faces_(parts != SurfaceParts::Facing), twins_(planes, buffers, size, order),
-	          queue_(buffers), cones_(buffers), record_(record)
+	          queue_(buffers), cones_(buffers), record_(record), on_(on)
 	{
 	}
 
@@ -62,9 +69,9 @@ public:
 			planesOnPiece<R, D, W>(planes_, piece, buffers_);
 			const SurfaceCut<R, D, W> cut(buffers_, deepest_, pieces.tag, pieces.edges);
 			if (cut.count() == 0) return false;
-			const PieceIntegrals<R, D> of = integrate<R, W>(piece, cut);
+			const PieceIntegrals<R, D> of = integrate<R>(piece, cut);
 			if (!(of.area > 0)) return false;
-			sum(piece, of, sums);
+			sum(piece, cut, of, sums);
 			sums.vertices += cut.count();
 		}
 		SurfaceStatus status;
@@ -97,6 +104,7 @@ private:
 	{
 		sums      = SurfaceSums<R, D>();
 		faceArea_ = 0;
+		if (on_) on_->pressure = 0;
 		for (int k = 0; k < D; ++k)
 			face_[0][k] = face_[1][k] = 0;
 		if (all_) cones_.clear();
@@ -150,8 +158,8 @@ private:
 		planesOnPiece<R, D, W>(planes_, piece, buffers_);
 		const SurfaceCut<R, D, W> cut(buffers_, reach_, deepest_, queue_.known(number));
 		if (cut.count() == 0) return;
-		const PieceIntegrals<R, D> of = integrate<R, W>(piece, cut);
-		sum(piece, of, sums);
+		const PieceIntegrals<R, D> of = integrate<R>(piece, cut);
+		sum(piece, cut, of, sums);
 		sums.vertices += cut.count();
 		if (!cut.hasPlainEdges()) record_.giveUp();
 		else if (of.area > 0) record_.add(i, j, cut);
@@ -194,7 +202,8 @@ private:
 		meet(edge, count, none);
 	}
 
-	POLYTOPE_INLINE void sum(const SurfacePiece<R, D>& piece, const PieceIntegrals<R, D>& of, SurfaceSums<R, D>& sums)
+	template <class Cut>
+	POLYTOPE_INLINE void sum(const SurfacePiece<R, D>& piece, const Cut& cut, const PieceIntegrals<R, D>& of, SurfaceSums<R, D>& sums)
 	{
 		if (!(of.area > 0)) return;
 		const bool face = piece.j == planes_.total;
@@ -203,10 +212,21 @@ private:
 			faceArea_ += of.area;
 			for (int k = 0; k < D; ++k)
 				vector[k] += of.area * piece.normal[k];
-		} else if (ofFirst(piece.i) != ofFirst(piece.j)) sums.add(piece, of);
+		} else if (ofFirst(piece.i) != ofFirst(piece.j)) {
+			sums.add(piece, of);
+			if (on_) addClipped(piece, cut);
+		}
 		if (!all_) return;
 		cones_.add(piece.i, piece, of, sums);
 		if (!face) cones_.add(piece.j, piece, of, sums);
+	}
+
+	template <class Cut> POLYTOPE_APART void addClipped(const SurfacePiece<R, D>& piece, const Cut& cut)
+	{
+		const ClippedPiece<R, D> clipped(piece, cut, on_->clips, buffers_);
+		if (clipped.count() == 0) return;
+		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
+		if (of.area > 0) on_->pressure += of.p;
 	}
 
 	POLYTOPE_INLINE void close(SurfaceStatus& status, SurfaceSums<R, D>& sums) const
@@ -233,6 +253,7 @@ private:
 	PieceQueue<R, D>            queue_;
 	CellCones<R, D>             cones_;
 	SurfaceRecord&              record_;
+	SurfaceOnPiece<R, D>*       on_;
 	R                           face_[2][D] = {}; ///< area vectors of the overlap's faces of each body
 	R                           faceArea_   = 0;
 };
@@ -240,26 +261,30 @@ private:
 /// Of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller body's
 /// circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre, and the digits there: best at the optimum. Offsets of
 /// the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
-/// `kept`: the pieces of the last step, and then of this, or null; `names`: of the planes.
+/// `kept`: the pieces of the last step, and then of this, or null; `names`: of the planes; `on`: a piece of a larger solid, or null.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,
-        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {})
+        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {}, SurfaceOnPiece<R, D>* on = nullptr)
 {
 	SurfaceRecord record(D == 3 ? kept : nullptr, names);
 	if constexpr (D == 3) {
 		if (kept && kept->used > 0 && kept->parts == int(parts) && !kept->exchanged) {
-			SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, 0, record);
+			SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, 0, record, on);
 			if (walk.again(KeptPieces(*kept, names), sums)) return SurfaceStatus::Found;
 		}
 	}
 	SurfaceStatus status[2] = { SurfaceStatus::Found, SurfaceStatus::Found };
 	bool          shared    = true;
 	for (int order = 0; order < 2 && shared; ++order) {
-		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record);
+		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record, on);
 		SurfaceSums<R, D>    own;
+		const R                 before = on ? on->pressure : R(0);
 		shared = walk.run(basis, count, status[order], own);
 		if (order == 0) sums = own;
-		else sums.average(own);
+		else {
+			sums.average(own);
+			if (on) on->pressure = (on->pressure + before) / 2;
+		}
 	}
 	record.end(int(parts), parts != SurfaceParts::Cells, parts != SurfaceParts::Facing);
 	const auto worse = status[0] > status[1] ? status[0] : status[1];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "surface/SurfaceSegment.hpp"
+#include "surface/SurfaceClips.hpp"
 
 /// Integrals over a piece of the surface of the pressure p, which is linear on it.
 namespace polytope {
@@ -19,7 +19,7 @@ template <class R, int D> struct PieceIntegrals {
 /// Of a polygon, as a fan of triangles from its first vertex: with the values f, g, h of linear functions at a triangle's corners,
 ///
 ///     ∫ f g = A/12 (Σf Σg + Σfg),     ∫ f g h = A/60 (Σf Σg Σh + Σf Σgh + Σg Σfh + Σh Σfg + 2 Σfgh).
-template <class R, int W> POLYTOPE_INLINE PieceIntegrals<R, 3> integrate(const SurfacePiece<R, 3>& piece, const SurfaceCut<R, 3, W>& cut)
+template <class R, class Cut> POLYTOPE_INLINE PieceIntegrals<R, 3> integrate(const SurfacePiece<R, 3>& piece, const Cut& cut)
 {
 	PieceIntegrals<R, 3> out;
 	R                    origin[2], from[2], along[2] = {}, alongSquare[2] = {};
@@ -61,7 +61,7 @@ template <class R, int W> POLYTOPE_INLINE PieceIntegrals<R, 3> integrate(const S
 	return out;
 }
 
-template <class R, int W> POLYTOPE_INLINE PieceIntegrals<R, 2> integrate(const SurfacePiece<R, 2>& piece, const SurfaceCut<R, 2, W>& cut)
+template <class R, class Cut> POLYTOPE_INLINE PieceIntegrals<R, 2> integrate(const SurfacePiece<R, 2>& piece, const Cut& cut)
 {
 	PieceIntegrals<R, 2> out;
 	R                    first[1], last[1];

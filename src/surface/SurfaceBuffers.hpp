@@ -20,6 +20,7 @@ template <class R, int D> struct SurfaceBuffers {
 	R*   vertex[2][3]; ///< of a piece before and after a cut, vertexRows numbers each
 	R*   line[3];      ///< of each line that bounds or bounded a piece: its rates and rest
 	R*   cell;         ///< D + 2 numbers for each plane: a point of its cell, the pressure there, whether it has one
+	R*   clipped[2][2]; ///< vertices of a piece before and after it is clipped (SurfaceClips.hpp)
 	R*   dropped;      ///< offsets of planes that are left out
 	int* lineTag;      ///< of each line: its plane
 	int* edge[2];      ///< of a piece's vertices before and after a cut: the line of the edge that begins there
@@ -41,9 +42,11 @@ template <class R, int D> struct SurfaceBuffers {
 		return count;
 	}
 	static int vertexRoom(int planes) { return planes + 8; }
+	/// A convex polygon has one vertex more for each half-space; twice that for what rounding makes of it.
+	static int clippedRoom(int planes) { return 2 * (vertexRoom(planes) + 32); }
 	static int numbersNeeded(int planes)
 	{
-		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + (D + 2) * planes + planes;
+		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + 4 * clippedRoom(planes) + (D + 2) * planes + planes;
 	}
 	static int indicesNeeded(int planes) { return 3 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
 
@@ -59,6 +62,9 @@ template <class R, int D> struct SurfaceBuffers {
 				vertex[side][k] = take(numbers, room);
 			edge[side] = take(indices, room);
 		}
+		for (auto& side : clipped)
+			for (R*& row : side)
+				row = take(numbers, clippedRoom(total));
 		for (R*& row : line)
 			row = take(numbers, room);
 		lineTag = take(indices, room);

@@ -123,6 +123,90 @@ TEST(SurfaceContact, OfAFaceOnAFaceIsTheOverlap)
 			}
 }
 
+/// A slab, and the two that a vertical plane through the seam cuts it into, as body 1; the side of each that the other one covers.
+template <int D> struct CutSlab {
+	std::shared_ptr<const ConvexShape> whole, half[2];
+	Vector3                            centre[2];
+	InternalPlanes                     covered[2];
+
+	explicit CutSlab(Real seam)
+	{
+		const Real wide = 4, high = 1;
+		whole           = slab(wide, high);
+		for (int k = 0; k < 2; ++k) {
+			const Real low = k == 0 ? -wide : seam, top = k == 0 ? seam : wide;
+			half[k]        = slab((top - low) / 2, high);
+			centre[k]      = Vector3((top + low) / 2, 0, 0);
+			const Vector3 out((k == 0 ? 1 : -1), 0, 0);
+			for (int i = 0; i < half[k]->planeCount(); ++i)
+				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9)) covered[k].plane[0][covered[k].count[0]++] = i;
+		}
+	}
+	static std::shared_ptr<const ConvexShape> slab(Real wide, Real high)
+	{
+		return ConvexShape::shared(D == 2 ? rectangle(wide, high) : cuboid(wide, high, 4), 0);
+	}
+};
+
+/// A body that lies on the joint between two pieces of one solid has the solid's contact with both together: the same force, point, depth and energy.
+template <int D> void expectPiecesToHaveTheContactOfTheSolid()
+{
+	std::mt19937_64 random(88 + D);
+	const Shapes    shapes = randomShapes(20, random, D, 0);
+	int             parted = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		SCOPED_TRACE(trial);
+		Pair pair;
+		pair.shape[1]    = shapes[std::size_t(trial) % shapes.size()];
+		pair.rotation[1] = randomRotation(random, D);
+		const Real down  = pair.shape[1]->widthAlong(pair.rotation[1].transpose() * Vector3::UnitY()) / 2;
+		std::uniform_real_distribution<Real> some(-1, 1);
+		Real lowest = 0;
+		for (const Vector3& vertex : pair.shape[1]->polyhedron().vertices)
+			lowest = std::min(lowest, Vector3(pair.rotation[1] * vertex)[1]);
+		const Real overlap = down * decades(random, -4, -2);
+		pair.centre2       = Vector3(some(random) / 4, 1 - lowest - overlap, D == 2 ? Real(0) : some(random) / 4);
+		const CutSlab<D> slab(some(random) / 20);
+		pair.shape[0] = slab.whole;
+		for (const ContactModel model : models) {
+			const ContactResult all = query(pair, with(model));
+			if (!all.inContact) continue;
+			const Load whole(all, model);
+			Real       share = 0, energy = 0;
+			Vector3    force = Vector3::Zero(), moment = Vector3::Zero();
+			for (int k = 0; k < 2; ++k) {
+				Pair piece     = pair;
+				piece.shape[0] = slab.half[k];
+				piece.centre2 -= slab.centre[k];
+				ContactSettings settings   = with(model);
+				settings.internal          = &slab.covered[k];
+				const ContactResult result = query(piece, settings);
+				if (!result.inContact) continue;
+				EXPECT_EQ(result.status, all.status);
+				EXPECT_NEAR(result.depth / all.depth, 1, 1e-9);
+				const Load on(result, model);
+				const Real part = model == ContactModel::Spring ? result.share : Real(1);
+				share += result.share;
+				force += part * on.force;
+				moment += part * (on.moment + slab.centre[k].cross(on.force));
+				energy += part * on.energy;
+				parted += result.share < Real(0.99) && result.share > Real(0.01);
+			}
+			EXPECT_NEAR(share, 1, 1e-9);
+			EXPECT_LE((force - whole.force).norm(), 1e-9 * whole.force.norm());
+			EXPECT_LE((moment - whole.moment).norm(), 1e-9 * whole.force.norm());
+			EXPECT_NEAR(energy / whole.energy, 1, 1e-9);
+		}
+	}
+	EXPECT_GT(parted, 20);
+}
+
+TEST(SurfaceContact, PiecesHaveTheContactOfTheSolid)
+{
+	expectPiecesToHaveTheContactOfTheSolid<3>();
+	expectPiecesToHaveTheContactOfTheSolid<2>();
+}
+
 TEST(SurfaceContact, ExchangesWithTheBodiesToTheBit)
 {
 	std::mt19937_64 random(78);

@@ -48,6 +48,45 @@ def joint(model, frictionAngle=0.0):
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=frictionAngle))
 
 
+def tiltedBlock():
+	O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+	turn = Quaternion((0.6, 0.8, 0), 0.02)
+	return O.bodies.append(polytope.cuboid(center=(0.3, 0, 0.505), extents=(0.5, 0.4, 0.5), orientation=turn))
+
+
+def oneStep(contactModel, perArea=None):
+	"""Geometry of the first step's contact; stiffness per area or per contact of rock joints, or FrictMat's."""
+	O.reset()
+	if perArea is None:
+		O.materials.append(FrictMat(density=2600, young=1e8, poisson=1, frictionAngle=0.5))
+		physics, law = Ip2_FrictMat_FrictMat_FrictPhys(), Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)
+	else:
+		joint('foundation' if perArea else 'spring')
+		physics = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)
+		law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()
+	block = tiltedBlock()
+	O.engines = [
+		ForceResetter(),
+		PolytopeCollider([Bo1_Polytope_Aabb()]),
+		InteractionLoop([Ig2_Polytope_Polytope_PolytopeGeom(contactModel=contactModel, computeArea=True)], [physics], [law]),
+	]
+	O.dt = 1e-9
+	O.step()
+	return O.interactions[0, block].geom
+
+
+@pytest.mark.parametrize('perArea, model', [(True, 'foundation'), (False, 'spring'), (None, 'spring')])
+def testSurfaceGoesByTheUnitOfTheStiffness(perArea, model):
+	geom, named = oneStep('surface', perArea), oneStep(model, perArea)
+	other = oneStep('spring' if model == 'foundation' else 'foundation', perArea)
+	assert (geom.penetrationDepth, geom.contactPoint, geom.normal) == (named.penetrationDepth, named.contactPoint, named.normal)
+	assert abs(geom.penetrationDepth / other.penetrationDepth - 1) > 0.1
+	# and so does the contact of two bodies without a step
+	alone = polytope.contact(O.bodies[0], O.bodies[1], contactModel='surface')
+	assert alone.depth == pytest.approx(geom.penetrationDepth, rel=1e-9)
+	assert (alone.point - geom.contactPoint).norm() < 1e-9 and alone.area == pytest.approx(geom.contactArea, rel=1e-9)
+
+
 @pytest.mark.parametrize('model', models)
 def testABlockRestsOnAFaceWithItsWeight(model):
 	joint(model)
@@ -127,7 +166,7 @@ def testCheckNamesTheOtherUnit(model):
 
 
 def testUnknownModelIsRefusedByNameOfTheOthers():
-	with pytest.raises(ValueError, match="contactModel: must be 'paper', 'conservative', 'foundation' or 'spring'"):
+	with pytest.raises(ValueError, match="contactModel: must be 'surface', 'foundation', 'spring', 'paper' or 'conservative'"):
 		Ig2_Polytope_Polytope_PolytopeGeom(contactModel='winkler')
 
 

@@ -72,6 +72,23 @@ def testBodiesSlideOverPlates(body, perArea):
 	keeps(cross('plates', body, perArea=perArea))
 
 
+surfaceRows = [
+	*((floor, 'cube', 0) for floor in ('plates', 'oblique', 'boxes', 'facets', 'bricks', 'rock')),
+	*(('plates', body, 0) for body in ('box', 'tetrahedron', 'dodecahedron', 'icosahedron', 'hull', 'square')),
+	*((floor, body, tilt) for floor in ('plates', 'facets', 'rock') for body, tilt in (('cube', 5), ('cube', 45), ('hull', 10))),
+	('oblique', 'icosahedron', 20),
+	('mesh', 'dodecahedron', 0),
+]
+
+
+@rules
+@pytest.mark.parametrize('floor, body, tilt', surfaceRows)
+def testTheContactSurfaceSlidesOverPieces(floor, body, tilt, perArea):
+	"""By faces, edges and vertices, rows that the default misses among them. Without internal faces they kept 0.63 to 0.99 of their speed."""
+	held = {'tilt': Quaternion(Vector3(0, 1, 0), math.radians(tilt)), 'held': True} if tilt else {}
+	keeps(cross(floor, body, {'contactModel': 'surface'}, perArea, **held))
+
+
 @rules
 @pytest.mark.parametrize('floor', ['plates', 'oblique', 'facets', 'rock'])
 @pytest.mark.parametrize('body, tilt', [('cube', 5), ('cube', 15), ('cube', 45), ('icosahedron', 20), ('hull', 10)])

@@ -141,9 +141,9 @@ def unitOfSurface(scene):
 			if unitOfModel[model] == perArea:
 				continue
 			made = 'stiffnesses per area' if perArea else 'stiffnesses per contact'
-			other = next(name for name, unit in unitOfModel.items() if unit == perArea)
 			yield (
 				'damping and energy',
 				f'contactModel {model!r} with {made}: the force is no gradient of an energy',
-				f'contactModel={other!r}, or stiffnessPerArea={not perArea} and stiffnesses in {"N/m" if perArea else "Pa/m"}',
+				f"contactModel='surface', which goes by the unit, or stiffnessPerArea={not perArea} and stiffnesses in "
+				f'{"N/m" if perArea else "Pa/m"}',
 			)

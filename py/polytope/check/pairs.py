@@ -166,7 +166,7 @@ def forces(scene, loop, functor, one, other):
 def undamped(scene, functor, maker, phys, one, other):
 	"""Contacts of YADE's physics on two flat-faced bodies, without loss: with one stiffness for all areas the force is no gradient of an energy. A sphere
 	has none of it."""
-	if 'Sphere' in (one.shape, other.shape) or functor.contactModel in ('conservative', 'spring') or isinstance(phys, yade.RockJointPhys):
+	if 'Sphere' in (one.shape, other.shape) or functor.contactModel in ('conservative', 'spring', 'surface') or isinstance(phys, yade.RockJointPhys):
 		return False
 	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
 		return False
