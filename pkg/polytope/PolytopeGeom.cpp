@@ -152,7 +152,7 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(Stiffness
 	if (byStiffness_ && rule != StiffnessRule::PerArea) settings.contactModel = polytope::ContactModel::Spring;
 	settings.warmStart                 = warmStart;
 	settings.timed                     = timing;
-	settings.energy                    = computeEnergy || (scene && scene->trackEnergy);
+	settings.energy                    = computeEnergy || scene->trackEnergy;
 	return settings;
 }
 

@@ -165,8 +165,9 @@ Contact contact(const py::object& b1, const py::object& b2, const std::string& c
 	functor.normal          = normal;
 	functor.barrier         = barrier;
 	functor.callPostLoad();
-	const auto                rule     = ruleOf(*body1, *body2);
-	polytope::ContactSettings settings = functor.settings(rule);
+	functor.scene                      = yade::Omega::instance().getScene().get();
+	polytope::ContactSettings settings = functor.settings(ruleOf(*body1, *body2));
+	settings.energy                    = true;
 	settings.section                   = true;
 	settings.depthRule                 = depthRuleOf(depth);
 	if (settings.depthRule != polytope::DepthRule::Chord

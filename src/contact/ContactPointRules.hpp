@@ -6,6 +6,7 @@
 #include "contact/MoveInside.hpp"
 #include "contact/OverlapVolume.hpp"
 #include "contact/WarmStart.hpp"
+#include "program/SimplexLp.hpp"
 
 /// The contact point by each of the rules of ContactPoint, from the linear program's point.
 namespace polytope {

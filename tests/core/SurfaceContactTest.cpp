@@ -166,7 +166,10 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 			lowest = std::min(lowest, Vector3(pair.rotation[1] * vertex)[1]);
 		const Real overlap = down * decades(random, -4, -2);
 		pair.centre2       = Vector3(some(random) / 4, 1 - lowest - overlap, D == 2 ? Real(0) : some(random) / 4);
-		const CutSlab<D> slab(some(random) / 20);
+		pair.shape[0]      = CutSlab<D>(0).whole;
+		const ContactResult touching = query(pair, with(ContactModel::Foundation));
+		if (!touching.inContact) continue;
+		const CutSlab<D> slab(touching.point[0] + overlap * some(random) / 2); // through the contact
 		pair.shape[0] = slab.whole;
 		for (const ContactModel model : models) {
 			const ContactResult all = query(pair, with(model));

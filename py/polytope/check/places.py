@@ -22,7 +22,10 @@ half = 0.5
 
 
 deep = 0.3
-"""Overlap over the sum of both inscribed radii above which two bodies were placed into each other: their contact shoots them apart."""
+"""Overlap over the smaller inscribed diameter above which two bodies were placed into each other: their contact shoots them apart."""
+
+larger = 2.0
+"""Circumscribed radius over another body's above which the other is looked for anywhere in the body, not about its middle alone."""
 
 touching = 1e-6
 """Gap over the smaller circumscribed radius up to which bodies are in touch from the start."""
@@ -68,29 +71,47 @@ def coincidence(scene):
 
 
 def overlaps(scene):
-	"""Polytopes that lie deep in each other: of pairs whose inscribed balls do. Of flat bodies those are few."""
+	"""Polytopes that lie deep in each other: of bodies of like size those whose inscribed balls do, which of flat bodies are few."""
 	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
 	if len(bodies) < 2:
 		return
-	radii = np.array([float(body.shape.inscribedRadius) for body in bodies])
+	radii, reaches = (np.array([float(getattr(body.shape, name)) for body in bodies]) for name in ('inscribedRadius', 'circumscribedRadius'))
 	rows = arrays().bodies
 	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
-	pairs, rank = [], np.empty(len(bodies), int)
-	rank[np.argsort(-radii)] = np.arange(len(bodies))  # the larger one of a pair looks for the other
-	near = scipy.spatial.cKDTree(places).query_ball_point(places, 2 * (1 - deep) * radii)
-	for i, others in enumerate(near):
-		for j in others:
-			if rank[j] <= rank[i]:
-				continue
-			one, other = bodies[i], bodies[j]
-			reach = radii[i] + radii[j]
-			if np.linalg.norm(places[i] - places[j]) < (1 - deep) * reach and _meet(scene, one, other) and _depth(one, other) > deep * reach:
-				pairs.append(tuple(sorted((one.id, other.id))))
+	tree = scipy.spatial.cKDTree(places)
+	pairs = set()
+	for i, j in (*_ofLikeSize(tree, places, radii), *_insideLarger(tree, places, radii, reaches, bodies)):
+		one, other = bodies[i], bodies[j]
+		if _meet(scene, one, other) and _depth(one, other) > 2 * deep * min(radii[i], radii[j]):
+			pairs.add(tuple(sorted((one.id, other.id))))
 	if pairs:
 		first = min(pairs)
 		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
 		seen = f'body {first[0]} and body {first[1]} lie deep in each other{more}: they are shot apart'
 		yield 'overlap', seen, 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
+
+
+def _ofLikeSize(tree, places, radii):
+	rank = np.empty(len(radii), int)
+	rank[np.argsort(-radii)] = np.arange(len(radii))  # the larger one of a pair looks for the other
+	for i, others in enumerate(tree.query_ball_point(places, 2 * (1 - deep) * radii)):
+		for j in others:
+			if rank[j] > rank[i] and np.linalg.norm(places[i] - places[j]) < (1 - deep) * (radii[i] + radii[j]):
+				yield i, j
+
+
+def _insideLarger(tree, places, radii, reaches, bodies):
+	"""Small bodies, about floors and walls: by the half-spaces of the larger one, which their middle lies in, or nearly."""
+	least = larger * reaches.min()
+	for i in np.flatnonzero(reaches > least):
+		near = np.array([j for j in tree.query_ball_point(places[i], (1 + 1 / larger) * reaches[i]) if larger * reaches[j] < reaches[i]], int)
+		if not len(near):
+			continue
+		turn = np.array(bodies[i].state.ori.toRotationMatrix(), float).reshape(3, 3)
+		normals = np.array([list(normal) for normal in bodies[i].shape.normals], float)
+		slacks = np.array([float(offset) for offset in bodies[i].shape.offsets]) - (places[near] - places[i]) @ turn @ normals.T
+		for j in near[slacks.min(axis=1) > 2 * deep * radii[near] - reaches[near]]:
+			yield i, j
 
 
 def suddenGravity(scene):
