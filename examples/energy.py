@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The default contact, the paper's and the conservative one: 200 polyhedra in a box without friction and damping, and their total energy over time.
+"""The default contact, the paper's and those of a contact surface: 200 polyhedra in a box without friction and damping, and their total energy over time.
 
-	./run python examples/energy.py                 # one to three minutes; writes output/energy.png and prints the errors
+	./run python examples/energy.py                 # some minutes; writes output/energy.png and prints the errors
 	./run python examples/energy.py --seconds 0.5   # shorter; --number N, --output FILE, --help
 
 Stiffness times chord is no gradient of an energy: with the paper's averaged normal (normal='innerPotential') the energy of such a gas grows, at any
-time step; with the default's, on which both bodies agree, by less. With contactModel='conservative' energy is conserved; the remaining
-error falls with the time step, so it is the integrator's.
+time step; with the default's, on which both bodies agree, by less. With contactModel='spring' (stiffness per contact) and 'foundation' (stiffness per
+area) energy is conserved; the remaining error falls with the time step, so it is the integrator's.
 """
 
 import argparse
@@ -21,16 +21,24 @@ from yade import O, polytope
 from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 fraction = 0.02
-"""Of sqrt(mass / stiffness): the longest time step. In it a body of 3 m/s moves by half the length of the barrier."""
+"""Of sqrt(mass / stiffness): the longest time step."""
 contacts = {
 	'default': {},
 	'paper': {'normal': 'innerPotential'},
-	'conservative': {'contactModel': 'conservative'},
+	'spring': {'contactModel': 'spring'},
+	'foundation': {'contactModel': 'foundation'},
 }
 """Attributes of the functor."""
-runs = ('default', 1), ('paper', 1), ('paper', 4), ('conservative', 1), ('conservative', 2), ('conservative', 4)
+perArea = 25.0
+"""Stiffness per area of *foundation*, over that per contact of the others and the area of a cube's face."""
+conserving = 'spring', 'foundation'
+runs = ('default', 1), ('paper', 1), ('paper', 4), *((model, shorter) for model in conserving for shorter in (1, 2, 4))
 """Contact, and how many times shorter the step is."""
-colors = {('default', 1): '#2a9d8f', ('paper', 1): '#c8451b', ('paper', 4): '#f2a541', ('conservative', 1): '#1d4e79', ('conservative', 2): '#5a9bc4', ('conservative', 4): '#a9cfe6'}
+colors = {
+	**{('default', 1): '#2a9d8f', ('paper', 1): '#c8451b', ('paper', 4): '#f2a541'},
+	**{('spring', 1): '#1d4e79', ('spring', 2): '#5a9bc4', ('spring', 4): '#a9cfe6'},
+	**{('foundation', 1): '#5b2a86', ('foundation', 2): '#9a6fc0', ('foundation', 4): '#cdb7e0'},
+}
 
 
 def energies(model, shorter, seconds, samples=200, number=200):
@@ -40,6 +48,11 @@ def energies(model, shorter, seconds, samples=200, number=200):
 	).build()
 	for name, value in contacts[model].items():
 		setattr(scene.geometryFunctor, name, value)
+	if model == 'foundation':
+		scene.interactionLoop.physDispatcher.functors[0].stiffnessPerArea = True
+		for material in O.materials:
+			material.normalStiffness *= perArea / scene.size**2
+			material.shearStiffness *= perArea / scene.size**2
 	steps = max(2, round(seconds / O.dt / samples))
 	times, values, limits = [O.time], [polytope.mechanicalEnergy()], []
 	for _ in tqdm(range(samples), desc=f'{model} {O.dt:.1e} s', disable=None):
@@ -55,12 +68,12 @@ def draw(path, results):
 	upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
 	for (model, shorter), (step, times, values, _) in results.items():
 		style = {'color': colors[model, shorter], 'label': f"'{model}', Δt = {1e6 * step:.1f} µs", 'linewidth': 1.3}
-		if (model, shorter) in (('default', 1), ('paper', 1), ('paper', 4), ('conservative', 1)):
+		if model not in conserving or shorter == 1:
 			upper.plot(times, values, **style)
-		if model == 'conservative':
+		if model in conserving:
 			lower.plot(times, [100 * (value - 1) for value in values], **style)
 	upper.set(ylabel='total energy / that at the start', title='200 polyhedra fall in a box, without friction and damping', ylim=(0, None))
-	lower.set(xlabel='time [s]', ylabel='error [%]', title="the same of contactModel='conservative' alone")
+	lower.set(xlabel='time [s]', ylabel='error [%]', title="the same of contactModel='spring' and 'foundation' alone")
 	for axes in (upper, lower):
 		axes.grid(alpha=0.3)
 		axes.legend(loc='upper left' if axes is upper else 'best', fontsize='small')

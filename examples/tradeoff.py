@@ -51,7 +51,7 @@ settings = {
 	'as it is': {},
 	'time step × 2': {'timeStepFactor': 2},
 	'cold start': {'warmStart': False},
-	'conservative': {'contactModel': 'conservative', 'timeStepFactor': 0.5},
+	'spring': {'contactModel': 'spring'},
 }
 
 if __name__ == '__main__':  # true no more after `from yade import *`, which brings a __name__ of its own: see polytope.tradeoff

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The default contact, the paper's and the conservative one on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
+"""The default contact, the paper's and that of a contact surface on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
 the sliding and the roof wedge and of the slumping slope (C, D, E), energy that the two collisions gain (F), and settled heaps of polyhedra (A), beside
 closed forms.
 
@@ -40,37 +40,32 @@ from yade.utils import kineticEnergy
 contacts = {
 	'default': {'normal': 'dualWeights'},
 	'paper': {'normal': 'innerPotential'},
-	'conservative': {'contactModel': 'conservative'},
+	'surface': {'contactModel': 'spring'},
 }
-"""Contacts that are compared: the linear program's own normal, the paper's averaged one, the contact that conserves energy."""
+"""Contacts that are compared: the linear program's own normal, the paper's averaged one, the contact that conserves energy (in E, where the stiffness is
+per area, with contactModel='foundation')."""
 geometry = pathlib.Path(__file__).parent / 'geometry'
-barrier = 3e-3
-"""Default of Ig2_Polytope_Polytope_PolytopeGeom."""
-wedgeSteps = {'default': 0.2, 'paper': 0.2, 'conservative': 0.025}
-heapSteps = {'default': 0.2, 'paper': 0.2, 'conservative': 0.05}
-"""Time steps over sqrt(mass / stiffness): face on face the conservative contact is stiff in rocking."""
+timeStep = 0.2
+"""Over sqrt(mass / stiffness), of wedges and heaps."""
 columns = 4
 """Of the heaps' starting lattice: some four layers of bodies lie on each other at the end."""
 leastTime, mostTime, rest = 3.0, 10.0, 1e-4
 """A heap is at rest when its kinetic energy over N m g L is below *rest*, after the least time and every quarter of a second then [s]."""
 
 
-def conservativePeak(beam):
-	"""Largest load [N] of the beam with the conservative contact, from its energy: the closed form of docs/conservative-contact.md for an
-	edge on a face, and for two edges that are mirror images."""
-	mu = barrier * min(beam.length, beam.height) / 2
+def peakOfSpring(beam):
+	"""Largest load [N] of the beam with the contact model *spring*, from its energy ½ k (6 W/V)² (src/contact/SurfaceContact.hpp). An edge on a face, and two
+	edges that are mirror images, overlap in a polygon with an inscribed circle of radius r that touches all its sides: least slacks in it are a pyramid
+	of that height, so with its area A: V = A r/3, W = A r²/12, U = ½ k (1.5 r)²."""
 
 	def stored(turned):
 		shared = beam.length * (math.cos(turned) - 1) + beam.height * math.sin(turned)
 		c, s = math.cos(turned), math.sin(turned)
-		wall, mirror = 1 / (1 + c + s), 0.5 / (c + s)
-		# Φ = −|n| overlap + 2 μ (Σ √λ − √2), and the part of U = 2 k Φ² that is one half-beam's
-		sums = math.sqrt(wall) * (1 + math.sqrt(c) + math.sqrt(s)), 2 * math.sqrt(mirror) * (math.sqrt(c) + math.sqrt(s))
-		gaps = [2 * mu * (total - math.sqrt(2)) for total in sums]
 
 		def energy(behind):
-			atWall, atMiddle = wall * behind - gaps[0], 2 * mirror * (shared - behind) - gaps[1]
-			return 2 * beam.abutmentStiffness * max(atWall, 0) ** 2 + beam.midspanStiffness * max(atMiddle, 0) ** 2
+			atWall, atMiddle = behind / (1 + c + s), (shared - behind) / (c + s)  # radii
+			# of one half-beam: half of what is stored at midspan
+			return 1.5**2 / 2 * (beam.abutmentStiffness * atWall**2 + beam.midspanStiffness * atMiddle**2 / 2)
 
 		return minimize_scalar(energy, bounds=(0, shared), method='bounded', options={'xatol': 1e-14}).fun
 
@@ -82,22 +77,21 @@ def conservativePeak(beam):
 
 
 def beam(given):
-	"""Rows: quantity, closed form, default, paper's normal, conservative; the load does not depend on --quick."""
+	"""Rows: quantity, closed form, default, paper's normal, contact surface; the load does not depend on --quick."""
 	shape = {name: getattr(ThreeHingedBeam, name) for name in ('length', 'height', 'abutmentStiffness', 'midspanStiffness')}
 	abutment = {name: getattr(ThreeHingedBeam, name) for name in ('abutmentHeight', 'abutmentLength')}
 	for point, theory in (('centroid', BeamBetweenWalls(**shape)), ('analyticCentre', BeamOfTwoBlocks(**shape, **abutment))):
 		peaks = [ThreeHingedBeam(contactPoint=point, **contacts[model]).build().peak().load for model in ('default', 'paper')]
 		yield f'B: peak load [N], {point}', theory.peak()[0], *peaks, None
-	scene = ThreeHingedBeam(**contacts['conservative']).build()
-	yield 'B: peak load [N], from the energy', conservativePeak(scene), None, None, scene.peak().load
+	scene = ThreeHingedBeam(**contacts['surface']).build()
+	yield 'B: peak load [N], from the energy', peakOfSpring(scene), None, None, scene.peak().load
 
 
-def critical(scene, model, given):
+def critical(scene, given):
 	"""Critical friction angle [°] of a wedge that stands ready."""
-	stepsBetween = round(100 * wedgeSteps['paper'] / wedgeSteps[model])
 	steps = (8, 1, 0.1, 0.02) if given.quick else (1, 0.1, 0.02, 0.005)
 	reduction = FrictionReduction(
-		[scene.wedgeId], math.radians(70), [math.radians(step) for step in steps], checkEvery=stepsBetween, mostSteps=2000 * stepsBetween
+		[scene.wedgeId], math.radians(70), [math.radians(step) for step in steps], checkEvery=100, mostSteps=200000
 	)
 	result = reduction.run()
 	reduction.restore()
@@ -111,9 +105,9 @@ def slidingWedge(given):
 	blocks = BlockGeometry.read(geometry / 'c_sliding_wedge.json')
 
 	def angle(model):
-		scene = WedgeScene(blocks, timeStepFraction=wedgeSteps[model], **contacts[model]).build()
+		scene = WedgeScene(blocks, timeStepFraction=timeStep, **contacts[model]).build()
 		scene.establishContacts()
-		return critical(scene, model, given)
+		return critical(scene, given)
 
 	yield 'C: critical angle [°]', math.degrees(limitEquilibrium(blocks).frictionAngle()), *each(angle, 'C')
 
@@ -123,14 +117,14 @@ def roofWedge(given):
 
 	def angle(model):
 		nonlocal closed
-		scene = RoofWedge(blocks, timeStepFraction=wedgeSteps[model], **contacts[model]).build()
+		scene = RoofWedge(blocks, timeStepFraction=timeStep, **contacts[model]).build()
 		if pressed:
 			scene.pressByBoundary()
 		else:
 			scene.setJointForces()
 		force = scene.horizontalStress * sum(joint.area * math.cos(a) for joint, a in zip(scene.joints, scene.inclinations, strict=True))
 		closed = math.degrees(roofWedgeFrictionAngle(scene.weight, force, scene.inclinations[0]))
-		return critical(scene, model, given)
+		return critical(scene, given)
 
 	closed = None
 	for pressed, way in ((False, 'joint forces set'), (True, 'boundary stress')):
@@ -139,18 +133,18 @@ def roofWedge(given):
 
 
 def slumpingSlope(given):
-	"""Without the conservative contact: rocking on long joints would need time steps a tenth as long, and hours."""
 	blocks = readSlope(geometry / 'e_slope.json')
 	steps = (5, 1, 0.25) if given.quick else (5, 1, 0.25, 0.05)
 
 	def angle(model):
-		scene = SlumpingSlope(**blocks, **contacts[model]).build()
+		contact = {'contactModel': 'foundation'} if model == 'surface' else contacts[model]
+		scene = SlumpingSlope(**blocks, **contact).build()
 		reduction = FrictionReduction(scene.freeIds, start=scene.frictionAngle, steps=[math.radians(step) for step in steps],
 			checkEvery=100, stableSpeed=1e-6, failedDistance=0.1, mostSteps=100000)
 		return math.degrees(reduction.run().critical)
 
 	limit = math.degrees(criticalFrictionAngle(blocks['free'], blocks['fixed']).angle)
-	yield 'E: critical angle [°]', limit, *[angle(model) for model in tqdm(('default', 'paper'), 'E', leave=False, disable=None)], None
+	yield 'E: critical angle [°]', limit, *each(angle, 'E')
 
 
 def collisions(given):
@@ -178,7 +172,7 @@ def heap(faces, model, given):
 	"""A settled heap: (porosity, Coordination, time [s], kinetic energy over N m g L)."""
 	number = 100 if given.quick else 200
 	lattice = {'columns': 3 if given.quick else columns, 'number': number, 'seed': given.seed}
-	scene = FallingPolyhedra(faces=faces, timeStepFraction=heapSteps[model], **lattice).build()
+	scene = FallingPolyhedra(faces=faces, timeStepFraction=timeStep, **lattice).build()
 	for name, value in contacts[model].items():
 		setattr(scene.geometryFunctor, name, value)
 	size, particles = scene.size, scene.particles()
@@ -219,7 +213,7 @@ def main():
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/contactModels'), help='folder of the table')
 	given = parser.parse_args()
 	given.solids = given.solids or (['cube'] if given.quick else list(solids))
-	head = ['quantity', 'closed form', 'default', "paper's normal", 'conservative']
+	head = ['quantity', 'closed form', 'default', "paper's normal", 'contact surface']
 	rows = [row for name in given.only for row in parts[name](given)]
 	print(tabulate(rows, head, floatfmt='.6g', missingval=''))
 	given.output.mkdir(parents=True, exist_ok=True)

@@ -35,10 +35,12 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	using namespace polytope;
 	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
 	ContactSettings result;
-	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring', 'paper' or 'conservative'",
-	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "conservative", ContactModel::Conservative },
-	                { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring } });
-	requireWithin("barrier", barrier, limit::leastBarrier, limit::largestBarrier, "", "the smaller body's inscribed radius");
+	if (contactModel == "conservative")
+		refuse("contactModel: 'conservative' has been replaced by 'spring' (stiffness per contact) and 'foundation' (stiffness per "
+		       "area), "
+		       "whose force is the gradient of an energy, too");
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'paper'",
+	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring } });
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
 	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
 	                { "centroid", ContactPoint::Centroid } });
@@ -55,13 +57,12 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	        " (the rounding of this precision's numbers)", "the overlap's own size");
 	result.tolerance       = tolerance;
 	result.newtonTolerance = newtonTolerance;
-	result.barrier         = barrier;
 	return result;
 }
 
 void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
 {
-	auto options = std::tie(contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance);
+	auto options = std::tie(contactModel, contactPoint, normal, solver, tolerance, newtonTolerance);
 	try {
 		settings_    = checkedSettings();
 		byStiffness_ = contactModel == "surface";

@@ -29,7 +29,6 @@ polytope::PairMemory PolytopeGeom::memory() const
 	memory.hasPoint                                    = hasPoint;
 	(hasPoint ? memory.dualDirection : memory.weights) = direction;
 	memory.point                                       = { point1, point2 };
-	memory.level                                       = level;
 	surface.get(memory.surface);
 	return memory;
 }
@@ -43,7 +42,6 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	if (fits) std::copy(memory.basis.begin(), memory.basis.end(), basis.begin());
 	point1    = memory.point[0];
 	point2    = memory.point[1];
-	level     = memory.level;
 	direction = hasPoint ? memory.dualDirection : memory.weights;
 	surface.set(memory.surface);
 }
@@ -130,7 +128,7 @@ PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Inte
 
 namespace {
 
-	/// The paper's normal and the conservative contact have their own depth.
+	/// The paper's own normal and the models with a surface have their own depth.
 	polytope::DepthRule depthRule(const polytope::ContactSettings& settings, StiffnessRule rule)
 	{
 		using polytope::DepthRule;
@@ -141,9 +139,14 @@ namespace {
 
 } // namespace
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::jointsHavePressure() const
+polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule rule) const
 {
-	return hasSurface(settings_.contactModel) || depthRule(settings_, StiffnessRule::PerArea) == polytope::DepthRule::Mean;
+	using polytope::FaceForce;
+	const bool                   asSpring = byStiffness_ && rule != StiffnessRule::PerArea;
+	const polytope::ContactModel model    = asSpring ? polytope::ContactModel::Spring : settings_.contactModel;
+	if (model == polytope::ContactModel::Spring) return FaceForce::Spring;
+	const bool pressure = hasSurface(model) || depthRule(settings_, rule) != polytope::DepthRule::Chord;
+	return pressure ? FaceForce::Pressure : FaceForce::AtCentre;
 }
 
 polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
@@ -167,8 +170,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& co
 	polytope::ContactResult result;
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 	candidates_.remember(c, scene->iter, memory);
-	// a point without a contact: within the barrier of a conservative contact, whose next step begins there
-	if (result.inContact || memory.hasPoint) return false;
+	if (result.inContact) return false;
 	count(result);
 	return true;
 }
@@ -279,14 +281,10 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.statusCode    = std::int8_t(result.status);
 	geom.infeasibility = result.infeasibility;
 	geom.contactArea   = result.area;
-	geom.barrierValue  = result.barrierValue;
-	geom.rockingArm    = result.rockingArm;
 	geom.turningArm    = result.turningArm;
 	geom.outline.set(result.outline, result.outlineCount);
-	const bool hasEnergy = settings_.contactModel != polytope::ContactModel::Paper
-	        || depthRule(settings_, StiffnessRule(geom.stiffnessRule)) != polytope::DepthRule::Chord;
-	geom.hasPressure        = hasEnergy;
-	geom.energyPerStiffness = hasEnergy ? result.energy : Real(-1);
+	geom.faceForceCode      = std::int8_t(faceForce(StiffnessRule(geom.stiffnessRule)));
+	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
 	geom.doIg2Work(origin1 + result.point, result.depth, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,

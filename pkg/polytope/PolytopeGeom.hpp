@@ -15,6 +15,7 @@
 #include <pkg/dem/ScGeom.hpp>
 
 #include <src/contact/ContactQuery.hpp>
+#include <src/timestep/RockingStiffness.hpp>
 
 #include <boost/serialization/array.hpp>
 
@@ -55,6 +56,7 @@ public:
 	void                     setInternalPlanes(const polytope::InternalPlanes& planes);
 	/// Corners of the outline in the world.
 	boost::python::list outlineCorners() const;
+	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
 	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
@@ -67,16 +69,13 @@ public:
 		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
 		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as those of rock joints do; set when they are made."))
 		((bool, atOnePoint, false, (Attr::readonly | Attr::hidden), "Whether shear acts at the contact point, as in the paper"))
-		((bool, hasPressure, false, (Attr::readonly | Attr::hidden), "Whether point and depth are those of a pressure over the contact area"))
+		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a number (FaceForce)"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; :yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
 		((Real, normalWeight, 0.5, Attr::readonly, "Weight of body 1's normal against body 2's (1 minus it) in the normal *innerPotential*, from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
-		((Real, barrierValue, 0, Attr::readonly, "Value $\\Phi$ of the linear program with its barrier [m], negative in contact; *conservative* contacts only (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`)."))
-		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *conservative* contacts $2\\Phi^2$; *spring* and *foundation* the volume's, the latter while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 where it is not known, and for others, whose energy is half the square of the depth."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²]: *spring* and *foundation* the volume's, the latter while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; rock joints the mean depth times the distance of the overlap's centroid from the face; -1 where it is not known, and for others, whose energy is half the square of the depth."))
 		((Real, turningArm, 0, Attr::readonly, "Contacts *foundation* and *spring*: moment about the normal that a force at the contact point leaves out, over that force [m]; positive: it turns body 2 about the normal."))
-		((Real, rockingArm, 0, Attr::readonly, "*Conservative* contacts: how far the contact point moves per tilt of the bodies [m/rad]; the rocking stiffness is the normal force times this (see *polytope.stableTimeStep*)."))
-		((Real, level, 0, (Attr::readonly | Attr::hidden), "Last s of the conservative contact's minimiser, the next step's warm-start value"))
 		((Vector3r, direction, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program if the points are known, otherwise the weights of the basis' first planes"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
@@ -117,8 +116,8 @@ public:
 
 	/// Of a contact whose stiffness has this unit.
 	polytope::ContactSettings settings(StiffnessRule rule) const;
-	/// Whether rock joints get the depth and point of a pressure (MeanDepth.hpp).
-	bool                jointsHavePressure() const;
+	/// What the normal force of a contact depends on, whose stiffness has this unit.
+	polytope::FaceForce faceForce(StiffnessRule rule) const;
 	boost::python::dict stats() const;
 	void                resetStats();
 
@@ -128,8 +127,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
-		((string, contactModel, "paper", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], *spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them for all contacts, point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear program's feasible set (docs/contact-surface.md); no setting below is used by them while the bodies overlap. *paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. *conservative*: point, normal and depth of a force that is, from the same linear program with an inverse barrier (docs/conservative-contact.md); :yref:`contactPoint<Ig2_Polytope_Polytope_PolytopeGeom.contactPoint>`, *normal*, *solver*, *tolerance* and corner radii are not used then. Energy is conserved with laws linear in depth and a stiffness per contact, not per area."))
-		((Real, barrier, polytope::tolerance::barrier, Attr::triggerPostLoad, "*conservative*: length $\\mu$ of the barrier over the smaller body's inscribed radius [-]. Pressed straight, edges and corners act as if blunted by 1.5 to 5 times this length; a face tilted by $\\theta$ carries $\\mu\\sqrt{2/\\theta}$ inside its edge (23 times where a block topples); face on face, rocking is stiffer the smaller it is, as $1/\\mu^2$."))
+		((string, contactModel, "paper", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], *spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them for all contacts, point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear program's feasible set (docs/contact-surface.md); no setting below is used by them while the bodies overlap. *paper*: stiffness times the chord along the :yref:`normal<Ig2_Polytope_Polytope_PolytopeGeom.normal>` through the contact point [Boon2012]_, which is not the gradient of an energy. "))
 		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "Contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it is not unique) or *centroid* (of the overlap, of highest cost)."))
 		((string, normal, "dualWeights", Attr::triggerPostLoad, "Contact normal of the model *paper*: *dualWeights* (from weights of the linear program on which both bodies agree: the normal of a face where an edge or vertex lies on it; faces that neighbours cover, as between flush plates, are left out) or *innerPotential* (average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>`, Eqs 13-17 of [Boon2012]_: inclined by up to 45° where an edge lies on a face, and at every seam of a floor; to reproduce the paper)."))
 		((string, solver, "newton", Attr::triggerPostLoad, "Solver of the analytic centre: *newton* (where it does not converge, Ipopt is used if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
@@ -189,9 +187,9 @@ private:
 	BondsInStep                  bonds_;
 	CandidateMemory              candidates_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	/// contactModel, contactPoint, normal, solver, barrier, tolerance, newtonTolerance, as they were last accepted.
-	std::tuple<std::string, std::string, std::string, std::string, Real, Real, Real> goodOptions_ { contactModel, contactPoint, normal,
-		solver, barrier, tolerance, newtonTolerance };
+	/// contactModel, contactPoint, normal, solver, tolerance, newtonTolerance, as they were last accepted.
+	std::tuple<std::string, std::string, std::string, std::string, Real, Real> goodOptions_ { contactModel, contactPoint, normal,
+		solver, tolerance, newtonTolerance };
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
 

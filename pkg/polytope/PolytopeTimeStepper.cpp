@@ -65,7 +65,7 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		chosen.body = limit.body;
 		limitedBy   = name;
 	};
-	const ContactLimit contacts = contactLimit(*ofScene, timeStepUpdateInterval, material_.step);
+	const ContactLimit contacts = contactLimit(*ofScene, material_.step);
 	consider(material_, timestepSafetyCoefficient, "material");
 	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
 	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");

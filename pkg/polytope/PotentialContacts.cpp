@@ -58,10 +58,9 @@ namespace {
 		return area;
 	}
 
-	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking and twisting included. `second`: ∫ r rᵀ dA / A of the face; `pressed`:
-	/// whether its force is that of a pressure (MeanDepth.hpp), else the contact is one at the analytic centre.
+	/// κ of a contact of stiffness 1 with a half-space on a whole face, rocking and twisting included. `second`: ∫ r rᵀ dA / A of the face.
 	Real unitOfFace(const polytope::ConvexShape& shape, const Matrix3r& axes, const Vector3r& normal, const Vector3r& middle,
-	        const Vector3r& centre, const polytope::Mobility& mobility, const Matrix3r& second, bool pressed)
+	        const Vector3r& centre, const polytope::Mobility& mobility, const Matrix3r& second, polytope::FaceForce force)
 	{
 		const Real               depth = polytope::tolerance::potentialDepth * shape.inscribedRadius();
 		const Vector3r           point = middle - depth / 2 * normal; // from the part's centre
@@ -69,9 +68,10 @@ namespace {
 		springs.normal          = -normal;
 		springs.normalStiffness = springs.shearStiffness = 1;
 		if (shape.dimension() == 3) springs.twistingStiffness = second.trace();
-		if (pressed) {
+		if (force != polytope::FaceForce::AtCentre) {
 			const Matrix3r turn      = polytope::crossMatrix(normal);
-			springs.rockingStiffness = turn * second * turn.transpose();
+			const Real     times     = force == polytope::FaceForce::Spring ? polytope::rockingOfSpring : Real(1);
+			springs.rockingStiffness = times * turn * second * turn.transpose();
 		} else {
 			const auto floor         = polytope::ConvexShape::halfSpace(-normal, shape.dimension());
 			springs.rockingStiffness = depth
@@ -83,16 +83,22 @@ namespace {
 		return sum.stiffness();
 	}
 
-	/// Whether forces of rock joints are those of a pressure: a geometry functor with another normal or contact model has its own depth.
-	bool jointsHavePressure(const Scene& scene)
+	/// Of the scene's geometry functors, that which rocks most stiffly on a square face. YADE's own physics, whose stiffness may be any: not less than at the
+	/// analytic centre.
+	polytope::FaceForce faceForce(const Scene& scene, StiffnessRule rule)
 	{
+		using polytope::FaceForce;
+		FaceForce stiffest = rule == StiffnessRule::Unknown ? FaceForce::AtCentre : FaceForce::Pressure;
 		for (const auto& engine : scene.engines)
 			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
 				for (const auto& functor : loop->geomDispatcher->functors) {
 					const auto* ours = dynamic_cast<const Ig2_Polytope_Polytope_PolytopeGeom*>(functor.get());
-					if (ours && !ours->jointsHavePressure()) return false;
+					if (!ours) continue;
+					const FaceForce own = ours->faceForce(rule);
+					if (own == FaceForce::Spring) return own;
+					if (own == FaceForce::AtCentre) stiffest = own;
 				}
-		return true;
+		return stiffest;
 	}
 
 	/// To the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.
@@ -172,7 +178,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const State &  state = *body.state, &moving = *mover.state;
 	const void*    shape  = polytope ? static_cast<const void*>(polytope->convex().get()) : body.shape.get();
 	const Vector3r centre = &body == &mover ? Vector3r(Vector3r::Zero()) : Vector3r(state.pos - moving.pos);
-	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), sizeOf(*body.shape), {}, {}, {} };
+	Part           part { shape, moving.mass, moving.inertia, moving.blockedDOFs, centre.norm(), sizeOf(*body.shape), {}, {} };
 	Part&          known = parts_[body.id];
 	if (polytope && known.isOf(part)) return known; // other shapes may change their size
 	if (body.id > 0 && &body == &mover && parts_[body.id - 1].isOf(part)) return known = parts_[body.id - 1]; // bodies of a kind
@@ -188,7 +194,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const Matrix3r axes   = state.ori.toRotationMatrix();
 	for (const Vector3r& vertex : hull.vertices)
 		part.vertex.unit = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + axes * vertex));
-	Real worst = 0, worstPressed = 0;
+	std::array<Real, 3> worst { { 0, 0, 0 } };
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
 		const Vector3r area   = axes * areaOf(hull.vertices, hull.faces[k]);
@@ -196,15 +202,14 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 		for (int vertex : hull.faces[k])
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
 		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
-		const auto     take   = [&](bool pressed, Real& highest, Place& taken) {
-                        const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second, pressed),
-                                area.norm() };
-                        if (!(place.unit * place.area > highest)) return;
-                        highest = place.unit * place.area;
-                        taken   = place;
-		};
-		take(false, worst, part.face);
-		take(true, worstPressed, part.pressedFace);
+		for (std::size_t force = 0; force < part.face.size(); ++force) {
+			const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second,
+				                    polytope::FaceForce(force)),
+				area.norm() };
+			if (!(place.unit * place.area > worst[force])) continue;
+			worst[force]     = place.unit * place.area;
+			part.face[force] = place;
+		}
 	}
 	return known = part;
 }
@@ -236,9 +241,8 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 {
 	collect(scene);
 	parts_.resize(scene.bodies->size());
-	const auto*   law      = dampingLaw(scene);
-	const bool    pressure = jointsHavePressure(scene);
-	const Real    damping  = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
+	const auto*   law     = dampingLaw(scene);
+	const Real    damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
 	TimeStepLimit limit;
 	const Body*   last = nullptr;
 	for (const auto& body : *scene.bodies) {
@@ -252,9 +256,8 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 			}
 			for (Partners& partners : partners_) {
 				if (partners.one == part.id && partners.other < 0) continue; // no body but itself
-				const bool pressed = pressure
-				        && stiffnessRuleOfNew(scene, *part.material, *partners.material) != StiffnessRule::Unknown;
-				for (const Place& place : { places.vertex, pressed ? places.pressedFace : places.face }) {
+				const auto force = faceForce(scene, stiffnessRuleOfNew(scene, *part.material, *partners.material));
+				for (const Place& place : { places.vertex, places.face[std::size_t(force)] }) {
 					if (!(place.unit > 0)) continue;
 					const Stiffness& stiff  = stiffness(part, places.size, partners, place, scene);
 					const Real       k      = math::max(stiff.normal, stiff.shear);

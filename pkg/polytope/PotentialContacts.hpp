@@ -5,6 +5,7 @@
 
 #include <core/Material.hpp>
 
+#include <array>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -28,13 +29,14 @@ private:
 	};
 	/// The contact places of highest frequency of a body or a clump's member, and the properties for which they were found.
 	struct Part {
-		const void*  shape    = nullptr;
-		Real         mass     = 0;
-		Vector3r     inertia  = Vector3r::Zero();
-		unsigned int blocked  = 0;
-		Real         distance = 0;              ///< from the clump's centre
-		Real         size     = 0;              ///< as contactSizes() has it
-		Place        vertex, face, pressedFace; ///< the last one for forces of a pressure
+		const void*          shape    = nullptr;
+		Real                 mass     = 0;
+		Vector3r             inertia  = Vector3r::Zero();
+		unsigned int         blocked  = 0;
+		Real                 distance = 0; ///< from the clump's centre
+		Real                 size     = 0; ///< as contactSizes() has it
+		Place                vertex;
+		std::array<Place, 3> face; ///< by FaceForce (RockingStiffness.hpp)
 
 		bool isOf(const Part& other) const
 		{

@@ -147,8 +147,8 @@ yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 }
 
 Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
-        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, yade::Real barrier,
-        const std::string& normal, const std::string& depth)
+        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, const std::string& normal,
+        const std::string& depth)
 {
 	const auto  body1 = bodyOf(b1, "b1"), body2 = bodyOf(b2, "b2");
 	const auto& convex1 = convexOf(body1, "b1");
@@ -163,7 +163,6 @@ Contact contact(const py::object& b1, const py::object& b2, const std::string& c
 	functor.solver          = solver;
 	functor.contactModel    = contactModel;
 	functor.normal          = normal;
-	functor.barrier         = barrier;
 	functor.callPostLoad();
 	functor.scene                      = yade::Omega::instance().getScene().get();
 	polytope::ContactSettings settings = functor.settings(ruleOf(*body1, *body2));
@@ -206,7 +205,7 @@ py::dict timeStepLimits()
 	const auto              number = [](yade::Real step) { return yade::math::isfinite(step) ? py::object(step) : py::object(); };
 	yade::PotentialContacts potential;
 	py::dict                result;
-	result["contacts"] = number(yade::contactLimit(*scene, 0).step);
+	result["contacts"] = number(yade::contactLimit(*scene).step);
 	result["material"] = number(potential.limit(*scene).step);
 	return result;
 }
@@ -251,8 +250,7 @@ BOOST_PYTHON_MODULE(_polytope)
 	yade::defineWorkerSums();
 
 	py::class_<Contact>("Contact", "The contact of two bodies as yade.polytope.contact found it.", py::no_init)
-	        .add_property("inContact", &field<bool, &ContactResult::inContact>,
-	                "Whether the bodies touch: s* < −tolerance, in the conservative model Φ < 0.")
+	        .add_property("inContact", &field<bool, &ContactResult::inContact>, "Whether the bodies touch: s* < −tolerance.")
 	        .add_property("status", &Contact::status, "As :yref:`PolytopeGeom.status`.")
 	        .add_property("infeasibility", &field<Real, &ContactResult::infeasibility>,
 	                "Optimum s* of the phase-one linear program [m] (Boon et al. 2012, Eq. 9): minus the radius of the largest ball "
@@ -266,11 +264,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	        .add_property(
 	                "depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
 	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>,
-	                "Conservative model: elastic energy over the normal stiffness [m²].")
+	                "Models foundation and spring: elastic energy over the normal stiffness [m²], foundation's per area.")
 	        .add_property("turningArm", &field<Real, &ContactResult::turningArm>,
 	                "Models foundation and spring: moment about the normal that a force at the point leaves out, over that force [m].")
-	        .add_property("rockingArm", &field<Real, &ContactResult::rockingArm>,
-	                "Conservative model: way of the contact point per tilt [m/rad].")
 	        .add_property(
 	                "area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
 	        .add_property(
@@ -287,12 +283,11 @@ BOOST_PYTHON_MODULE(_polytope)
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
-	                py::arg("contactModel") = "paper", py::arg("barrier") = Real(polytope::tolerance::barrier),
-	                py::arg("normal") = "dualWeights", py::arg("depth") = "chord"),
+	                py::arg("contactModel") = "paper", py::arg("normal") = "dualWeights", py::arg("depth") = "chord"),
 	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, float barrier, str normal: "
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, str normal: "
 	        "as on "
 	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
 	        ":param str depth: 'chord' (as with YADE's own physics), 'mean' (rock joints, stiffness per area) or 'meanOnFaces' (rock "
@@ -303,5 +298,5 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "ipoptIterations, simplexPivots\n"
 	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel, solver or "
 	        "depth, "
-	        "solver 'ipopt' in a build without, tolerances or barrier out of range");
+	        "solver 'ipopt' in a build without, tolerances out of range");
 }

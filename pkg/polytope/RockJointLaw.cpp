@@ -7,7 +7,7 @@ YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
 
 namespace {
 
-	/// Energy of the normal spring; a conservative contact's geometry has the energy whose gradient its force is.
+	/// Energy of the normal spring; the geometry of a contact surface has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
 		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0 && phys.restOverlap == 0)

@@ -78,21 +78,6 @@ namespace {
 		{
 			return point() - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
 		}
-		/// How fast the bodies approach at the contact point.
-		Real approach() const
-		{
-			const State &state1 = *mover(body1).state, &state2 = *mover(body2).state;
-			return -geom.normal.dot(state2.vel + shiftVelocity + state2.angVel.cross(arm(body2)) - state1.vel
-			        - state1.angVel.cross(arm(body1)));
-		}
-		/// √(m k): force per velocity of an impact on the spring.
-		Real impedance(Real stiffness) const
-		{
-			Real inverse = 0;
-			for (const Body* body : { &mover(body1), &mover(body2) })
-				if (isMovedByForces(*body) && body->state->mass > 0) inverse += 1 / body->state->mass;
-			return inverse > 0 ? math::sqrt(stiffness / inverse) : Real(0);
-		}
 	};
 
 	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
@@ -113,19 +98,13 @@ namespace {
 		return kn / seen.area * turn * seen.second * turn.transpose();
 	}
 
-	/// Moment per tilt by the motion of the contact point.
-	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom, Real steps)
+	/// Moment per tilt of the bodies.
+	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom)
 	{
-		const Real elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
-		const Real force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
-		if (geom.rockingArm > 0) { // conservative
-			// until the next update, and no longer than an impact takes to its turning point: approach × √(k m) is the force there
-			const Real growth = math::max(pair.approach(), Real(0))
-			        * math::min(pair.phys.kn * pair.scene.dt * steps, pair.impedance(pair.phys.kn));
-			return (force + growth) * geom.rockingArm * across(geom.normal);
-		}
-		const polytope::ConvexShape* shape1 = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
-		const polytope::ConvexShape* shape2 = shapeOf(pair.body2);
+		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
+		const Real                   force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
+		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
+		const polytope::ConvexShape* shape2  = shapeOf(pair.body2);
 		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
 		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;
 		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
@@ -135,11 +114,13 @@ namespace {
 		const Vector3r              point = pair.point();
 		const polytope::PlacedShape body1 { *shape1, state1.pos - point, rotation1 },
 		        body2 { *shape2, state2.pos + pair.shift2 - point, rotation2 };
-		if (geom.hasPressure) {
+		if (geom.faceForce() != polytope::FaceForce::AtCentre) {
 			std::vector<polytope::Plane> planes;
 			polytope::addPlanesOf(body1, planes);
 			polytope::addPlanesOf(body2, planes);
-			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), pair.phys.kn);
+			const Real kn
+			        = geom.faceForce() == polytope::FaceForce::Spring ? polytope::rockingOfSpring * pair.phys.kn : pair.phys.kn;
+			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), kn);
 		}
 		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
@@ -199,7 +180,7 @@ namespace {
 	}
 
 	/// All contacts and bonds of a body (or of a clump's members).
-	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene, Real steps,
+	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene,
 	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law, const KnowsBonds* bonds)
 	{
 		polytope::BodyStiffness sum(mobility);
@@ -225,7 +206,7 @@ namespace {
 				if (const auto* ours = dynamic_cast<const PolytopeGeom*>(geom)) {
 					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
 					springs.rockingStiffness = joint && joint->bond ? rotationStiffness(*joint->bond, pair.body1)
-					                                                : rockingStiffness(pair, *ours, steps);
+					                                                : rockingStiffness(pair, *ours);
 					if (joint && joint->twistingStiffness > 0) {
 						springs.twistingStiffness = joint->twistingStiffness;
 						springs.shearOffset       = joint->shearPoint - geom->contactPoint;
@@ -240,7 +221,7 @@ namespace {
 
 } // namespace
 
-ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
+ContactLimit contactLimit(const Scene& scene, Real below)
 {
 	const auto*  law   = dampingLaw(scene);
 	const auto*  bonds = bondsOf(scene);
@@ -255,7 +236,7 @@ ContactLimit contactLimit(const Scene& scene, Real steps, Real below)
 			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, bonds)) continue;
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
-			const auto stiffness = stiffnessOf(*body, mobility, scene, steps, law, bonds);
+			const auto stiffness = stiffnessOf(*body, mobility, scene, law, bonds);
 			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
 			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
 				continue;

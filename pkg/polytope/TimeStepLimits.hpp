@@ -56,9 +56,8 @@ struct ContactLimit : TimeStepLimit {
 	bool rocking = false; ///< rocking of contacts makes up more than half of the limiting body's ω²
 };
 
-/// \param steps conservative contacts, whose rocking stiffness grows with their force, are counted as they will be after so many
 /// \param below limits longer than this need not be found
-ContactLimit contactLimit(const Scene& scene, Real steps, Real below = std::numeric_limits<Real>::infinity());
+ContactLimit contactLimit(const Scene& scene, Real below = std::numeric_limits<Real>::infinity());
 
 /// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
 /// (src/timestep/ApproachLimit.hpp). Where no other limit is known, in periodic cells and in a scene divided among processes, which each

@@ -20,16 +20,11 @@ __all__ = [
 	'interactionLoops',
 	'laws',
 	'meanwhile',
-	'notConservative',
 	'stiffnessesPerArea',
 	'unitOfModel',
+	'wrongUnit',
 ]
 
-notConservative = (
-	'the conservative contact with stiffnesses per area',
-	'stiffnessPerArea = False and stiffnesses in N/m: one that changes with the contact area is no gradient of an energy',
-)
-"""What *check* and *requirements* say about it: (seen, advice)."""
 unitOfModel = {'foundation': True, 'spring': False}
 """Whether the stiffness of a contact model is per area, for those that are the gradient of an energy with one unit alone."""
 
@@ -67,6 +62,20 @@ def stiffnessesPerArea(loops):
 def canMove(body):
 	"""Whether forces move it: a member of a clump moves with the clump."""
 	return (O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
+
+
+def wrongUnit(models, perArea):
+	"""(seen, advice) for each contact model whose force is no gradient of an energy with stiffnesses of this unit."""
+	for model in sorted(set(models) & set(unitOfModel)):
+		if unitOfModel[model] == perArea:
+			continue
+		made = 'stiffnesses per area' if perArea else 'stiffnesses per contact'
+		other = next(name for name, unit in unitOfModel.items() if unit == perArea)
+		yield (
+			f'contactModel {model!r} with {made}: the force is no gradient of an energy',
+			f"contactModel='surface', which goes by the unit, or {other!r}, or stiffnessPerArea={not perArea} and stiffnesses in "
+			f'{"N/m" if perArea else "Pa/m"}',
+		)
 
 
 @contextlib.contextmanager

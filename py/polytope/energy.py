@@ -15,7 +15,7 @@ def mechanicalEnergy():
 	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
 	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
 	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
-	unequal moments of inertia (rotAlgorithm delValle2023). Springs: kn × *PolytopeGeom.energyPerStiffness* for conservative contacts,
+	unequal moments of inertia (rotAlgorithm delValle2023). Springs: kn × *PolytopeGeom.energyPerStiffness* where there is one,
 	kn depth²/2 for others, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
 
 	Contacts count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.

@@ -220,7 +220,7 @@ class MotionRecord:
 
 
 def _springsOf(contact):
-	"""As `_springs`. A conservative contact's geometry has the energy over the stiffness; else it is that of a linear spring."""
+	"""As `_springs`. The geometry has the energy over the stiffness, or it is that of a linear spring."""
 	geom, phys = contact.geom, contact.phys
 	depth = max(geom.penetrationDepth, 0)
 	perStiffness = geom.energyPerStiffness if geom.energyPerStiffness >= 0 else depth**2 / 2

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "contact/BoundingPlanes.hpp"
-#include "contact/ConservativeContact.hpp"
 #include "contact/ContactPointRules.hpp"
 #include "contact/MeanDepth.hpp"
 #include "contact/NormalAndDepth.hpp"
@@ -185,10 +184,6 @@ POLYTOPE_INLINE void contactKernel(
 			timer.end(out.centreNanoseconds);
 			return;
 		}
-	} else if (settings.contactModel == ContactModel::Conservative) {
-		conservativeContact<R, D, W>(in, settings, planes, f, basis, x, limits.reach, memory, workspace, out);
-		timer.end(out.centreNanoseconds);
-		return;
 	}
 	const bool atOrigin = start == StartBasis::LastContact && !aligned;
 	paperContact<R, D, W>(in, settings, planes, f, basis, lp, touching, atOrigin, x, dual, timer, memory, workspace, out);

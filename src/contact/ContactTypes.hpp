@@ -25,8 +25,7 @@ enum class CentreSolver : int {
 };
 
 enum class ContactModel : int {
-	Paper = 0,    ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
-	Conservative, ///< gradient of an energy (ConservativeContact.hpp); point, normal and depth are its own: contactPoint, normal, tolerance and normalWeight are not read
+	Paper = 0,  ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
 	Foundation, ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp); point, normal, depth and area are its own, contactPoint and normal are read across a gap alone
 	Spring,     ///< the same for a stiffness per contact
 };
@@ -71,8 +70,6 @@ struct ContactResult;
 
 struct ContactSettings {
 	ContactModel contactModel = ContactModel::Paper;
-	/// The conservative contact's μ over the smaller body's inscribed radius.
-	Real         barrier      = tolerance::barrier;
 	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
 	CentreSolver solver       = CentreSolver::Newton;
 	NormalSource normal       = NormalSource::DualWeights;
@@ -114,8 +111,6 @@ struct PairMemory {
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
 	/// Last n_λ, world axes. Any value is safe.
 	Vector3 dualDirection { Vector3::Zero() };
-	/// Last s of the conservative contact's minimiser [m]. Any value is safe.
-	Real level = 0;
 	/// Of the models with a surface.
 	KeptSurface surface;
 };
@@ -127,23 +122,20 @@ struct ContactResult {
 	Real          infeasibility = 0;               ///< s* [m]; for a pair dismissed early a lower bound > −tolerance
 	Vector3       point         = Vector3::Zero(); ///< world axes, from body 1's centre
 	Vector3       normal        = Vector3::Zero(); ///< unit, world axes, from body 1 to body 2
-	Real          depth
-	        = 0; ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces; conservative: −4 Φ |n|
-	Vector3 dualDirection = Vector3::
-	        Zero(); ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free; conservative: n
-	Real    area            = 0;               ///< contact section (times thickness in 2-D)
+	Real          depth         = 0; ///< chord along the normal, positive in overlap; across a gap minus the way between the surfaces
+	Vector3       dualDirection
+	        = Vector3::Zero();   ///< n_λ = Σ over body 1 of λ_i a_i, world axes: moved apart by |s*|/|n_λ| along it the pair is free
+	Real    area            = 0; ///< contact section (times thickness in 2-D)
 	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
 	/// If asked for: corners of the contact's outline, (u, v) along axesAround(normal) from the point, in the workspace until its next query; convex,
 	/// counter-clockwise.
 	const Vector2* outline       = nullptr;
 	int            outlineCount  = 0;
 	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
-	Real           barrierValue  = 0;     ///< conservative: Φ [m], ≥ s*; contact where it is negative
 	Real           energy
-	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; conservative: 2 Φ²; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
+	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
 	Real    share = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
-	Real    rockingArm = 0; ///< conservative: way of the contact point per tilt [m/rad]; rocking stiffness = normal force × this
 	Vector3 common     = Vector3::
 	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre
 	bool                dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes

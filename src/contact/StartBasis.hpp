@@ -30,8 +30,7 @@ template <class R> struct ProgramLimits {
 template <class R, int D>
 POLYTOPE_INLINE ProgramLimits<R> programLimits(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f)
 {
-	// the conservative contact begins where Φ = 0
-	const R tolerance = settings.contactModel == ContactModel::Conservative ? R(0) : settings.tolerance * f.size;
+	const R tolerance = settings.tolerance * f.size;
 	const R larger    = in.shape[1 - f.home]->boundingRadius();
 	return { tolerance, settings.geometryAcrossGap ? R(padOffset) : -tolerance, 2 * (larger < R(padOffset) ? larger : f.size) };
 }

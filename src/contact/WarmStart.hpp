@@ -24,7 +24,7 @@ POLYTOPE_INLINE void fail(PairMemory& memory, ContactResult& out)
 template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, ContactResult& out)
 {
 	using std::isfinite;
-	Real all = out.depth + out.area + out.energy + out.rockingArm + out.turningArm;
+	Real all = out.depth + out.area + out.energy + out.turningArm;
 	for (int k = 0; k < D; ++k)
 		all += out.point[k] + out.normal[k] + out.dualDirection[k] + out.sectionCentroid[k];
 	if (!isfinite(all)) fail(memory, out);

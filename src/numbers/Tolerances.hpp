@@ -9,7 +9,7 @@
 /// smaller of the two bodies' circumradii; weights and decrements are pure numbers. (Shape construction has its own in ConstructionTolerances.hpp.)
 ///
 /// In wider arithmetic than double a threshold that rounding sets is finer by as much as rounding is; one that says what is
-/// modelled (barrier, gapSkin) or which of two ways is shorter stays, so that all precisions solve the same problem.
+/// modelled (gapSkin) or which of two ways is shorter stays, so that all precisions solve the same problem.
 namespace polytope::tolerance {
 
 /// Within this namespace: thresholds need no digits, only their exponent, and a double has one for every precision of YADE's.
@@ -155,25 +155,6 @@ constexpr Real faceContact = 0.01;
 /// Cosine between the contact normal and that of a face of the overlap, below which the outline does without the face: it stands along the normal but
 /// for rounding and small tilts, and would widen the outline by so much of the overlap's thickness at most.
 constexpr Real outlineFace = 1e-3;
-
-/// Default of `barrier`: μ of the conservative contact over the smaller body's inscribed radius.
-constexpr Real barrier = 3e-3;
-
-/// Range of `barrier` that a script may set. Above, bodies of many faces may never touch; below, weights leave the range of the numbers.
-constexpr Real leastBarrier = 1e-9, largestBarrier = 0.05;
-
-/// × s*: least μ of a pair apart whose geometry is asked for. Slacks at the barrier's minimum are about μ, and differences of
-/// numbers as large as s*: below, they have no digits. (No force depends on it: pairs that touch have s* < 0.)
-constexpr Real gapBarrier = 256 * rounding;
-
-/// Part of the way to the nearest σ_i = 0 (or u_i = 0) that a step of the barrier's Newton iterations may go.
-constexpr Real barrierStep = 0.95;
-
-/// × μ: by how much the barrier's start is above the linear program's s (√2: where two opposite faces have it).
-constexpr Real barrierRoom = 1.4;
-
-/// × μ: a carried start may be this much above it.
-constexpr Real barrierDetour = 20;
 
 /// × size: how far apart two bodies may have carried the last contact point and still be followed to it. Steps of DEM move
 /// bodies against each other by a ten-thousandth.

@@ -4,9 +4,9 @@
 #include "shape/PlacedShape.hpp"
 #include "timestep/StableTimeStep.hpp"
 
-/// Rocking stiffness of a contact at the analytic centre.
+/// Rocking stiffness of a contact at the analytic centre, and of two faces with the contact model *spring*.
 ///
-/// Where two faces lie on each other, a tilt θ makes the overlap a wedge, and the analytic centre moves towards its thick side.
+/// At the analytic centre: where two faces lie on each other, a tilt θ makes the overlap a wedge, and the analytic centre moves towards its thick side.
 /// The centre x is where Σ a_i/σ_i = 0 over all planes of both bodies, σ_i = d_i − a_i·x their slacks. Turning body 2 by θ about
 /// x leaves its slacks at x as they are and turns its normals, so with H = Σ a_i a_iᵀ/σ_i² and g = Σ over body 2 of a_i/σ_i
 ///
@@ -15,6 +15,18 @@
 /// For a square face of side L, whose four sides belong to one body, H = 8/L² across n and |g| = 2/depth: the rocking stiffness is
 /// kₙ L²/4, three times that of springs spread over the face. For any contact it is at most kₙ × depth × |g| × (half the section's width)².
 namespace polytope {
+
+/// What the normal force of a contact depends on where the bodies tilt.
+enum class FaceForce : int {
+	AtCentre = 0, ///< the depth at the analytic centre
+	Pressure,     ///< a pressure over the area, proportional to the depth
+	Spring,       ///< the contact model *spring*
+};
+
+/// Rocking stiffness of two flush faces with the contact model *spring* over that of a pressure of the same stiffness over the area. A tilt makes the
+/// depth h + δ with ∫ δ dA = 0; with V = ∫ h²/4 dA and W = ∫ h³/24 dA (SurfaceContact.hpp) the energy is ½ k (∫ h³/∫ h²)² = ½ k (h² + 4 ∫ δ² dA/A)
+/// to second order: the pressure's has 1 for the 4.
+constexpr Real rockingOfSpring = 4;
 
 /// Adds the planes of a body, its centre as seen from the contact point, to H, in the axes (t₁, t₂, n), and returns |Σ a_i/σ_i|. No slack is taken as smaller than `least`, the least
 /// distance of the centre from any plane: in a scene far from its origin small slacks are dominated by rounding.

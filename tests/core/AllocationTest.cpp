@@ -85,16 +85,6 @@ TEST(Allocation, NoneInTheContactPathAfterWarmUp)
 				}
 }
 
-TEST(Allocation, NoneInTheConservativeContactAfterWarmUp)
-{
-	for (int dimension = 2; dimension <= 3; ++dimension) {
-		ContactSettings settings;
-		settings.contactModel = ContactModel::Conservative;
-		settings.section = settings.geometryAcrossGap = true;
-		expectNoneAfterTheLargest(settings, dimension);
-	}
-}
-
 TEST(Allocation, NoneInTheContactsOfASurfaceAfterWarmUp)
 {
 	for (const ContactModel model : { ContactModel::Foundation, ContactModel::Spring })

@@ -54,7 +54,6 @@ struct Collision {
 	Body body[2];
 	Real stiffness, duration;
 	bool turning = true; ///< with the moment about the normal that a single force leaves out, where the contact has one
-	Real smooth  = 0;    ///< if not 0: U = 2k Φ⁴/smooth² instead of 2k Φ², whose force has no kink where contact begins
 };
 
 inline Collision randomCollision(std::mt19937_64& random)
@@ -122,21 +121,15 @@ inline Outcome run(Collision collision, const ContactSettings& settings, int ste
 	};
 	const auto kick = [&](Real time) {
 		if (!result.inContact) return;
-		Vector3 force = stiffness() * result.depth * result.normal;
-		if (collision.smooth > 0)
-			force = -8 * collision.stiffness * std::pow(result.barrierValue, 3) / std::pow(collision.smooth, 2)
-			        * result.dualDirection;
-		const Vector3 at = a.position + result.point;
+		const Vector3 force = stiffness() * result.depth * result.normal;
+		const Vector3 at    = a.position + result.point;
 		b.kick(force, at, time);
 		a.kick(-force, at, time);
 		const Vector3 moment = collision.turning ? Vector3(result.turningArm * force) : Vector3(Vector3::Zero());
 		b.turn(moment, time);
 		a.turn(-moment, time);
 	};
-	const auto energy = [&] {
-		const Real part = collision.smooth > 0 ? std::pow(result.barrierValue / collision.smooth, 2) : Real(1);
-		return a.kineticEnergy() + b.kineticEnergy() + part * stiffness() * result.energy;
-	};
+	const auto energy  = [&] { return a.kineticEnergy() + b.kineticEnergy() + stiffness() * result.energy; };
 	const auto angular = [&] {
 		Vector3 sum = Vector3::Zero();
 		for (const Body& body : collision.body)

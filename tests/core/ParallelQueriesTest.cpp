@@ -33,8 +33,7 @@ std::vector<Pair> scene(int count)
 std::vector<Real> numbers(const ContactResult& r)
 {
 	std::vector<Real> all { Real(int(r.status)), Real(r.inContact), Real(r.hasGeometry), Real(r.dismissed), Real(r.simplexPivots),
-		Real(r.newtonIterations), Real(r.ipoptIterations), r.infeasibility, r.depth, r.area, r.barrierValue, r.energy, r.rockingArm,
-		r.decrement };
+		Real(r.newtonIterations), Real(r.ipoptIterations), r.infeasibility, r.depth, r.area, r.energy, r.turningArm, r.decrement };
 	for (const Vector3* v : { &r.point, &r.normal, &r.dualDirection, &r.sectionCentroid })
 		all.insert(all.end(), v->data(), v->data() + 3);
 	all.insert(all.end(), r.weights.begin(), r.weights.end());
@@ -110,11 +109,11 @@ TEST(ParallelQueries, PaperModel)
 	expectSameForAllThreads(settings, 200);
 }
 
-TEST(ParallelQueries, ConservativeModel)
+TEST(ParallelQueries, SpringModel)
 {
 	ContactSettings settings;
-	settings.contactModel = ContactModel::Conservative;
-	settings.section      = true;
+	settings.contactModel = ContactModel::Spring;
+	settings.outline      = true;
 	expectSameForAllThreads(settings, 200);
 }
 

@@ -24,7 +24,7 @@ widePrecision = {
         'test_precision': "all quantities of a contact against references of more digits than double's",
         'test_plugin': 'loading, and the check of the layout of classes',
         'test_bodies': 'construction: conversions between Python, CGAL and Real',
-        'test_conservative': "the barrier's iterations end by Real's rounding",
+        'test_spring': "the contact surface in Real, with YADE's own integrator",
         'test_contact_physics': "forces of every law in Real, and the paper's contact by them",
         'test_mixed_pairs': "YADE's spheres, walls, boxes and facets in Real",
         'test_rock_joint': 'the law, its state in Real',

@@ -102,24 +102,3 @@ def chord(planes1, planes2, x, n):
 	"""Length through x along n in both bodies (section 2.5)."""
 	exit = lambda planes, way: min((d - dot(a, x)) / dot(a, way) for a, d in planes if dot(a, way) > 0)
 	return exit(planes1, n) + exit(planes2, [-t for t in n])
-
-
-def conservative(planes1, planes2, mu, start):
-	"""(Φ, x, n) of docs/conservative-contact.md: Φ = min s + μ² Σ 1/σ − 2√2 μ, σ = s + d − a·x; n = Σ over body 1 of (μ/σ)² a.
-	`start`: (x, s) nearby."""
-	planes = planes1 + planes2
-	sigma = lambda z: [z[3] + d - dot(a, z[:3]) for a, d in planes]
-	columns = [[*(-t for t in a), mpf(1)] for a, _ in planes]
-
-	def gradient(z):
-		weights = [(mu / s)**2 for s in sigma(z)]
-		return mpmath.matrix([(k == 3) - mpmath.fsum(w * c[k] for w, c in zip(weights, columns, strict=True)) for k in range(4)])
-
-	def hessian(z):
-		weights = [2 * mu**2 / s**3 for s in sigma(z)]
-		return mpmath.matrix([[mpmath.fsum(w * c[j] * c[k] for w, c in zip(weights, columns, strict=True)) for k in range(4)] for j in range(4)])
-
-	z = newton(gradient, hessian, start)
-	value = z[3] + mu**2 * mpmath.fsum(1 / s for s in sigma(z)) - 2 * mpmath.sqrt(2) * mu
-	weights = [(mu / s)**2 for s in sigma(z)[:len(planes1)]]
-	return value, z[:3], [mpmath.fsum(w * a[k] for w, (a, _) in zip(weights, planes1, strict=True)) for k in range(3)]

@@ -10,9 +10,9 @@ import scenes
 
 
 def collision():
-	"""Two bodies of several faces collide off centre with the conservative contact, and separate again, spinning."""
+	"""Two bodies of several faces collide off centre with the contact model spring, and separate again, spinning."""
 	scenes.joint(normalStiffness=1e6, shearStiffness=1e6, frictionAngle=0)
-	scenes.loop(ig2=dict(contactModel='conservative'))
+	scenes.loop(ig2=dict(contactModel='spring'))
 	O.bodies.append([
 	        polytope.regular(8, 1, (0, 0, 0), Quaternion((1, 2, 3), 0.5)),
 	        polytope.cuboid((1.5, 0.25, 0.125), (0.75, 0.5, 0.5), Quaternion((3, 1, 2), 0.75), velocity=(-3, 0, 0)),

@@ -48,6 +48,11 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gr
 	return newton
 
 
+def contactOf(model, perArea):
+	"""Attributes of geometry functors: *model* 'paper', or 'surface' for the one whose force is the gradient of an energy with such stiffnesses."""
+	return {'contactModel': model if model == 'paper' else 'foundation' if perArea else 'spring'}
+
+
 def stepper(**attributes):
 	"""Puts a PolytopeTimeStepper at the end of the engines there are; returns it."""
 	engine = PolytopeTimeStepper(**attributes)

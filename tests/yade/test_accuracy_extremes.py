@@ -52,7 +52,7 @@ def stated(axis):
 
 ofPairs = {
 	'depth': ('overlap depth', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14', 'down to 1e-6': 'to 3e-9 of the overlap', 'down to 1e-14': '5e-15'}),
-	'aspect': ('aspect ratio', {'s* over': 's* to 1e-14', 'depth × normal': 'depth to 1e-12', 'up to 1e8': 'to 1e-4 of the overlap', 'the overlap': 'conservative to 0.03'}),
+	'aspect': ('aspect ratio', {'s* over': 's* to 1e-14', 'depth × normal': 'depth to 1e-12', 'up to 1e8': 'to 1e-4 of the overlap'}),
 	'size': ('size ratio of the pair', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
 	'angle': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
 	'twins': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
@@ -66,7 +66,7 @@ ofPairs = {
 def testLimitsOfPairsAreThoseOfTheDocumentation(axis):
 	row, limits = ofPairs[axis]
 	for text, said in limits.items():
-		limit = next(one for one in axes[axis].limits if text in one.text and (text != 'the overlap' or one.model == 'conservative'))
+		limit = next(one for one in axes[axis].limits if text in one.text)
 		assert said in stated(row)
 		assert limit.most == float(re.findall(r'\d[\d.e-]*', said.removesuffix(' of the overlap').replace('s*', ''))[-1]), limit.text
 
@@ -76,7 +76,7 @@ ofScenes = {
 	'Mass ratio: heavy block left on a light one (paper), worst relative error of a force': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
 	'Mass ratio: momentum after a collision, worst relative change': ('stiffness ratio 1e6, mass ratio 1e9', 'momentum to 1e-14'),
 	'Tower of 50 blocks: worst relative error of a normal force (paper)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
-	'Tower of 50 blocks: worst relative error of a normal force (conservative)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Tower of 50 blocks: worst relative error of a normal force (spring)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
 	'Steps at rest: way of a block of 1 m in 1000000 steps': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', '; 1e-11'),
 	'Steps at rest: its turn': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'm, 1e-10'),
 	'Slide: distance after 1000000 steps, worst relative error': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'distance to 1e-5'),
@@ -99,7 +99,7 @@ def testScenesHoldTheStatedLimits(tmp_path):
 def sample(**changes):
 	"""A good contact as a line of the CSV, with changes."""
 	good = dict(
-		axis='depth', kind='face on face', value=0.1, sample=0, model='paper', status='contact', inContact=1, touches=1, within=0, size=1,
+		axis='depth', kind='face on face', value=0.1, sample=0, status='contact', inContact=1, touches=1, within=0, size=1,
 		infeasibility=-0.1, infeasibilityError=1e-16, infeasibilityRounding=4e-15, depthError=1e-16, depthRounding=1e-15, forceError=1e-16,
 		centreError=1e-12, centreRounding=2e-9, normalError=1e-16, normalRounding=1e-14, compared=1, finite=1, bounded=1, free=1, refusal=''
 	)
@@ -145,21 +145,10 @@ def testACoordinateCostsItsOwnRoundingOnly():
 		one.state.pos, two.state.pos = far, far + Vector3(0.7, 0.5, 1.1)
 		here, there = polytope.regular(12, 1), polytope.regular(8, 1, orientation=turn)
 		here.state.pos, there.state.pos = Vector3(0, 0, 0), two.state.pos - one.state.pos
-		for model in ('paper', 'conservative'):
+		for model in ('paper', 'spring'):
 			c, near = polytope.contact(one, two, contactModel=model), polytope.contact(here, there, contactModel=model)
 			assert c.inContact and (c.infeasibility, c.depth, tuple(c.normal)) == (near.infeasibility, near.depth, tuple(near.normal))
 			assert (c.point - one.state.pos - near.point).norm() <= 4e-16 * max(distance, 1)
-
-
-def testThinPlatesSayThatTheirPointIsRounding():
-	"""Flat on flat, only the barrier of far side planes fixes the conservative contact's point along the face."""
-	turn = Quaternion((1, 2, 3), 0.7)
-	for aspect, status in ((1e3, 'contact'), (1e6, 'roundingLimited'), (1e8, 'roundingLimited'), (1e10, 'roundingLimited')):
-		one = polytope.cuboid((0, 0, 0), (1, 1, 1 / aspect), turn)
-		two = polytope.cuboid(turn * Vector3(0.3, 0.1, 1.8 / aspect), (1, 0.9, 1 / aspect), turn * Quaternion((0, 0, 1), 0.5))
-		c = polytope.contact(one, two, contactModel='conservative')
-		assert c.inContact and c.status == status and c.depth * aspect == pytest.approx(0.2, rel=1e-3)
-		assert max(abs(x) for x in turn.conjugate() * c.point) < 1
 
 
 # ------------------------------------------------------------------------------------------------ the runner

@@ -189,32 +189,32 @@ def testForceResetterAfterTheLoop():
 
 def testContactModelsThatDiffer():
 	scene(otherShapes, physics=[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)])
-	loop().geomDispatcher.functors[0].contactModel = 'conservative'
+	loop().geomDispatcher.functors[0].contactModel = 'spring'
 	found = onlyFinding('contactModel')
-	assert "'conservative' in Ig2_Polytope_Polytope_PolytopeGeom" in found.seen and 'Ig2_Wall_Polytope_PolytopeGeom' in found.seen
+	assert "'spring' in Ig2_Polytope_Polytope_PolytopeGeom" in found.seen and 'Ig2_Wall_Polytope_PolytopeGeom' in found.seen
 	for functor in loop().geomDispatcher.functors:
 		if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and not isinstance(functor, Ig2_Sphere_Polytope_PolytopeGeom):
-			functor.contactModel = 'conservative'
+			functor.contactModel = 'spring'
 	assert not polytope.check(O), 'a sphere has one contact'
 
 
-def testConservativeWithStiffnessPerArea():
+def testSpringWithStiffnessPerArea():
 	scene()
-	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')]
-	assert 'stiffnessPerArea = False' in onlyFinding('damping and energy').advice
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')]
+	assert 'stiffnessPerArea=False' in onlyFinding('damping and energy').advice
 	loop().physDispatcher.functors[0].stiffnessPerArea = False
 	assert not polytope.check(O)
 
 
 def testNoDampingAtAllWithYadesMaterial():
-	"""The chord's spring gains energy. Damping anywhere, a rock joint or the conservative contact is the remedy."""
+	"""The chord's spring gains energy. Damping anywhere, a rock joint or the contact model spring is the remedy."""
 	frict = {'material': FrictMat(density=2600, young=1e8), 'laws': [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]}
 	scene(**frict, physics=[Ip2_FrictMat_FrictMat_FrictPhys()])
 	O.engines[3].damping = 0
 	found = onlyFinding('damping and energy')
 	assert 'Ip2_FrictMat_FrictMat_FrictPhys have no damping' in found.seen
 	assert 'RockJointMat' in found.advice and 'NewtonIntegrator.damping above 0' in found.advice
-	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')]
+	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')]
 	assert not polytope.check(O)
 	scene()
 	O.engines[3].damping = 0

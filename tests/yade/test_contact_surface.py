@@ -167,7 +167,7 @@ def testCheckNamesTheOtherUnit(model):
 
 
 def testUnknownModelIsRefusedByNameOfTheOthers():
-	with pytest.raises(ValueError, match="contactModel: must be 'surface', 'foundation', 'spring', 'paper' or 'conservative'"):
+	with pytest.raises(ValueError, match="contactModel: must be 'surface', 'foundation', 'spring' or 'paper'"):
 		Ig2_Polytope_Polytope_PolytopeGeom(contactModel='winkler')
 
 

@@ -125,10 +125,10 @@ def testEveryPartIsReplaceable():
 
 def testSettingsGoToAllPairs():
 	blockOnFloor(lambda: [utils.wall((0, 0, -3), axis=2), utils.sphere((0, 0, 2), 0.3)])
-	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative', barrier=0.01)
+	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring', newtonTolerance=1e-9)
 	made = polytope.engines(geometry=geometry, physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 	mixed = [one for one in made[2].geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)]
-	assert len(mixed) == 3 and all(one.contactModel == 'conservative' and one.barrier == 0.01 for one in mixed)
+	assert len(mixed) == 3 and all(one.contactModel == 'spring' and one.newtonTolerance == 1e-9 for one in mixed)
 	O.bodies.erase(3)
 	wall = next(one for one in mixed if 'Wall' in type(one).__name__)
 	ofAList = polytope.engines(geometry=[geometry, wall], physics=made[2].physDispatcher.functors[0])
@@ -149,8 +149,8 @@ def testWhatIsWrongIsWarnedOf():
 		polytope.engines()
 	O.reset()
 	blockOnFloor()
-	with pytest.warns(UserWarning, match='conservative contact with stiffnesses per area'):
-		polytope.engines(geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative'))
+	with pytest.warns(UserWarning, match="contactModel 'spring' with stiffnesses per area"):
+		polytope.engines(geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring'))
 
 
 @pytest.mark.parametrize('damping, share', [(0, 1), (None, 0.8)])

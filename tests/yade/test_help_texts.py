@@ -44,12 +44,12 @@ def testDefaultsAreValues():
 
 
 def testAttributesStillWork():
-	functor = yade.Ig2_Polytope_Polytope_PolytopeGeom(barrier=0.01)
-	assert functor.barrier == 0.01
-	functor.barrier = 0.02
-	assert functor.barrier == 0.02 and functor.dict()['barrier'] == 0.02
-	with pytest.raises(ValueError, match='barrier'):
-		functor.barrier = -1
+	functor = yade.Ig2_Polytope_Polytope_PolytopeGeom(tolerance=0.01)
+	assert functor.tolerance == 0.01
+	functor.tolerance = 0.02
+	assert functor.tolerance == 0.02 and functor.dict()['tolerance'] == 0.02
+	with pytest.raises(ValueError, match='tolerance'):
+		functor.tolerance = -1
 	with pytest.raises(AttributeError):
 		yade.PolytopeGeom().infeasibility = 1
 

@@ -132,7 +132,7 @@ def testCohesionFollowsTheArea(way):
 	assert not i.phys.intact and dt * 440 > failure
 
 
-@pytest.mark.parametrize('model', ['paper', 'conservative'])
+@pytest.mark.parametrize('model', ['paper', 'foundation'])
 @pytest.mark.parametrize('psi', [0, 5])
 def testSlipOfABlockThatTipsOntoItsEdge(model, psi):
 	"""Pressed and sheared on its face, then tipped about one edge until it leaves: slip and elastic displacement stay within the way that the

@@ -130,26 +130,6 @@ def testCentreNormalAndDepthHaveAllDigits(pair, planesOf):
 		assert abs(depth - exact.chord(*planes, x, n)) <= reached
 
 
-@pairs
-def testConservativeForceHasAllDigits(pair, planesOf):
-	bodies, barrier = pair(), 2.**-8
-	contact = polytope.contact(*bodies, contactModel='conservative', barrier=barrier)
-	inscribed = mpf(min(body.shape.inscribedRadius for body in bodies))
-	point, normal, depth, energy, s = (
-	        numbers(contact.point), numbers(contact.normal), mpf(contact.depth), mpf(contact.energyPerStiffness), mpf(contact.infeasibility)
-	)
-	with exactly():
-		planes, smaller = planesOf()
-		assert abs(inscribed - smaller) <= allowed
-		mu = barrier * smaller
-		value, x, n = exact.conservative(*planes, mu, [*point, s + mu])
-		force = [-4 * value * t for t in n]  # over the stiffness
-		assert max(map(abs, force)) > 0.5
-		assert distance(point, x) <= reached
-		assert distance([depth * t for t in normal], force) <= reached
-		assert abs(energy - 2 * value**2) <= reached
-
-
 # ------------------------------------------------------------------------------------------------------------------ scenes
 
 

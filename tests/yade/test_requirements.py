@@ -84,8 +84,8 @@ def testEnginesThatAreMissingOrInTheWrongOrder(change, word):
 
 
 def testGlobalStiffnessTimeStepperIsAdvisedAgainst():
-	"""With good reason: it takes steps beyond the limit, where the conservative contact of a face rocks."""
-	row(steps=0, contactModel='conservative')
+	"""With good reason: it takes steps beyond the limit, where the contact of a face rocks."""
+	row(steps=0, contactModel='spring')
 	O.engines = [*O.engines, GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.8, defaultDt=1e-5, timeStepUpdateInterval=1)]
 	O.dt = 1e-5
 	for _ in range(300):
@@ -163,13 +163,13 @@ def testEnergyOfTheUndampedPaperModel():
 	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
 	O.engines[3].damping = 0
 	assert 'damping and energy' in advised()
-	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'spring'
 	assert 'damping and energy' not in advised()
 
 
 @pytest.mark.parametrize('contacts', [True, False])
-def testStiffnessPerAreaIsNotConservative(contacts):
-	row(contactModel='conservative')
+def testASpringHasNoStiffnessPerArea(contacts):
+	row(contactModel='spring')
 	assert 'damping and energy' not in advised()
 	O.engines[2].physDispatcher.functors[0].stiffnessPerArea = True
 	O.interactions.clear()
@@ -179,7 +179,9 @@ def testStiffnessPerAreaIsNotConservative(contacts):
 		O.step()
 		assert any(contact.isReal and contact.phys.normalStiffness > 0 for contact in O.interactions)
 	found = polytope.requirements(O, measure=False)['damping and energy']
-	assert 'per area' in found.seen and 'stiffnessPerArea = False' in found.advice
+	assert 'per area' in found.seen and "contactModel='foundation', or stiffnessPerArea=False" in found.advice
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'foundation'
+	assert 'damping and energy' not in advised()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'paper'
 	assert 'damping and energy' not in advised()
 

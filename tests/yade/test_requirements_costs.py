@@ -59,7 +59,7 @@ def testSolverInUseIsBlamed():
 	assert 'Ipopt' in dict(found.notSeen)['Newton tolerance']
 
 
-@pytest.mark.parametrize('settings', [{'contactPoint': 'centroid'}, {'contactModel': 'conservative'}])
+@pytest.mark.parametrize('settings', [{'contactPoint': 'centroid'}, {'contactModel': 'spring'}])
 def testSolverWithoutACentreToSolveFor(settings):
 	row(**settings)
 	found = polytope.requirements(O, measure=False)['solver']

@@ -43,10 +43,6 @@ def heap():
 		O.bodies.append(polytope.regular((4, 6, 8, 12)[k % 4], .5, (.7 * (k % 2), .6 * (k // 2 % 2), .6 + .7 * k), Quaternion((1, k, 2), k)))
 	O.dt = 6e-4
 
-def conservativeHeap():
-	heap()
-	O.engines[2].geomDispatcher.functors[0].contactModel = 'conservative'
-
 def surfaceHeap():
 	"""The pieces of contact surfaces that are kept from step to step are saved."""
 	heap()
@@ -173,7 +169,7 @@ def testEnergiesAreResumed(tmp_path):
 	assert resumed == uninterrupted
 
 
-@pytest.mark.parametrize('scene', ['heap', 'conservativeHeap', 'surfaceHeap'])
+@pytest.mark.parametrize('scene', ['heap', 'surfaceHeap'])
 def testHeapIsResumed(scene, tmp_path):
 	uninterrupted, resumed = runs(scene, 3000, 500, tmp_path / 'scene.xml')
 	# nine and sixteen contacts in double; how many there are just then differs with the numbers' rounding

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from scenes import blockOnFloor, density, gravity, joint, loop, stepUntil, stepper
+from scenes import blockOnFloor, contactOf, density, gravity, joint, loop, stepUntil, stepper
 from yade import (
 	Bo1_Box_Aabb,
 	Bo1_Facet_Aabb,
@@ -114,7 +114,7 @@ supports = {
 
 
 @pytest.mark.parametrize('perArea', [False, True])
-@pytest.mark.parametrize('model', ['paper', 'conservative'])
+@pytest.mark.parametrize('model', ['paper', 'surface'])
 @pytest.mark.parametrize('support', supports)
 def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 	"""A cube on a wall, a box or a facet has the step that it has on a polytope: rocking, too."""
@@ -122,21 +122,21 @@ def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 	for functor, make in ((None, lambda: polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True)), supports[support]):
 		O.reset()
 		joint()
-		loop(perArea=perArea, normalDamping=0.3, ig2={'contactModel': model})
+		ig2 = contactOf(model, perArea)
+		loop(perArea=perArea, normalDamping=0.3, ig2=ig2)
 		if functor:
 			O.engines[1].boundDispatcher.functors = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb()]
-			O.engines[2].geomDispatcher.functors = [functor(contactModel=model)]
+			O.engines[2].geomDispatcher.functors = [functor(**ig2)]
 		engine = stepper()
 		O.bodies.append([make(), polytope.cuboid((0.1, 0.2, 0.4999), (0.5, 0.5, 0.5))])
 		O.step()
 		O.step()
 		assert engine.limitingBody == 1 and engine.limitedBy
 		steps.append((_polytope.timeStepLimits()['contacts'], _polytope.timeStepLimits()['material']))
-	# all planes of a polytope push with the conservative contact's barrier, its far ones by some per cent
-	assert steps[1] == pytest.approx(steps[0], rel=5e-2 if model == 'conservative' else 1e-2)
+	assert steps[1] == pytest.approx(steps[0], rel=1e-2)
 
 
-@pytest.mark.parametrize('model', ['paper', 'conservative'])
+@pytest.mark.parametrize('model', ['paper', 'spring'])
 def testAcrossAPeriodicBoundary(model):
 	steps = []
 	for shift in (0, 1):
@@ -148,7 +148,7 @@ def testAcrossAPeriodicBoundary(model):
 		O.cell.setBox(4, 4, 4)
 		O.bodies.append(polytope.cuboid((3.6 if shift else 1.6, 2, 2), (0.5, 0.5, 0.5), Quaternion((1, 2, 3), 0.7)))
 		O.bodies.append(polytope.cuboid((0.55 if shift else 2.55, 2.1, 2.05), (0.5, 0.5, 0.5)))
-		O.bodies[0].state.vel = (1, 0, 0)  # a conservative contact that grows
+		O.bodies[0].state.vel = (1, 0, 0)
 		O.dt = 1e-6
 		O.step()
 		O.step()

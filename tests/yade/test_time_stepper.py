@@ -6,10 +6,10 @@ import os
 import tempfile
 
 import pytest
-from scenes import blockOnFloor, density, driven, gravity, joint, loop, stepUntil, stepper
+from scenes import blockOnFloor, contactOf, density, driven, gravity, joint, loop, stepUntil, stepper
 from yade import O, PolytopeTimeStepper, Quaternion, Vector3, _polytope, polytope
 
-models = ('paper', 'conservative')
+models = ('paper', 'surface')
 
 
 # --------------------------------------------------------------------------------------------------- before there is a contact
@@ -20,7 +20,7 @@ models = ('paper', 'conservative')
 @pytest.mark.parametrize('turn', [Quaternion.Identity, Quaternion((1, 2, 3), 1)])
 def testBlockLandsWithoutAStepOfTheScripts(model, perArea, turn):
 	joint(normalStiffness=1e8, shearStiffness=1e8)
-	loop(perArea=perArea, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2={'contactModel': model})
+	loop(perArea=perArea, normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=contactOf(model, perArea))
 	engine = stepper()
 	floor, block = blockOnFloor()
 	block.state.pos, block.state.ori = Vector3(0, 0, 1.5), turn
@@ -45,6 +45,20 @@ def testStepIsThereBeforeTheFirstMotion():
 	O.step()
 	# one contact of a cube at a vertex: κ = k (1/m + (3/4 L²)/(m L²/6)) = 5.5 k/m
 	assert O.dt == pytest.approx(0.4 / math.sqrt(5.5 * 1e8 / density), rel=1e-9)
+
+
+@pytest.mark.parametrize('model, stiffest', [('paper', 7), ('surface', 8)])
+def testBeforeAContactAFlatFaceOfASpringIsStifferThanACorner(model, stiffest):
+	"""A flat triangle of width b on its side: I = m b²/24, so with k at a corner κ = k/m (1 + (b/2)²/(b²/24)), of its base rocking as a spring 4 k b²/12 over I."""
+	joint()
+	loop(gravity=(0, -gravity, 0), ig2=contactOf(model, perArea=False))
+	stepper()
+	O.bodies.append([
+		polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True), polytope.polygon([(-0.5, 3), (0.5, 3), (0, 3.001)])
+	])
+	O.step()
+	mass = O.bodies[1].state.mass
+	assert _polytope.timeStepLimits()['material'] == pytest.approx(1 / math.sqrt(stiffest * 1e8 / mass), rel=1e-3)
 
 
 def testMaterialsChangedInTheRunCount():
@@ -125,9 +139,11 @@ def testMotionLimits():
 
 def testWhatLimitsIsNamed():
 	joint()
-	loop(ig2={'contactModel': 'conservative'})
+	loop(ig2={'contactModel': 'spring'})
 	engine = stepper(timeStepUpdateInterval=1)
-	floor, block = blockOnFloor(0.01)  # pressed together: stiff in rocking
+	half = (0.5, 0.5, 0.05)
+	floor, block = blockOnFloor(1e-4, half)
+	O.bodies.append(polytope.cuboid((0, 0, 1.0998 - 1e-4), (2, 2, 1), fixed=True))  # between two: stiffer in rocking than a corner may be
 	driven(block)  # cannot move: limits nothing
 	O.run(2, wait=True)
 	assert engine.limitedBy == '' and engine.limitingBody == -1

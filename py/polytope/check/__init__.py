@@ -34,7 +34,7 @@ def check(O):
 	"""Checks the present scene for what is wrong before the first step. Most of it YADE would not tell.
 
 	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
-	apply forces as for spheres, functors of one loop that disagree in contactModel, conservative contacts with stiffness per area, contacts of
+	apply forces as for spheres, functors of one loop that disagree in contactModel, contact models whose unit of stiffness is another, contacts of
 	YADE's materials without any damping, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes
 	in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres only, YADE's density scaling, bodies too large for a periodic cell,
 	bonds whose engine is missing, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, gravity that begins at once on joints with a strength to lose, attributes that nothing

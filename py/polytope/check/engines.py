@@ -14,14 +14,14 @@ from yade import (
 	TriaxialStressController,
 )
 
-from .._scene import notConservative, stiffnessesPerArea, unitOfModel
+from .._scene import stiffnessesPerArea, wrongUnit
 from ..bonding import removedBonds
 
 __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, contactModels, conservativeWithArea, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -126,24 +126,8 @@ def contactModels(scene):
 			)
 
 
-def conservativeWithArea(scene):
-	for loop in scene.loops:
-		functors = [one for one in loop.geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)]
-		if any(one.contactModel == 'conservative' for one in functors) and stiffnessesPerArea([loop]):
-			yield 'damping and energy', *notConservative
-
-
 def unitOfSurface(scene):
 	for loop in scene.loops:
 		models = {one.contactModel for one in loop.geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)}
-		perArea = stiffnessesPerArea([loop])
-		for model in sorted(models & set(unitOfModel)):
-			if unitOfModel[model] == perArea:
-				continue
-			made = 'stiffnesses per area' if perArea else 'stiffnesses per contact'
-			yield (
-				'damping and energy',
-				f'contactModel {model!r} with {made}: the force is no gradient of an energy',
-				f"contactModel='surface', which goes by the unit, or stiffnessPerArea={not perArea} and stiffnesses in "
-				f'{"N/m" if perArea else "Pa/m"}',
-			)
+		for seen, advice in wrongUnit(models, stiffnessesPerArea([loop])):
+			yield 'damping and energy', seen, advice

@@ -26,7 +26,7 @@ def contactPoint(scene):
 	"""contact point"""
 	points = {functor.contactPoint for functor in scene.functors if functor.contactModel == 'paper'}
 	if not points:
-		return 'the conservative contact has its own'
+		return 'a contact surface has its own'
 	trial = ('contactPoint', 'analyticCentre')
 	first = " (solver = 'newton' first)" if _waitingIpopt(scene) else ''
 	if 'chebyshevCentre' in points:
@@ -49,4 +49,4 @@ def _waitingIpopt(scene):
 def _withoutSolver(scene):
 	"""Why no solver is in use."""
 	points = sorted({functor.contactPoint for functor in scene.functors if functor.contactModel == 'paper' and not _solves(functor)})
-	return f'the point of {" and ".join(points)} needs none' if points else 'the conservative contact needs none'
+	return f'the point of {" and ".join(points)} needs none' if points else 'a contact surface needs none'

@@ -12,7 +12,7 @@ import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._loads import permanentLoads
-from .._scene import geometryFunctors, interactionLoops, laws, notConservative, stiffnessesPerArea, unitOfModel
+from .._scene import geometryFunctors, interactionLoops, laws, stiffnessesPerArea, unitOfModel, wrongUnit
 from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
@@ -88,7 +88,7 @@ def checks(O):
 	"""(what was found, [(what could not be checked, why)], whether there are contacts).
 
 	In the order in which advice can be followed: solver before contact point, for that of the point alone would make the solver active,
-	and the contact model, which uses neither if it is the conservative one, at the end."""
+	and the contact model, which uses neither if it is one of a contact surface, at the end."""
 	scene = Scene(O)
 	each = (numbersOfBodies, engines, polygons, timeStep, solver, contactPoint, area, support, dimension, cornerRadius, planes, newtonTolerance)
 	each += (verletDist, boxes, warmStart, clocks, energyTracking, energy, cohesion, loads)
@@ -152,21 +152,21 @@ def _oneFace(one, other, depth):
 def energy(scene):
 	"""damping and energy"""
 	models = scene.values('contactModel')
-	if 'conservative' in models and _stiffnessPerArea(scene):
-		return notConservative
+	perArea = _stiffnessPerArea(scene)
+	for found in wrongUnit(models, perArea):
+		return found
 	if 'paper' not in models:
-		if any(model in unitOfModel for model in models):
-			return 'the energy of the contact surface is conserved but for the moment about the normal that a single force leaves out', ''
-		return 'the conservative contact: energy is conserved to the error of the time step', ''
+		return 'the energy of the contact surface is conserved but for the moment about the normal that a single force leaves out', ''
 	local = scene.newton.damping if scene.newton else 0
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
 	if local == 0 and viscous == 0:
+		surface = next(model for model, unit in unitOfModel.items() if unit == perArea)
 		return (
 			"nothing damps the normal direction, and contactModel 'paper' creates and destroys energy",
-			"contactModel = 'conservative' (which uses neither contactPoint nor solver), or damping: "
+			f"contactModel = {surface!r} (which uses neither contactPoint nor solver), or damping: "
 			"with contactModel 'paper' energy is not conserved at any time step",
 			None,
-			('contactModel', 'conservative'),
+			('contactModel', surface),
 		)
 	return f'NewtonIntegrator.damping {local:g}, normalDamping {viscous:g} of critical', ''
 
@@ -211,7 +211,7 @@ def planes(scene):
 	if not scene.pairs():
 		return f'{seen}, but no two polytopes are in contact now to measure their effect'
 	functor = scene.functors[0]
-	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'barrier', 'solver', 'tolerance', 'newtonTolerance')}
+	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
 	for pair in [pair for pair in scene.pairs() if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]

@@ -28,7 +28,7 @@ kernel = _polytope.tolerances()
 def cornerRadius(scene):
 	"""corner radius"""
 	if 'paper' not in scene.values('contactModel'):
-		return 'the conservative contact has none'
+		return 'a contact surface has none'
 	if 'innerPotential' not in scene.values('normal'):
 		return "the normal 'innerPotential' alone reads it"
 	since, pairs = scene.count(*deeper), scene.pairs()

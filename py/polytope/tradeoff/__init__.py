@@ -48,7 +48,7 @@ def tradeoff(build, settings, measure, reference, repeats=1, timedSeconds=0.5, t
 
 	:param build: function that makes the scene with engines and O.dt
 	:param dict settings: name → changes, {} for the scene as it is. A change is an attribute of the contact functors
-	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, *barrier*, …;
+	    (Ig2_Polytope_Polytope_PolytopeGeom: *contactPoint*, *newtonTolerance*, *warmStart*, *solver*, *contactModel*, …;
 	    a *newtonTolerance* coarser than the default changes almost nothing, since the depth is kept to 2e-14 of the size anyway),
 	    *timeStep* [s], *timeStepFactor* (of the scene's own), *precision* ('double', 'longdouble', 'float128', 'mpfr150': YADE's builds;
 	    a row says so where the plug-in was not built for it), or any argument of *build*

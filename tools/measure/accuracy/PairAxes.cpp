@@ -26,25 +26,15 @@ namespace {
 		return pair;
 	}
 
-	/// s*, or of the conservative contact Φ.
-	Real level(const Pair& pair, ContactModel model)
-	{
-		if (model == ContactModel::Paper) return infeasibility(pair);
-		ContactSettings settings;
-		settings.contactModel      = model;
-		settings.geometryAcrossGap = true;
-		return query(pair, settings).barrierValue;
-	}
-
-	/// Body 2 to aside + t·direction with s* (Φ) = target, by bisection.
-	void approach(Pair& pair, const Vector3& aside, const Vector3& direction, Real target, ContactModel model = ContactModel::Paper)
+	/// Body 2 to aside + t·direction with s* = target, by bisection.
+	void approach(Pair& pair, const Vector3& aside, const Vector3& direction, Real target)
 	{
 		Real near = 0,
 		     far  = 2 * (pair.shape[0]->boundingRadius() + pair.shape[1]->boundingRadius()) + aside.norm() + 2 * std::abs(target);
 		for (int step = 0; step < 70; ++step) {
-			const Real middle                          = (near + far) / 2;
-			pair.centre2                               = aside + middle * direction;
-			(level(pair, model) < target ? near : far) = middle;
+			const Real middle                           = (near + far) / 2;
+			pair.centre2                                = aside + middle * direction;
+			(infeasibility(pair) < target ? near : far) = middle;
 		}
 	}
 
@@ -63,8 +53,8 @@ namespace {
 	Matrix3 vertexDown() { return Matrix3::Identity(); }
 	Matrix3 edgeDown() { return about(Vector3::UnitX(), Real(M_PI) / 4); }
 
-	/// Features that meet: body 1 below with the first one up, body 2 above with the second one down; −s* (−Φ) = overlap × size.
-	Pair features(const std::string& kind, Real overlap, ContactModel model, Random& random)
+	/// Features that meet: body 1 below with the first one up, body 2 above with the second one down; −s* = overlap × size.
+	Pair features(const std::string& kind, Real overlap, Random& random)
 	{
 		const Shape cube = rounded(cuboid(1, 1, 1)), slab = rounded(cuboid(Real(0.8), Real(0.7), Real(0.9)));
 		const Shape octahedron = rounded(regularSolid(8, 1));
@@ -91,37 +81,34 @@ namespace {
 			pair = pairOf(rounded(anyPolygon(random)), rounded(anyPolygon(random)));
 			for (Matrix3& rotation : pair.rotation)
 				rotation = randomRotation(random, 2);
-			approach(pair, aside, randomDirection(random, 2), -overlap * pair.size(), model);
+			approach(pair, aside, randomDirection(random, 2), -overlap * pair.size());
 			return pair;
 		} else if (kind == "any solids") {
 			pair = pairOf(rounded(anySolid(random)), rounded(anySolid(random)));
 			for (Matrix3& rotation : pair.rotation)
 				rotation = randomRotation(random);
-			approach(pair, aside, randomDirection(random), -overlap * pair.size(), model);
+			approach(pair, aside, randomDirection(random), -overlap * pair.size());
 			return pair;
 		} else throw std::logic_error("no such kind: " + kind);
-		approach(pair, aside, Vector3::UnitZ(), -overlap * pair.size(), model);
+		approach(pair, aside, Vector3::UnitZ(), -overlap * pair.size());
 		return anyTurn(pair, random);
 	}
 
-	/// Two shapes in any orientation, −s* (−Φ) = part of the smaller inscribed ball.
-	Pair anyhow(const Shape& one, const Shape& two, Real part, Random& random, ContactModel model = ContactModel::Paper)
+	/// Two shapes in any orientation, −s* = part of the smaller inscribed ball.
+	Pair anyhow(const Shape& one, const Shape& two, Real part, Random& random)
 	{
 		Pair pair = pairOf(one, two);
 		for (Matrix3& rotation : pair.rotation)
 			rotation = randomRotation(random, pair.dimension());
-		approach(pair, Vector3::Zero(), randomDirection(random, pair.dimension()), -part * pair.inscribedRadius(), model);
+		approach(pair, Vector3::Zero(), randomDirection(random, pair.dimension()), -part * pair.inscribedRadius());
 		return pair;
 	}
 
 	// ------------------------------------------------------------------------------------------------------ axes
 
-	Pair depthPair(Real value, const std::string& kind, ContactModel model, Random& random)
-	{
-		return features(kind, value, model, random);
-	}
+	Pair depthPair(Real value, const std::string& kind, Random& random) { return features(kind, value, random); }
 
-	Pair aspectPair(Real aspect, const std::string& kind, ContactModel, Random& random)
+	Pair aspectPair(Real aspect, const std::string& kind, Random& random)
 	{
 		const Real thin = 1 / aspect;
 		if (kind == "plate and cube") return anyhow(rounded(cuboid(1, 1, thin)), rounded(cuboid(1, 1, 1)), Real(0.1), random);
@@ -144,7 +131,7 @@ namespace {
 		return anyhow(rounded(rectangle(1, thin)), rounded(stretched(anyPolygon(random), Vector3(1, thin, 1))), Real(0.1), random);
 	}
 
-	Pair sizePair(Real ratio, const std::string& kind, ContactModel, Random& random)
+	Pair sizePair(Real ratio, const std::string& kind, Random& random)
 	{
 		if (kind == "polygons") {
 			HalfSpaces small = anyPolygon(random);
@@ -163,14 +150,11 @@ namespace {
 		return random() % 2 ? pair : swapped(pair);
 	}
 
-	Pair placedPair(Real, const std::string& kind, ContactModel model, Random& random)
-	{
-		return features(kind, Real(1e-3), model, random);
-	}
+	Pair placedPair(Real, const std::string& kind, Random& random) { return features(kind, Real(1e-3), random); }
 	/// Both centres rounded where the scene has them.
-	Pair roundedPlaces(Real distance, const std::string& kind, ContactModel model, Random& random)
+	Pair roundedPlaces(Real distance, const std::string& kind, Random& random)
 	{
-		Pair          pair  = placedPair(distance, kind, model, random);
+		Pair          pair  = placedPair(distance, kind, random);
 		const Vector3 first = distance * pair.size() * randomDirection(random);
 		volatile Real second[3]; // as State.pos stores it
 		for (int k = 0; k < 3; ++k) {
@@ -180,12 +164,12 @@ namespace {
 		return pair;
 	}
 
-	Pair anglePair(Real angle, const std::string& kind, ContactModel model, Random& random)
+	Pair anglePair(Real angle, const std::string& kind, Random& random)
 	{
 		if (kind == "polygons") {
 			Pair pair        = pairOf(rounded(rectangle(1, 1)), rounded(rectangle(Real(0.8), Real(0.9))));
 			pair.rotation[1] = about(Vector3::UnitZ(), random() % 2 ? angle : -angle);
-			approach(pair, Vector3(uniform(random, Real(-0.5), Real(0.5)), 0, 0), Vector3::UnitY(), Real(-1e-4), model);
+			approach(pair, Vector3(uniform(random, Real(-0.5), Real(0.5)), 0, 0), Vector3::UnitY(), Real(-1e-4));
 			return anyTurn(pair, random);
 		}
 		Pair       pair  = pairOf(rounded(cuboid(1, 1, 1)), rounded(cuboid(Real(0.8), Real(0.7), Real(0.9))));
@@ -194,12 +178,12 @@ namespace {
 		        = about(Vector3(std::cos(along), std::sin(along), 0), angle) * about(Vector3::UnitZ(), uniform(random, -3, 3));
 		// a wedge-shaped overlap that ends within the face, or one that does not
 		const Real overlap = kind == "wedge" ? Real(0.1) * angle : Real(1e-2);
-		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), -overlap, model);
+		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), -overlap);
 		return anyTurn(pair, random);
 	}
 
 	/// Two planes of one body that differ by an angle, about a line through the contact or far from it.
-	Pair twinsPair(Real angle, const std::string& kind, ContactModel model, Random& random)
+	Pair twinsPair(Real angle, const std::string& kind, Random& random)
 	{
 		HalfSpaces    set   = cuboid(Real(0.8), Real(0.7), Real(0.9));
 		const Vector3 aside = randomDirection(random, 2);
@@ -211,7 +195,7 @@ namespace {
 		Pair pair = pairOf(rounded(cuboid(1, 1, 1)), rounded(set));
 		if (kind == "both have a share, vertex below") pair.shape[0] = rounded(regularSolid(8, 1));
 		pair.rotation[1] = about(Vector3::UnitZ(), uniform(random, -3, 3));
-		approach(pair, inPlane(random, Real(0.3)), Vector3::UnitZ(), Real(-1e-3), model);
+		approach(pair, inPlane(random, Real(0.3)), Vector3::UnitZ(), Real(-1e-3));
 		return anyTurn(pair, random);
 	}
 
@@ -261,24 +245,24 @@ namespace {
 		return set;
 	}
 
-	Pair planesPair(Real value, const std::string& kind, ContactModel model, Random& random)
+	Pair planesPair(Real value, const std::string& kind, Random& random)
 	{
 		const int planes = int(value);
-		if (kind == "balls") return anyhow(rounded(ball(planes, random)), rounded(ball(planes, random)), Real(1e-3), random, model);
+		if (kind == "balls") return anyhow(rounded(ball(planes, random)), rounded(ball(planes, random)), Real(1e-3), random);
 		if (kind == "spike on face") {
 			Pair pair        = pairOf(rounded(cuboid(1, 1, 1)), rounded(spike(planes)));
 			pair.rotation[1] = about(randomDirection(random), uniform(random, 0, Real(0.2)));
-			approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3), model);
+			approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3));
 			return anyTurn(pair, random);
 		}
 		// drum on drum, end on end
 		Pair pair        = pairOf(rounded(drum(std::max(planes, 5))), rounded(drum(std::max(planes, 5))));
 		pair.rotation[1] = about(Vector3::UnitZ(), uniform(random, -3, 3));
-		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3), model);
+		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3));
 		return anyTurn(pair, random);
 	}
 
-	Pair redundantPair(Real copies, const std::string& kind, ContactModel model, Random& random)
+	Pair redundantPair(Real copies, const std::string& kind, Random& random)
 	{
 		HalfSpaces set = cuboid(Real(0.8), Real(0.7), Real(0.9));
 		for (int i = 0; i < int(copies); ++i) {
@@ -295,12 +279,12 @@ namespace {
 		Pair pair = pairOf(rounded(cuboid(1, 1, 1)), rounded(set));
 		pair.rotation[1]
 		        = about(randomDirection(random), uniform(random, 0, Real(0.3))) * about(Vector3::UnitZ(), uniform(random, -3, 3));
-		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3), model);
+		approach(pair, inPlane(random, Real(0.6)), Vector3::UnitZ(), Real(-1e-3));
 		return anyTurn(pair, random);
 	}
 
 	/// Features that touch but for `gap` roundings of the size; exact before the pair is turned, but for 1/√3 in the octahedron's normals.
-	Pair touchingPair(Real gap, const std::string& kind, ContactModel, Random& random)
+	Pair touchingPair(Real gap, const std::string& kind, Random& random)
 	{
 		const Shape cube = rounded(cuboid(1, 1, 1)), octahedron = rounded(regularSolid(8, 1));
 		Pair        pair;
@@ -327,7 +311,7 @@ namespace {
 		return anyTurn(pair, random);
 	}
 
-	Pair coincidentPair(Real shift, const std::string& kind, ContactModel, Random& random)
+	Pair coincidentPair(Real shift, const std::string& kind, Random& random)
 	{
 		const Shape shape = rounded(kind == "any planes" ? randomPlanes(20, random) : regularSolid(std::stoi(kind), 1));
 		Pair        pair  = pairOf(shape, shape);
@@ -335,7 +319,7 @@ namespace {
 		return anyTurn(pair, random);
 	}
 
-	Pair insidePair(Real ratio, const std::string& kind, ContactModel, Random& random)
+	Pair insidePair(Real ratio, const std::string& kind, Random& random)
 	{
 		const Shape outer = rounded(anySolid(random)),
 		            inner = scaled(*rounded(anySolid(random)), ratio * outer->inscribedRadius() / 4);
@@ -347,23 +331,17 @@ namespace {
 	}
 
 	/// −s* = value × corner radius, which is 5e-3 of the size.
-	Pair deepPair(Real value, const std::string& kind, ContactModel model, Random& random)
+	Pair deepPair(Real value, const std::string& kind, Random& random)
 	{
-		Pair       pair         = features(kind, value * Real(5e-3), model, random);
+		Pair       pair         = features(kind, value * Real(5e-3), random);
 		const Real cornerRadius = Real(5e-3) * pair.size();
 		for (Shape& shape : pair.shape)
 			shape = ConvexShape::shared(shape->planes(), cornerRadius);
 		return pair;
 	}
 
-	Pair unitPair(Real, const std::string& kind, ContactModel model, Random& random)
-	{
-		return features(kind, Real(1e-3), model, random);
-	}
-	Pair inUnits(Real unit, const std::string& kind, ContactModel model, Random& random)
-	{
-		return scaled(unitPair(unit, kind, model, random), unit);
-	}
+	Pair unitPair(Real, const std::string& kind, Random& random) { return features(kind, Real(1e-3), random); }
+	Pair inUnits(Real unit, const std::string& kind, Random& random) { return scaled(unitPair(unit, kind, random), unit); }
 
 	/// 10^low … 10^high, low < high or not.
 	std::vector<Real> powers(int from, int to, int stride = 1)

@@ -12,7 +12,7 @@
 namespace polytope::samples {
 
 struct PairAxis {
-	using Maker = Pair (*)(Real value, const std::string& kind, ContactModel model, std::mt19937_64& random);
+	using Maker = Pair (*)(Real value, const std::string& kind, std::mt19937_64& random);
 
 	std::string              name;
 	std::vector<Real>        values;

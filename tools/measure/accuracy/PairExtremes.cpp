@@ -6,14 +6,13 @@
 //
 //     polytope_extremes --transitions SAMPLES
 //
-// SAMPLES per value and kind of an axis, both contact models each (fewer, and none if quick, where references are costly). Pairs depend on axis, value, kind and number only.
+// SAMPLES per value and kind of an axis (fewer, and none if quick, where references are costly). Pairs depend on axis, value, kind and number only.
 #include "PairAxes.hpp"
 #include "Reference.hpp"
 
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -21,8 +20,6 @@ using namespace polytope;
 using namespace polytope::samples;
 
 namespace {
-
-const char* modelName(ContactModel model) { return model == ContactModel::Paper ? "paper" : "conservative"; }
 
 /// One number per axis, value, kind and sample, the same on every machine.
 std::uint64_t seedOf(const std::string& text)
@@ -37,17 +34,17 @@ void writeRow(const std::string& head, const Comparison& c, Real deviation, Real
 {
 	std::cout << head << ',' << statusName(c.result.status) << ',' << c.result.inContact << ',' << c.touches << ',' << c.within << ','
 	          << c.size << ',' << c.inscribed / c.size << ',' << c.infeasibility << ',' << c.infeasibilityError << ','
-	          << c.infeasibilityRounding << ',' << c.value << ',' << c.valueError << ',' << c.depth << ',' << c.depthError << ','
-	          << c.depthRounding << ',' << c.centreError << ',' << c.centreRounding << ',' << c.normalError << ',' << c.normalRounding
-	          << ',' << c.forceError << ',' << c.compared << ',' << c.finite << ',' << c.bounded << ',' << c.free << ',' << deviation
-	          << ',' << moved << ',' << c.result.simplexPivots << ',' << c.result.newtonIterations << ',' << c.nanoseconds << ",\n";
+	          << c.infeasibilityRounding << ',' << c.depth << ',' << c.depthError << ',' << c.depthRounding << ',' << c.centreError
+	          << ',' << c.centreRounding << ',' << c.normalError << ',' << c.normalRounding << ',' << c.forceError << ',' << c.compared
+	          << ',' << c.finite << ',' << c.bounded << ',' << c.free << ',' << deviation << ',' << moved << ','
+	          << c.result.simplexPivots << ',' << c.result.newtonIterations << ',' << c.nanoseconds << ",\n";
 }
 
 void writeRefusal(const std::string& head, std::string message)
 {
 	for (char& c : message)
 		if (c == ',' || c == '\n' || c == '"') c = ';';
-	std::cout << head << ",refused,0,0,0" << std::string(25, ',') << message << '\n';
+	std::cout << head << ",refused,0,0,0" << std::string(23, ',') << message << '\n';
 }
 
 void sample(const PairAxis& axis, Real value, const std::string& kind, int number)
@@ -55,40 +52,29 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 	std::ostringstream name;
 	name << axis.name << '/' << kind << '/' << value << '/' << number;
 	const std::uint64_t seed = seedOf(name.str());
-	const auto          head = [&](ContactModel model) {
-                std::ostringstream text;
-                text << axis.name << ",\"" << kind << "\"," << value << ',' << number << ',' << modelName(model);
-                return text.str();
-	};
-	Pair       pair;
-	const auto make = [&](PairAxis::Maker maker, ContactModel model) {
+	std::ostringstream  head;
+	head << axis.name << ",\"" << kind << "\"," << value << ',' << number;
+	const auto make = [&](PairAxis::Maker maker) {
 		std::mt19937_64 random(seed);
-		return maker(value, kind, model, random);
+		return maker(value, kind, random);
 	};
-	std::unique_ptr<PairReference> reference;
-	for (ContactModel model : { ContactModel::Paper, ContactModel::Conservative })
-		try {
-			const Pair made = make(axis.make, model);
-			if (!reference || made.centre2 != pair.centre2) {
-				pair = made;
-				reference.reset(new PairReference(pair));
-			}
-			const Comparison c     = reference->compare(model);
-			Real             other = 0, moved = 0;
-			if (axis.intended) {
-				const Pair      intended = make(axis.intended, model);
-				ContactSettings settings;
-				settings.contactModel      = model;
-				settings.section           = true;
-				const ContactResult before = query(intended, settings);
-				const Real          unit   = axis.scaled ? value : Real(1);
-				other                      = deviation(c.result, before, unit, intended.size());
-				moved                      = (c.result.infeasibility / unit - before.infeasibility) / intended.size();
-			}
-			writeRow(head(model), c, other, moved);
-		} catch (const std::invalid_argument& refusal) {
-			writeRefusal(head(model), refusal.what());
+	try {
+		const Pair       pair  = make(axis.make);
+		const Comparison c     = compareWithReference(pair);
+		Real             other = 0, moved = 0;
+		if (axis.intended) {
+			const Pair      intended = make(axis.intended);
+			ContactSettings settings;
+			settings.section           = true;
+			const ContactResult before = query(intended, settings);
+			const Real          unit   = axis.scaled ? value : Real(1);
+			other                      = deviation(c.result, before, unit, intended.size());
+			moved                      = (c.result.infeasibility / unit - before.infeasibility) / intended.size();
 		}
+		writeRow(head.str(), c, other, moved);
+	} catch (const std::invalid_argument& refusal) {
+		writeRefusal(head.str(), refusal.what());
+	}
 }
 
 /// Body 2 pressed into body 1 along the contact's first normal, the paper's, from 0.3 to 4 corner radii: changes of the contact where its
@@ -96,7 +82,7 @@ void sample(const PairAxis& axis, Real value, const std::string& kind, int numbe
 void pressIn(const PairAxis& deep, const std::string& kind, int number)
 {
 	std::mt19937_64 random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
-	const Pair      pair   = deep.make(Real(0.3), kind, ContactModel::Paper, random);
+	const Pair      pair   = deep.make(Real(0.3), kind, random);
 	const Real      radius = pair.shape[0]->cornerRadius(), size = pair.size();
 	ContactSettings settings;
 	settings.normal         = NormalSource::InnerPotential;
@@ -160,9 +146,9 @@ int main(int count, char** arguments)
 			known = known || axis.name == arguments[i];
 		if (!known) return usage(arguments[0]);
 	}
-	std::cout << "axis,kind,value,sample,model,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,"
-	             "infeasibilityRounding,barrierValue,"
-	             "barrierValueError,depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,"
+	std::cout << "axis,kind,value,sample,status,inContact,touches,within,size,inscribed,infeasibility,infeasibilityError,"
+	             "infeasibilityRounding,"
+	             "depth,depthError,depthRounding,centreError,centreRounding,normalError,normalRounding,forceError,"
 	             "compared,finite,bounded,free,"
 	             "deviation,moved,pivots,iterations,nanoseconds,refusal\n";
 	for (const PairAxis& axis : pairAxes()) {

@@ -2,7 +2,7 @@
 #include "Reference.hpp"
 
 #include "ExactLp.hpp"
-#include "PreciseBarrier.hpp"
+#include "PrecisePair.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -37,8 +37,7 @@ namespace {
 	bool allFinite(const ContactResult& r)
 	{
 		return r.point.allFinite() && r.normal.allFinite() && r.dualDirection.allFinite() && r.sectionCentroid.allFinite()
-		        && std::isfinite(r.depth) && std::isfinite(r.infeasibility) && std::isfinite(r.area)
-		        && std::isfinite(r.barrierValue) && std::isfinite(r.energy) && std::isfinite(r.rockingArm);
+		        && std::isfinite(r.depth) && std::isfinite(r.infeasibility) && std::isfinite(r.area) && std::isfinite(r.energy);
 	}
 
 	/// Whatever the status: the geometry is bounded by the bodies' size, so a law's forces are, too.
@@ -48,11 +47,9 @@ namespace {
 		if (!(std::abs(r.normal.norm() - 1) < 1e-14)) return false;
 		if (!r.inContact) return true;
 		const Real larger = std::max(pair.shape[0]->boundingRadius(), pair.shape[1]->boundingRadius());
-		// the conservative contact of one body inside the other is without force
-		if (!(r.depth > 0 || (r.barrierValue < 0 && r.depth >= 0)) || !(r.depth <= 2 * (larger + pair.size()))) return false;
-		// the point: in the overlap, for the conservative contact no farther out of it than Φ's level allows
-		const Digits150 outside = exact.violation(precise<Digits150>(r.point)) / Digits150(pair.size());
-		return outside <= Digits150(r.barrierValue != 0 ? 0.1 : 1e-14);
+		if (!(r.depth > 0) || !(r.depth <= 2 * (larger + pair.size()))) return false;
+		return exact.violation(precise<Digits150>(r.point)) / Digits150(pair.size())
+		        <= Digits150(1e-14); // the point is in the overlap
 	}
 
 	Real relative(const Digits150& difference, const Digits150& size) { return Real(abs(difference) / size); }
@@ -92,7 +89,7 @@ namespace {
 		return largest;
 	}
 
-	void comparePaper(const Pair& pair, const ExactOptimum& optimum, Comparison& c)
+	void compareGeometry(const Pair& pair, const ExactOptimum& optimum, Comparison& c)
 	{
 		const ContactResult&           r = c.result;
 		const PrecisePairOf<Digits150> exact(pair);
@@ -131,136 +128,34 @@ namespace {
 		return solvedExactly(away).infeasibility > -32 * tolerance::rounding * Digits150(pair.size() + way + pair.centre2.norm());
 	}
 
-	/// How far, in the barrier's local norm, its minimiser goes when normals are tilted by a few roundings: far where faces
-	/// lie flat on each other and nothing but the barrier of far side planes holds it (the rocking arm is long).
-	Real tiltedCentre(const PreciseBarrierOf<Digits150>& barrier)
-	{
-		std::array<std::array<Digits150, 4>, 4> h {};
-		const int                               n    = barrier.pair.dimension + 1;
-		const auto                              each = [&](const auto& visit) {
-                        for (const auto& body : barrier.pair.planes)
-                                for (const auto& plane : body) {
-                                        const std::array<Digits150, 4> z { -plane.normal[0], -plane.normal[1],
-                                                barrier.pair.dimension == 3 ? Digits150(-plane.normal[2]) : Digits150(1), 1 };
-                                        visit(z, barrier.s + plane.slack(barrier.x));
-                                }
-		};
-		each([&](const auto& z, const Digits150& sigma) {
-			const Digits150 weight = 2 * barrier.mu * barrier.mu / (sigma * sigma * sigma);
-			for (int i = 0; i < n; ++i)
-				for (int j = 0; j < n; ++j)
-					h[i][j] += weight * z[i] * z[j];
-		});
-		Real largest = 0;
-		for (int axis = 0; axis < n - 1; ++axis) {
-			auto                     m = h;
-			std::array<Digits150, 4> step {};
-			step[axis] = 8 * tolerance::rounding;
-			for (int k = n - 1; k >= 0; --k)
-				for (int i = k - 1; i >= 0; --i) {
-					const Digits150 factor = m[i][k] / m[k][k];
-					for (int j = k; j >= 0; --j)
-						m[i][j] -= factor * m[k][j];
-					step[i] -= factor * step[k];
-				}
-			for (int k = 0; k < n; ++k) {
-				for (int j = 0; j < k; ++j)
-					step[k] -= m[k][j] * step[j];
-				step[k] /= m[k][k];
-			}
-			Digits150 sum = 0;
-			each([&](const auto& z, const Digits150& sigma) {
-				Digits150 part = 0;
-				for (int k = 0; k < n - 1; ++k)
-					part += z[k] * step[k];
-				sum += part * part / (sigma * sigma);
-			});
-			largest = std::max(largest, Real(sqrt(sum)));
-		}
-		return largest;
-	}
-
-	void compareConservative(const Pair& pair, const ContactSettings& settings, const ExactOptimum& optimum, Comparison& c)
-	{
-		const ContactResult&        r    = c.result;
-		const Digits150             size = pair.size();
-		PreciseBarrierOf<Digits150> barrier(pair, settings.barrier);
-		barrier.x             = optimum.point;
-		barrier.s             = optimum.infeasibility;
-		const Digits150 value = barrier.value();
-		c.bounded             = isBounded(barrier.pair, pair, r);
-		c.value               = Real(value / size);
-		c.touches             = value < 0;
-		c.within              = std::abs(c.value) <= tolerance::contact + c.infeasibilityRounding;
-		if (!r.inContact || !(value < 0)) return;
-		c.valueError = relative(Digits150(r.barrierValue) - value, size);
-		Vector     n {};
-		const auto lambda = barrier.weights(0);
-		for (std::size_t i = 0; i < lambda.size(); ++i)
-			n = along(n, lambda[i], barrier.pair.planes[0][i].normal);
-		const Digits150 length = norm(n);
-		c.depth                = Real(-4 * value * length / size);
-		c.depthError           = relative(Digits150(r.depth) + 4 * value * length, size);
-		const Vector away      = minus(precise<Digits150>(r.point), barrier.x);
-		Digits150    sum = 0, nearest = barrier.s + barrier.pair.planes[0][0].slack(barrier.x);
-		for (const auto& body : barrier.pair.planes)
-			for (const auto& plane : body) {
-				const Digits150 sigma = barrier.s + plane.slack(barrier.x), part = dot(plane.normal, away) / sigma;
-				sum += part * part;
-				nearest = std::min(nearest, sigma);
-			}
-		c.centreError = Real(sqrt(sum));
-		c.forceError  = Real(
-                        norm(minus(along(Vector {}, Digits150(r.depth), precise<Digits150>(r.normal)), along(Vector {}, -4 * value, n)))
-                        / size);
-		const Real roundings = c.infeasibilityRounding * c.size;
-		c.centreRounding     = 2e-9 + 2 * roundings / Real(nearest) + tiltedCentre(barrier);
-		if (!(length > 0) || r.status == ContactStatus::NoDirection) return;
-		c.compared       = true;
-		c.normalError    = Real(norm(minus(precise<Digits150>(r.normal), along(Vector {}, 1 / length, n))));
-		c.normalRounding = 1e-14 + 4 * c.centreRounding / Real(length);
-		c.depthRounding  = roundings / c.size + c.depth * c.centreRounding / Real(length);
-	}
-
 } // namespace
 
-struct PairReference::Optimum {
-	ExactOptimum exact;
-};
-
-PairReference::PairReference(const Pair& pair) : pair_(pair), optimum_(new Optimum { solvedExactly(pair) }) { }
-
-PairReference::~PairReference() = default;
-
-Comparison PairReference::compare(ContactModel model) const
+Comparison compareWithReference(const Pair& pair)
 {
-	const ExactOptimum& optimum = optimum_->exact;
-	Comparison          c;
-	c.size      = pair_.size();
-	c.inscribed = pair_.inscribedRadius();
+	const ExactOptimum optimum = solvedExactly(pair);
+	Comparison         c;
+	c.size      = pair.size();
+	c.inscribed = pair.inscribedRadius();
 	ContactSettings settings;
-	settings.contactModel = model;
-	settings.section      = true;
-	c.nanoseconds         = std::numeric_limits<long>::max();
+	settings.section = true;
+	c.nanoseconds    = std::numeric_limits<long>::max();
 	for (int repetition = 0; repetition < 3; ++repetition) {
 		const auto begin = std::chrono::steady_clock::now();
-		c.result         = query(pair_, settings);
+		c.result         = query(pair, settings);
 		c.nanoseconds = std::min(c.nanoseconds, long(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count()));
 	}
 	c.finite             = allFinite(c.result);
-	const Digits150 size = pair_.size();
+	const Digits150 size = pair.size();
 	c.infeasibility      = Real(optimum.infeasibility / size);
 	c.touches            = optimum.infeasibility < 0;
 	// four roundings of planes, and of the bodies' positions
-	c.infeasibilityRounding = 8 * tolerance::rounding * (c.size + pair_.centre2.norm()) / c.size;
+	c.infeasibilityRounding = 8 * tolerance::rounding * (c.size + pair.centre2.norm()) / c.size;
 	c.within                = std::abs(c.infeasibility) <= tolerance::contact + c.infeasibilityRounding;
 	const Digits150 above   = Digits150(c.result.infeasibility) - optimum.infeasibility;
 	// of a separated pair ours is a lower bound
 	if (c.result.inContact || above > 0) c.infeasibilityError = relative(above, size);
-	if (model == ContactModel::Paper) {
-		comparePaper(pair_, optimum, c);
-		if (c.result.status == ContactStatus::NormalFromDual) c.free = isFree(pair_, c.result, optimum.infeasibility);
-	} else compareConservative(pair_, settings, optimum, c);
+	compareGeometry(pair, optimum, c);
+	if (c.result.status == ContactStatus::NormalFromDual) c.free = isFree(pair, c.result, optimum.infeasibility);
 	return c;
 }
 

@@ -3,8 +3,6 @@
 
 #include "PairSamples.hpp"
 
-#include <memory>
-
 /// One pair's contact in double beside the reference: the linear program in exact rational arithmetic, everything else
 /// in 150 digits. All lengths are over the pair's size (the smaller circumradius), angles in radians.
 namespace polytope::samples {
@@ -12,12 +10,10 @@ namespace polytope::samples {
 struct Comparison {
 	ContactResult result;
 	Real          size = 0, inscribed = 0;
-	bool          touches = false; ///< by the reference: s* < 0, conservative: Φ < 0
-	bool          within
-	        = false; ///< |s*| (|Φ|) is so small that `touches` may go either way: the contact tolerance, and what rounding does to s*
+	bool          touches = false; ///< by the reference: s* < 0
+	bool within = false; ///< |s*| is so small that `touches` may go either way: the contact tolerance, and what rounding does to s*
 	Real infeasibility      = 0,
-	     infeasibilityError = 0;    ///< the reference's s*; |ours − it|, separated: by how much our lower bound is above it
-	Real value = 0, valueError = 0; ///< conservative: Φ
+	     infeasibilityError = 0; ///< the reference's s*; |ours − it|, separated: by how much our lower bound is above it
 	Real depth = 0, depthError = 0;
 	Real centreError = 0; ///< in the overlap's own local norm
 	Real normalError = 0;
@@ -31,18 +27,7 @@ struct Comparison {
 	long nanoseconds = 0;     ///< of one query, the least of three, cold
 };
 
-/// The linear program's optimum, which both models share.
-class PairReference {
-public:
-	explicit PairReference(const Pair& pair);
-	~PairReference();
-	Comparison compare(ContactModel model) const;
-
-private:
-	struct Optimum;
-	const Pair&              pair_;
-	std::unique_ptr<Optimum> optimum_;
-};
+Comparison compareWithReference(const Pair& pair);
 
 /// Largest difference of s*, depth (over the size), point (over the size) and normal between two answers, the second one's lengths multiplied by `unit`.
 Real deviation(const ContactResult& ours, const ContactResult& other, Real unit, Real size);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Energy error of collisions without friction and damping: the paper's model, the conservative one, YADE's own polyhedra and spheres.
+"""Energy error of collisions without friction and damping: the paper's model, the contact model spring, YADE's own polyhedra and spheres.
 
 200 random meetings of two regular solids, and cubes that bounce on a floor for 40 s: error against time step, corner radius and
 overlap, and the damping that makes up for it. YADE's PotentialBlock and Polyhedra are measured where ./run bench has built them.

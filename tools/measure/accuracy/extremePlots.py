@@ -30,31 +30,25 @@ least = 1e-17
 
 
 def plotPairs(path, axis, samples):
-	"""Errors (median as a line, worst as marks) and statuses, both contact models side by side.
+	"""Errors (median as a line, worst as marks) and statuses.
 
 	:param Axis axis: title and labels
 	:param samples: list of Sample
 	"""
 	values = list(dict.fromkeys(s.value for s in samples))
 	kinds = list(dict.fromkeys(s.kind for s in samples))
-	figure = Figure(figsize=(12, 13), dpi=110)
-	plots = figure.subplots(4, 2, sharex=True, sharey='row', height_ratios=[2, 2, 3, 1.4])
-	for column, model in enumerate(('paper', 'conservative')):
-		own = [s for s in samples if s.model == model]
-		for row, (name, label) in enumerate(errors.items()):
-			plot = plots[row][column]
-			for kind, color in zip(kinds, colors, strict=False):
-				_curve(plot, [s for s in own if s.kind == kind], values, name, kind, color)
-			plot.set(yscale='log')
-			plot.grid(True, lw=0.3, color='0.85')
-			if column == 0:
-				plot.set_ylabel(label)
-		_statuses(plots[3][column], own, values)
-		plots[0][column].set_title(f'{axis.title}: {model}')
-		plots[3][column].set_xlabel(axis.label)
-		plots[3][column].set_xticks(range(len(values)), [f'{v:g}' for v in values], rotation=60 if len(values) > 9 else 0, fontsize=8)
-	plots[3][0].set_ylabel('share of statuses')
-	handles, labels = plots[0][0].get_legend_handles_labels()
+	figure = Figure(figsize=(8, 13), dpi=110)
+	plots = figure.subplots(4, 1, sharex=True, height_ratios=[2, 2, 3, 1.4])
+	for plot, (name, label) in zip(plots, errors.items(), strict=False):
+		for kind, color in zip(kinds, colors, strict=False):
+			_curve(plot, [s for s in samples if s.kind == kind], values, name, kind, color)
+		plot.set(yscale='log', ylabel=label)
+		plot.grid(True, lw=0.3, color='0.85')
+	_statuses(plots[3], samples, values)
+	plots[0].set_title(axis.title)
+	plots[3].set(xlabel=axis.label, ylabel='share of statuses')
+	plots[3].set_xticks(range(len(values)), [f'{v:g}' for v in values], rotation=60 if len(values) > 9 else 0, fontsize=8)
+	handles, labels = plots[0].get_legend_handles_labels()
 	figure.legend(handles, labels, fontsize=8, ncols=len(labels), loc='lower center', bbox_to_anchor=(0.5, 0.016), frameon=False)
 	figure.text(
 		0.5,

@@ -3,13 +3,13 @@
 
 Toppling (Goodman & Bray), a shaken and a rocking block (Housner), a masonry arch, cubes let go on slopes, edges on floors, solids that
 roll over flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, default, the
-paper's normal, conservative. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set that choice
+paper's normal, contact surface. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set that choice
 alone is measured, and checked against the same limits.
 
 	./run python tools/measure/accuracy/joints.py                                        # all
 	./run python tools/measure/accuracy/joints.py --quick                                # coarser, smaller
 	./run python tools/measure/accuracy/joints.py --scene slope edges --normal dualWeights --rule contact
-	./run python tools/measure/accuracy/joints.py --scene toppling --contact-model conservative --per-area --set barrier=3e-4
+	./run python tools/measure/accuracy/joints.py --scene toppling --contact-model foundation --per-area
 """
 
 import argparse
@@ -21,13 +21,14 @@ import sys
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; the scenes are small
 
 from jointStudy.measures import measures
+from surfaceModel import contactSurface
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import paperParser, shown
 from boon2012.reporting.script import conclude
 
-contacts = {'default': {}, "paper's normal": {'normal': 'innerPotential'}, 'conservative': {'contactModel': 'conservative'}}
+contacts = {'default': {}, "paper's normal": {'normal': 'innerPotential'}, 'contact surface': contactSurface}
 """Name: attributes of the geometry functors."""
 rules = {'contact': False, 'area': True}
 

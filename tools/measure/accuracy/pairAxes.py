@@ -19,8 +19,6 @@ class Limit:
 	quantity: str
 	"""A column of the CSV, or a name of pairTables.derived."""
 	most: float
-	model: str = ''
-	"""paper or conservative; '' for both."""
 	low: float = -math.inf
 	high: float = math.inf
 	least: float = 0.0
@@ -40,20 +38,18 @@ class Axis:
 
 depths = [
 	Limit('s* over the size', 'infeasibilityError', 1e-14),
-	Limit('depth over the size', 'depthError', 2e-14, 'paper'),
-	Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative'),
+	Limit('depth over the size', 'depthError', 2e-14),
 ]
-"""What holds on most axes; the conservative contact's Newton stops at 1e-10 of each slack, which affects its weights."""
+"""What holds on most axes."""
 
 axes = {
 	'depth': Axis(
 		'Overlap depth',
-		'overlap −s* (conservative: −Φ) over the size',
+		'overlap −s* over the size',
 		[
 			*depths,
-			Limit('contact point over the overlap, overlaps down to 1e-6', 'centreError', 3e-9, 'paper', low=0.9e-6),
-			Limit('contact point over the size, beyond 3e-9 of the overlap, overlaps down to 1e-14', 'centreTimesOverlap', 5e-15, 'paper'),
-			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
+			Limit('contact point over the overlap, overlaps down to 1e-6', 'centreError', 3e-9, low=0.9e-6),
+			Limit('contact point over the size, beyond 3e-9 of the overlap, overlaps down to 1e-14', 'centreTimesOverlap', 5e-15),
 		],
 		'Below 1e-14 of the size the sign of s* is rounding, and the pair counts as separated. The contact point is as uncertain as the '
 		'planes’ rounding over the overlap: 1 % of the overlap’s own size at 1e-13.',
@@ -64,21 +60,16 @@ axes = {
 		[
 			Limit('s* over the size', 'infeasibilityError', 1e-14),
 			Limit('depth × normal over the size', 'forceError', 1e-12),
-			Limit('contact point over the overlap, up to 1e8', 'centreError', 1e-4, 'paper', high=1.1e8),
-			Limit('contact point over the overlap', 'centreError', 3e-2, 'conservative'),
+			Limit('contact point over the overlap, up to 1e8', 'centreError', 1e-4, high=1.1e8),
 		],
-		'The overlap is a tenth of the thickness. Errors are of the size, so a plate’s depth is known to 1e-15 × aspect ratio of its thickness. '
-		'Flat on flat, only the barrier of far side faces fixes the conservative contact’s point: from a ratio of about 1e5 on it is the '
-		'planes’ rounding that determines it, and the status is roundingLimited.',
-		unjudged=0.05,
+		'The overlap is a tenth of the thickness. Errors are of the size, so a plate’s depth is known to 1e-15 × aspect ratio of its thickness.',
 	),
 	'size': Axis(
 		'Size ratio of the pair',
 		'larger over smaller body',
 		[
 			Limit('s* over the larger body’s size', 'infeasibilityOfLarger', 1e-14),
-			Limit('depth over the larger body’s size', 'depthOfLarger', 2e-14, 'paper'),
-			Limit('depth × normal over the larger body’s size', 'forceOfLarger', 1e-12, 'conservative'),
+			Limit('depth over the larger body’s size', 'depthOfLarger', 2e-14),
 		],
 		'The bodies’ distance and the larger one’s planes are rounded by its size: a grain on a block a million times larger has its depth '
 		'to 1e-9 of the grain.',
@@ -99,12 +90,9 @@ axes = {
 		'angle (rad)',
 		[
 			*depths,
-			Limit('contact point over the size, beyond 3e-9 of the overlap', 'centreTimesOverlap', 5e-15, 'paper'),
-			Limit('contact point over the overlap', 'centreError', 1e-9, 'conservative'),
+			Limit('contact point over the size, beyond 3e-9 of the overlap', 'centreTimesOverlap', 5e-15),
 		],
-		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep. At angles below rounding the conservative '
-		'contact of a wedge may have its force where the exact Φ is not below zero yet, by rounding.',
-		unjudged=0.002,
+		'wedge: the overlap ends within the faces, a tenth of the angle deep; whole face: it is 1e-2 deep.',
 	),
 	'twins': Axis(
 		'Two planes of one body that nearly agree',
@@ -115,7 +103,6 @@ axes = {
 		'Planes per body',
 		'planes',
 		[*depths, Limit('contact point over the overlap', 'centreError', 1e-8)],
-		'The conservative contact’s barrier counts planes: the more there are, the deeper an overlap before its force begins.',
 	),
 	'redundant': Axis(
 		'Redundant and duplicated planes',
@@ -128,11 +115,11 @@ axes = {
 		'gap in roundings of the size (2.2e-16)',
 		[
 			Limit('s* over the size', 'infeasibilityError', 1e-14),
-			Limit('least overlap called a contact, in roundings', 'overlapCalledContact', 200, 'paper', least=30),
-			Limit('largest overlap called separated, in roundings', 'overlapCalledSeparated', 60, 'paper'),
+			Limit('least overlap called a contact, in roundings', 'overlapCalledContact', 200, least=30),
+			Limit('largest overlap called separated, in roundings', 'overlapCalledSeparated', 60),
 		],
-		'A pair touches from −s* = 45 roundings on. The conservative contact begins deeper, where its barrier is overcome. Where parallel edges overlap by '
-		'less than 2e-11 of their length, how the weights balance along them is decided by the rounding of the planes’ normals: the normal may be that of '
+		'A pair touches from −s* = 45 roundings on. Where parallel edges overlap by less '
+		'than 2e-11 of their length, how the weights balance along them is decided by the rounding of the planes’ normals: the normal may be that of '
 		'either face.',
 	),
 	'coincident': Axis(
@@ -141,23 +128,22 @@ axes = {
 		[
 			depths[0],
 			# eight roundings, what planes and positions leave of s* (Reference.cpp): the normal is as uncertain as they are over the distance
-			Limit('depth over the size × distance of the centres over the size', 'depthTimesDistance', 8 * 2.0**-52, 'paper'),
-			Limit('depth × normal over the size', 'forceError', 1e-10, 'conservative'),
+			Limit('depth over the size × distance of the centres over the size', 'depthTimesDistance', 8 * 2.0**-52),
 		],
 		'The direction between two bodies that nearly coincide is as uncertain as rounding over their distance, and so is the depth along it. Where no '
-		'direction leads out: normalFromDual or noDirection (paper: the normal along the line of centres), no force (conservative).',
+		'direction leads out: normalFromDual or noDirection (the normal along the line of centres).',
 		unjudged=0.31,
 	),
 	'inside': Axis(
 		'One body inside the other',
 		'inner over outer body',
-		[Limit('s* over the size', 'infeasibilityError', 1e-14), Limit('depth × normal over the size', 'forceError', 1e-12, 'conservative')],
-		'No plane of the outer body is near: noDirection (paper), a force that fades out (conservative).',
+		[Limit('s* over the size', 'infeasibilityError', 1e-14)],
+		'No plane of the outer body is near: noDirection.',
 		unjudged=0.7,
 	),
 	'deep': Axis(
 		'Overlap beyond the corner radius',
-		'overlap −s* (conservative: −Φ) over the corner radius',
+		'overlap −s* over the corner radius',
 		[*depths, Limit('contact point over the overlap', 'centreError', 1e-9)],
 		'Deeper than cornerRadius in one body the normal is the other’s (normalFromOneBody), in both the program’s dual direction '
 		'(normalFromDual), checked to lead out: moved along it by what it promises, the pair is free in exact arithmetic.',

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pairs varied along thirteen axes from easy to extreme: error and status in double against exact arithmetic.
 
-The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), runs the contact kernel with both contact models, and
+The program polytope_extremes (PairExtremes.cpp) makes the pairs at random (seeded), runs the contact kernel with the paper's model, and
 compares its answers with the linear program in rational arithmetic and centre, normal and depth in 150 digits. Here the samples
 become one table and one plot per axis. Ends with 1 if an answer is not a number, unbounded, a missed or false contact, or in error beyond
 rounding without a status that says so; or if an error is above the limit that docs/accuracy.md states.
@@ -70,7 +70,7 @@ def report(findings, name, samples):
 	axis = axes[name]
 	found = faults(samples)
 	worstOf = '; '.join(
-		f'{what}: {len(bad)}, such as {bad[0].kind} {bad[0].value:g} #{bad[0].sample:g} ({bad[0].model})' for what, bad in found.items() if bad
+		f'{what}: {len(bad)}, such as {bad[0].kind} {bad[0].value:g} #{bad[0].sample:g}' for what, bad in found.items() if bad
 	)
 	findings.row(
 		f'{axis.title}: answers that are wrong without a status',
@@ -79,7 +79,7 @@ def report(findings, name, samples):
 		accept=(0, 0),
 		note=worstOf or 'no NaN, nothing unbounded, missed, false or beyond rounding',
 	)
-	unseen = collections.Counter(f'{s.status}, {s.model}' for s in unjudged(samples))
+	unseen = collections.Counter(s.status for s in unjudged(samples))
 	findings.row(
 		f'{axis.title}: share of answers whose errors are not judged',
 		sum(unseen.values()) / len(samples),
@@ -88,11 +88,10 @@ def report(findings, name, samples):
 	)
 	for limit in axis.limits:
 		most, least = worst(samples, limit)
-		where = f' ({limit.model})' if limit.model else ''
 		if limit.least:
-			findings.row(f'{axis.title}: {limit.text}{where}', least, accept=(limit.least, limit.most))
+			findings.row(f'{axis.title}: {limit.text}', least, accept=(limit.least, limit.most))
 		else:
-			findings.row(f'{axis.title}: {limit.text}{where}, worst', most, accept=(0, limit.most))
+			findings.row(f'{axis.title}: {limit.text}, worst', most, accept=(0, limit.most))
 	findings.text(f'{axis.title}. {axis.note}')
 	findings.table(name, f'{axis.title}; value: {axis.label}; errors of point over the overlap’s own size, of lengths over the size', summaryColumns, summary(samples))
 	plotPairs(findings.folder / f'{name}.png', axis, samples)
@@ -100,8 +99,7 @@ def report(findings, name, samples):
 
 
 def transitions(findings, given):
-	"""Jumps where a pair is pressed in deeper than its corner radius: the status of the paper's contact changes there, the conservative
-	one's does not."""
+	"""Jumps where a pair is pressed in deeper than its corner radius: the status changes there."""
 	path = given.output / 'samples' / 'transitions.csv'
 	with open(path, 'w') as file:
 		subprocess.run([given.program, '--transitions', str(given.samples)], stdout=file, check=True)
@@ -135,8 +133,8 @@ def main(arguments=None):
 	findings = Findings('pairs', 'Pairs at the extremes', given.output, {'samples': given.samples, 'quick': given.quick})
 	findings.text(
 		'Each mark stands for all samples of a kind of pair in random orientations. The references take the input’s doubles as they stand: the '
-		'linear program is solved in rational arithmetic, the centre, the normal and the depth (of the conservative contact: minimiser, Φ and its '
-		'gradient) in 150 digits. Lengths are over the size, the smaller circumradius; the contact point’s error is in the local norm of the '
+		'linear program is solved in rational arithmetic, the centre, the normal and the depth '
+		'in 150 digits. Lengths are over the size, the smaller circumradius; the contact point’s error is in the local norm of the '
 		'barrier, where 1 is about the overlap’s own size in that direction.'
 	)
 	for name, samples in sampled(given).items():

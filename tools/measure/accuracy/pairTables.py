@@ -16,7 +16,7 @@ failed = ('refused', *(name for name, answered in statuses().items() if not answ
 
 rounding = 2.0**-52
 
-textColumns = ('axis', 'kind', 'model', 'status', 'refusal')
+textColumns = ('axis', 'kind', 'status', 'refusal')
 flags = ('inContact', 'touches', 'within', 'compared', 'finite', 'bounded', 'free')
 
 
@@ -74,7 +74,6 @@ def _compared(sample, value):
 derived = {
 	'infeasibilityOfLarger': lambda s: s.infeasibilityError / s.value,
 	'depthOfLarger': lambda s: _compared(s, s.depthError / s.value),
-	'forceOfLarger': lambda s: _compared(s, s.forceError / s.value),
 	'centreTimesOverlap': lambda s: _compared(s, max(s.centreError - 3e-9, 0) * -s.infeasibility),
 	'depthTimesDistance': lambda s: _compared(s, s.depthError * s.value),
 	'movedOverDistance': lambda s: abs(s.moved) / s.value,
@@ -109,16 +108,13 @@ def unjudged(samples):
 
 def worst(samples, limit):
 	"""The largest (and least) value of a limit's quantity over the samples it holds for; NaN, NaN where there is none."""
-	values = [
-		s.error(limit.quantity) for s in samples if limit.model in ('', s.model) and limit.low <= s.value <= limit.high and not s.refused
-	]
+	values = [s.error(limit.quantity) for s in samples if limit.low <= s.value <= limit.high and not s.refused]
 	values = [v for v in values if not math.isnan(v)]
 	return (max(values), min(values)) if values else (math.nan, math.nan)
 
 
 summaryColumns = (
 	'pair',
-	'model',
 	'value',
 	'samples',
 	's*: median error',
@@ -134,12 +130,12 @@ summaryColumns = (
 
 
 def summary(samples):
-	"""Rows for `summaryColumns`: one for each kind of pair, model and value."""
+	"""Rows for `summaryColumns`: one for each kind of pair and value."""
 	groups = collections.defaultdict(list)
 	for s in samples:
-		groups[s.kind, s.model, s.value].append(s)
+		groups[s.kind, s.value].append(s)
 	rows = []
-	for (kind, model, value), group in groups.items():
+	for (kind, value), group in groups.items():
 
 		def of(pick, name, group=group):
 			values = [getattr(s, name) for s in group if not s.refused and (name == 'infeasibilityError' or s.compared)]
@@ -150,7 +146,6 @@ def summary(samples):
 		rows.append(
 			[
 				kind,
-				model,
 				f'{value:g}',
 				len(group),
 				of(statistics.median, 'infeasibilityError'),

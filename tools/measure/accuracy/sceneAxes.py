@@ -77,7 +77,7 @@ class Stack:
 	"""Relative errors of the contacts' normal forces."""
 	lowerHeight: float
 	upperHeight: float
-	"""Errors of the blocks' heights over the upper contact's overlap (paper: the closed form has none for the conservative contact)."""
+	"""Errors of the blocks' heights over the upper contact's overlap."""
 	speed: float
 	"""Left, over that of a fall through the upper overlap."""
 	failures: int
@@ -104,12 +104,11 @@ def stack(model, stiffnessRatio=1.0, massRatio=1.0, away=0.1, settle=100, most=1
 	slowest = math.sqrt(heavy / min(hard, between))
 	O.run(min(int(settle * slowest / O.dt) + 2000, most), True)
 	lower, upper = O.bodies[1].state, O.bodies[2].state
-	exact = model == 'paper'
 	return Stack(
 		force(0, 1) / ((light + heavy) * gravity) - 1,
 		force(1, 2) / (heavy * gravity) - 1,
-		(lower.pos[2] - heights[0]) / overlaps[1] if exact else math.nan,
-		(upper.pos[2] - heights[1]) / overlaps[1] if exact else math.nan,
+		(lower.pos[2] - heights[0]) / overlaps[1],
+		(upper.pos[2] - heights[1]) / overlaps[1],
 		max(lower.vel.norm(), upper.vel.norm()) / math.sqrt(2 * gravity * overlaps[1]),
 		scene.failures,
 		scene.finite,
@@ -189,8 +188,7 @@ def vibrate(model, fraction, steps=2000):
 	amplitude = 0.1 * overlap
 	O.bodies.append([floor(), polytope.cuboid((0.1, 0.2, 0.5 - overlap), (0.5, 0.5, 0.5))])
 	block = O.bodies[1].state
-	low = 0.5 - overlapAt(overlap, model, (5, 5, 1), (0.1, 0.2))
-	# where the overlap is deepest: the conservative contact's rocking stiffness grows with its force
+	low = 0.5 - overlap
 	block.pos = Vector3(0.1, 0.2, low - amplitude)
 	O.dt = 1e-9
 	O.step()  # makes the contact
@@ -214,19 +212,6 @@ def vibrate(model, fraction, steps=2000):
 		scene.failures,
 		scene.finite,
 	)
-
-
-def overlapAt(depth, model, below=(0.5, 0.5, 0.5), aside=(0, 0)):
-	"""Overlap of a cube of 1 m with the block under it at which the contact's depth is *depth* [m]: the conservative one begins deeper."""
-	if model == 'paper':
-		return depth
-	lower, upper = polytope.cuboid((0, 0, -below[2]), below), polytope.cuboid((*aside, 0.5), (0.5, 0.5, 0.5))
-	low, high = 0.0, depth + 1e-2
-	for _ in range(60):
-		middle = (low + high) / 2
-		upper.state.pos = Vector3(*aside, 0.5 - middle)
-		low, high = (low, middle) if polytope.contact(lower, upper, contactModel=model).depth > depth else (middle, high)
-	return (low + high) / 2
 
 
 @dataclasses.dataclass
@@ -255,7 +240,7 @@ def tower(model, blocks=50, steps=30000, seed=1):
 	O.bodies.append(floor())
 	height = 0.0
 	for k in range(blocks):
-		height -= overlapAt((blocks - k) * weight / stiffness, model)
+		height -= (blocks - k) * weight / stiffness
 		O.bodies.append(polytope.cuboid((*aside[k], height + k + 0.5), (0.5, 0.5, 0.5)))
 	O.dt = 0.1 * math.sqrt(density / (2 * stiffness))
 	O.run(steps, True)

@@ -28,7 +28,7 @@ from boon2012.reporting.script import conclude
 from sceneAxes import collide, rest, slide, stack, tower, vibrate
 from scenePlots import Line, plotScenes
 
-models = ('paper', 'conservative')
+models = ('paper', 'spring')
 
 
 def cells(results):

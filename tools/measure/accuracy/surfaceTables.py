@@ -8,6 +8,7 @@ from tabulate import tabulate
 from tqdm import tqdm
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, Quaternion, Vector3
 
+from surfaceModel import contactSurface
 from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, restOverEnd, roll
 from surfaceStudy.measures import cross, rest, slideDown, stop
 
@@ -38,7 +39,7 @@ def contacts():
 	found = {'default': {}}
 	if hasattr(Ig2_Polytope_Polytope_PolytopeGeom, 'normal'):
 		found["paper's normal"] = {'normal': 'innerPotential'}
-	return {**found, 'conservative': {'contactModel': 'conservative'}}
+	return {**found, 'contact surface': contactSurface}
 
 
 @dataclasses.dataclass

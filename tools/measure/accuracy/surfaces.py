@@ -7,7 +7,7 @@ Ends with 1 if the default contact misses a limit; the others are shown beside i
 	./run python tools/measure/accuracy/surfaces.py             # a quarter of an hour
 	./run python tools/measure/accuracy/surfaces.py --quick     # fewer floors, bodies and speeds: two minutes
 	./run python tools/measure/accuracy/surfaces.py --floor plates --body cube --speed 1
-	./run python tools/measure/accuracy/surfaces.py --floor facets --contact contactModel=conservative --per-area
+	./run python tools/measure/accuracy/surfaces.py --floor facets --contact contactModel=foundation --per-area
 """
 
 import argparse

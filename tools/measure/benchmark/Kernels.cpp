@@ -52,19 +52,17 @@ namespace {
 			return set->touching && samples::infeasibility(free) >= -1e-9 * free.size();
 		}
 
-		/// Models whose force is the gradient of an energy: force · a small motion along it is what the energy falls by. The conservative
-		/// model's corners are blunt by a few barriers, so of pairs that touch some are not in contact yet, but none that are apart is.
+		/// Models whose force is the gradient of an energy: force · a small motion along it is what the energy falls by.
 		bool energyIsRight(const Pair& pair)
 		{
-			if (!result.inContact) return settings.contactModel == ContactModel::Conservative || !set->touching;
-			const bool surface = hasSurface(settings.contactModel), perArea = settings.contactModel == ContactModel::Foundation;
-			const auto whole = [&](Real value) { return perArea ? value * result.area : value; };
-			const bool asked = settings.energy;
-			settings.energy  = true;
+			if (!result.inContact) return !set->touching;
+			const bool perArea = settings.contactModel == ContactModel::Foundation;
+			const auto whole   = [&](Real value) { return perArea ? value * result.area : value; };
+			const bool asked   = settings.energy;
+			settings.energy    = true;
 			PairMemory none;
 			query(pair, none);
-			const Real energy = whole(result.energy), force = whole(result.depth),
-			           step      = Real(1e-4) * (surface ? -result.infeasibility : -result.barrierValue);
+			const Real    energy = whole(result.energy), force = whole(result.depth), step = Real(1e-4) * -result.infeasibility;
 			const Vector3 normal = result.normal;
 			Pair          there  = pair;
 			there.centre2 += step * normal;
@@ -326,13 +324,6 @@ namespace {
 						        ours.settings.contactPoint = point;
 						        ours.run(state);
 					        });
-			for (const bool warm : { false, true })
-				add(std::string("ours, conservative ") + (warm ? "warm" : "cold"), set,
-				        [warm](benchmark::State& state, const PairSet& set) {
-					        Ours ours { &set, {}, warm, {}, {}, {} };
-					        ours.settings.contactModel = ContactModel::Conservative;
-					        ours.run(state);
-				        });
 			const struct {
 				const char*  name;
 				ContactModel model;

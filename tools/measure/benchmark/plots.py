@@ -13,8 +13,8 @@ planesOf = {**{name: 2 * faces for name, faces in solids.items()}, **{f'hull {n}
 colors = {
         'ours cold': '#c2410c',
         'ours warm': '#f59e0b',
-        'ours, conservative cold': '#be185d',
-        'ours, conservative warm': '#f472b6',
+        'ours, spring cold': '#be185d',
+        'ours, spring warm': '#f472b6',
         'one pass': '#9ca3af',
         'libccd MPR': '#1d4ed8',
         'libccd GJK+EPA': '#60a5fa',
@@ -86,7 +86,7 @@ def costBySet(kernels, path):
 	names = list(dict.fromkeys(name for _, name in kernels))
 	figure, axes = plt.subplots(figsize=(9, 0.42 * len(names) + 1.6))
 	for method, color in colors.items():
-		aside = 0.25 if 'conservative' in method else 0  # its cold pairs apart cost the same
+		aside = 0.25 if 'spring' in method else 0  # its pairs apart cost the same
 		points = [(kernels[method, name].median, y + aside, kernels[method, name].wrong) for y, name in enumerate(names) if (method, name) in kernels]
 		if not points:
 			continue

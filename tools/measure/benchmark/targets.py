@@ -78,15 +78,6 @@ def kernelRows(kernels):
 			ours, peer = time(f'ours {start}', name), time('libccd MPR', name)
 			if ours and peer and name not in solids and not name.endswith(' apart'):
 				rows.append(reported(f'touching, {start}, {name}', 'libccd MPR', ours, peer))
-	for start in ('cold', 'warm'):
-		for name in sets:
-			found = [kernels.get((f'{model} {start}', name)) for model in ('ours, conservative', 'ours')]
-			if all(found):
-				touching = found[1].contacts
-				notes = [f'{found[0].wrong} wrong'] if found[0].wrong else []
-				notes += [f'{100 * found[0].contacts:.0f} % in contact'] if found[0].contacts < touching else []
-				measure = f'conservative model, {start}, {name}' + (f' ({", ".join(notes)})' if notes else '')
-				rows.append(reported(measure, "paper's model", *[one.median for one in found]))
 	return rows
 
 

@@ -26,7 +26,7 @@ from sites import Mutant, sites
 core = ('src/centre', 'src/contact', 'src/program', 'src/numbers', 'src/shape', 'src/timestep')
 plugin = tuple(f'pkg/polytope/{name}' for name in ('RockJointLaw.cpp', 'RockJointPhysics.cpp', 'PolytopeGeom.cpp', 'ContactOptions.cpp', 'ContactCounters.cpp', 'RockJointShear.cpp'))
 pluginTests = (
-        'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_conservative.py test_energy.py test_mechanical_energy.py'
+        'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_spring.py test_energy.py test_mechanical_energy.py'
 ).split()
 shareOfConstants = 0.15
 shareOfPlugin = 0.2

@@ -115,8 +115,7 @@ def isBody(measure):
 
 
 def isPair(measure):
-	"""The conservative contact's many rows have a sentence of their own."""
-	return not isScene(measure) and not isBody(measure) and not measure.startswith('conservative')
+	return not isScene(measure) and not isBody(measure)
 
 
 def verdict(folder):
@@ -143,15 +142,6 @@ def faster(peer):
 	return figure
 
 
-def conservative(folder):
-	"""Times as much as the default contact, for pairs that touch in both, warm: least to most."""
-	rows = [row for row in read(folder)['targets'] if row['measure'].startswith('conservative model, warm')]
-	ratios = [row['ratio'] for row in rows if 'apart' not in row['measure'] and '% in contact' not in row['measure']]
-	if not ratios:
-		raise ValueError(f'{file}: no conservative contact: run all groups of ./run bench')
-	return f'{min(ratios):.1f} to {max(ratios):.1f} times'
-
-
 def features(folder):
 	found = read(folder)['features']
 	if not found:
@@ -166,7 +156,6 @@ figures = {
         'bench.scenes': targets(isScene),
         'bench.pairs': targets(isPair),
         'bench.bodies': targets(isBody),
-        'bench.conservative': conservative,
         'bench.features': features,
         'bench.polyhedra': faster('Polyhedra'),
 }

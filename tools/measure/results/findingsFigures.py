@@ -103,6 +103,6 @@ def speedKept(contact):
 	return figure
 
 
-contacts = {'default': 'default', 'paper': "paper's normal", 'conservative': 'conservative'}
+contacts = {'default': 'default', 'paper': "paper's normal"}
 figures = {f'accuracy.speed.{name}': speedKept(contact) for name, contact in contacts.items()}
 figures |= {'paper.rows': allRows('paper'), 'paper.verdicts': verdicts('paper'), 'accuracy.verdicts': verdicts('accuracy')}

@@ -94,63 +94,6 @@ public:
 		return std::sqrt(sum);
 	}
 
-	/// The barrier's function s + μ² Σ 1/σ − 2√2 μ at a point: an upper bound of Φ. Infinite where a σ is not positive.
-	Extended barrier(const Vector3& point, Extended s, Extended mu) const
-	{
-		const ExtendedVector x   = extended(point);
-		Extended             sum = 0;
-		for (const Plane& plane : planes_) {
-			const Extended sigma = s + slack(plane, x);
-			if (!(sigma > 0)) return std::numeric_limits<Extended>::infinity();
-			sum += 1 / sigma;
-		}
-		return s + mu * mu * sum - 2 * std::sqrt(Extended(2)) * mu;
-	}
-
-	/// A lower bound of Φ: −Σ λ d + 2 μ (Σ √λ − √2) by weak duality, from the answer's weights.
-	Extended barrierBound(const ContactResult& result, Extended mu) const
-	{
-		Extended       sum = 0, value = 0, roots = -std::sqrt(Extended(2));
-		ExtendedVector balance {};
-		for (int k = 0; k <= dimension_; ++k) {
-			const Plane&   plane  = basisPlane(result, k);
-			const Extended weight = std::max<Extended>(result.weights[k], 0);
-			sum += weight;
-			value -= weight * plane.offset;
-			roots += std::sqrt(weight);
-			for (int j = 0; j < dimension_; ++j)
-				balance[j] += weight * plane.normal[j];
-		}
-		return value - norm(balance) * 4 * reach_ - std::abs(sum - 1) * reach_ + 2 * mu * roots;
-	}
-
-	/// Decrease of barrier() by Newton's next step, over μ/2: its root is the distance from the minimiser in the local norm.
-	Extended barrierDecrement(const Vector3& point, Extended s, Extended mu) const
-	{
-		const ExtendedVector  x = extended(point);
-		std::vector<Extended> rows[4];
-		Extended              g[4] = { 0, 0, 0, 0 };
-		g[dimension_]              = 1;
-		for (const Plane& plane : planes_) {
-			const Extended u = mu / (s + slack(plane, x)), w = std::sqrt(2 * u * u * u);
-			for (int k = 0; k <= dimension_; ++k) {
-				const Extended z = k == dimension_ ? 1 : -plane.normal[k];
-				rows[k].push_back(w * z);
-				g[k] -= u * u * z;
-			}
-		}
-		// H = AᵀA, A = QR: gᵀ H⁻¹ g = |R⁻ᵀ g|²
-		Extended r[4][4];
-		orthonormalise(rows, dimension_ + 1, r);
-		Extended sum = 0;
-		for (int k = 0; k <= dimension_; ++k) {
-			for (int j = 0; j < k; ++j)
-				g[k] -= r[j][k] * g[j];
-			g[k] = r[k][k] > 0 ? g[k] / r[k][k] : Extended(0);
-			sum += g[k] * g[k];
-		}
-		return std::sqrt(sum);
-	}
 
 private:
 	struct Plane {
@@ -228,24 +171,20 @@ private:
 		return sum;
 	}
 
-	/// Gram-Schmidt, twice; r: the triangular factor.
-	static void orthonormalise(std::vector<Extended>* columns, int count, Extended (*r)[4] = nullptr)
+	/// Gram-Schmidt, twice.
+	static void orthonormalise(std::vector<Extended>* columns, int count)
 	{
 		for (int k = 0; k < count; ++k) {
-			std::vector<Extended>& column   = columns[k];
-			Extended               along[4] = { 0, 0, 0, 0 };
+			std::vector<Extended>& column = columns[k];
 			for (int twice = 0; twice < 2; ++twice)
 				for (int j = 0; j < k; ++j) {
 					const Extended part = inner(columns[j], column);
-					along[j] += part;
 					for (std::size_t i = 0; i < column.size(); ++i)
 						column[i] -= part * columns[j][i];
 				}
-			along[k] = std::sqrt(inner(column, column));
+			const Extended length = std::sqrt(inner(column, column));
 			for (Extended& element : column)
-				element = along[k] > 0 ? element / along[k] : Extended(0);
-			for (int j = 0; r && j <= k; ++j)
-				r[j][k] = along[j];
+				element = length > 0 ? element / length : Extended(0);
 		}
 	}
 };

@@ -197,14 +197,14 @@ std::string report(const Options& options, const std::vector<Tally>& tallies, co
 	       "reach\n"
 	       "(8 are allowed). pivots, iterations: most of one query.\n\n";
 	for (int model = 0; model < 2; ++model) {
-		out << (model == 0 ? "paper:       " : "conservative:");
+		out << (model == 0 ? "paper:  " : "spring: ");
 		for (int s = 0; s < contactStatusCount; ++s) {
-			const long count = (model == 0 ? all.paper : all.conservative)[std::size_t(s)];
+			const long count = (model == 0 ? all.paper : all.spring)[std::size_t(s)];
 			if (count) out << ' ' << statusName(ContactStatus(s)) << ' ' << count;
 		}
 		out << "\n";
 	}
-	out << "defects:     ";
+	out << "defects:";
 	for (int d = 0; d < defectCount; ++d)
 		out << ' ' << defectName(Defect(d)) << ' ' << all.defects[std::size_t(d)] << (d + 1 < defectCount ? "," : "\n");
 	if (!findings.empty()) out << "\nRecords (again: --seed " << options.seed << " --family FAMILY --trial TRIAL):\n";

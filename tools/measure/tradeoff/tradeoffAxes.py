@@ -17,11 +17,7 @@ __all__ = ['Scene', 'allScenes', 'coarse', 'default', 'isNumerical', 'scatter']
 default = 'default'
 
 points = {'Chebyshev centre': {'contactPoint': 'chebyshevCentre'}, 'centroid': {'contactPoint': 'centroid'}}
-models = {
-	'conservative': {'contactModel': 'conservative'},
-	'conservative, barrier 1e-3': {'contactModel': 'conservative', 'barrier': 1e-3},
-	'conservative, barrier 1e-2': {'contactModel': 'conservative', 'barrier': 1e-2},
-}
+models = {'spring': {'contactModel': 'spring'}}
 tolerances = {
 	'Newton tolerance 1e-2': {'newtonTolerance': 1e-2},
 	'Newton tolerance 1e-6': {'newtonTolerance': 1e-6},
@@ -84,7 +80,7 @@ class Scene:
 		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
 		if not quick:
 			return self.settings
-		left = {'Newton tolerance 1e-14', 'Newton tolerance 1e-6', 'conservative, barrier 1e-3', 'time step × 0.25', 'seed 4', 'seed 5', 'seed 6'}
+		left = {'Newton tolerance 1e-14', 'Newton tolerance 1e-6', 'time step × 0.25', 'seed 4', 'seed 5', 'seed 6'}
 		left |= {'mpfr150'} if self.letter in 'CDFA' or self.letter == 'rest' else set()
 		left |= {'Ipopt', 'longdouble', 'float128'} if self.letter in 'CDA' or self.letter == 'rest' else set()
 		return {name: changes for name, changes in self.settings.items() if name not in left}
@@ -120,9 +116,6 @@ def _statics():
 
 def _wedges():
 	"""Scenes whose answer is the friction angle at which a wedge begins to move."""
-	# face on face the rocking frequency of the conservative contact is too high for the time step of the wedge in the roof
-	factors = dict(zip(models, (0.5, 0.15, 1), strict=True))
-	finer = {name: {**changes, 'timeStepFactor': factors[name]} for name, changes in models.items()}
 	wedge = limitEquilibrium(scenes.BlockGeometry.read(scenes.geometry('c_sliding_wedge.json')))
 	return (
 		Scene(
@@ -140,7 +133,7 @@ def _wedges():
 			'Roof wedge',
 			scenes.buildRoofWedge,
 			scenes.measureRoofWedge,
-			{**dynamics, **finer},
+			dynamics,
 			'critical friction angle',
 			_roofAngle(),
 			'φ = α + atan(W/ΣH)',

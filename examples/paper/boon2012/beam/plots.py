@@ -12,7 +12,7 @@ from .study import contactPointNames, solverNames
 
 __all__ = ['drawBeam', 'plotCurves', 'plotSizes']
 
-colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a', 'conservative': '#7a4fa3'}
+colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a', 'spring': '#7a4fa3'}
 ipoptColor = '#3a8f6b'
 
 

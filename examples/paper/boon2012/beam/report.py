@@ -81,7 +81,7 @@ class BeamReport:
 			('work up to the peak', curve.work, closed.work(rotation), 'J'),
 			('energy stored at the peak', peak.stored, closed.stored(rotation), 'J'),
 		):
-			note = 'more than the work: not conservative' if 'stored' in what else ''
+			note = 'more than the work: not the gradient of an energy' if 'stored' in what else ''
 			self.within(f'centroid: {what}', ours, theory, unit, tolerance, note)
 
 	def _analyticCentre(self, curve):

@@ -81,7 +81,7 @@ class ThreeHingedBeam:
 	cornerRadius: float = 0.0046
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
 	contactModel: str = 'paper'
-	"""Or 'conservative', which reads neither contactPoint nor solver nor corner radius nor normal weight."""
+	"""Or 'spring', which reads neither contactPoint nor solver nor corner radius nor normal weight."""
 	normal: str = 'innerPotential'
 	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
@@ -242,7 +242,7 @@ class ThreeHingedBeam:
 		try:
 			return self.balance(rotation).load
 		except RuntimeError:
-			return 0.0  # open: the conservative model's corners are blunt by a few barriers
+			return 0.0  # open
 
 	def drive(self, first, last, steps, sample=1):
 		"""Turn both half-beams at a constant rate from one rotation to another, free to move in x and y: dynamics.
@@ -354,7 +354,7 @@ class ThreeHingedBeam:
 
 
 def _stored(contact):
-	energy = contact.geom.energyPerStiffness  # of the conservative model; -1 for the paper's
+	energy = contact.geom.energyPerStiffness  # of the contact surface; -1 for the paper's
 	return contact.phys.kn * energy if energy >= 0 else contact.phys.normalForce.squaredNorm() / (2 * contact.phys.kn)
 
 

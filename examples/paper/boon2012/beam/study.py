@@ -12,7 +12,7 @@ from .theory import BeamBetweenWalls, BeamOfTwoBlocks
 
 __all__ = ['AbutmentSize', 'BeamCurve', 'BeamStudy', 'DrivenBeam', 'PushedBeam', 'TiltedNormal', 'contactPointNames', 'solverNames']
 
-contactPointNames = {'centroid': 'centroid', 'analyticCentre': 'analytic centre', 'chebyshevCentre': 'Chebyshev centre', 'conservative': 'conservative contact'}
+contactPointNames = {'centroid': 'centroid', 'analyticCentre': 'analytic centre', 'chebyshevCentre': 'Chebyshev centre', 'spring': 'contact surface'}
 solverNames = {'newton': 'Newton', 'ipopt': 'Ipopt'}
 
 
@@ -125,10 +125,10 @@ class BeamStudy:
 		return {'abutmentHeight': height * self.given.height, 'abutmentLength': length * self.given.height}
 
 	def scene(self, stiffness=1, timeStep=1, **changes):
-		"""The beam with factors on both stiffnesses and on the time step's fraction, and other attributes. contactPoint 'conservative' is
-		the conservative model."""
-		if changes.get('contactPoint') == 'conservative':
-			changes = {**changes, 'contactModel': 'conservative', 'contactPoint': 'analyticCentre'}
+		"""The beam with factors on both stiffnesses and on the time step's fraction, and other attributes. contactPoint 'spring' is the
+		contact model of that name."""
+		if changes.get('contactPoint') == 'spring':
+			changes = {**changes, 'contactModel': 'spring', 'contactPoint': 'analyticCentre'}
 		attributes = {**self.attributes, **changes}
 		for name in ('abutmentStiffness', 'midspanStiffness'):
 			attributes[name] *= stiffness

@@ -80,7 +80,7 @@ class Collision:
 	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 	contactModel: str = 'paper'
-	"""Or 'conservative'; then *normal* and *contactPoint* are not read."""
+	"""Or 'foundation', 'spring'; then *normal* and *contactPoint* are not read."""
 
 	# what build() made
 	fixedId: int = dataclasses.field(default=-1, init=False)

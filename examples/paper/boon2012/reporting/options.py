@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 contactPoints = ('analyticCentre', 'chebyshevCentre', 'centroid')
-contactModels = ('paper', 'conservative')
+contactModels = ('paper', 'foundation', 'spring')
 """Of Ig2_Polytope_Polytope_PolytopeGeom."""
 
 ofTheRun = ('quick', 'output', 'no_pictures')

@@ -117,7 +117,7 @@ class SlumpingSlope:
 	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
 	contactModel: str = 'paper'
-	"""Or 'conservative'; then *normal* and *contactPoint* are not read."""
+	"""Or 'foundation', 'spring'; then *normal* and *contactPoint* are not read."""
 
 	# what build() made
 	freeIds: list = dataclasses.field(default_factory=list, init=False)

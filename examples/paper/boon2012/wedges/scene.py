@@ -70,7 +70,7 @@ class WedgeScene:
 	rockingDamping: float = 0.0
 	"""Of each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
 	contactModel: str = 'paper'
-	"""Or 'conservative', which does not read contactPoint, and needs a shorter time step: it is stiff in rocking."""
+	"""Or 'foundation', 'spring', which do not read contactPoint and normal."""
 	normal: str = 'innerPotential'
 	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'

@@ -26,8 +26,6 @@ from .scene import stiffnessFactors
 
 __all__ = ['WedgeCase', 'WedgeReport', 'parseWedge', 'plotReduction', 'wedgeParser']
 
-rockingStiff = 8
-"""Times more and shorter time steps with the conservative model, which is stiff in rocking: those of D with blocks that touch are unstable above 0.05 sqrt(m/k)."""
 lowestSpeed = 1e-10
 """Slower is drawn as this [m/s]."""
 stableColor, failedColor = '#1d4e79', '#c8451b'
@@ -44,7 +42,7 @@ def wedgeParser(text, geometry, steps):
 	show('--shear-stiffness', type=positive, default=1e7, help='in the same unit')
 	times = 'stiffness of a contact: times the area of the wedge\'s face; times the area of the present contact section; as it is'
 	show('--stiffness-times', choices=stiffnessFactors, default='face', help=times)
-	show('--contact-model', choices=contactModels, default='paper', help='conservative: an eighth of the time step; reads no contact point')
+	show('--contact-model', choices=contactModels, default='paper', help='foundation, spring: of the contact surface, read no contact point')
 	show('--contact-point', choices=contactPoints, default='analyticCentre')
 	show('--damping', type=fraction, default=0.7, help='YADE\'s own, of NewtonIntegrator')
 	show('--contact-damping', type=notNegative, default=0.0, help='of contacts in normal and shear direction, fraction of critical')
@@ -69,11 +67,6 @@ def parseWedge(parser, quickSteps):
 	"""
 	given = parser.parse_args()
 	given.reference = isReference(parser, given)
-	if given.contact_model == 'conservative':
-		if given.time_step_fraction == parser.get_default('time_step_fraction'):
-			given.time_step_fraction /= rockingStiff
-		given.check_every *= rockingStiff
-		given.most_steps *= rockingStiff
 	if given.quick and given.steps == parser.get_default('steps'):
 		given.steps = list(quickSteps)
 	return given

@@ -13,17 +13,17 @@ from .scene import Contact, freeFlight
 __all__ = ['EnergyStudy', 'PeerFailed']
 
 paper, sharp, perArea = "paper's model", "paper's model, corner radius 0", "paper's model, stiffness per area"
-default, conservative, spheres = 'default contact', 'conservative', "YADE's spheres"
+default, spring, spheres = 'default contact', 'spring', "YADE's spheres"
 ours = {
 	spheres: Contact('spheres'),
-	conservative: Contact('conservative'),
+	spring: Contact('spring'),
 	default: Contact('default'),
 	sharp: Contact('paper', corner=0),
 	perArea: Contact('perArea'),
 	paper: Contact('paper'),
 }
-conservativeMedian = 2e-5
-"""Largest median error of the conservative contact at 200 steps in half a period; (200/n)² times as much at n steps."""
+springMedian = 2e-5
+"""Largest median error of the contact model *spring* at 200 steps in half a period; (200/n)² times as much at n steps."""
 
 columns = ['median', 'root mean square', 'largest', 'largest gain', 'collisions that gain', 'of']
 
@@ -122,10 +122,10 @@ class EnergyStudy:
 			accept=(0.9, 1.1),
 			note='smaller time steps do not help',
 		)
-		fall = spreads[conservative][first]['rms'] / spreads[conservative][last]['rms']
+		fall = spreads[spring][first]['rms'] / spreads[spring][last]['rms']
 		square = (last / first) ** 2
 		row(
-			f'{conservative}: root mean square at {first} steps over that at {last}',
+			f'{spring}: root mean square at {first} steps over that at {last}',
 			fall,
 			theory=square,
 			accept=(square / 2, math.inf),
@@ -139,7 +139,7 @@ class EnergyStudy:
 			note='bound of the leapfrog scheme on a spring that is met and left within a step',
 		)
 		for n in steps:
-			row(f'{conservative}: median error at {n} steps', spreads[conservative][n]['median'], theory=0, accept=(0, conservativeMedian * (200 / n) ** 2))
+			row(f'{spring}: median error at {n} steps', spreads[spring][n]['median'], theory=0, accept=(0, springMedian * (200 / n) ** 2))
 		row(
 			f'{sharp}: median error at 100 steps',
 			spreads[sharp][100]['median'],
@@ -174,7 +174,7 @@ class EnergyStudy:
 		found = {o: {} for o in overlaps}
 		for overlap, corner in cases:
 			found[overlap][corner] = spread(self.collide(Contact('paper', corner), 50, overlap))
-		smooth = {overlap: spread(self.collide(Contact('conservative'), 50, overlap)) for overlap in overlaps}
+		smooth = {overlap: spread(self.collide(Contact('spring'), 50, overlap)) for overlap in overlaps}
 		self.findings.table(
 			'corner_radii',
 			'The same collisions by corner radius (over the inscribed radius) and overlap of a central impact (over half a cube\'s '
@@ -182,7 +182,7 @@ class EnergyStudy:
 			'half a period.',
 			['contact', 'overlap', 'corner radius', *columns],
 			[[paper, overlap, corner, *cells(s)] for overlap, byCorner in found.items() for corner, s in byCorner.items()]
-			+ [[conservative, overlap, '', *cells(s)] for overlap, s in smooth.items()],
+			+ [[spring, overlap, '', *cells(s)] for overlap, s in smooth.items()],
 		)
 		plotCorners(self.findings.folder / 'corner_radii.png', found)
 		self.findings.figure('corner_radii.png', 'Corner radius 0 stands for the direction of the linear program\'s dual.')
@@ -199,7 +199,7 @@ class EnergyStudy:
 	def damping(self):
 		fractions = (0, 0.05, 0.2, 1) if self.quick else (0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1)
 		found = {}
-		for name in tqdm((paper, default, sharp, conservative), desc='damping', disable=None):
+		for name in tqdm((paper, default, sharp, spring), desc='damping', disable=None):
 			how = ours[name]
 			found[name] = {z: spread(self.collide(Contact(how.model, how.corner, contactDamping=z), 50)) for z in fractions}
 		global_ = {d: spread(self.collide(Contact('paper', damping=d), 50)) for d in ((0.2,) if self.quick else (0.1, 0.2, 0.4))}
@@ -224,7 +224,7 @@ class EnergyStudy:
 				+ ('' if least is not None or not enough else '; not monotonic'),
 			)
 		z = fractions[1]
-		self.findings.row(f'{conservative}: collisions that gain at {z:g} of critical', found[conservative][z]['gaining'], accept=(0, 0))
+		self.findings.row(f'{spring}: collisions that gain at {z:g} of critical', found[spring][z]['gaining'], accept=(0, 0))
 		self.damped = found
 
 	# ------------------------------------------------------------------------------------------------------------ cubes
@@ -235,13 +235,13 @@ class EnergyStudy:
 		found = {}
 		for name, how in tqdm(ours.items(), desc='bounces', disable=None):
 			found[name] = Bounces(how, steps, number).build().run(seconds)
-		finer = Bounces(ours[conservative], 2 * steps, number).build().run(seconds)
+		finer = Bounces(ours[spring], 2 * steps, number).build().run(seconds)
 		for name in self.peers:
 			result = self.peer(name, 'bounces', number=2 if self.quick else 4, steps=25, seconds=min(seconds, 20))
 			if result:
 				found[name] = result
 		rows = []
-		for name, result in [*found.items(), (f'{conservative}, {2 * steps} steps', finer)]:
+		for name, result in [*found.items(), (f'{spring}, {2 * steps} steps', finer)]:
 			left = lastEnergies(result)
 			rows.append(
 				[name, result['time'][-1], len(left), *np.quantile(left, (0, 0.5, 1)), np.nanmax(result['energy']), max(result['drift'])]
@@ -275,12 +275,12 @@ class EnergyStudy:
 			f'{default}: largest way across a level floor without friction', byName[default][7], 'm', theory=0, accept=(0, 1e-3)
 		)
 		self.findings.row(
-			f'{conservative}: largest way across a level floor without friction', byName[conservative][7], 'm', theory=0, accept=(0, 1e-6)
+			f'{spring}: largest way across a level floor without friction', byName[spring][7], 'm', theory=0, accept=(0, 1e-6)
 		)
-		off = {n: float(np.median(np.abs(lastEnergies(result) - 1))) for n, result in ((steps, found[conservative]), (2 * steps, finer))}
+		off = {n: float(np.median(np.abs(lastEnergies(result) - 1))) for n, result in ((steps, found[spring]), (2 * steps, finer))}
 		for n, error in off.items():
 			self.findings.row(
-				f'{conservative}: median of |energy at the end over the start − 1|, {n} steps',
+				f'{spring}: median of |energy at the end over the start − 1|, {n} steps',
 				error,
 				theory=0,
 				accept=(0, 0.05 if n == steps else 0.5 * off[steps]),
@@ -335,7 +335,7 @@ class EnergyStudy:
 			'the median error is '
 			f"{100 * gentle['median']:.1f} % and falls with the overlap; but then the normal jumps where the nearest feature changes "
 			"(study of the contact's path). "
-			"contactModel='conservative' has only the integrator's error. YADE's own damping (NewtonIntegrator.damping) changes "
+			"contactModel='spring' has only the integrator's error. YADE's own damping (NewtonIntegrator.damping) changes "
 			"angular momentum as well."
 		)
 		if all(name in self.bounced for name in self.peers):

@@ -35,7 +35,7 @@ class Contact:
 	"""How bodies touch."""
 
 	model: str = 'default'
-	"""'default', 'paper' (with the paper's averaged normal), 'perArea' (the paper's, with a stiffness per contact area), 'conservative' or
+	"""'default', 'paper' (with the paper's averaged normal), 'perArea' (the paper's, with a stiffness per contact area), 'spring' or
 	'spheres' (YADE's own)."""
 	corner: float = 0.1
 	"""Corner radius over the inscribed radius, of the paper's normal."""
@@ -47,8 +47,8 @@ class Contact:
 
 def contactOf(model):
 	"""Attributes of the functor."""
-	if model == 'conservative':
-		return {'contactModel': 'conservative'}
+	if model == 'spring':
+		return {'contactModel': 'spring'}
 	return {'normal': 'innerPotential' if model in ('paper', 'perArea') else 'dualWeights'}
 
 

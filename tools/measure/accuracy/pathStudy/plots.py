@@ -21,7 +21,7 @@ colors = {
 	'Chebyshev centre': '#8d6bb0',
 	'centroid': '#4c8c4a',
 	'analytic centre, corner radius 0': '#f2a541',
-	'conservative': '#1d4e79',
+	'spring': '#1d4e79',
 }
 lines = {'centroid': '--', 'analytic centre, corner radius 0': ':'}
 labels = {'point': 'way of the contact point\n[edges]', 'normal': "normal's angle to its\nfirst [°]", 'force': 'force over the\nmean force'}

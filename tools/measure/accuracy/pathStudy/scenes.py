@@ -27,10 +27,10 @@ variants = {
 	'Chebyshev centre': {'contactPoint': 'chebyshevCentre', 'normal': 'innerPotential'},
 	'centroid': {'contactPoint': 'centroid', 'normal': 'innerPotential'},
 	'analytic centre, corner radius 0': {'cornerRadius': 0.0, 'normal': 'innerPotential'},
-	'conservative': {'contactModel': 'conservative'},
+	'spring': {'contactModel': 'spring'},
 }
 """Arguments of polytope.contact, and the corner radius where it is not the default: our default contact with YADE's physics and with rock joints, the paper's averaged normal at each
-contact point, and the conservative contact."""
+contact point, and the contact model spring."""
 
 planeSets = ('plain', 'touching', 'repeated')
 """Six planes a cube; with planes through all edges and vertices that cut nothing; with the planes that face each other four times."""

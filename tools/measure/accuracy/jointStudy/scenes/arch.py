@@ -7,7 +7,7 @@ import math
 from yade import O, RockJointMat, Vector3
 from yade.polytope import fromVertices, polygon
 
-from .engines import jointEngines, stepFactor
+from .engines import jointEngines
 
 __all__ = ['MasonryArch']
 
@@ -65,7 +65,7 @@ class MasonryArch:
 			rockingDamping=self.rockingDamping,
 		)
 		k = self.stiffness * (t * self.breadth if self.perArea else 1)
-		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(min(O.bodies[i].state.mass for i in self.ids) / k)
+		O.dt = self.timeStepFraction * math.sqrt(min(O.bodies[i].state.mass for i in self.ids) / k)
 		return self
 
 	@property

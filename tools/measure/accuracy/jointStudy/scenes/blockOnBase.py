@@ -10,7 +10,7 @@ import math
 from yade import O, Quaternion, RockJointMat, Vector3
 from yade.polytope import cuboid, polygon
 
-from .engines import jointEngines, stepFactor
+from .engines import jointEngines
 
 __all__ = ['BlockOnBase', 'RockingBlock', 'ShakenBlock', 'TiltedBlock', 'Verdict']
 
@@ -80,7 +80,7 @@ class BlockOnBase:
 			shearDamping=self.contactDamping,
 			rockingDamping=self.rockingDamping,
 		)
-		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(self.mass / kn)
+		O.dt = self.timeStepFraction * math.sqrt(self.mass / kn)
 		self._startTurn, self._startToe = self.turn, self._toe()
 		return self
 
@@ -140,7 +140,7 @@ class LoadedBlock(BlockOnBase):
 		:returns: :yref:`Verdict`
 		"""
 		self.build()
-		settling = O.time + 300 * O.dt / stepFactor(self.ig2)
+		settling = O.time + 300 * O.dt
 		while O.time < settling:
 			O.step()
 		self._startTurn, self._startToe, begun = self.turn, self._toe(), O.time

@@ -19,7 +19,9 @@ from yade import (
 	PolytopeCollider,
 )
 
-__all__ = ['conservativeStep', 'failures', 'jointEngines', 'stepFactor']
+from surfaceModel import functorAttributes
+
+__all__ = ['failures', 'jointEngines']
 
 geometries = (
 	Ig2_Polytope_Polytope_PolytopeGeom,
@@ -29,14 +31,11 @@ geometries = (
 )
 bounds = (Bo1_Polytope_Aabb, Bo1_Wall_Aabb, Bo1_Box_Aabb, Bo1_Facet_Aabb)
 
-conservativeStep = 0.3
-"""Time step with the conservative contact over that with others: face on face it is stiffer in rocking."""
-
 
 def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), watching=(), **law):
 	"""Sets O.engines; returns their NewtonIntegrator.
 
-	:param dict ig2: attributes of the geometry functors, of all pairs of shapes alike: {} or contactModel='conservative' …
+	:param dict ig2: attributes of the geometry functors, of all pairs of shapes alike: {} or contactModel='foundation' …, or contactSurface
 	:param bool perArea: stiffnesses are per area [Pa/m], else per contact [N/m]
 	:param gravity: [m/s²]
 	:param float damping: YADE's own: NewtonIntegrator.damping
@@ -50,7 +49,7 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 		ForceResetter(),
 		PolytopeCollider([bound() for bound in bounds], verletDist=verlet),
 		InteractionLoop(
-			[geometry(**ig2) for geometry in geometries],
+			[geometry(**functorAttributes(ig2, perArea)) for geometry in geometries],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**law)],
 		),
@@ -59,11 +58,6 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 		*watching,
 	]
 	return newton
-
-
-def stepFactor(ig2):
-	"""Factor of the time step for this choice of contact: 1, or `conservativeStep`."""
-	return conservativeStep if ig2.get('contactModel') == 'conservative' else 1.0
 
 
 def failures():

@@ -8,7 +8,7 @@ import numpy as np
 from yade import O, Quaternion, RockJointMat, RotationEngine, Vector3, utils
 from yade.polytope import cuboid, fromVertices, regular
 
-from .engines import jointEngines, stepFactor
+from .engines import jointEngines
 
 __all__ = ['EnergyBook', 'FacetDrum', 'FacetFunnel', 'cylinderFacets', 'mixedGrain']
 
@@ -128,7 +128,7 @@ class FacetGrains:
 		# a tenth of a grain's width is what rests on its neighbour where stiffnesses are per area
 		k = self.stiffness or (1e9 if self.perArea else 1e5)
 		k *= 0.1 * self.volume ** (2 / 3) if self.perArea else 1
-		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(min(O.bodies[i].state.mass for i in self.ids) / k)
+		O.dt = self.timeStepFraction * math.sqrt(min(O.bodies[i].state.mass for i in self.ids) / k)
 
 	@property
 	def positions(self):

@@ -8,7 +8,7 @@ import numpy as np
 from yade import O, Quaternion, RockJointMat, Vector3, utils
 from yade.polytope import cuboid, fromVertices
 
-from .engines import jointEngines, stepFactor
+from .engines import jointEngines
 
 __all__ = ['CubeOnSlope', 'edgeNormal', 'slopeFloors', 'wallKick']
 
@@ -59,7 +59,7 @@ class CubeOnSlope:
 			rockingDamping=self.rockingDamping,
 		)
 		whole = k * (4 * self.half**2 if self.perArea else 1)
-		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(cube.state.mass / whole)
+		O.dt = self.timeStepFraction * math.sqrt(cube.state.mass / whole)
 		return self
 
 	def _floor(self):
@@ -113,7 +113,6 @@ def edgeNormal(turn, overlap=1e-4, floor='polytope', ig2=None):
 	:param float turn: [rad]
 	:param float overlap: of the edge [m]; the cube is 0.1 m wide
 	:param str floor: 'polytope', 'wall', 'box' or 'facet'
-	:returns: None where there is no contact: a conservative contact's edges are blunt
 	"""
 	O.reset()
 	O.materials.append(RockJointMat(density=density, normalStiffness=1e6, shearStiffness=1e6, frictionAngle=0.5))
@@ -123,8 +122,6 @@ def edgeNormal(turn, overlap=1e-4, floor='polytope', ig2=None):
 	jointEngines(ig2 or {}, False, (0, 0, 0))
 	O.dt = 1e-9
 	O.step()
-	if not O.interactions.has(0, 1, onlyReal=True):
-		return None
 	return math.acos(min(1.0, abs(O.interactions[0, 1].geom.normal[2])))
 
 
@@ -138,7 +135,7 @@ def wallKick(ig2=None, perArea=False, turn=0.35, floor='wall', duration=0.5):
 	cube = O.bodies[O.bodies.append(cuboid((0, 0, height), (0.05,) * 3, Quaternion((0, 1, 0), turn)))]
 	ig2 = ig2 or {}
 	jointEngines(ig2, perArea, (0, 0, -gravity), normalDamping=0.3, shearDamping=0.3)
-	O.dt = 0.05 * stepFactor(ig2) * math.sqrt(cube.state.mass / 1e6)
+	O.dt = 0.05 * math.sqrt(cube.state.mass / 1e6)
 	most = 0.0
 	while O.time < duration:
 		O.step()

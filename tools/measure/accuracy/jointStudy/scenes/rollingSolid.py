@@ -8,7 +8,7 @@ import numpy as np
 from yade import Matrix3, O, Quaternion, RockJointMat, Vector3
 from yade.polytope import fromVertices, regular
 
-from .engines import jointEngines, stepFactor
+from .engines import jointEngines
 
 __all__ = ['RollingSolid']
 
@@ -68,7 +68,7 @@ class RollingSolid:
 			normalDamping=self.contactDamping,
 			shearDamping=self.contactDamping,
 		)
-		O.dt = self.timeStepFraction * stepFactor(self.ig2) * math.sqrt(self.solid.state.mass / 1e7)
+		O.dt = self.timeStepFraction * math.sqrt(self.solid.state.mass / 1e7)
 		return self
 
 	def _flat(self, body):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""contactModel='conservative' in YADE: refusals, energy under YADE's own integrator, friction, rest.
+"""contactModel='spring' in YADE: refusals, energy under YADE's own integrator, friction, rest.
 
 The core's tests compare force and torque with the energy's derivative; here the law, the integrator and the scene are the subject.
 """
@@ -15,7 +15,7 @@ from yade.polytope.fallingPolyhedra import FallingPolyhedra
 from scenes import blockOnFloor, density, gravity, joint, loop
 
 stiffness = 1e6
-conservative = {'contactModel': 'conservative'}
+spring = {'contactModel': 'spring'}
 
 
 @pytest.fixture(autouse=True)
@@ -23,24 +23,23 @@ def emptyScene():
 	O.reset()
 
 
-@pytest.mark.parametrize(
-        'attribute, value, good', [('contactModel', 'potential', 'conservative'), ('barrier', 0., 3e-3), ('barrier', -1., 3e-3), ('barrier', 0.2, 3e-3), ('barrier', 1e-300, 3e-3), ('barrier', float('nan'), 3e-3)]
-)
-def testRefusals(attribute, value, good):
-	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='conservative')
-	with pytest.raises(ValueError, match=attribute):
-		setattr(functor, attribute, value)
-	assert getattr(functor, attribute) == pytest.approx(good, rel=0) if attribute == 'barrier' else getattr(functor, attribute) == good
+def testWhatReplacesTheFormerModelIsNamed():
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')
+	with pytest.raises(ValueError, match="contactModel: 'conservative' has been replaced by 'spring' .* and 'foundation'"):
+		functor.contactModel = 'conservative'
+	assert functor.contactModel == 'spring'
+	with pytest.raises(ValueError, match="contactModel: 'conservative' has been replaced"):
+		polytope.contact(*(polytope.cuboid((0, 0, z), (1, 1, 1)) for z in (0, 1.9)), contactModel='conservative')
+	assert not hasattr(functor, 'barrier')
 
 
 def testOnePairKnowsItsEnergy():
 	joint()
-	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .99), (.5, .5, .5))
-	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='conservative')
-	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap, but for 0.02 μ
-	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=1e-3)
-	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-4)  # not exact: off the middle, side faces have weights too
-	assert other.rockingArm > 1000 * paper.depth and paper.rockingArm == 0
+	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .999), (.5, .5, .5))
+	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='spring')
+	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap
+	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=5e-3)
+	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-4)
 
 
 # ------------------------------------------------------------------------------------------------------------- collisions
@@ -127,13 +126,11 @@ def rms(errors):
 @pytest.mark.parametrize('cubes', [False, True])
 def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
 	"""With YADE's own integrator; boxes have three different moments of inertia."""
-	errors = [np.array([collide(seed, step, 'conservative', cubes) for seed in meetings]) for step in steps]
+	errors = [np.array([collide(seed, step, 'spring', cubes) for seed in meetings]) for step in steps]
 	paper = np.array([collide(seed, steps[0], 'paper', cubes) for seed in meetings])
 	for step, found in zip((*steps, 'paper'), (*errors, paper), strict=True):
 		print(f'{step}: median {np.median(abs(found)):.1e}, rms {rms(found):.1e}, largest {max(abs(found)):.1e}')
-	assert rms(errors[2]) < rms(errors[0]) / 3.5**2
-	if not cubes:
-		assert rms(errors[1]) < rms(errors[0]) / 3.5 and rms(errors[2]) < rms(errors[1]) / 3.5
+	assert rms(errors[2]) < rms(errors[0]) / 3.5**2  # over both halvings: one alone depends on where the steps meet the corners
 	assert rms(paper) > 100 * rms(errors[0])
 
 
@@ -144,7 +141,7 @@ def testWhatTheIntegratorDoesByItself():
 	for step in steps:
 		energies, momenta = [], []
 		for seed in list(meetings)[:8]:
-			bodies = meet(seed, 'conservative', gap=5)
+			bodies = meet(seed, 'spring', gap=5)
 			O.dt = step * sqrt(density * 0.2 / stiffness)
 			O.step()
 			start, moment = [kineticEnergy(body) for body in bodies], momentum()
@@ -175,7 +172,7 @@ def testAngularMomentumIsKept(cubes):
 	"""To rounding of cubes; of unequal moments to what YADE's integrator does with a torque, which it takes in axes of the step's start."""
 	errors = []
 	for step in steps:
-		meet(3, 'conservative', cubes)
+		meet(3, 'spring', cubes)
 		O.dt = step * sqrt(density * 0.2 / stiffness)
 		O.step()
 		start, contacts = momentum(), 0
@@ -198,7 +195,7 @@ def testFrictionOnAnInclineGivesTheExactAcceleration():
 	slope, friction = 0.7, 0.5
 	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=atan(friction))
 	tilt = atan(slope)
-	loop(normalDamping=0.3, gravity=(gravity * slope * cos(tilt), 0, -gravity * cos(tilt)), ig2=conservative)
+	loop(normalDamping=0.3, rockingDamping=0.5, gravity=(gravity * slope * cos(tilt), 0, -gravity * cos(tilt)), ig2=spring)
 	floor, block = blockOnFloor(1e-3)
 	O.dt = polytope.stableTimeStep(0.1, default=1e-4)
 	O.run(int(0.3 / O.dt), wait=True)
@@ -210,7 +207,7 @@ def testFrictionOnAnInclineGivesTheExactAcceleration():
 
 def testTowerOfTenStands():
 	joint(normalStiffness=1e8, shearStiffness=1e8)
-	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=conservative)
+	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=spring)
 	blockOnFloor(0)
 	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
 	O.dt = 1e-4
@@ -218,11 +215,10 @@ def testTowerOfTenStands():
 		O.run(500, wait=True)
 		O.dt = min(1e-4, polytope.stableTimeStep(0.2, default=1e-4))
 	overlap = O.bodies[1].state.mass * gravity / 1e8  # of one block's weight
-	rounding = 0.1 * 3e-3 * 0.5  # μ: the force between faces begins at 0.02 μ, a little more where they are shifted
 	for k in range(1, 11):
 		state = O.bodies[k].state
 		sunk = overlap * sum(10 - below for below in range(k))
-		assert state.pos[2] == pytest.approx(k - .5 - sunk, abs=k * rounding)
+		assert state.pos[2] == pytest.approx(k - .5 - sunk, abs=0.02 * sunk)
 		assert state.vel.norm() < 1e-6 and state.angVel.norm() < 1e-6
 
 
@@ -230,7 +226,7 @@ def testTowerOfTenStands():
 def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 	"""Frictionless, undamped solids of five kinds fall into a box and fly about (examples/energy.py: for longer, higher, and by other steps)."""
 	worst = {}
-	for model in ('conservative', 'paper'):
+	for model in ('spring', 'paper'):
 		scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), columns=10, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.02).build()
 		scene.geometryFunctor.contactModel = model
 		start = polytope.mechanicalEnergy()
@@ -243,5 +239,5 @@ def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 		assert scene.geometryFunctor.stats()['failures'] == 0
 		worst[model] = max(map(abs, values))
 	print(worst)
-	assert worst['conservative'] < 5e-4
-	assert worst['paper'] > 100 * worst['conservative']
+	assert worst['spring'] < 5e-4
+	assert worst['paper'] > 100 * worst['spring']

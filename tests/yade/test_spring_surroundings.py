@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""contactModel='conservative' with YADE's own laws, shapes, periodic cells, polygons, and the time step it needs."""
+"""contactModel='spring' with YADE's own laws, shapes, periodic cells, polygons, and the time step it needs."""
 
 from math import sqrt
 
@@ -39,7 +39,7 @@ from yade import (
 )
 from yade.utils import kineticEnergy
 
-conservative = {'contactModel': 'conservative'}
+spring = {'contactModel': 'spring'}
 stiffness = 1e7
 
 
@@ -47,7 +47,7 @@ def engines(physics, law, damping=0.0, weight=gravity, **functor):
 	O.engines = [
 		ForceResetter(),
 		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
-		InteractionLoop([Ig2_Polytope_Polytope_PolytopeGeom(**conservative, **functor)], [physics], [law]),
+		InteractionLoop([Ig2_Polytope_Polytope_PolytopeGeom(**spring, **functor)], [physics], [law]),
 		NewtonIntegrator(gravity=(0, 0, -weight), damping=damping),
 	]
 
@@ -144,7 +144,7 @@ def testAcrossAPeriodicBoundary():
 	for shift in (0, 1):
 		O.reset()
 		joint(normalStiffness=stiffness)
-		loop(ig2=conservative)
+		loop(ig2=spring)
 		O.periodic = True
 		O.cell.setBox(4, 4, 4)
 		turn = Quaternion((1, 2, 3), 0.7)
@@ -168,7 +168,7 @@ supports = {
 
 def loopWith(functor):
 	"""With the law's engines, but one mixed functor."""
-	loop(ig2=conservative, gravity=(0, 0, -gravity))
+	loop(ig2=spring, gravity=(0, 0, -gravity))
 	O.engines[1].boundDispatcher.functors = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb(), Bo1_Sphere_Aabb()]
 	O.engines[2].geomDispatcher.functors = [functor]
 
@@ -177,7 +177,7 @@ def loopWith(functor):
 def testMixedPairsShareTheModel(other):
 	joint(normalStiffness=stiffness, frictionAngle=0)
 	functor, support = supports[other]
-	loopWith(functor(contactModel='conservative'))
+	loopWith(functor(contactModel='spring'))
 	O.bodies.append(support())
 	block = polytope.cuboid((0, 0, 0.499), (0.5, 0.5, 0.5))
 	O.bodies.append(block)
@@ -191,7 +191,7 @@ def testMixedPairsShareTheModel(other):
 def testAnEdgeBouncesOnMixedPairsWithoutLoss(other):
 	joint(normalStiffness=stiffness, frictionAngle=0)
 	functor, support = supports[other]
-	loopWith(functor(contactModel='conservative'))
+	loopWith(functor(contactModel='spring'))
 	O.trackEnergy = True
 	O.bodies.append(support())
 	block = polytope.cuboid((0, 0, 0.75), (0.5, 0.35, 0.25), Quaternion((1, 2, 3), 1))
@@ -212,7 +212,7 @@ def testAnEdgeBouncesOnMixedPairsWithoutLoss(other):
 
 def testStableTimeStepKnowsRocking():
 	joint(normalStiffness=1e7, shearStiffness=1e7)
-	loop(gravity=(0, 0, -gravity), ig2=conservative)
+	loop(gravity=(0, 0, -gravity), ig2=spring)
 	floor, block = blockOnFloor(1e-3)
 	# no contact yet: that of one at a vertex, κ = k (1/m + (3/4 L²)/(m L²/6))
 	assert polytope.stableTimeStep(1) == pytest.approx(1 / sqrt(5.5 * 1e7 / block.state.mass), rel=1e-9)
@@ -221,12 +221,12 @@ def testStableTimeStepKnowsRocking():
 	O.dt = 1e-6
 	O.step()
 	found = contact(floor, block)
-	rocking = found.phys.normalForce.norm() * found.geom.rockingArm
+	rocking = 4 * found.phys.kn * 1 / 12  # of a face of 1 m
 	# sliding, and turning about the contact by shear and rocking
 	m, inertia, arm = block.state.mass, min(block.state.inertia), (found.geom.contactPoint - block.state.pos).norm()
 	slide, turn, both = 1e7 / m, (rocking + 1e7 * arm**2) / inertia, 1e7 * arm / sqrt(m * inertia)
 	expected = 1 / sqrt((slide + turn) / 2 + sqrt(((slide - turn) / 2) ** 2 + both**2))
-	assert polytope.stableTimeStep(1) == pytest.approx(expected, rel=1e-9)
+	assert polytope.stableTimeStep(1) == pytest.approx(expected, rel=1e-6)
 	block.state.blockedDOFs = 'xyzXYZ'
 	with pytest.raises(ValueError, match='default'):
 		polytope.stableTimeStep()
@@ -238,7 +238,7 @@ def testStableTimeStepOfAHeap(part):
 	"""Nine columns of three cubes that lean on each other, at rest: up to stableTimeStep(1) rounding does not grow without damping, whatever
 	the coupling of bodies (the bound is on one body's frequency, a heap's highest is at most twice that); far above it does."""
 	joint(normalStiffness=stiffness, shearStiffness=stiffness)
-	loop(normalDamping=0.5, shearDamping=0.5, gravity=(0, 0, -gravity), damping=0.5, ig2=conservative)
+	loop(normalDamping=0.5, shearDamping=0.5, gravity=(0, 0, -gravity), damping=0.5, ig2=spring)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 9, 1), fixed=True))
 	for k in range(27):
 		x, y, z = k % 3, k // 3 % 3, k // 9
@@ -267,7 +267,7 @@ def testStableTimeStepOfAHeap(part):
 
 def testPolygonsRestAndCollide():
 	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0)
-	loop(ig2=conservative, gravity=(0, -gravity, 0))
+	loop(ig2=spring, gravity=(0, -gravity, 0))
 	floor = polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True)
 	block = polytope.polygon([(-0.5, 0.3), (0.2, 0.1), (0.6, 0.8), (-0.1, 1.2)])
 	O.bodies.append([floor, block])
@@ -300,18 +300,14 @@ def testWarmAndColdStartsGiveTheSameMotion():
 	assert motions[1] == pytest.approx(motions[0], abs=1e-6)
 
 
-def testCoincidentBodiesHaveNoDirectionAndPart():
+def testCoincidentBodiesHaveNoDirectionAndNoForce():
 	engines(*rockJoint(), weight=0)
 	O.bodies.append([polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5), fixed=k == 0) for k in range(2)])
 	O.dt = 1e-6
 	O.step()
 	found = contact(*O.bodies)
 	assert found.geom.status == 'noDirection' and found.phys.normalForce.norm() < 1e-3 and O.bodies[1].state.vel.norm() < 1e-6
-	# the energy's top: twice the square of the inscribed radius, less what the barrier adds
-	assert found.geom.energyPerStiffness == pytest.approx(2 * 0.5**2, rel=0.05)
+	# the energy's top: least slacks in a cube are a pyramid over each face, so 6 W/V is 1.2 times the inscribed radius
+	assert found.geom.energyPerStiffness == pytest.approx((1.2 * 0.5) ** 2 / 2, rel=1e-9)
 	stats = O.engines[2].geomDispatcher.functors[0].stats()
 	assert stats['failures'] == stats['fallbacks'] == stats['statuses']['noDirection'] == 1
-	# an unstable equilibrium: rounding is enough to start separating them
-	O.dt = 0.2 * sqrt(O.bodies[1].state.mass / found.phys.kn)
-	O.run(2000, wait=True)
-	assert O.bodies[1].state.pos.norm() > 1
