@@ -40,7 +40,8 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 		       "area), "
 		       "whose force is the gradient of an energy, too");
 	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'paper'",
-	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring } });
+	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "foundation", ContactModel::Foundation },
+	                { "spring", ContactModel::Spring } });
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
 	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
 	                { "centroid", ContactPoint::Centroid } });

@@ -153,9 +153,9 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(Stiffness
 {
 	polytope::ContactSettings settings = settings_;
 	if (byStiffness_ && rule != StiffnessRule::PerArea) settings.contactModel = polytope::ContactModel::Spring;
-	settings.warmStart                 = warmStart;
-	settings.timed                     = timing;
-	settings.energy                    = computeEnergy || scene->trackEnergy;
+	settings.warmStart = warmStart;
+	settings.timed     = timing;
+	settings.energy    = computeEnergy || scene->trackEnergy;
 	return settings;
 }
 
@@ -190,7 +190,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	const Matrix3r rotation2 = state2.ori.toRotationMatrix();
 	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
 
-	auto&                     geom     = geometry(c);
+	auto& geom = geometry(c);
 	if (!wasReal && hasSurface(settings_.contactModel)) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
 	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
 	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
@@ -212,7 +212,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	polytope::InternalPlanes internal = geom.internalPlanes();
 	bool                     asPieces = false;
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	const bool surface = hasSurface(settings.contactModel);
+	const bool               surface  = hasSurface(settings.contactModel);
 	if (surface || (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper)) {
 		asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
 		if ((turn || !geom.internalKnown || !wasReal) && asPieces) settings.bounding = &bounding;

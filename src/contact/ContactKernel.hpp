@@ -180,7 +180,8 @@ POLYTOPE_INLINE void contactKernel(
 	if constexpr (Surface) {
 		// across a gap there is none: the paper's geometry is as good a place for a law to end at
 		if (touching) {
-			surfaceContact<R, D, W>(in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
+			surfaceContact<R, D, W>(
+			        in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
 			timer.end(out.centreNanoseconds);
 			return;
 		}

@@ -134,7 +134,8 @@ struct ContactResult {
 	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
 	Real           energy
 	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
-	Real    share = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
+	Real share
+	        = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	Vector3 common     = Vector3::
 	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre

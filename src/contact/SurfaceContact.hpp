@@ -194,7 +194,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	const SurfaceSums<R, D>& sums    = surface.sums;
 	const R                  deepest = surface.deepest;
 	const SurfaceLoad<R, D>  load(settings.contactModel, sums);
-	const R                  length  = norm<R, D>(load.force);
+	const R                  length = norm<R, D>(load.force);
 	// what a pressure everywhere along one direction would be: rounding of that is no force
 	const bool perArea = settings.contactModel == ContactModel::Foundation;
 	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;

@@ -264,7 +264,8 @@ private:
 /// `kept`: the pieces of the last step, and then of this, or null; `names`: of the planes; `on`: a piece of a larger solid, or null.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,
-        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {}, SurfaceOnPiece<R, D>* on = nullptr)
+        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {},
+        SurfaceOnPiece<R, D>* on = nullptr)
 {
 	SurfaceRecord record(D == 3 ? kept : nullptr, names);
 	if constexpr (D == 3) {
@@ -278,8 +279,8 @@ POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int
 	for (int order = 0; order < 2 && shared; ++order) {
 		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record, on);
 		SurfaceSums<R, D>    own;
-		const R                 before = on ? on->pressure : R(0);
-		shared = walk.run(basis, count, status[order], own);
+		const R              before = on ? on->pressure : R(0);
+		shared                      = walk.run(basis, count, status[order], own);
 		if (order == 0) sums = own;
 		else {
 			sums.average(own);

@@ -15,18 +15,18 @@ template <class R, int D> struct SurfaceBuffers {
 	int room;   ///< for vertices of a piece, and for lines
 	int pieces; ///< room for pieces, a quarter of the slots
 
-	R*   rate[2];      ///< slack of a plane less the pressure, on the piece: rest + rate·(u, v) [m]
-	R*   rest;         ///< at the foot of the origin
-	R*   vertex[2][3]; ///< of a piece before and after a cut, vertexRows numbers each
-	R*   line[3];      ///< of each line that bounds or bounded a piece: its rates and rest
-	R*   cell;         ///< D + 2 numbers for each plane: a point of its cell, the pressure there, whether it has one
+	R*   rate[2];       ///< slack of a plane less the pressure, on the piece: rest + rate·(u, v) [m]
+	R*   rest;          ///< at the foot of the origin
+	R*   vertex[2][3];  ///< of a piece before and after a cut, vertexRows numbers each
+	R*   line[3];       ///< of each line that bounds or bounded a piece: its rates and rest
+	R*   cell;          ///< D + 2 numbers for each plane: a point of its cell, the pressure there, whether it has one
 	R*   clipped[2][2]; ///< vertices of a piece before and after it is clipped (SurfaceClips.hpp)
-	R*   dropped;      ///< offsets of planes that are left out
-	int* lineTag;      ///< of each line: its plane
-	int* edge[2];      ///< of a piece's vertices before and after a cut: the line of the edge that begins there
-	int* twin;         ///< of each plane: the one that stands for it, −1: not looked for yet
-	int* queue;        ///< pieces to look at: both planes
-	int* slot;         ///< where in the queue a pair of planes is, plus one; 0: free
+	R*   dropped;       ///< offsets of planes that are left out
+	int* lineTag;       ///< of each line: its plane
+	int* edge[2];       ///< of a piece's vertices before and after a cut: the line of the edge that begins there
+	int* twin;          ///< of each plane: the one that stands for it, −1: not looked for yet
+	int* queue;         ///< pieces to look at: both planes
+	int* slot;          ///< where in the queue a pair of planes is, plus one; 0: free
 
 	/// u, v and the slack of the plane that cuts.
 	static constexpr int vertexRows = 3;
@@ -46,7 +46,8 @@ template <class R, int D> struct SurfaceBuffers {
 	static int clippedRoom(int planes) { return 2 * (vertexRoom(planes) + 32); }
 	static int numbersNeeded(int planes)
 	{
-		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + 4 * clippedRoom(planes) + (D + 2) * planes + planes;
+		return 3 * paddedLength(planes) + (2 * vertexRows + 3) * vertexRoom(planes) + 4 * clippedRoom(planes) + (D + 2) * planes
+		        + planes;
 	}
 	static int indicesNeeded(int planes) { return 3 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
 

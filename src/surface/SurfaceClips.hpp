@@ -73,8 +73,8 @@ private:
 
 	POLYTOPE_INLINE void clip(R rest, const R* rate)
 	{
-		int  kept = 0;
-		R    last[2];
+		int kept = 0;
+		R   last[2];
 		get(now_, count_ - 1, last);
 		R before = rest + rate[0] * last[0] + rate[1] * last[1];
 		for (int t = 0; t < count_; ++t) {

@@ -132,14 +132,15 @@ template <int D> struct CutSlab {
 	explicit CutSlab(Real seam)
 	{
 		const Real wide = 4, high = 1;
-		whole           = slab(wide, high);
+		whole = slab(wide, high);
 		for (int k = 0; k < 2; ++k) {
 			const Real low = k == 0 ? -wide : seam, top = k == 0 ? seam : wide;
-			half[k]        = slab((top - low) / 2, high);
-			centre[k]      = Vector3((top + low) / 2, 0, 0);
+			half[k]   = slab((top - low) / 2, high);
+			centre[k] = Vector3((top + low) / 2, 0, 0);
 			const Vector3 out((k == 0 ? 1 : -1), 0, 0);
 			for (int i = 0; i < half[k]->planeCount(); ++i)
-				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9)) covered[k].plane[0][covered[k].count[0]++] = i;
+				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9))
+					covered[k].plane[0][covered[k].count[0]++] = i;
 		}
 	}
 	static std::shared_ptr<const ConvexShape> slab(Real wide, Real high)
@@ -158,16 +159,16 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 		SCOPED_TRACE(trial);
 		if (trial % 3 == 2) continue; // flat ones, whose overlaps are so thin that rounding shows
 		Pair pair;
-		pair.shape[1]    = shapes[std::size_t(trial) % shapes.size()];
-		pair.rotation[1] = randomRotation(random, D);
-		const Real down  = pair.shape[1]->widthAlong(pair.rotation[1].transpose() * Vector3::UnitY()) / 2;
+		pair.shape[1]                             = shapes[std::size_t(trial) % shapes.size()];
+		pair.rotation[1]                          = randomRotation(random, D);
+		const Real                           down = pair.shape[1]->widthAlong(pair.rotation[1].transpose() * Vector3::UnitY()) / 2;
 		std::uniform_real_distribution<Real> some(-1, 1);
-		Real lowest = 0;
+		Real                                 lowest = 0;
 		for (const Vector3& vertex : pair.shape[1]->polyhedron().vertices)
 			lowest = std::min(lowest, Vector3(pair.rotation[1] * vertex)[1]);
-		const Real overlap = down * decades(random, -3, -2);
-		pair.centre2       = Vector3(some(random) / 4, 1 - lowest - overlap, D == 2 ? Real(0) : some(random) / 4);
-		pair.shape[0]      = CutSlab<D>(0).whole;
+		const Real overlap           = down * decades(random, -3, -2);
+		pair.centre2                 = Vector3(some(random) / 4, 1 - lowest - overlap, D == 2 ? Real(0) : some(random) / 4);
+		pair.shape[0]                = CutSlab<D>(0).whole;
 		const ContactResult touching = query(pair, with(ContactModel::Foundation));
 		if (!touching.inContact) continue;
 		const CutSlab<D> slab(touching.point[0] + overlap * some(random) / 2); // through the contact
