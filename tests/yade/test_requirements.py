@@ -179,7 +179,7 @@ def testASpringHasNoStiffnessPerArea(contacts):
 		O.step()
 		assert any(contact.isReal and contact.phys.normalStiffness > 0 for contact in O.interactions)
 	found = polytope.requirements(O, measure=False)['damping and energy']
-	assert 'per area' in found.seen and "contactModel='foundation', or stiffnessPerArea=False" in found.advice
+	assert 'per area' in found.seen and "contactModel='surface', which goes by the unit, or 'foundation', or stiffnessPerArea=False" in found.advice
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'foundation'
 	assert 'damping and energy' not in advised()
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'paper'
