@@ -78,7 +78,7 @@ namespace {
 
 } // namespace
 
-Real areaOf(const Polygon& polygon, const Vector3& normal)
+Real areaOfPolygon(const Polygon& polygon, const Vector3& normal)
 {
 	Real twice = 0;
 	for (std::size_t k = 2; k < polygon.size(); ++k)
@@ -111,7 +111,7 @@ Real areaWithin(const FiniteJoint& joint, Polygon polygon)
 	for (const Plane& edge : joint.edges)
 		polygon = clipped(polygon, edge);
 	const Vector3& normal = joint.plane.normal;
-	const Real     whole = magnitude(areaOf(polygon, normal)), square = joint.radius * joint.radius;
+	const Real     whole = magnitude(areaOfPolygon(polygon, normal)), square = joint.radius * joint.radius;
 	if (joint.radius <= 0) return whole;
 	// sums about the disc's centre have the rounding of the disc's area: not where the answer is zero, or all of a small polygon
 	bool inside = true;
@@ -129,7 +129,7 @@ Real areaWithin(const FiniteJoint& joint, Polygon polygon)
 
 Real uncovered(const Polygon& polygon, const Vector3& normal, const std::vector<const FiniteJoint*>& joints)
 {
-	const Real whole = magnitude(areaOf(polygon, normal));
+	const Real whole = magnitude(areaOfPolygon(polygon, normal));
 	if (joints.size() == 1) return std::max(Real(0), Real(whole - areaWithin(*joints.front(), polygon)));
 	std::vector<Polygon> left { polygon };
 	for (const FiniteJoint* joint : joints) {
@@ -140,7 +140,7 @@ Real uncovered(const Polygon& polygon, const Vector3& normal, const std::vector<
 	}
 	Real area = 0;
 	for (const Polygon& piece : left)
-		area += magnitude(areaOf(piece, normal));
+		area += magnitude(areaOfPolygon(piece, normal));
 	return area;
 }
 

@@ -24,7 +24,7 @@ struct FiniteJoint {
 using Polygon = std::vector<Vector3>;
 
 /// Positive where the corners run counter-clockwise about the normal.
-Real areaOf(const Polygon& polygon, const Vector3& normal);
+Real areaOfPolygon(const Polygon& polygon, const Vector3& normal);
 
 /// What of a convex polygon lies where the half-space is fulfilled. Fewer than three corners: nothing.
 Polygon clipped(const Polygon& polygon, const Plane& halfSpace);

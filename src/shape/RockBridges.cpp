@@ -58,7 +58,7 @@ namespace {
 	}
 
 	/// A face in one place.
-	struct Face {
+	struct RockFace {
 		int     node;
 		Polygon polygon; ///< counter-clockwise about the normal of the place
 		Real    area;
@@ -66,18 +66,18 @@ namespace {
 	};
 
 	struct Place {
-		std::vector<Face>               faces[2];          ///< of blocks below and above it
+		std::vector<RockFace>               faces[2];          ///< of blocks below and above it
 		std::vector<const FiniteJoint*> joints;            ///< here and near
 		bool                            separates = false; ///< a joint without bounds
 	};
 
-	Face faceOf(const Block& block, std::size_t face, int node, const Vector3& normal, bool turned)
+	RockFace faceOf(const Block& block, std::size_t face, int node, const Vector3& normal, bool turned)
 	{
-		Face made { node, {}, 0, {}, {} };
+		RockFace made { node, {}, 0, {}, {} };
 		for (int k = block.begin(face); k < block.end(face); ++k)
 			made.polygon.push_back(block.corners[std::size_t(block.rings[std::size_t(k)])]);
 		if (turned) std::reverse(made.polygon.begin(), made.polygon.end());
-		made.area = areaOf(made.polygon, normal);
+		made.area = areaOfPolygon(made.polygon, normal);
 		made.low = made.high = made.polygon.front();
 		for (const Vector3& corner : made.polygon) {
 			made.low  = made.low.cwiseMin(corner);
@@ -137,26 +137,26 @@ namespace {
 	{
 		Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
 		for (const auto& side : place.faces)
-			for (const Face& face : side) {
+			for (const RockFace& face : side) {
 				low  = low.cwiseMin(face.low);
 				high = high.cwiseMax(face.high);
 			}
 		int along = 0;
 		(high - low).maxCoeff(&along);
-		const auto before = [&](const Face& a, const Face& b) { return a.low[along] < b.low[along]; };
+		const auto before = [&](const RockFace& a, const RockFace& b) { return a.low[along] < b.low[along]; };
 		for (auto& side : place.faces)
 			std::sort(side.begin(), side.end(), before);
-		std::vector<const Face*> open[2]; // faces that the sweep is in
+		std::vector<const RockFace*> open[2]; // faces that the sweep is in
 		std::size_t              next[2] = { 0, 0 };
 		const auto               rest    = [&](int side) { return next[side] < place.faces[side].size(); };
 		while (rest(0) || rest(1)) {
 			const int   side   = !rest(1) || (rest(0) && before(place.faces[0][next[0]], place.faces[1][next[1]])) ? 0 : 1;
-			const Face& face   = place.faces[side][next[side]++];
+			const RockFace& face   = place.faces[side][next[side]++];
 			auto&       others = open[1 - side];
 			others.erase(std::remove_if(others.begin(), others.end(),
-			                     [&](const Face* other) { return other->high[along] <= face.low[along]; }),
+			                     [&](const RockFace* other) { return other->high[along] <= face.low[along]; }),
 			        others.end());
-			for (const Face* other : others) {
+			for (const RockFace* other : others) {
 				if ((other->low - face.high).maxCoeff() > on || (face.low - other->high).maxCoeff() > on) continue;
 				if (leaves.of(face.node) == leaves.of(other->node)) continue;
 				const Polygon common = commonPart(face.polygon, other->polygon, normal);

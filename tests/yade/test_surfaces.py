@@ -159,9 +159,8 @@ def testSlidesWithEverythingTurned(perArea):
 
 @pytest.mark.parametrize('floor', ['plates', 'facets', 'rock'])
 def testContactSurfaceSlides(floor):
-	"""With a stiffness per area, of which pieces add up to the whole; a spring per contact is one more on each piece, and brakes."""
+	"""With a stiffness per area, of which pieces add up to the whole."""
 	keeps(cross(floor, 'cube', contactSurface, perArea=True))
-	assert cross(floor, 'cube', contactSurface, perArea=False).kept < 0.95
 
 
 def testSphereForComparison():
