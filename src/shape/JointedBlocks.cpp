@@ -137,7 +137,8 @@ namespace {
 				return;
 			}
 			const Polygon section = sectionOf(below, plane);
-			const Real whole = areaOfPolygon(section, joint.plane.normal), own = joint.bounded() ? areaWithin(joint, section) : whole;
+			const Real    whole   = areaOfPolygon(section, joint.plane.normal),
+			           own        = joint.bounded() ? areaWithin(joint, section) : whole;
 			if (own <= construction::touching * whole) return;
 			if (joint.persistence < 1 && double(random_() >> 11) * 0x1p-53 >= joint.persistence) return;
 			if (!below.holdsBall(rock_.planes, least_) || !above.holdsBall(rock_.planes, least_)) {

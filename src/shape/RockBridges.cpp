@@ -66,7 +66,7 @@ namespace {
 	};
 
 	struct Place {
-		std::vector<RockFace>               faces[2];          ///< of blocks below and above it
+		std::vector<RockFace>           faces[2];          ///< of blocks below and above it
 		std::vector<const FiniteJoint*> joints;            ///< here and near
 		bool                            separates = false; ///< a joint without bounds
 	};
@@ -147,12 +147,12 @@ namespace {
 		for (auto& side : place.faces)
 			std::sort(side.begin(), side.end(), before);
 		std::vector<const RockFace*> open[2]; // faces that the sweep is in
-		std::size_t              next[2] = { 0, 0 };
-		const auto               rest    = [&](int side) { return next[side] < place.faces[side].size(); };
+		std::size_t                  next[2] = { 0, 0 };
+		const auto                   rest    = [&](int side) { return next[side] < place.faces[side].size(); };
 		while (rest(0) || rest(1)) {
-			const int   side   = !rest(1) || (rest(0) && before(place.faces[0][next[0]], place.faces[1][next[1]])) ? 0 : 1;
+			const int       side   = !rest(1) || (rest(0) && before(place.faces[0][next[0]], place.faces[1][next[1]])) ? 0 : 1;
 			const RockFace& face   = place.faces[side][next[side]++];
-			auto&       others = open[1 - side];
+			auto&           others = open[1 - side];
 			others.erase(std::remove_if(others.begin(), others.end(),
 			                     [&](const RockFace* other) { return other->high[along] <= face.low[along]; }),
 			        others.end());
