@@ -157,12 +157,6 @@ def testSlidesWithEverythingTurned(perArea):
 	keeps(cross('plates', 'cube', perArea=perArea, turn=Quaternion((1, 2, 3), 0.8)))
 
 
-@pytest.mark.parametrize('floor', ['plates', 'facets', 'rock'])
-def testContactSurfaceSlides(floor):
-	"""With a stiffness per area, of which pieces add up to the whole."""
-	keeps(cross(floor, 'cube', contactSurface, perArea=True))
-
-
 def testSphereForComparison():
 	"""On polytopes that lie flush it touches their union: nothing brakes or lifts it."""
 	assert cross('slab', 'sphere').kept == pytest.approx(1, abs=1e-9)
