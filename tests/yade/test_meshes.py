@@ -315,7 +315,7 @@ def testMessagesSayWhatAFileIsNot(tmp_path):
 	cube.export(tmp_path / 'whole.stl')
 	content = (tmp_path / 'whole.stl').read_bytes()
 	(tmp_path / 'half.stl').write_bytes(content[: len(content) // 2])
-	with pytest.raises(ValueError, match='^path: .*half.stl. cannot be read as a mesh .*(end early|expected)'):
+	with pytest.raises(ValueError, match='^path: .*half.stl. (cannot be read as a mesh .*(end early|expected)|has no vertices)'):  # the latter where chardet is installed
 		polytope.fromMesh(tmp_path / 'half.stl')
 	(tmp_path / 'what.foo').write_text('0 0 0\n')
 	with pytest.raises(ValueError, match='^path: .*what.foo. cannot be read as a mesh .*[.]3mf, .*[.]stl'):
