@@ -139,11 +139,15 @@ namespace {
 
 } // namespace
 
+polytope::ContactModel Ig2_Polytope_Polytope_PolytopeGeom::modelFor(StiffnessRule rule) const
+{
+	return byStiffness_ && rule != StiffnessRule::PerArea ? polytope::ContactModel::Spring : settings_.contactModel;
+}
+
 polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule rule) const
 {
 	using polytope::FaceForce;
-	const bool                   asSpring = byStiffness_ && rule != StiffnessRule::PerArea;
-	const polytope::ContactModel model    = asSpring ? polytope::ContactModel::Spring : settings_.contactModel;
+	const polytope::ContactModel model = modelFor(rule);
 	if (model == polytope::ContactModel::Spring) return FaceForce::Spring;
 	const bool pressure = hasSurface(model) || depthRule(settings_, rule) != polytope::DepthRule::Chord;
 	return pressure ? FaceForce::Pressure : FaceForce::AtCentre;
@@ -152,10 +156,10 @@ polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule 
 polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
 {
 	polytope::ContactSettings settings = settings_;
-	if (byStiffness_ && rule != StiffnessRule::PerArea) settings.contactModel = polytope::ContactModel::Spring;
-	settings.warmStart = warmStart;
-	settings.timed     = timing;
-	settings.energy    = computeEnergy || scene->trackEnergy;
+	settings.contactModel              = modelFor(rule);
+	settings.warmStart                 = warmStart;
+	settings.timed                     = timing;
+	settings.energy                    = computeEnergy || scene->trackEnergy;
 	return settings;
 }
 

@@ -182,6 +182,9 @@ protected:
 	void             count(const polytope::ContactResult& result);
 
 private:
+	/// Of a contact whose stiffness has this unit.
+	polytope::ContactModel modelFor(StiffnessRule rule) const;
+
 	polytope::ContactSettings    settings_;
 	bool                         byStiffness_ = false; ///< *surface*: *foundation* or *spring*, by the unit of the contact's stiffness
 	BondsInStep                  bonds_;

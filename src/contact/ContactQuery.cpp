@@ -133,14 +133,14 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
 	if (settings.contactModel != ContactModel::Paper && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
 		const Vector3   centre1 = -centre2;
 		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
-		InternalPlanes  internal;
-		ContactSettings exchanged = settings;
-		if (settings.internal) {
-			internal           = exchangedBodies(*settings.internal);
-			exchanged.internal = &internal;
-		}
 		exchangeBodies(memory);
-		kernel(in, exchanged, memory, workspace, result);
+		if (settings.internal) {
+			InternalPlanes  internal  = *settings.internal;
+			ContactSettings exchanged = settings;
+			exchangeBodies(internal);
+			exchanged.internal = &internal;
+			kernel(in, exchanged, memory, workspace, result);
+		} else kernel(in, settings, memory, workspace, result);
 		exchangeBodies(memory);
 		if (settings.bounding) exchangeBodies(*settings.bounding, centre2, shape1.dimension());
 		exchangeBodies(result, centre2, shape1.dimension());

@@ -4,7 +4,6 @@
 #include "contact/ContactTypes.hpp"
 #include "shape/ConvexShape.hpp"
 
-#include <algorithm>
 #include <utility>
 
 /// An order of a pair's two bodies that does not depend on which one the caller names first: sums of rounded numbers taken
@@ -50,14 +49,10 @@ inline void exchangeBodies(PairMemory& memory)
 	memory.surface.exchanged ^= 1;
 }
 
-inline InternalPlanes exchangedBodies(const InternalPlanes& planes)
+inline void exchangeBodies(InternalPlanes& planes)
 {
-	InternalPlanes result;
-	for (int body = 0; body < 2; ++body) {
-		result.count[body] = planes.count[1 - body];
-		std::copy(planes.plane[1 - body], planes.plane[1 - body] + planes.count[1 - body], result.plane[body]);
-	}
-	return result;
+	std::swap(planes.count[0], planes.count[1]);
+	std::swap(planes.plane[0], planes.plane[1]);
 }
 
 /// Those of the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

@@ -65,13 +65,12 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 
 /// Of a pair: what its surface is found from, and the surface.
 template <class R, int D> struct PairSurface {
-	SurfaceSums<R, D>       sums;
-	SurfaceOnPiece<R, D>*   on = nullptr; ///< if internal faces are left out
-	const PairPlanes<R, D>* bounds;       ///< planes that bound the section
-	PairPlanes<R, D>        nearest;      ///< those of the program that matter
-	R*                      spare;        ///< room for a section
-	R                       deepest;      ///< −s*
-	SurfaceStatus           status;
+	SurfaceSums<R, D>     sums;
+	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out
+	PairPlanes<R, D>      nearest;      ///< those of the program that matter
+	R*                    spare;        ///< room for a section
+	R                     deepest;      ///< −s*
+	SurfaceStatus         status;
 
 	/// Part of the solid's contact that is this contact's: all pieces add up to one.
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
@@ -177,14 +176,9 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	if (settings.bounding) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
 	PairSurface<R, D>    surface;
 	SurfaceOnPiece<R, D> piece;
-	surface.bounds = &surface.nearest; // of the other planes none bounds the overlap
 	if (settings.internal) {
-		surface.on     = &piece;
-		surface.bounds = &planes;
-		if (!surfaceOnPieces<R, D, W>(in, settings, limits, planes, f, energy, memory, workspace, surface)) {
-			surface.on     = nullptr;
-			surface.bounds = &surface.nearest;
-		}
+		surface.on = &piece;
+		if (!surfaceOnPieces<R, D, W>(in, settings, limits, planes, f, energy, memory, workspace, surface)) surface.on = nullptr;
 	}
 	if (!surface.on)
 		findSurface<R, D, W>(planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
@@ -237,8 +231,9 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
 		if (settings.outline) { // where friction acts: the plane through the point, on which a contact surface of two faces lies
-			const Real all = out.area;
-			contactSection<R, 3>(in, settings, f, *surface.bounds, point, n, point, surface.spare, workspace, out);
+			const Real              all    = out.area;
+			const PairPlanes<R, 3>& bounds = surface.on ? planes : surface.nearest; // of the others none bounds the overlap
+			contactSection<R, 3>(in, settings, f, bounds, point, n, point, surface.spare, workspace, out);
 			out.area            = all;
 			out.sectionCentroid = out.point;
 		}
