@@ -85,7 +85,7 @@ surfaceRows = [
 @rules
 @pytest.mark.parametrize('floor, body, tilt', surfaceRows)
 def testTheContactSurfaceSlidesOverPieces(floor, body, tilt, perArea):
-	"""By faces, edges and vertices, rows that the default misses among them. Without internal faces they kept 0.63 to 0.99 of their speed."""
+	"""By faces, edges and vertices, rows that the default misses among them."""
 	held = {'tilt': Quaternion(Vector3(0, 1, 0), math.radians(tilt)), 'held': True} if tilt else {}
 	keeps(cross(floor, body, {'contactModel': 'surface'}, perArea, **held))
 
