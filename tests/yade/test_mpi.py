@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -33,13 +34,16 @@ sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
+sessions = tempfile.TemporaryDirectory(prefix='mpi')
+"""Of the runs' own files, a folder each: mpirun names its by its process number and does not start where one that was killed left the same."""
 moving = ['smooth', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
 
 def launch(ranks, *command):
 	"""A command on this number of ranks, 0: without MPI."""
 	run = ['mpirun', '--oversubscribe', '-np', str(ranks)] if ranks else []
-	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={**os.environ, 'OMP_NUM_THREADS': '1'}, start_new_session=True)
+	environment = {**os.environ, 'OMP_NUM_THREADS': '1', 'TMPDIR': tempfile.mkdtemp(dir=sessions.name)}
+	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True)
 
 
 def under(ranks, *command, fails=False):
