@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One pair without a scene: two polygons overlap; prints what `polytope.contact` finds and draws it.
+"""One pair without a scene: two polygons overlap; prints the contact of Boon et al. (2012), as `polytope.contact` finds it, and draws it.
 
 The largest circle in the overlap is the linear program's answer, its radius -s*; the contact point is the analytic centre of all
 half-spaces of both bodies; the depth is the chord along the normal through it.
@@ -21,10 +21,10 @@ path = sys.argv[1] if len(sys.argv) > 1 else 'output/one-contact.png'
 os.makedirs(os.path.dirname(path) or '.', exist_ok=True)
 O.materials.append(RockJointMat())
 corners = [(0, 0), (4, 0), (4.4, 1.4), (2.6, 2.4), (0.4, 1.9)], [(1.2, 1.55), (3.3, 1.25), (4.6, 3), (3, 4.2), (1.1, 3.4)]
-bodies = [polytope.polygon(points) for points in corners]
+bodies = [polytope.polygon(points, cornerRadius=0.6) for points in corners]  # more than the overlap is deep
 
-found = polytope.contact(*bodies)
-ball = polytope.contact(*bodies, contactPoint='chebyshevCentre')  # the linear program's own point
+found = polytope.contact(*bodies, contactModel='boon2012')
+ball = polytope.contact(*bodies, contactModel='boon2012', contactPoint='chebyshevCentre')  # the linear program's own point
 print('status       ', found.status)
 print('radius -s*   ', -found.infeasibility, 'm')
 print('contact point', found.point)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Effect of the fraction of the safe time step: scenes that come to rest under gravity with PolytopeTimeStepper; see docs/time-step.md.
 
-	./run python examples/timeStep.py [SCENE …] [paper|surface] [perContact|perArea] [FRACTION …]
+	./run python examples/timeStep.py [SCENE …] [boon2012|surface] [perContact|perArea] [FRACTION …]
 
 Scenes: heap (60 cubes), largeHeap (200), column (ten courses of masonry), slope (of jointed rock), block (rocks on its base until it stands). A row
-each, with the contact model paper or that of a contact surface (spring, or foundation per area): timestepSafetyCoefficient, steps and the machine's seconds for the simulated time, the unbalanced force ratio at the end, the fastest
+each, by contactModel and by what stiffnesses are per: timestepSafetyCoefficient, steps and the machine's seconds for the simulated time, the unbalanced force ratio at the end, the fastest
 body and the mean height then, the last step, and what limited most steps. The last fraction may be sqrt, for O.dt = 0.2 √(m/k) without the
 engine, m the smallest mass, k the material's stiffness (per area: times a square metre).
 """
@@ -40,7 +40,7 @@ def engines(model, perArea, damping=0.2, rockingDamping=0):
 		ForceResetter(),
 		PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.02),
 		InteractionLoop(
-			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model if model == 'paper' else 'foundation' if perArea else 'spring')],
+			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model)],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.2, shearDamping=0.2, rockingDamping=rockingDamping)],
 		),
@@ -115,7 +115,7 @@ def block(model, perArea):
 
 
 scenes = {'heap': heap, 'largeHeap': largeHeap, 'column': column, 'slope': slope, 'block': block}
-models = ('paper', 'surface')
+models = ('surface', 'boon2012')
 rules = {'perContact': False, 'perArea': True}
 patience = 600
 """Longest run [s of the machine]."""

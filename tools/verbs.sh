@@ -24,7 +24,7 @@ purposesOf() { # VERB ARGUMENTS…
 optionsOf() { # VERB
 	case $1 in
 		demo)
-			echo --quick --output --no-pictures --shape --number --steps --threads --seed --seeds --normal --contact-model --contact-point \
+			echo --quick --output --no-pictures --shape --number --steps --threads --seed --seeds --contact-model --contact-point \
 				--size --density --normal-stiffness --stiffness-ratio --friction-angle --contact-damping --damping --gravity --corner-fraction \
 				--time-step-fraction --vtk-every --sample-every --ipopt-every
 			;;

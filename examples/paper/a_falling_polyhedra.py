@@ -35,7 +35,7 @@ from boon2012.falling.costs import ContactCostReport
 from boon2012.falling.run import FallingRun, save
 from boon2012.falling.report import FallingPolyhedraReport
 from boon2012.falling.tables import showCosts, showOutcome, showStates
-from boon2012.reporting.options import contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
+from boon2012.reporting.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
 from boon2012.reporting.script import conclude
 
 fullNumber, fullSteps = 200, 7000
@@ -87,8 +87,7 @@ def options():
 	parser.add_argument('--threads', type=count, default=O.numThreads, help=inSameState)
 	parser.add_argument('--seed', type=int, default=1, help='of the orientations')
 	parser.add_argument('--seeds', type=count, default=1, help='so many runs of each solid, with this seed and the next ones')
-	parser.add_argument('--normal', choices=('innerPotential', 'dualWeights'), default='innerPotential', help="innerPotential: the paper's; dualWeights: the plug-in's default")
-	parser.add_argument('--contact-model', choices=('paper', 'spring'), default='paper', help="of Ig2_Polytope_Polytope_PolytopeGeom")
+	parser.add_argument('--contact-model', choices=contactModels, default='boon2012', help='the others are those of a contact surface, which read no contact point')
 	parser.add_argument('--contact-point', choices=contactPoints, default='analyticCentre')
 	for name, (kind, meaning) in parameters.items():
 		option = ''.join('-' + letter.lower() if letter.isupper() else letter for letter in name)

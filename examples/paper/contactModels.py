@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The default contact, the paper's and that of a contact surface on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
+"""The contact surface and the paper's contact on the paper's scenes: peak load of the three-hinged beam (B), critical friction angles of
 the sliding and the roof wedge and of the slumping slope (C, D, E), energy that the two collisions gain (F), and settled heaps of polyhedra (A), beside
 closed forms.
 
@@ -37,13 +37,8 @@ from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 from yade.polytope.frictionReduction import FrictionReduction
 from yade.utils import kineticEnergy
 
-contacts = {
-	'default': {'normal': 'dualWeights'},
-	'paper': {'normal': 'innerPotential'},
-	'surface': {'contactModel': 'spring'},
-}
-"""Contacts that are compared: the linear program's own normal, the paper's averaged one, the contact that conserves energy (in E, where the stiffness is
-per area, with contactModel='foundation')."""
+models = ('surface', 'boon2012')
+"""Contact models that are compared."""
 geometry = pathlib.Path(__file__).parent / 'geometry'
 timeStep = 0.2
 """Over sqrt(mass / stiffness), of wedges and heaps."""
@@ -77,14 +72,13 @@ def peakOfSpring(beam):
 
 
 def beam(given):
-	"""Rows: quantity, closed form, default, paper's normal, contact surface; the load does not depend on --quick."""
+	"""Rows: quantity, closed form, contact surface, the paper's; the load does not depend on --quick."""
 	shape = {name: getattr(ThreeHingedBeam, name) for name in ('length', 'height', 'abutmentStiffness', 'midspanStiffness')}
 	abutment = {name: getattr(ThreeHingedBeam, name) for name in ('abutmentHeight', 'abutmentLength')}
 	for point, theory in (('centroid', BeamBetweenWalls(**shape)), ('analyticCentre', BeamOfTwoBlocks(**shape, **abutment))):
-		peaks = [ThreeHingedBeam(contactPoint=point, **contacts[model]).build().peak().load for model in ('default', 'paper')]
-		yield f'B: peak load [N], {point}', theory.peak()[0], *peaks, None
-	scene = ThreeHingedBeam(**contacts['surface']).build()
-	yield 'B: peak load [N], from the energy', peakOfSpring(scene), None, None, scene.peak().load
+		yield f'B: peak load [N], {point}', theory.peak()[0], None, ThreeHingedBeam(contactPoint=point).build().peak().load
+	scene = ThreeHingedBeam(contactModel='surface').build()
+	yield 'B: peak load [N], from the energy', peakOfSpring(scene), scene.peak().load, None
 
 
 def critical(scene, given):
@@ -105,7 +99,7 @@ def slidingWedge(given):
 	blocks = BlockGeometry.read(geometry / 'c_sliding_wedge.json')
 
 	def angle(model):
-		scene = WedgeScene(blocks, timeStepFraction=timeStep, **contacts[model]).build()
+		scene = WedgeScene(blocks, timeStepFraction=timeStep, contactModel=model).build()
 		scene.establishContacts()
 		return critical(scene, given)
 
@@ -117,7 +111,7 @@ def roofWedge(given):
 
 	def angle(model):
 		nonlocal closed
-		scene = RoofWedge(blocks, timeStepFraction=timeStep, **contacts[model]).build()
+		scene = RoofWedge(blocks, timeStepFraction=timeStep, contactModel=model).build()
 		if pressed:
 			scene.pressByBoundary()
 		else:
@@ -137,8 +131,7 @@ def slumpingSlope(given):
 	steps = (5, 1, 0.25) if given.quick else (5, 1, 0.25, 0.05)
 
 	def angle(model):
-		contact = {'contactModel': 'foundation'} if model == 'surface' else contacts[model]
-		scene = SlumpingSlope(**blocks, **contact).build()
+		scene = SlumpingSlope(**blocks, contactModel=model).build()
 		reduction = FrictionReduction(scene.freeIds, start=scene.frictionAngle, steps=[math.radians(step) for step in steps],
 			checkEvery=100, stableSpeed=1e-6, failedDistance=0.1, mostSteps=100000)
 		return math.degrees(reduction.run().critical)
@@ -164,7 +157,7 @@ def collisions(given):
 		'contact_point': Collision.contactPoint,
 	}
 	for name, label in (('vertexFace', 'F1'), ('edgeEdge', 'F2')):
-		found = each(lambda model, name=name: CollisionRun(types.SimpleNamespace(**blocks), name, **contacts[model]).largestRise()[0], label)
+		found = each(lambda model, name=name: CollisionRun(types.SimpleNamespace(**blocks), name, contactModel=model).largestRise()[0], label)
 		yield f'F: largest rise of energy in 200 steps [J], {label}', 0, *found
 
 
@@ -173,8 +166,7 @@ def heap(faces, model, given):
 	number = 100 if given.quick else 200
 	lattice = {'columns': 3 if given.quick else columns, 'number': number, 'seed': given.seed}
 	scene = FallingPolyhedra(faces=faces, timeStepFraction=timeStep, **lattice).build()
-	for name, value in contacts[model].items():
-		setattr(scene.geometryFunctor, name, value)
+	scene.geometryFunctor.contactModel = model
 	size, particles = scene.size, scene.particles()
 	O.run(round(leastTime / O.dt), wait=True)
 	unit = number * scene.mass * scene.gravity * size
@@ -198,7 +190,7 @@ def heaps(given):
 
 
 def each(measure, label):
-	return [measure(model) for model in tqdm(contacts, label, leave=False, disable=None)]
+	return [measure(model) for model in tqdm(models, label, leave=False, disable=None)]
 
 
 parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'E': slumpingSlope, 'F': collisions, 'A': heaps}
@@ -213,7 +205,7 @@ def main():
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/contactModels'), help='folder of the table')
 	given = parser.parse_args()
 	given.solids = given.solids or (['cube'] if given.quick else list(solids))
-	head = ['quantity', 'closed form', 'default', "paper's normal", 'contact surface']
+	head = ['quantity', 'closed form', 'contact surface (default)', "the paper's"]
 	rows = [row for name in given.only for row in parts[name](given)]
 	print(tabulate(rows, head, floatfmt='.6g', missingval=''))
 	given.output.mkdir(parents=True, exist_ok=True)

@@ -12,8 +12,8 @@ cubes = [polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5), orientation=Quaternion(Vect
 O.bodies.append(polytope.cloud((-4.25, 0.5, -4.25), (4.25, 98, 4.25), cubes, seed=1))
 lid = O.bodies.append([polytope.cuboid((x, 0, z), (1.5, 0.25, 1.5), fixed=True) for x in (-3, 0, 3) for z in (-3, 0, 3)])[4]
 O.bodies.append(polytope.plates((-4.25, 0.25, -4.25), (4.25, 14, 4.25), thickness=0.5, without=('-y', '+y')))
-normal = Ig2_Polytope_Polytope_PolytopeGeom(normal='innerPotential')
-O.engines = polytope.engines(gravity=(0, -9.81, 0), damping=0, geometry=normal)
+contact = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')
+O.engines = polytope.engines(gravity=(0, -9.81, 0), damping=0, geometry=contact)
 while O.time < 10:
 	O.run(500, wait=True)
 	if O.time > 5 and O.bodies[lid]:

@@ -35,18 +35,14 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	using namespace polytope;
 	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
 	ContactSettings result;
-	if (contactModel == "conservative")
-		refuse("contactModel: 'conservative' has been replaced by 'spring' (stiffness per contact) and 'foundation' (stiffness per "
-		       "area), "
-		       "whose force is the gradient of an energy, too");
-	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'paper'",
-	        { { "surface", ContactModel::Foundation }, { "paper", ContactModel::Paper }, { "foundation", ContactModel::Foundation },
-	                { "spring", ContactModel::Spring } });
+	if (contactModel == "paper") refuse("contactModel: 'paper' is 'boon2012' now, with the normal and the depth that the paper has");
+	if (contactModel == "conservative") refuse("contactModel: 'conservative' is 'surface' now, the default, which conserves energy");
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'boon2012'",
+	        { { "surface", ContactModel::Foundation }, { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring },
+	                { "boon2012", ContactModel::Boon2012 } });
 	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
 	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
 	                { "centroid", ContactPoint::Centroid } });
-	result.normal       = meaning<NormalSource>("normal", normal, "'dualWeights' or 'innerPotential'",
-	              { { "dualWeights", NormalSource::DualWeights }, { "innerPotential", NormalSource::InnerPotential } });
 	result.solver       = meaning<CentreSolver>(
                 "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
 	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
@@ -63,7 +59,7 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 
 void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
 {
-	auto options = std::tie(contactModel, contactPoint, normal, solver, tolerance, newtonTolerance);
+	auto options = std::tie(contactModel, contactPoint, solver, tolerance, newtonTolerance);
 	try {
 		settings_    = checkedSettings();
 		byStiffness_ = contactModel == "surface";

@@ -88,6 +88,48 @@ namespace {
 		return all;
 	}
 
+	/// The plane, in the piece's own axes, through which the way from the overlap along a covered face's normal, within the face that is slid on, leaves the
+	/// pieces that continue this one; none if it leaves none.
+	polytope::Plane endBeyond(const TouchingPair& pair, int piece, const Candidate& covered, const std::vector<Solid>& others)
+	{
+		const Vector3r    along = covered.outside.normalized();
+		Vector3r          at    = covered.outside;
+		polytope::Plane   last  = { Vector3r::Zero(), 0 };
+		const Real        step  = flushStep(pair);
+		std::vector<bool> passed(others.size(), false);
+		for (bool in = true; in;) {
+			in = false;
+			for (std::size_t k = 0; k < others.size() && !in; ++k) {
+				if (passed[k] || !contains(others[k].planes, at) || !covered.continuedBy(others[k], step)) continue;
+				passed[k] = in = true;
+				Real way       = std::numeric_limits<Real>::infinity();
+				for (const polytope::Plane& plane : others[k].planes) {
+					const Real rate = plane.normal.dot(along);
+					if (!(rate > Real(polytope::tolerance::parallel))) continue;
+					const Real own = (plane.offset - plane.normal.dot(at)) / rate;
+					if (!(own < way)) continue;
+					way  = own;
+					last = plane;
+				}
+				if (!math::isfinite(way)) return { Vector3r::Zero(), 0 };
+				at += (way + 2 * pair.ball) * along;
+			}
+		}
+		if (last.normal.isZero()) return last;
+		const Vector3r from = pair.centre[piece] - pair.point;
+		return { pair.rotation[piece].transpose() * last.normal, last.offset - last.normal.dot(from) };
+	}
+
+	/// Which of two pieces that both have covered faces has them left out. Of those of the other one, some may be too far from this overlap to be seen here,
+	/// so the solids of several contacts would differ; but its seams move with it, so it does not slide over them.
+	int supporting(const TouchingPair& pair)
+	{
+		const Body &first = bodyOf(pair, 0), &second = bodyOf(pair, 1);
+		const bool  fixed = isFixed(first, *pair.scene);
+		if (fixed != isFixed(second, *pair.scene)) return fixed ? 0 : 1;
+		return first.id < second.id ? 0 : 1;
+	}
+
 } // namespace
 
 bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene)
@@ -98,7 +140,7 @@ bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene)
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {
 	std::vector<Candidate> candidates[2];
-	Solid                  solid;
+	std::vector<Solid>     others[2];
 	const Real             step = flushStep(pair);
 	std::vector<Vector3r>  normals[2];
 	for (int body = 0; body < 2; ++body)
@@ -108,14 +150,15 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 		if (bounding.count[piece] < 2 || !isPiece(bodyOf(pair, piece))) continue;
 		candidates[piece] = candidatesOf(pair, bounding, piece, normals);
 		if (candidates[piece].empty()) continue;
-		Real near = 0;
-		for (const Candidate& one : candidates[piece])
-			near = math::max(near, one.outside.norm());
+		const Real     near  = 2 * pair.convex[1 - piece]->boundingRadius(); // no overlap reaches farther
 		const Vector3r mover = pair.centre[1 - piece] - pair.point;
 		forOtherPieces(pair, 1 - piece, [&](const Body& neighbour, const Vector3r& centre, const Vector3r&) {
+			Solid solid;
 			setBody(solid, neighbour, centre, mover, near);
+			if (solid.planes.empty()) return;
 			for (Candidate& one : candidates[piece])
 				one.internal = one.internal || (contains(solid.planes, one.outside) && one.continuedBy(solid, step));
+			others[piece].push_back(std::move(solid));
 		});
 	}
 	// neither of the two faces that slide is an internal face itself: of blocks that meet at a corner, or along an edge, no side is
@@ -125,13 +168,15 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 	};
 	polytope::InternalPlanes result;
 	for (int piece = 0; piece < 2; ++piece) {
-		int& count = result.count[piece];
+		const int& count = result.count[piece];
 		for (const Candidate& one : candidates[piece]) {
 			if (!one.internal || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane)) continue;
-			int* const end = result.plane[piece] + count;
-			if (std::find(result.plane[piece], end, one.plane) == end) result.plane[piece][count++] = one.plane;
+			const int* const first = result.plane[piece];
+			if (std::find(first, first + count, one.plane) == first + count)
+				result.add(piece, one.plane, endBeyond(pair, piece, one, others[piece]));
 		}
 	}
+	if (result.count[0] > 0 && result.count[1] > 0) result.count[1 - supporting(pair)] = 0;
 	return result;
 }
 

@@ -11,7 +11,6 @@
 #include "Prefetch.hpp"
 #include "RockJoint.hpp"
 #include "StiffnessShare.hpp"
-#include "SupportShare.hpp"
 
 #include <boost/make_shared.hpp>
 
@@ -64,19 +63,36 @@ polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 {
 	polytope::InternalPlanes planes;
 	if (!internalFaces.get()) return planes;
-	for (int code : *internalFaces.get()) {
-		const int body                           = code & 1;
-		planes.plane[body][planes.count[body]++] = code >> 1;
-	}
+	const std::vector<int>&  codes = *internalFaces.get();
+	const std::vector<Real>& ends  = *internalEnds.get();
+	for (std::size_t k = 0; k < codes.size(); ++k)
+		planes.add(codes[k] & 1, codes[k] >> 1, { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
 	return planes;
 }
 
-void PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
+bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 {
-	internalFaces.clear();
+	std::vector<int>  codes;
+	std::vector<Real> ends;
 	for (int body = 0; body < 2; ++body)
-		for (int k = 0; k < planes.count[body]; ++k)
-			internalFaces.make().push_back(2 * planes.plane[body][k] + body);
+		for (int k = 0; k < planes.count[body]; ++k) {
+			const polytope::Plane& end = planes.end[body][k];
+			codes.push_back(2 * planes.plane[body][k] + body);
+			ends.insert(ends.end(), { end.normal[0], end.normal[1], end.normal[2], end.offset });
+		}
+	// poses are rounded, and where a support ends with them
+	const auto        same = [](Real a, Real b) { return math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
+	const auto* const knownCodes = internalFaces.get();
+	const auto* const knownEnds  = internalEnds.get();
+	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())
+		return false;
+	internalFaces.clear();
+	internalEnds.clear();
+	if (!codes.empty()) {
+		internalFaces.make() = codes;
+		internalEnds.make()  = ends;
+	}
+	return true;
 }
 
 namespace {
@@ -126,19 +142,6 @@ PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Inte
 	return static_cast<PolytopeGeom&>(*c->geom);
 }
 
-namespace {
-
-	/// The paper's own normal and the models with a surface have their own depth.
-	polytope::DepthRule depthRule(const polytope::ContactSettings& settings, StiffnessRule rule)
-	{
-		using polytope::DepthRule;
-		if (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights)
-			return DepthRule::Chord;
-		return rule == StiffnessRule::PerArea ? DepthRule::Mean : DepthRule::MeanOnFaces;
-	}
-
-} // namespace
-
 polytope::ContactModel Ig2_Polytope_Polytope_PolytopeGeom::modelFor(StiffnessRule rule) const
 {
 	return byStiffness_ && rule != StiffnessRule::PerArea ? polytope::ContactModel::Spring : settings_.contactModel;
@@ -148,9 +151,7 @@ polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule 
 {
 	using polytope::FaceForce;
 	const polytope::ContactModel model = modelFor(rule);
-	if (model == polytope::ContactModel::Spring) return FaceForce::Spring;
-	const bool pressure = hasSurface(model) || depthRule(settings_, rule) != polytope::DepthRule::Chord;
-	return pressure ? FaceForce::Pressure : FaceForce::AtCentre;
+	return model == polytope::ContactModel::Spring ? FaceForce::Spring : hasSurface(model) ? FaceForce::Pressure : FaceForce::AtCentre;
 }
 
 polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
@@ -195,65 +196,41 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
 
 	auto& geom = geometry(c);
-	if (!wasReal && hasSurface(settings_.contactModel)) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
 	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
+	const bool                surface  = hasSurface(settings.contactModel);
 	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
-	// the paper's own contact has friction at one point
-	const bool asPrinted
-	        = settings.contactModel == polytope::ContactModel::Paper && settings.normal == polytope::NormalSource::InnerPotential;
-	settings.outline           = !asPrinted && (geom.needsArea || !wasReal);
-	geom.atOnePoint            = asPrinted;
-	settings.depthRule         = depthRule(settings, StiffnessRule(geom.stiffnessRule));
-	settings.normalWeight[0]   = geom.normalWeight;
-	settings.normalWeight[1]   = 1 - geom.normalWeight;
-	settings.geometryAcrossGap = wasReal || force;
+	settings.outline                   = surface && (geom.needsArea || !wasReal);
+	geom.atOnePoint                    = !surface;
+	settings.normalWeight[0]           = geom.normalWeight;
+	settings.normalWeight[1]           = 1 - geom.normalWeight;
+	settings.geometryAcrossGap         = wasReal || force;
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
-	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.internalFaces.clear();
+	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
 	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;
 	polytope::InternalPlanes internal = geom.internalPlanes();
-	bool                     asPieces = false;
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
-	const bool               surface  = hasSurface(settings.contactModel);
-	if (surface || (settings.normal == polytope::NormalSource::DualWeights && settings.contactModel == polytope::ContactModel::Paper)) {
-		asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
-		if ((turn || !geom.internalKnown || !wasReal) && asPieces) settings.bounding = &bounding;
+	if (surface) {
+		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+		if (asPieces && (turn || !geom.internalKnown || !wasReal)) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
 	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-	if (!wasReal && result.inContact && !surface) {
-		const StiffnessRule rule = stiffnessRuleOfNew(*scene, *c);
-		geom.stiffnessRule       = std::int8_t(rule);
-		const auto before        = settings.depthRule;
-		settings.depthRule       = depthRule(settings, rule);
-		if (settings.depthRule != before)
-			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
-	}
-	const bool mayShare = result.inContact && asPieces && !surface && geom.stiffnessRule != int(StiffnessRule::PerArea);
-	if (result.inContact && (settings.bounding || geom.internalFaces.get() || mayShare)) {
+	if (result.inContact && settings.bounding) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
-			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, result.normal, -result.infeasibility };
-		if (settings.bounding && findInternalFaces(pair, bounding, geom)) {
+			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
+		if (findInternalFaces(pair, bounding, geom)) {
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
 			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
 		}
-		SupportShare share;
-		share.share = math::max(result.share, Real(polytope::tolerance::leastShareOfSupport));
-		if (mayShare) {
-			const Vector3r& place = internal.none() ? result.point : result.common;
-			share                 = shareOfSupport(pair.at(frame1.origin + place, result.normal), internal);
-		}
-		if (share.depth > 0) {
-			result.depth  = share.depth;
-			result.energy = share.depth * share.depth / 2;
-		}
-		giveShare(share.share, geom, *c, result);
 	}
+	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
 	geom.remember(memory);
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
 }
@@ -261,11 +238,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
         const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
 {
-	const polytope::InternalPlanes found = internalPlanes(pair, bounding);
-	geom.internalKnown                   = true;
-	if (found == geom.internalPlanes()) return false;
-	geom.setInternalPlanes(found);
-	return true;
+	geom.internalKnown = true;
+	return geom.setInternalPlanes(internalPlanes(pair, bounding));
 }
 
 bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,

@@ -127,14 +127,6 @@ struct Contact {
 	std::string status() const { return polytope::statusName(result.status); }
 };
 
-polytope::DepthRule depthRuleOf(const std::string& depth)
-{
-	if (depth == "chord") return polytope::DepthRule::Chord;
-	if (depth == "mean") return polytope::DepthRule::Mean;
-	if (depth == "meanOnFaces") return polytope::DepthRule::MeanOnFaces;
-	throw std::invalid_argument("depth: must be 'chord', 'mean' or 'meanOnFaces', not '" + depth + "'");
-}
-
 /// Of a contact of two bodies in the scene; without engines that say so, rock joints have a stiffness per area.
 yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 {
@@ -147,8 +139,7 @@ yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 }
 
 Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
-        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel, const std::string& normal,
-        const std::string& depth)
+        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel)
 {
 	const auto  body1 = bodyOf(b1, "b1"), body2 = bodyOf(b2, "b2");
 	const auto& convex1 = convexOf(body1, "b1");
@@ -162,19 +153,14 @@ Contact contact(const py::object& b1, const py::object& b2, const std::string& c
 	functor.newtonTolerance = newtonTolerance;
 	functor.solver          = solver;
 	functor.contactModel    = contactModel;
-	functor.normal          = normal;
 	functor.callPostLoad();
 	functor.scene                      = yade::Omega::instance().getScene().get();
 	polytope::ContactSettings settings = functor.settings(ruleOf(*body1, *body2));
 	settings.energy                    = true;
 	settings.section                   = true;
-	settings.depthRule                 = depthRuleOf(depth);
-	if (settings.depthRule != polytope::DepthRule::Chord
-	        && (settings.contactModel != polytope::ContactModel::Paper || settings.normal != polytope::NormalSource::DualWeights))
-		throw std::invalid_argument("depth: must be 'chord' with this normal or contactModel");
-	settings.geometryAcrossGap = true;
-	settings.normalWeight[0]   = yade::normalWeightOfFirst(body1.get(), body2.get());
-	settings.normalWeight[1]   = 1 - settings.normalWeight[0];
+	settings.geometryAcrossGap         = true;
+	settings.normalWeight[0]           = yade::normalWeightOfFirst(body1.get(), body2.get());
+	settings.normalWeight[1]           = 1 - settings.normalWeight[0];
 
 	polytope::PairMemory       memory;
 	polytope::ContactWorkspace workspace;
@@ -257,18 +243,23 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "in the overlap.")
 	        .add_property(
 	                "point", +[](const Contact& c) { return c.point; },
-	                "Contact point, world coordinates [m]: the analytic centre of all half-spaces (Eq. 10). Across a gap, of both "
-	                "bodies grown until "
-	                "they just overlap.")
-	        .add_property("normal", &field<Vector3r, &ContactResult::normal>, "Unit contact normal from b1 to b2 (Eqs 13-17).")
-	        .add_property(
-	                "depth", &field<Real, &ContactResult::depth>, "Chord along the normal through the point, positive in overlap [m].")
+	                "Contact point, world coordinates [m]: on the line of action of the surface's pressure; boon2012: the analytic "
+	                "centre "
+	                "of all half-spaces (Eq. 10), across a gap of both bodies grown until they just overlap.")
+	        .add_property("normal", &field<Vector3r, &ContactResult::normal>,
+	                "Unit contact normal from b1 to b2, the direction of the force; boon2012: Eqs 13-17.")
+	        .add_property("depth", &field<Real, &ContactResult::depth>,
+	                "Force over stiffness (foundation: over stiffness and area), positive in overlap [m]; boon2012: the chord along "
+	                "the normal "
+	                "through the point.")
 	        .add_property("energyPerStiffness", &field<Real, &ContactResult::energy>,
 	                "Models foundation and spring: elastic energy over the normal stiffness [m²], foundation's per area.")
 	        .add_property("turningArm", &field<Real, &ContactResult::turningArm>,
 	                "Models foundation and spring: moment about the normal that a force at the point leaves out, over that force [m].")
-	        .add_property(
-	                "area", &field<Real, &ContactResult::area>, "Area of the contact section [m²]; polygons: length times thickness.")
+	        .add_property("area", &field<Real, &ContactResult::area>,
+	                "Area of the contact surface seen along the normal [m²], boon2012: of the section through the point; polygons: "
+	                "length "
+	                "times thickness.")
 	        .add_property(
 	                "sectionCentroid", +[](const Contact& c) { return c.sectionCentroid; },
 	                "Centroid of the contact section, world coordinates [m].")
@@ -283,20 +274,15 @@ BOOST_PYTHON_MODULE(_polytope)
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
 	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
 	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
-	                py::arg("contactModel") = "paper", py::arg("normal") = "dualWeights", py::arg("depth") = "chord"),
+	                py::arg("contactModel") = "surface"),
 	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
-	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel, str normal: "
-	        "as on "
-	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`\n"
-	        ":param str depth: 'chord' (as with YADE's own physics), 'mean' (rock joints, stiffness per area) or 'meanOnFaces' (rock "
-	        "joints, stiffness per "
-	        "contact); see docs/contact-force.md\n"
+	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel: as on "
+	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`; with 'surface' the contact that the bodies have in the scene\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "
 	        "ipoptIterations, simplexPivots\n"
-	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel, solver or "
-	        "depth, "
+	        ":raises ValueError: naming the argument: no Polytope, different dimensions, unknown contactPoint, contactModel or solver, "
 	        "solver 'ipopt' in a build without, tolerances out of range");
 }

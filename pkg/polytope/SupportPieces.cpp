@@ -5,7 +5,6 @@
 #include <pkg/common/Facet.hpp>
 #include <pkg/common/Wall.hpp>
 
-#include "FacetPrism.hpp"
 #include "Polytope.hpp"
 
 namespace yade {
@@ -13,14 +12,6 @@ namespace yade {
 namespace {
 
 	void addPlane(Planes& planes, const Vector3r& normal, Real offset) { planes.push_back({ normal, offset }); }
-
-	/// Whether it does not move: a body that is not dynamic, or a member of a clump that is not.
-	bool isFixed(const Body& body, Scene& scene)
-	{
-		if (!body.isClumpMember()) return !body.isDynamic();
-		const shared_ptr<Body>& clump = Body::byId(body.clumpId, &scene);
-		return clump && !clump->isDynamic();
-	}
 
 } // namespace
 
@@ -63,31 +54,18 @@ void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vecto
 	solid.faces = solid.planes.size();
 }
 
-void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre,
-        const Vector3r& shift, Real near, Scene& scene)
-{
-	const auto* facet = dynamic_cast<const Facet*>(body.shape.get());
-	if (!facet) {
-		setBody(solid, body, centre, moverCentre, near);
-		return;
-	}
-	solid.clear();
-	const Matrix3r           rotation = body.state->ori.toRotationMatrix();
-	const FacetInMesh        mesh(body, mover, -shift, scene);
-	const int                side  = mesh.sideOf(rotation.transpose() * Vector3r(moverCentre - centre));
-	const FacetInMesh::Prism prism = mesh.prism(side, near);
-	for (int i = 0; i < prism.count; ++i) {
-		const Vector3r normal = rotation * prism.planes[std::size_t(i)].normal;
-		addPlane(solid.planes, normal, prism.planes[std::size_t(i)].offset + normal.dot(centre));
-	}
-	solid.faces = 1;
-}
-
-bool contains(const Planes& planes, const Vector3r& point, const Real& room)
+bool contains(const Planes& planes, const Vector3r& point)
 {
 	for (const polytope::Plane& plane : planes)
-		if (!(plane.normal.dot(point) <= plane.offset + room)) return false;
+		if (!(plane.normal.dot(point) <= plane.offset)) return false;
 	return !planes.empty();
+}
+
+bool isFixed(const Body& body, Scene& scene)
+{
+	if (!body.isClumpMember()) return !body.isDynamic();
+	const shared_ptr<Body>& clump = Body::byId(body.clumpId, &scene);
+	return clump && !clump->isDynamic();
 }
 
 bool rigidTogether(const Body& one, const Body& other, Scene& scene)

@@ -23,17 +23,8 @@ struct TouchingPair {
 	const polytope::ConvexShape* convex[2];
 	Vector3r                     centre[2];
 	Matrix3r                     rotation[2];
-	Vector3r                     point;  ///< contact point
-	Vector3r                     normal; ///< from body 1 to body 2
-	Real                         ball;   ///< radius of the largest ball in the overlap
-
-	TouchingPair at(const Vector3r& otherPoint, const Vector3r& otherNormal) const
-	{
-		TouchingPair pair = *this;
-		pair.point        = otherPoint;
-		pair.normal       = otherNormal;
-		return pair;
-	}
+	Vector3r                     point; ///< in the overlap
+	Real                         ball;  ///< radius of the largest ball in the overlap
 };
 
 using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
@@ -55,17 +46,15 @@ inline const Body& bodyOf(const TouchingPair& pair, int which)
 	return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
 }
 
-
 /// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
 /// shapes without faces, and for bodies farther than `near` from the contact point.
 void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near);
 
-/// The same, of facets the prism that they stand for in their mesh (FacetPrism.hpp). `shift`: of the body to where it is in the period of the mover.
-void setMitred(Solid& solid, const Body& body, const Vector3r& centre, const Body& mover, const Vector3r& moverCentre,
-        const Vector3r& shift, Real near, Scene& scene);
+/// Whether a point lies in all half-spaces.
+bool contains(const Planes& planes, const Vector3r& point);
 
-/// Whether a point lies in all half-spaces, or as near as `room` to those that it is outside of.
-bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0);
+/// Whether it does not move: a body that is not dynamic, or a member of a clump that is not.
+bool isFixed(const Body& body, Scene& scene);
 
 /// Whether two bodies move as one, or not at all: they never touch.
 bool rigidTogether(const Body& one, const Body& other, Scene& scene);

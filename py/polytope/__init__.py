@@ -6,7 +6,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Cost and accuracy of settings:
-*tradeoff*, *requirements*, *settings*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
+*tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
 Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
@@ -49,7 +49,6 @@ from .rock.keyBlocks import KeyBlock, keyBlocks
 from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
 from .roses import contactRose, forceHistogram, particleRose
-from .settings import settings
 from .settling import settle
 from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
@@ -119,7 +118,6 @@ __all__ = [
 	'rockReport',
 	'sample',
 	'scanLine',
-	'settings',
 	'settle',
 	'shearBox',
 	'simpleShear',

@@ -8,8 +8,8 @@ share these keyword arguments (*body* below), with the meaning they have in yade
 :param Quaternion orientation: turns the body about its centroid
 :param material: Material instance, index or label in O.materials, or a function that makes one; default the last one added
 :param bool fixed: block all degrees of freedom
-:param float cornerRadius: radius of the inner potential particle's corners [m] (Polytope.cornerRadius), read by the contact normal
-    'innerPotential' alone; default a tenth of the inscribed ball's radius
+:param float cornerRadius: radius of the inner potential particle's corners [m] (Polytope.cornerRadius), read by the contact model
+    'boon2012' alone; default a tenth of the inscribed ball's radius
 :param Vector3 color: RGB in 0…1; default random, as (-1, -1, -1)
 :param bool wire: draw edges only
 :param bool highlight: highlight in the 3d view

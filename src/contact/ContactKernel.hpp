@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/BoundingPlanes.hpp"
+#include "contact/ContactNormal.hpp"
 #include "contact/ContactPointRules.hpp"
-#include "contact/MeanDepth.hpp"
-#include "contact/NormalAndDepth.hpp"
+#include "contact/ContactSection.hpp"
+#include "contact/PenetrationDepth.hpp"
 #include "contact/PhaseOne.hpp"
 #include "contact/SurfaceContact.hpp"
 
@@ -82,16 +82,6 @@ POLYTOPE_INLINE bool alignFrame(const PairInput& in, StartBasis start, bool pivo
 	return true;
 }
 
-/// Grows both bodies, which are `apart`, until they just overlap: there a pair across a gap has point, normal and section. Returns by how
-/// much [m].
-template <class R, int D> POLYTOPE_INLINE R growUntilTouching(PairPlanes<R, D>& planes, R apart, R size)
-{
-	const R grown = apart + R(tolerance::gapSkin) * size;
-	for (int i = 0; i < planes.total; ++i)
-		planes.offset[i] += grown;
-	return grown;
-}
-
 /// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program; x: its point, dual: n_λ, both in the
 /// planes' frame. `atOrigin`: the frame's origin is the last step's point.
 template <class R, int D, int W>
@@ -99,32 +89,22 @@ POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& se
         const LpBasis<R, D>& basis, LpStatus lp, bool touching, bool atOrigin, R* x, R* dual, StageTimer& timer, PairMemory& memory,
         ContactWorkspace& workspace, ContactResult& out)
 {
-	const R       grown  = touching ? R(0) : growUntilTouching<R, D>(planes, basis.infeasibility, f.size);
+	const R       grown  = touching ? R(0) : growUntilTouching<R, D>(planes, basis.infeasibility, R(tolerance::gapSkin) * f.size);
 	ContactStatus status = lp == LpStatus::Undecided
 	        ? ContactStatus::LpNotConverged
 	        : contactPoint<R, D, W>(settings, planes, f, basis, memory, touching, atOrigin, x, dual, workspace, out);
 	timer.end(out.centreNanoseconds);
 
-	R n[D];
+	R                   n[D];
+	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (touching) {
-		if (settings.bounding) {
-			boundingPlanes<R, D, W>(planes, x, *settings.bounding);
-			settings.bounding->point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, x));
-		}
-		const ContactStatus normal = normalInOverlap<R, D, W>(in, settings, planes, f, x, dual, n, out);
 		if (status == ContactStatus::Contact) status = normal;
-	} else normalAcrossGap<R, D, W>(in, settings, planes, f, grown, basis.infeasibility, x, dual, n, out.depth);
-
+		out.depth  = chord<R, D, W>(planes, n);
+		out.energy = out.depth * out.depth / 2;
+	} else out.depth = depthAcrossGap<R, D>(planes, n, grown, basis.infeasibility, dual);
 	publishContact<R, D>(in, f, status, x, n, memory, out);
-	const bool distributed
-	        = settings.depthRule != DepthRule::Chord && touching && meanDepth<R, D, W>(in, settings, f, planes, n, x, workspace, out);
-	if (settings.depthRule != DepthRule::Chord && !distributed) out.energy = touching ? out.depth * out.depth / 2 : R(0);
-	if (settings.section && !distributed) {
-		const bool toCentroid = settings.depthRule == DepthRule::Mean;
-		contactSection<R, D>(in, settings, f, planes, x, n, toCentroid ? nullptr : x,
-		        workspace.polygons(sectionNumbers(planes.total)), workspace, out);
-		if (toCentroid) out.point = out.sectionCentroid;
-	}
+	if (settings.section)
+		contactSection<R, D>(in, settings, f, planes, x, n, x, workspace.polygons(sectionNumbers(planes.total)), workspace, out);
 	failUnlessFinite<D>(memory, out);
 }
 
@@ -178,16 +158,17 @@ POLYTOPE_INLINE void contactKernel(
 		x[k] = basis.point[k];
 	const bool aligned = alignFrame<R, D, W>(in, start, pivots > 0, basis, f, planes, x, dual);
 	if constexpr (Surface) {
-		// across a gap there is none: the paper's geometry is as good a place for a law to end at
-		if (touching) {
-			surfaceContact<R, D, W>(
-			        in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, x, dual, memory, workspace, out);
-			timer.end(out.centreNanoseconds);
-			return;
-		}
+		const R grown = touching
+		        ? R(0)
+		        : growUntilTouching<R, D>(planes, basis.infeasibility, skinAcrossGap<R>(basis.infeasibility, f.size));
+		basis.infeasibility -= grown;
+		surfaceContact<R, D, W>(in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, !touching, grown, x, dual,
+		        memory, workspace, out);
+		timer.end(out.centreNanoseconds);
+	} else {
+		const bool atOrigin = start == StartBasis::LastContact && !aligned;
+		paperContact<R, D, W>(in, settings, planes, f, basis, lp, touching, atOrigin, x, dual, timer, memory, workspace, out);
 	}
-	const bool atOrigin = start == StartBasis::LastContact && !aligned;
-	paperContact<R, D, W>(in, settings, planes, f, basis, lp, touching, atOrigin, x, dual, timer, memory, workspace, out);
 }
 
 } // namespace polytope

@@ -3,11 +3,10 @@
 
 #include "contact/ContactFrame.hpp"
 #include "contact/ContactTypes.hpp"
-#include "contact/DualWeights.hpp"
 #include "contact/InnerPotential.hpp"
 
-/// Contact normal at the contact point: from balanced weights of the linear program (DualWeights.hpp), or the paper's average of
-/// two gradients (Boon et al. 2012, Eq. 17), and the direction that replaces it where there is none.
+/// Contact normal at the contact point: the average of two gradients (Boon et al. 2012, Eq. 17), and the direction that replaces it where
+/// there is none.
 namespace polytope {
 
 /// Direction (not of unit length) where the bodies have none: along the line of centres, or the smaller body's last axis.
@@ -58,35 +57,12 @@ POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactS
 	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
 }
 
-/// Unit normal of the plane with the least slack, pointing away from body 1. Used where the balanced weights cancel to rounding: then two
-/// nearly parallel faces touch, and n differs from the normal of either by less than the angle between them.
-template <class R, int D> POLYTOPE_INLINE void nearestNormal(const PairPlanes<R, D>& planes, R* n)
-{
-	int nearest = 0;
-	for (int i = 1; i < planes.total; ++i)
-		if (planes.slack[i] < planes.slack[nearest]) nearest = i;
-	for (int k = 0; k < D; ++k)
-		n[k] = nearest < planes.first ? planes.normal[k][nearest] : -planes.normal[k][nearest];
-}
-
 /// Unit normal at x. Leaves slacks for the depth.
 template <class R, int D, int W>
 POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
         const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
 {
-	ContactStatus status = ContactStatus::Contact;
-	if (settings.normal == NormalSource::DualWeights) {
-		const R weight = dualWeightsNormal<R, D, W>(planes, x, f.size, n);
-		if (!(norm<R, D>(n) > R(tolerance::direction) * weight)) {
-			if (settings.internal && settings.internal->count[0] + settings.internal->count[1] > 0) {
-				nearestNormal<R, D>(planes, n); // the dual direction may be that of a plane that is left out
-				return status;
-			}
-			for (int k = 0; k < D; ++k)
-				n[k] = dual[k];
-			status = norm<R, D>(dual) > R(tolerance::direction) ? ContactStatus::NormalFromDual : ContactStatus::NoDirection;
-		}
-	} else status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	const ContactStatus status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
 	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);
 	const R length = norm<R, D>(n);
 	for (int k = 0; k < D; ++k)

@@ -28,12 +28,7 @@ public:
 		++count_;
 	}
 
-	/// \param loop whether the corners were those of a convex loop, in order
-	POLYTOPE_INLINE void publish(bool loop, ContactResult& out) const
-	{
-		out.outlineCount  = count_;
-		out.outlineIsLoop = loop;
-	}
+	POLYTOPE_INLINE void publish(ContactResult& out) const { out.outlineCount = count_; }
 
 private:
 	R   point_[3], axis_[2][3];

@@ -3,7 +3,6 @@
 
 #include "contact/ContactKernel.hpp"
 #include "contact/PairOrder.hpp"
-#include "shear/ContactOutline.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,14 +11,6 @@
 #include <string>
 
 namespace polytope {
-
-bool InternalPlanes::operator==(const InternalPlanes& other) const
-{
-	for (int body = 0; body < 2; ++body)
-		if (count[body] != other.count[body] || !std::equal(plane[body], plane[body] + count[body], other.plane[body]))
-			return false;
-	return true;
-}
 
 Real* ContactWorkspace::rows(int rowCount, int length)
 {
@@ -48,7 +39,7 @@ Real* ContactWorkspace::points(int count)
 
 void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
 {
-	int& count = result.outlineCount;
+	const int count = result.outlineCount;
 	if (corners_.size() < std::size_t(count)) corners_.resize(count);
 	for (int k = 0; k < count; ++k)
 		corners_[k] = Vector2(points_[2 * k], points_[2 * k + 1]);
@@ -63,7 +54,6 @@ void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
 		}
 		std::reverse(corners_.begin(), corners_.begin() + count);
 	}
-	if (!result.outlineIsLoop) count = convexOutline(corners_.data(), count, hull_);
 	result.outline = corners_.data();
 }
 
@@ -130,7 +120,7 @@ void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const Con
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;
-	if (settings.contactModel != ContactModel::Paper && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
+	if (surface && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
 		const Vector3   centre1 = -centre2;
 		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
 		exchangeBodies(memory);

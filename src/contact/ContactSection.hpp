@@ -121,8 +121,7 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	return section;
 }
 
-/// Area (2-D: times the smaller thickness) and centroid of the section through x, normal to n. Its outline is from `point`, or where that is null
-/// from the centroid. `buffer`: of sectionNumbers().
+/// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through x, normal to n. `buffer`: of sectionNumbers().
 template <class R, int D>
 POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
         const PairPlanes<R, D>& planes, const R* x, const R* n, const R* point, R* buffer, ContactWorkspace& workspace, ContactResult& out)
@@ -134,14 +133,14 @@ POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& 
 	if constexpr (D == 3) {
 		if (!settings.outline) return;
 		const Rotation<R, 3>    axes = axesAround<R, 3>(n);
-		ContactOutlineWriter<R> writer(f, out.normal, point ? point : section.centroid, workspace.points(section.count));
+		ContactOutlineWriter<R> writer(f, out.normal, point, workspace.points(section.count));
 		for (int k = 0; k < section.count; ++k) {
 			R p[3];
 			for (int m = 0; m < 3; ++m)
 				p[m] = x[m] + section.corner[2 * k] * axes.m[0][m] + section.corner[2 * k + 1] * axes.m[1][m];
 			writer.add(p);
 		}
-		writer.publish(true, out);
+		writer.publish(out);
 	}
 }
 

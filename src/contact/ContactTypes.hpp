@@ -3,6 +3,7 @@
 
 #include "contact/Status.hpp"
 #include "numbers/Tolerances.hpp"
+#include "shape/HalfSpaces.hpp"
 #include "surface/KeptSurface.hpp"
 
 #include <array>
@@ -25,26 +26,13 @@ enum class CentreSolver : int {
 };
 
 enum class ContactModel : int {
-	Paper = 0,  ///< Boon et al. (2012): stiffness × chord along the normal through the contact point
-	Foundation, ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp); point, normal, depth and area are its own, contactPoint and normal are read across a gap alone
-	Spring,     ///< the same for a stiffness per contact
+	Boon2012 = 0, ///< as printed: stiffness × chord along the averaged normal (Eqs 13-17) through the contact point
+	Foundation,   ///< gradient of an energy, for a stiffness per area (SurfaceContact.hpp)
+	Spring,       ///< the same for a stiffness per contact
 };
 
 /// Whether the contact is that of a surface (SurfaceContact.hpp).
 constexpr bool hasSurface(ContactModel model) { return model == ContactModel::Foundation || model == ContactModel::Spring; }
-
-/// Of the contact model Paper.
-enum class NormalSource : int {
-	DualWeights = 0, ///< weights of the linear program on which both bodies agree (DualWeights.hpp)
-	InnerPotential,  ///< Eqs 13-17: gradients of both bodies' inner potential particles, averaged by normalWeight
-};
-
-/// Of the contact model Paper.
-enum class DepthRule : int {
-	Chord = 0,   ///< along the normal through the contact point
-	Mean,        ///< for a stiffness per area: mean depth and centroid of the overlap (MeanDepth.hpp)
-	MeanOnFaces, ///< for a stiffness per contact: the same where faces lie on each other, the chord at edges and vertices
-};
 
 /// Planes of each body that bound the overlap, or are next to it (BoundingPlanes.hpp), with their slacks at the contact point [m];
 /// those of the largest leverage where there are more than fit.
@@ -58,21 +46,27 @@ struct BoundingPlanes {
 };
 
 /// Planes of each body that are internal faces of a larger solid: covered by a neighbour where the other body passes, so that
-/// nothing can touch them. The contact normal and the depth are those without them.
+/// nothing can touch them. The contact surface is that without them.
 struct InternalPlanes {
-	int  count[2] = { 0, 0 };
-	int  plane[2][BoundingPlanes::most];
+	int count[2] = { 0, 0 };
+	int plane[2][BoundingPlanes::most];
+	/// For each the plane through which the solid ends beyond it, a·x ≤ d in the body's own axes; a = 0: it ends nowhere near.
+	Plane end[2][BoundingPlanes::most];
+
 	bool none() const { return count[0] + count[1] == 0; }
-	bool operator==(const InternalPlanes& other) const;
+	void add(int body, int index, const Plane& endOfSolid = { Vector3::Zero(), 0 })
+	{
+		plane[body][count[body]] = index;
+		end[body][count[body]++] = endOfSolid;
+	}
 };
 
 struct ContactResult;
 
 struct ContactSettings {
-	ContactModel contactModel = ContactModel::Paper;
-	ContactPoint contactPoint = ContactPoint::AnalyticCentre;
-	CentreSolver solver       = CentreSolver::Newton;
-	NormalSource normal       = NormalSource::DualWeights;
+	ContactModel contactModel = ContactModel::Boon2012;
+	ContactPoint contactPoint = ContactPoint::AnalyticCentre; ///< of Boon2012
+	CentreSolver solver       = CentreSolver::Newton;         ///< of Boon2012
 	/// Contact when s* < −tolerance × the smaller body's circumradius.
 	Real tolerance = tolerance::contact;
 	/// Accepted remaining distance to the centre, in the overlap's own local norm (Newton; Ipopt goes to tolerance::ipoptMove).
@@ -82,18 +76,17 @@ struct ContactSettings {
 	/// Also the contact section's area and centroid (length in 2-D).
 	bool section = false;
 	/// 3-D: also the outline of what the area is of.
-	bool      outline   = false;
-	DepthRule depthRule = DepthRule::Chord;
-	/// InnerPotential: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
+	bool outline = false;
+	/// Boon2012: weights of the two bodies' normals (Eq. 17), any non-negative pair with a positive sum.
 	Real normalWeight[2] = { 1, 1 };
 	/// End after the linear program: s*, and whether it is a contact, without point, normal and depth.
 	bool programAlone = false;
 	/// Give point, normal and (negative) depth also for a separated pair: a real interaction needs them until its law
 	/// ends it.
 	bool geometryAcrossGap = false;
-	/// DualWeights: planes left out of normal and depth, or null.
+	/// Models with a surface: planes left out, or null.
 	const InternalPlanes* internal = nullptr;
-	/// Where the planes that bound a touching pair's overlap are written to, or null.
+	/// The same: where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
 	/// Foundation: also the energy, which takes half as long again; else it is −1.
 	bool energy = true;
@@ -129,26 +122,22 @@ struct ContactResult {
 	Vector3 sectionCentroid = Vector3::Zero(); ///< world axes, from body 1's centre
 	/// If asked for: corners of the contact's outline, (u, v) along axesAround(normal) from the point, in the workspace until its next query; convex,
 	/// counter-clockwise.
-	const Vector2* outline       = nullptr;
-	int            outlineCount  = 0;
-	bool           outlineIsLoop = false; ///< else the points are yet to be put in order
-	Real           energy
-	        = 0; ///< the contact's elastic energy over its normal stiffness [m²]; with a mean depth: U of MeanDepth.hpp over k A; foundation: U over K A; spring: U over k
-	Real share
+	const Vector2* outline      = nullptr;
+	int            outlineCount = 0;
+	Real           energy       = 0; ///< of the contact over its normal stiffness [m²]; foundation: U over K A; spring: U over k
+	Real           share
 	        = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
-	Real    turningArm = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
-	Vector3 common     = Vector3::
-	        Zero(); ///< with internal faces: centre of the overlap without them, where normal and depth are taken; world axes, from body 1's centre
-	bool                dismissed        = false; ///< separated by the first basis' bound, without evaluating the other planes
-	bool                surfaceKept      = false; ///< foundation, spring: its pieces are those of the last step
-	int                 simplexPivots    = 0;
-	int                 newtonIterations = 0;
-	bool                ipoptSolved      = false; ///< Ipopt was called, with or without success
-	int                 ipoptIterations  = 0;
-	Real                decrement        = 0;                     ///< Newton decrement before the last step
-	long                lpNanoseconds = 0, centreNanoseconds = 0; ///< if asked for: frames and LP; centre
-	std::array<int, 4>  basis { { 0, 0, 0, 0 } };                 ///< as PairMemory::basis
-	std::array<Real, 4> weights { { 0, 0, 0, 0 } };               ///< LP dual λ of the basis
+	Real turningArm    = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
+	bool dismissed     = false; ///< separated by the first basis' bound, without evaluating the other planes
+	bool surfaceKept   = false; ///< foundation, spring: its pieces are those of the last step
+	int  simplexPivots = 0;
+	int  newtonIterations = 0;
+	bool ipoptSolved      = false; ///< Ipopt was called, with or without success
+	int  ipoptIterations  = 0;
+	Real decrement        = 0;                      ///< Newton decrement before the last step
+	long lpNanoseconds = 0, centreNanoseconds = 0;  ///< if asked for: frames and LP; centre
+	std::array<int, 4>  basis { { 0, 0, 0, 0 } };   ///< as PairMemory::basis
+	std::array<Real, 4> weights { { 0, 0, 0, 0 } }; ///< LP dual λ of the basis
 };
 
 /// Buffers of one thread; grow to the largest pair seen, and keep that size.
@@ -157,7 +146,7 @@ public:
 	Real* rows(int rowCount, int length);
 	Real* polygons(int length);
 	int*  indices(int length);
-	/// For points whose convex hull is the contact's outline.
+	/// For the corners of the contact's outline.
 	Real* points(int count);
 	/// Makes it of them; `exchanged`: they were written for the opposite normal.
 	void finishOutline(bool exchanged, ContactResult& result);
@@ -165,7 +154,7 @@ public:
 private:
 	std::vector<Real>    rows_, polygons_, points_;
 	std::vector<int>     indices_;
-	std::vector<Vector2> corners_, hull_;
+	std::vector<Vector2> corners_;
 };
 
 } // namespace polytope

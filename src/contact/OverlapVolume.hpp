@@ -5,13 +5,12 @@
 #include "numbers/Rotation.hpp"
 #include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
-#include "shape/ShapeConstruction.hpp"
 
 #include <algorithm>
 
 /// The overlap of two bodies as a polyhedron (3-D) or a polygon (2-D): volume (area), centroid, and what is seen of it along a direction.
 ///
-/// A polyhedron that holds it, one of the bodies or a box (2-D: a square), is cut by one plane after the other, the nearest first. Each face is a
+/// A box that holds it (2-D: a square) is cut by one plane after the other, the nearest first. Each face is a
 /// loop of vertices, counter-clockwise seen from outside, which neighbouring faces share; what a cut leaves open is closed by a face of its own, from
 /// the vertices that the cut made. Most planes cut nothing: they cost one product with each vertex, or nothing if they are farther than any vertex.
 /// With an inner point x, and over the faces i with area A_i, centroid c_i and slack σ_i = d_i − a_i·x, the cones from x give
@@ -30,12 +29,6 @@ template <class R, int D> struct OverlapMass {
 template <class R> struct Footprint {
 	R area      = 0;  ///< [m²]; 2-D: length [m]
 	R second[3] = {}; ///< ∫ u², ∫ u v, ∫ v² dA along the axes around n (axesAround), from a point p [m⁴]; 2-D: the first alone, [m³]
-	/// The largest ∫ (r·t)² dA / A over unit vectors t in the plane [m²].
-	R gyrationSquared() const
-	{
-		const R mean = (second[0] + second[2]) / 2, half = (second[0] - second[2]) / 2;
-		return (mean + sqrt(half * half + second[1] * second[1])) / area;
-	}
 };
 
 template <class R, int D, int W> class Overlap;
@@ -71,24 +64,6 @@ public:
 		box(halfWidth);
 		const int count = findPlanes(0, planes.total);
 		if (count > 0) cut(nearest_[0]);
-		cutByOthers(count);
-	}
-
-	/// The same of two bodies, begun with `body`, 0 or 1, of at most tolerance::wholeBodyFaces faces. `place(p, own)` writes a point of its own axes in the
-	/// planes' frame; `extent`: the body's.
-	template <class Place>
-	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, int body, const Polyhedron& surface, const Place& place, const R* x,
-	        R extent, ContactWorkspace& workspace)
-	        : Overlap(planes, extent, x, workspace)
-	{
-		for (const Vector3& own : surface.vertices) {
-			R p[3];
-			place(p, own);
-			loops_.set(newPlace(), p);
-		}
-		const int  count = findPlanes(planes.begin(1 - body), planes.end(1 - body));
-		const bool cuts  = count > 0 && measureBeyond(nearest_[0]);
-		takeBody(surface, planes.begin(body), cuts);
 		cutByOthers(count);
 	}
 
@@ -134,48 +109,7 @@ public:
 		return true;
 	}
 
-	/// Area seen along n, after mass(): of the faces that are turned to n.
-	POLYTOPE_INLINE R areaAlong(const R* n) const
-	{
-		R sum = 0;
-		for (int face = 0; face < loops_.faces; ++face) {
-			if (loops_.count[face] < 3 || loops_.plane[face] < 0) continue;
-			R a[3], d;
-			planes_.plane(loops_.plane[face], a, d);
-			sum += area_[face] * maxOf<R>(0, dot<R, 3>(a, n));
-		}
-		return sum;
-	}
-
-	/// More corners than the faces have that are turned to a direction.
-	POLYTOPE_INLINE int cornersAlong() const
-	{
-		int sum = 0;
-		for (int face = 0; face < loops_.faces; ++face)
-			sum += loops_.count[face];
-		return sum;
-	}
-
-	/// Calls writer.add(corner) for the corners of these faces. True if it is one face: then the corners are its loop.
-	template <class Writer> POLYTOPE_INLINE bool visitAlong(const R* n, Writer& writer) const
-	{
-		int turned = 0;
-		for (int face = 0; face < loops_.faces; ++face) {
-			if (loops_.count[face] < 3 || loops_.plane[face] < 0) continue;
-			R a[3], d;
-			planes_.plane(loops_.plane[face], a, d);
-			if (!(dot<R, 3>(a, n) > R(tolerance::outlineFace))) continue;
-			++turned;
-			for (int v = 0; v < loops_.count[face]; ++v) {
-				R p[3];
-				loops_.get(loops_.corner[face * room_ + v], p);
-				writer.add(p);
-			}
-		}
-		return turned == 1;
-	}
-
-	/// Over the same faces.
+	/// Over the faces that are turned to n.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);
@@ -371,24 +305,12 @@ private:
 		return true;
 	}
 
-	/// The body's faces, those that plane nearest_[0] leaves if it cuts: many a face is not even copied.
-	POLYTOPE_APART void takeBody(const Polyhedron& surface, int firstPlane, bool cuts)
-	{
-		const int vertices = loops_.vertices;
-		loops_.faces       = int(surface.faces.size());
-		for (int face = 0; face < loops_.faces && whole_; ++face) {
-			loops_.plane[face] = firstPlane + surface.planeOfFace[face];
-			takeFace(face, surface.faces[face].data(), int(surface.faces[face].size()), cuts);
-		}
-		if (cuts) close(nearest_[0], vertices);
-	}
-
 	/// Takes off each face what lies beyond plane i, as measured.
 	POLYTOPE_APART void cutFaces(int i)
 	{
 		const int vertices = loops_.vertices;
 		for (int face = 0; face < loops_.faces && whole_; ++face)
-			takeFace(face, loops_.corner + face * room_, loops_.count[face], true);
+			takeFace(face);
 		close(i, vertices);
 	}
 
@@ -413,16 +335,17 @@ private:
 	}
 
 	/// Leaves of a loop what is inside, and notes the edges along which it was cut: where it comes in again, the new face runs back to where it had left.
-	POLYTOPE_INLINE void takeFace(int face, const int* loop, int count, bool cuts)
+	POLYTOPE_INLINE void takeFace(int face)
 	{
-		int* own     = loops_.corner + face * room_;
-		int  outside = 0;
-		for (int k = 0; k < count && cuts; ++k)
+		int*      loop    = loops_.corner + face * room_;
+		const int count   = loops_.count[face];
+		int       outside = 0;
+		for (int k = 0; k < count; ++k)
 			outside += beyond(loop[k]);
-		loops_.count[face] = outside < count ? count : 0;
-		if (outside == count || (outside == 0 && loop == own)) return;
+		if (outside == count) loops_.count[face] = 0;
+		if (outside == count || outside == 0) return;
 		int kept = 0, exit = -1, firstEntry = -1, last = loop[count - 1];
-		for (int k = 0; k < count && outside > 0 && whole_; last = loop[k++]) {
+		for (int k = 0; k < count && whole_; last = loop[k++]) {
 			const int v = loop[k];
 			if (kept + 2 > room_) whole_ = false;
 			else if (!beyond(last) && beyond(v)) left_[kept++] = exit = meeting(last, v);
@@ -434,9 +357,9 @@ private:
 			if (whole_ && !beyond(v)) left_[kept++] = v;
 		}
 		if (firstEntry >= 0) next_[firstEntry] = exit;
-		if (outside > 0) loops_.count[face] = kept;
-		for (int k = 0; k < loops_.count[face]; ++k)
-			own[k] = outside > 0 ? left_[k] : loop[k];
+		loops_.count[face] = kept;
+		for (int k = 0; k < kept; ++k)
+			loop[k] = left_[k];
 	}
 
 	/// Chains the vertices of the cut into the face in plane i, and gives up those of `vertices` that were cut away. By rounding there may be more
@@ -518,13 +441,6 @@ public:
 		for (int k = 0; k < 2; ++k)
 			result.centroid[k] = x[k] + moment[k] / result.volume;
 		return true;
-	}
-
-	/// Length seen along n.
-	POLYTOPE_INLINE R areaAlong(const R* n) const
-	{
-		const R origin[2] = {};
-		return footprint(origin, n).area;
 	}
 
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const

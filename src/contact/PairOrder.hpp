@@ -53,6 +53,7 @@ inline void exchangeBodies(InternalPlanes& planes)
 {
 	std::swap(planes.count[0], planes.count[1]);
 	std::swap(planes.plane[0], planes.plane[1]);
+	std::swap(planes.end[0], planes.end[1]);
 }
 
 /// Those of the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Rotation.hpp"
+#include "numbers/Tolerances.hpp"
 #include "program/PairPlanes.hpp"
 
 /// Distance from the contact point to a body's surface along a direction (Boon et al. 2012, section 2.5, who bracket it
@@ -42,6 +44,30 @@ template <class R, int D> POLYTOPE_INLINE R exitOfGrown(const PairPlanes<R, D>& 
 		exit    = (planes.slack[i] - grown) / rate;
 	}
 	return exit;
+}
+
+/// Depth along n through the contact point, whose slacks are in the planes (an overlap thinner than the planes' rounding may have its
+/// point outside).
+template <class R, int D, int W> POLYTOPE_INLINE R chord(const PairPlanes<R, D>& planes, const R* n)
+{
+	return maxOf<R>(0, exitDistance<R, D, W>(planes, 0, n, 1) + exitDistance<R, D, W>(planes, 1, n, -1));
+}
+
+/// Grows both bodies, which are `apart` (s*), until s* is −skin: there a pair across a gap has point, normal and section. Returns by how much [m].
+template <class R, int D> POLYTOPE_INLINE R growUntilTouching(PairPlanes<R, D>& planes, R apart, R skin)
+{
+	const R grown = apart + skin;
+	for (int i = 0; i < planes.total; ++i)
+		planes.offset[i] += grown;
+	return grown;
+}
+
+/// Of bodies grown by `grown`, `apart` from each other (s*), at the point of the planes' slacks: minus the distance between their surfaces along n.
+template <class R, int D> POLYTOPE_INLINE R depthAcrossGap(const PairPlanes<R, D>& planes, const R* n, R grown, R apart, const R* dual)
+{
+	// where the normal does not separate the bodies the chord has no meaning; they are at least s*/|n_λ| apart
+	const R least = maxOf<R>(apart, 0) / maxOf<R>(norm<R, D>(dual), R(tolerance::direction));
+	return minOf<R>(exitOfGrown<R, D>(planes, 0, n, 1, grown) + exitOfGrown<R, D>(planes, 1, n, -1, grown), -least);
 }
 
 } // namespace polytope

@@ -45,14 +45,20 @@ POLYTOPE_INLINE void placePlanes(
 	}
 }
 
+/// A plane given in a body's own axes, in the frame.
+template <class R, int D> POLYTOPE_INLINE void framePlane(const ContactFrame<R, D>& f, int body, const R* own, R offset, R* a, R& d)
+{
+	rotateBack<R, D>(f.own[body], own, a);
+	d = (offset - dot<R, D>(own, f.centre[body])) - dot<R, D>(own, f.origin[body]);
+}
+
 /// One plane of a body in the frame.
 template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
 {
 	R own[D];
 	for (int k = 0; k < D; ++k)
 		own[k] = in.shape[body]->normalArray(k)[index];
-	rotateBack<R, D>(f.own[body], own, a);
-	d = (in.shape[body]->offsetArray()[index] - dot<R, D>(own, f.centre[body])) - dot<R, D>(own, f.origin[body]);
+	framePlane<R, D>(f, body, own, R(in.shape[body]->offsetArray()[index]), a, d);
 }
 
 template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)

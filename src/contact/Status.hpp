@@ -5,11 +5,10 @@ namespace polytope {
 
 /// How one contact query ended. answered() says which of these are the answer that was asked for; the names are what scripts read.
 enum class ContactStatus : int {
-	Separated = 0,     ///< s* ≥ −tolerance: no contact
-	Contact,           ///< centre converged, normal from the balanced weights (or both bodies' inner potentials)
-	NormalFromOneBody, ///< innerPotential: the point lies deeper than cornerRadius in one body, the normal is the other body's gradient
-	NormalFromDual, ///< the normal is the LP's dual direction: the balanced weights cancel to rounding (thin overlaps of nearly parallel faces);
-	                ///< innerPotential: deeper than cornerRadius in both, or the gradients cancel
+	Separated = 0,      ///< s* ≥ −tolerance: no contact
+	Contact,            ///< the surface was found, or, boon2012, the centre converged and both inner potentials gave a normal
+	NormalFromOneBody,  ///< boon2012: the point lies deeper than cornerRadius in one body, the normal is the other body's gradient
+	NormalFromDual,     ///< boon2012: deeper than cornerRadius in both, or the gradients cancel: the normal is the LP's dual direction
 	RoundingLimited,    ///< the overlap is so thin that rounding ended Newton's iterations: the centre is as accurate as the planes
 	CentreByIpopt,      ///< Newton did not converge to the analytic centre, Ipopt found it
 	CentreNotConverged, ///< Ipopt, too, found no analytic centre: the LP's point was used instead

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/BoundingPlanes.hpp"
 #include "contact/ContactFrame.hpp"
-#include "contact/ContactPointRules.hpp"
-#include "contact/ContactSection.hpp"
 #include "contact/ContactTypes.hpp"
-#include "contact/NormalAndDepth.hpp"
-#include "contact/PhaseOne.hpp"
+#include "contact/PenetrationDepth.hpp"
+#include "contact/SurfaceOnPieces.hpp"
 #include "contact/WarmStart.hpp"
-#include "program/LpBasis.hpp"
-#include "surface/ContactSurface.hpp"
-#include "surface/NearPlanes.hpp"
 
 /// The contacts whose force is the gradient of the volume of the linear program's feasible set (ContactSurface.hpp), as a geometry for laws that
 /// are linear in depth. With V = ∫ p dx and W = ∫ ½ p² dx over the overlap, p the least slack of both bodies,
@@ -63,41 +57,6 @@ template <class R, int D> POLYTOPE_INLINE R lineOfAction(const SurfaceLoad<R, D>
 	}
 }
 
-/// Of a pair: what its surface is found from, and the surface.
-template <class R, int D> struct PairSurface {
-	SurfaceSums<R, D>     sums;
-	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out
-	PairPlanes<R, D>      nearest;      ///< those of the program that matter
-	R*                    spare;        ///< room for a section
-	R                     deepest;      ///< −s*
-	SurfaceStatus         status;
-
-	/// Part of the solid's contact that is this contact's: all pieces add up to one.
-	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
-};
-
-/// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: ContactSurface.hpp.
-template <class R, int D, int W>
-POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptSurface* kept,
-        ContactWorkspace& workspace, PairSurface<R, D>& surface)
-{
-	using Near     = NearPlanes<R, D, W>;
-	using Buffers  = SurfaceBuffers<R, D>;
-	const int most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total),
-	          ownIndices  = Near::indicesNeeded(planes.total);
-	R* const      numbers = workspace.polygons(own + Buffers::numbersNeeded(most) + sectionNumbers(most));
-	int* const    indices = workspace.indices(ownIndices + Buffers::indicesNeeded(most));
-	LpBasis<R, D> basis   = optimum;
-	Near          near(planes, basis, size, numbers, indices);
-	surface.nearest = near.planes();
-	surface.spare   = numbers + own + Buffers::numbersNeeded(most);
-	surface.deepest = -optimum.infeasibility;
-	const Buffers      buffers(surface.nearest.total, numbers + own, indices + ownIndices);
-	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
-	surface.status           = contactSurface<R, D, W>(
-                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, buffers, surface.sums, kept, near.names(), surface.on);
-}
-
 /// The force's direction; where there is no force the dual's, or any: coincident bodies, or one wholly within the other, are in equilibrium.
 template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoad<R, D>& load, R length, R least, const R* dual, R* n)
 {
@@ -108,83 +67,34 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 	return some;
 }
 
-/// The planes that bound the overlap, with their slacks at its analytic centre. x and dual turn with the frame.
-template <class R, int D, int W>
-POLYTOPE_APART void boundingPlanesOf(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
-        R* x, R* dual, ContactResult& out)
+/// By how much s* of bodies that are `apart` (s*) is negative when they are grown for a contact: so that it moves with their tilt as that of bodies which
+/// overlap as far as these are apart, and not with rounding.
+template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 {
-	R centre[D];
-	for (int k = 0; k < D; ++k)
-		centre[k] = x[k];
-	newtonCentre<R, D, W>(planes, f, centre, R(settings.newtonTolerance), x, dual, out);
-	boundingPlanes<R, D, W>(planes, centre, *settings.bounding);
-	settings.bounding->point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, centre));
+	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
 }
 
-/// The surface without the planes of internal faces, and the part of it on the piece that has them. False where there is none, or where the overlap is not one
-/// of a body that slides on these pieces.
-template <class R, int D, int W>
-POLYTOPE_APART bool surfaceOnPieces(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
-        PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, bool energy, PairMemory& memory, ContactWorkspace& workspace,
-        PairSurface<R, D>& surface)
-{
-	const InternalPlanes& internal = *settings.internal;
-	surface.on->clips.count        = 0;
-	for (int body = 0; body < 2; ++body)
-		for (int k = 0; k < internal.count[body]; ++k)
-			surface.on->clips.add(planes, planes.begin(body) + internal.plane[body][k]);
-	R offset[2 * BoundingPlanes::most];
-	takeOut<R, D>(planes, internal, offset);
-	// the program of what is left, from the ball of the body that has no internal face
-	PairMemory    start;
-	LpBasis<R, D> basis;
-	R             dual[D];
-	int           pivots = 0;
-	const int     ball   = internal.count[0] > 0 ? 1 : 0;
-	bool          found  = in.shape[ball]->inscribedRadius() < R(padOffset) && !surface.on->clips.full();
-	if (found) {
-		for (int k = 0; k <= D; ++k)
-			start.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-		found = startFrom<R, D>(in, f, start.basis, basis, dual);
-	}
-	if (found) {
-		recallBasis<R, D>(planes, start, basis);
-		ProgramLimits<R> all = limits;
-		all.dismissAbove     = R(padOffset);
-		found                = solvePhaseOne<R, D, W>(StartBasis::Aimed, planes, all, f.size, basis, pivots) == LpStatus::Optimal;
-		found                = found && basis.infeasibility < -limits.tolerance;
-	}
-	if (found) findSurface<R, D, W>(planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
-	putBack<R, D>(planes, internal, offset);
-	if (!found || surface.status != SurfaceStatus::Found) return false;
-	const R length = norm<R, D>(surface.sums.force);
-	if (!(length > 0)) return false;
-	R n[D];
-	for (int k = 0; k < D; ++k)
-		n[k] = surface.sums.force[k] / length;
-	const R area = dot<R, D>(surface.sums.areaVector, n);
-	return area > 0 && 2 * length < area * internalDepth<R, D>(in, f, internal, n);
-}
-
-/// After the linear program of a pair that touches; x: its point, in the planes' frame.
+/// After the linear program; x: its point, in the planes' frame. `across`: of a pair that does not touch, whose bodies were
+/// grown by `grown` until it does.
 template <class R, int D, int W>
 POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
-        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, R* x, R* dual, PairMemory& memory,
-        ContactWorkspace& workspace, ContactResult& out)
+        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, bool across, R grown, R* x, R* dual,
+        PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring;
-	if (settings.bounding) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
+	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
 	PairSurface<R, D>    surface;
 	SurfaceOnPiece<R, D> piece;
-	if (settings.internal) {
+	if (settings.internal && !across) {
 		surface.on = &piece;
 		if (!surfaceOnPieces<R, D, W>(in, settings, limits, planes, f, energy, memory, workspace, surface)) surface.on = nullptr;
 	}
 	if (!surface.on)
-		findSurface<R, D, W>(planes, basis, f.size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
+		findSurface<R, D, W>(planes, basis, f.size + grown, energy, settings.warmStart && !across ? &memory.surface : nullptr,
+		        workspace, surface);
 	out.surfaceKept = surface.sums.kept;
 
-	// all pieces of a solid have its force, point and depth, and each the part that it has of the pressure: no piece is pressed aside by an edge on its seam
+	// all pieces of a solid have the force's direction and its depth: no piece is pressed aside by an edge on its seam
 	const SurfaceSums<R, D>& sums    = surface.sums;
 	const R                  deepest = surface.deepest;
 	const SurfaceLoad<R, D>  load(settings.contactModel, sums);
@@ -193,22 +103,32 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	const bool perArea = settings.contactModel == ContactModel::Foundation;
 	const R    most    = perArea ? 2 * sums.pressure : 6 * deepest;
 	R          n[D], centre[D], point[D];
-	bool       directed = directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
+	// across a gap what separates the bodies
+	bool directed = across ? norm<R, D>(dual) > R(tolerance::direction)
+	                       : directionOfForce<R, D>(load, length, R(tolerance::direction) * most, dual, n);
+	for (int k = 0; k < D && across; ++k)
+		n[k] = directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
 	for (int k = 0; k < D; ++k)
 		point[k] = centre[k] = sums.pressure > 0 ? sums.centre[k] / sums.pressure : x[k];
-	if (directed) {
+	if (directed && !across) {
 		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
 		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere
 		R aside = 0;
 		for (int k = 0; k < D; ++k)
 			aside += (point[k] - centre[k]) * (point[k] - centre[k]);
-		const R farthest = R(tolerance::lineOfAction) * f.size;
+		const R farthest = R(tolerance::lineOfAction) * surface.size;
 		directed         = aside <= farthest * farthest && abs(out.turningArm) <= farthest;
 		if (!directed) {
 			out.turningArm = 0;
 			for (int k = 0; k < D; ++k)
 				point[k] = centre[k];
 		}
+	}
+	if (surface.on
+	        && piece.pressure
+	                > 0) { // each piece's part acts at the centre of the pressure on it, and all together along the solid's line of action
+		for (int k = 0; k < D; ++k)
+			point[k] += piece.centre[k] / piece.pressure - centre[k];
 	}
 
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
@@ -218,22 +138,36 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	out.depth  = perArea ? length / area : length;
 	out.energy = !energy ? R(-1) : perArea ? load.energy / area : load.energy;
 	out.share  = surface.share();
-	if (perArea) area *= out.share;
+	area *= out.share;
 	out.area = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
+
+	if (across) {
+		out.turningArm = out.energy = 0;
+		R most;
+		mostViolated<R, D, W>(planes, point, most); // leaves the slacks
+		out.depth = depthAcrossGap<R, D>(planes, n, grown, basis.infeasibility + grown, dual);
+	}
 
 	const bool whole = surface.status == SurfaceStatus::Found || surface.status == SurfaceStatus::None;
 	publishContact<R, D>(in, f,
 	        !optimal            ? ContactStatus::LpNotConverged
 	                : !whole    ? ContactStatus::SurfaceIncomplete
 	                : !directed ? ContactStatus::NoDirection
+	                : across    ? ContactStatus::Separated
 	                            : ContactStatus::Contact,
 	        point, n, memory, out);
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
-		if (settings.outline) { // where friction acts: the plane through the point, on which a contact surface of two faces lies
+		if (settings.outline) { // where friction acts: the plane in which the contact surface of two faces lies
 			const Real              all    = out.area;
 			const PairPlanes<R, 3>& bounds = surface.on ? planes : surface.nearest; // of the others none bounds the overlap
-			contactSection<R, 3>(in, settings, f, bounds, point, n, point, surface.spare, workspace, out);
+			const R                 far    = norm<R, 3>(sums.mainNormal);
+			R                       plane[3], place[3];
+			for (int k = 0; k < 3; ++k) {
+				plane[k] = far > 0 ? sums.mainNormal[k] / far : n[k];
+				place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : point[k];
+			}
+			contactSection<R, 3>(in, settings, f, bounds, place, plane, point, surface.spare, workspace, out);
 			out.area            = all;
 			out.sectionCentroid = out.point;
 		}

@@ -144,18 +144,6 @@ constexpr int overlapFaces = 512;
 /// Planes up to which sorting by insertion is faster than std::sort.
 constexpr int fewPlanes = 64;
 
-/// Faces of a body up to which its overlap with another is cut out of the body itself, not out of a box by its planes: half of overlapFaces, so that
-/// cuts have room.
-constexpr int wholeBodyFaces = overlapFaces / 2;
-
-/// Depth over width of an overlap, at which a contact with a stiffness per contact is half way between one of two faces and one of an edge:
-/// faces are a thousandth deep, the wedge between two faces as deep as its angle, edges and vertices about as deep as wide.
-constexpr Real faceContact = 0.01;
-
-/// Cosine between the contact normal and that of a face of the overlap, below which the outline does without the face: it stands along the normal but
-/// for rounding and small tilts, and would widen the outline by so much of the overlap's thickness at most.
-constexpr Real outlineFace = 1e-3;
-
 /// × size: how far apart two bodies may have carried the last contact point and still be followed to it. Steps of DEM move
 /// bodies against each other by a ten-thousandth.
 constexpr Real samePoint = 0.05;
@@ -173,16 +161,7 @@ constexpr Real interiorStep = 0.9;
 /// × size: below this the two turned gradients, or the dual's direction, cancel and give no direction.
 constexpr Real direction = 64 * rounding;
 
-/// × size: least slack of a plane in the weights of the normal (DualWeights.hpp). Slacks are rounded by about that: in an overlap which is no thicker, one
-/// slack may come out as 1e-20 beside another of 1e-16, its weight, the third power, as 10¹² times the other's, and the normal as that of a face beside
-/// the contact. With the default tolerance an overlap is 45 times as thick.
-constexpr Real leastSlack = rounding;
-
-/// Leverage (BoundingPlanes.hpp) from which on a plane counts as bounding the overlap. A side of a rectangle has ½, one that cuts off
-/// a corner less; a plane that is out of reach by ten times the overlap's extent has a hundredth of that.
-constexpr Real leverage = 1e-2;
-
-/// Leverage from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
+/// Leverage (BoundingPlanes.hpp) from which on a plane counts as near: up to a thousand of the overlap's extents away. Where an overlap under the edge of an
 /// inclined joint begins, the face above it is that near as soon as its force is a thousandth of the contact's.
 constexpr Real nearLeverage = 1e-6;
 
@@ -194,14 +173,10 @@ constexpr Real flush = 1e-9;
 /// of DEM are a hundredth at the most. The piece may be thin.
 constexpr Real thinContact = 0.1;
 
-/// × the radius of the overlap's ball: so near to a plane of a piece another piece must be for the overlap to go on in it. Large against rounding, small
-/// against the overlap.
-constexpr Real besideSeam = 1e-3;
-
-/// One minus the cosine between normals of one body that count as one direction where an edge between two faces is searched for.
+/// One minus the cosine between normals of one body that count as one direction.
 constexpr Real parallel = 1e-4;
 
-/// Least part of a stiffness per contact that one of several pieces has. Any small number will do: zero would mean no contact.
+/// Least part of a stiffness that one of several pieces has. Any small number will do: zero would mean no contact.
 constexpr Real leastShareOfSupport = 1e-9;
 
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
@@ -225,5 +200,8 @@ constexpr double cellRoom = 1 + powerOfTwo(-10);
 /// × size: how far a separated pair that still needs geometry (a real interaction whose law has not ended it) is grown
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;
+
+/// × size: the same of contact surfaces at most, which else take what the bodies are apart: of joints that dilation holds open that is more than enough.
+constexpr Real widestSkin = 0.1;
 
 } // namespace polytope::tolerance

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shear/ContactOutline.hpp"
 
-#include <algorithm>
-
 namespace polytope {
 
 OutlineMoments momentsOf(const Vector2* corner, int count)
@@ -30,26 +28,6 @@ OutlineMoments momentsOf(const Vector2* corner, int count)
 	for (int m = 0; m < 3; m += 2)
 		if (moments.second[m] < 0) moments.second[m] = 0; // rounding of a sliver
 	return moments;
-}
-
-int convexOutline(Vector2* point, int count, std::vector<Vector2>& buffer)
-{
-	std::sort(point, point + count, [](const Vector2& a, const Vector2& b) { return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]); });
-	buffer.resize(2 * std::size_t(count) + 1);
-	int        kept = 0;
-	const auto add  = [&](const Vector2& p, int fixed) {
-                while (kept > fixed && !(cross(buffer[kept - 1] - buffer[kept - 2], p - buffer[kept - 1]) > 0))
-                        --kept;
-                buffer[kept++] = p;
-	};
-	for (int k = 0; k < count; ++k)
-		add(point[k], 1);
-	const int lower = kept;
-	for (int k = count - 2; k >= 0; --k)
-		add(point[k], lower);
-	if (kept > 1) --kept; // the first again
-	std::copy(buffer.begin(), buffer.begin() + std::min(kept, count), point);
-	return std::min(kept, count);
 }
 
 } // namespace polytope

@@ -3,8 +3,6 @@
 
 #include "numbers/Real.hpp"
 
-#include <vector>
-
 /// The outline of a contact: the convex polygon in which it is seen along its normal. In it lies the bed of shear springs and friction of two faces.
 ///
 /// Corners counter-clockwise, in an orthonormal pair of axes of the contact's plane, from the contact point [m].
@@ -27,9 +25,5 @@ struct OutlineMoments {
 };
 
 OutlineMoments momentsOf(const Vector2* corner, int count);
-
-/// Leaves of the points the corners of their convex hull, counter-clockwise (monotone chain, Andrew 1979, Inf. Process. Lett. 9:216-219).
-/// Returns how many; fewer than three: the points lie on a line.
-int convexOutline(Vector2* point, int count, std::vector<Vector2>& buffer);
 
 } // namespace polytope

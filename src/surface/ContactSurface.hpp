@@ -42,7 +42,21 @@ enum class SurfaceStatus : int {
 /// A piece of a larger solid, and what there is on it.
 template <class R, int D> struct SurfaceOnPiece {
 	SurfaceClips<R, D> clips;
-	R                  pressure = 0; ///< ∫ p dS over the part of the surface that lies on the piece [m³]
+	R                  pressure  = 0;  ///< ∫ p dS over the part of the surface that lies on the piece [m³]
+	R                  centre[D] = {}; ///< ∫ p x dS over it [m⁴]
+
+	POLYTOPE_INLINE void reset()
+	{
+		pressure = 0;
+		for (R& component : centre)
+			component = 0;
+	}
+	POLYTOPE_INLINE void average(const SurfaceOnPiece& other)
+	{
+		pressure = (pressure + other.pressure) / 2;
+		for (int k = 0; k < D; ++k)
+			centre[k] = (centre[k] + other.centre[k]) / 2;
+	}
 };
 
 template <class R, int D, int W> class SurfaceWalk {
@@ -104,7 +118,7 @@ private:
 	{
 		sums      = SurfaceSums<R, D>();
 		faceArea_ = 0;
-		if (on_) on_->pressure = 0;
+		if (on_) on_->reset();
 		for (int k = 0; k < D; ++k)
 			face_[0][k] = face_[1][k] = 0;
 		if (all_) cones_.clear();
@@ -226,7 +240,10 @@ private:
 		const ClippedPiece<R, D> clipped(piece, cut, on_->clips, buffers_);
 		if (clipped.count() == 0) return;
 		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
-		if (of.area > 0) on_->pressure += of.p;
+		if (!(of.area > 0)) return;
+		on_->pressure += of.p;
+		for (int k = 0; k < D; ++k)
+			on_->centre[k] += of.pMoment[k];
 	}
 
 	POLYTOPE_INLINE void close(SurfaceStatus& status, SurfaceSums<R, D>& sums) const
@@ -279,12 +296,13 @@ POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int
 	for (int order = 0; order < 2 && shared; ++order) {
 		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record, on);
 		SurfaceSums<R, D>    own;
-		const R              before = on ? on->pressure : R(0);
-		shared                      = walk.run(basis, count, status[order], own);
+		SurfaceOnPiece<R, D> before;
+		if (on) before = *on;
+		shared = walk.run(basis, count, status[order], own);
 		if (order == 0) sums = own;
 		else {
 			sums.average(own);
-			if (on) on->pressure = (on->pressure + before) / 2;
+			if (on) on->average(before);
 		}
 	}
 	record.end(int(parts), parts != SurfaceParts::Cells, parts != SurfaceParts::Facing);

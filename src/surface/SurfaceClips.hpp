@@ -6,7 +6,7 @@
 /// The part of a contact surface that lies on one piece of a larger solid.
 ///
 /// A face of the piece that its neighbours cover presses on nothing: it has no cell, so the surface is the one that the solid has, and goes on beyond the
-/// piece. But it parts the surface among the pieces: what they have of it adds up to the whole, and so do their forces.
+/// piece. But it parts the surface among the pieces: what they have of it adds up to the whole, and so do their forces and, each at the centre of the pressure on the piece, their moments.
 namespace polytope {
 
 /// Half-spaces a·x ≤ d in the planes' frame.

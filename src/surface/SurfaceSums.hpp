@@ -22,17 +22,22 @@ template <class R, int D> struct SurfaceSums {
 	static constexpr int turns = D == 3 ? 3 : 1;
 
 	// over the contact surface, where the least slacks of both bodies are p; n its unit normal from body 1 to body 2
-	R    area              = 0;  ///< ∫ dS [m²]
-	R    areaVector[D]     = {}; ///< ∫ n dS
-	R    pressure          = 0;  ///< ∫ p dS [m³]
-	R    centre[D]         = {}; ///< ∫ p x dS [m⁴]
-	R    force[D]          = {}; ///< ∫ p n dS = −∂V/∂(centre 2) [m³], V the volume below
-	R    moment[turns]     = {}; ///< ∫ x × p n dS, about the frame's origin [m⁴]
-	R    deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
-	R    deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
-	int  pieces            = 0;
-	int  vertices          = 0;
-	bool kept              = false; ///< they are those of the last step
+	R area              = 0;  ///< ∫ dS [m²]
+	R areaVector[D]     = {}; ///< ∫ n dS
+	R pressure          = 0;  ///< ∫ p dS [m³]
+	R centre[D]         = {}; ///< ∫ p x dS [m⁴]
+	R force[D]          = {}; ///< ∫ p n dS = −∂V/∂(centre 2) [m³], V the volume below
+	R moment[turns]     = {}; ///< ∫ x × p n dS, about the frame's origin [m⁴]
+	R deeper[D]         = {}; ///< ∫ ½ p² n dS = −∂W/∂(centre 2) [m⁴]
+	R deeperTurn[turns] = {}; ///< ∫ x × ½ p² n dS [m⁵]
+	// sums over the pieces, each weighted by the square of its ∫ p dS: of a face on a face, even if they tilt, almost alone the piece between the two faces. Over
+	// the whole surface the mean of n is none of that: what the edges add makes it normal to the larger face
+	R    weight        = 0;  ///< [m⁶]
+	R    mainNormal[D] = {}; ///< times n
+	R    mainCentre[D] = {}; ///< times the piece's centre of pressure
+	int  pieces        = 0;
+	int  vertices      = 0;
+	bool kept          = false; ///< they are those of the last step
 
 	// over all cells, if asked for
 	R overlap = 0; ///< ∫ dV over the overlap [m³]
@@ -49,11 +54,14 @@ template <class R, int D> struct SurfaceSums {
 		R       turn[turns] = {}, deeperOnce[turns] = {};
 		area += of.area;
 		pressure += of.p;
+		weight += of.p * of.p;
 		addCross<R, D>(of.pMoment, piece.normal, turn);
 		addCross<R, D>(of.squareMoment, piece.normal, deeperOnce);
 		for (int k = 0; k < D; ++k) {
 			areaVector[k] += of.area * piece.normal[k];
 			centre[k] += of.pMoment[k];
+			mainNormal[k] += of.p * of.p * piece.normal[k];
+			mainCentre[k] += of.p * of.pMoment[k];
 			force[k] += of.p * piece.normal[k];
 			deeper[k] += half * of.square * piece.normal[k];
 		}
@@ -70,12 +78,15 @@ template <class R, int D> struct SurfaceSums {
 		const auto mean = [](R& a, R b) { a += (b - a) / 2; };
 		mean(area, other.area);
 		mean(pressure, other.pressure);
+		mean(weight, other.weight);
 		mean(overlap, other.overlap);
 		mean(volume, other.volume);
 		mean(level, other.level);
 		for (int k = 0; k < D; ++k) {
 			mean(areaVector[k], other.areaVector[k]);
 			mean(centre[k], other.centre[k]);
+			mean(mainNormal[k], other.mainNormal[k]);
+			mean(mainCentre[k], other.mainCentre[k]);
 			mean(force[k], other.force[k]);
 			mean(deeper[k], other.deeper[k]);
 		}

@@ -73,16 +73,13 @@ void expectNoneAfterTheLargest(ContactSettings settings, int dimension)
 TEST(Allocation, NoneInTheContactPathAfterWarmUp)
 {
 	for (ContactPoint point : { ContactPoint::AnalyticCentre, ContactPoint::ChebyshevCentre, ContactPoint::Centroid })
-		for (DepthRule rule : { DepthRule::Chord, DepthRule::Mean })
-			for (bool across : { false, true })
-				for (int dimension = 2; dimension <= 3; ++dimension) {
-					ContactSettings settings;
-					settings.contactPoint      = point;
-					settings.depthRule         = rule;
-					settings.section           = rule == DepthRule::Mean || across;
-					settings.geometryAcrossGap = across;
-					expectNoneAfterTheLargest(settings, dimension);
-				}
+		for (bool across : { false, true })
+			for (int dimension = 2; dimension <= 3; ++dimension) {
+				ContactSettings settings;
+				settings.contactPoint = point;
+				settings.section = settings.geometryAcrossGap = across;
+				expectNoneAfterTheLargest(settings, dimension);
+			}
 }
 
 TEST(Allocation, NoneInTheContactsOfASurfaceAfterWarmUp)

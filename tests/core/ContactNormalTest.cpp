@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/ContactNormal.hpp"
 #include "PlaneRows.hpp"
-#include "contact/DualWeights.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,20 +27,5 @@ TEST(ContactNormal, GradientsThatCancelGiveNoDirection)
 		EXPECT_EQ(status, cancel ? ContactStatus::NormalFromDual : ContactStatus::Contact) << statusName(status);
 		EXPECT_NEAR(n[0], cancel ? 0 : -apart, 1e-9);
 		EXPECT_EQ(n[1], cancel ? 1 : 0);
-	}
-}
-
-// A point that rounding has put outside a plane is as near to it as one inside, and weighs as much.
-TEST(DualWeights, APlaneThatThePointIsBeyondWeighsAsOneBeforeIt)
-{
-	const HalfSpaces         set { { Vector3::UnitZ(), -Vector3::UnitX() }, { 0, 2 }, 3 };
-	const PlaneRows<Real, 3> rows(set, set);
-	for (const Real beyond : { 0.5, -0.5 }) {
-		const Real          x[] = { 0, 0, beyond };
-		WeightSums<Real, 3> sums;
-		weightSums<Real, 3, 1>(rows.planes, 0, x, 1, sums);
-		EXPECT_NEAR(sums.first[2], 8, 1e-12);
-		EXPECT_NEAR(sums.first[0], -0.125, 1e-12);
-		EXPECT_NEAR(sums.second[2][2], 8, 1e-12);
 	}
 }

@@ -84,7 +84,6 @@ TEST(ContactSection, RectangleOfTwoOffsetCubes)
 	pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
 	pair.centre2                  = Vector3(Real(0.5), Real(-0.25), Real(1.875));
 	ContactSettings settings;
-	settings.normal = NormalSource::InnerPotential; // the faces' own, to the last bit, however deep the overlap
 	EXPECT_EQ(query(pair, settings).area, 0) << "not asked for";
 	settings.section           = true;
 	const ContactResult result = query(pair, settings);
@@ -151,7 +150,6 @@ TEST(ContactSection, InTwoDimensionsTheAreaIsLengthTimesTheSmallerThickness)
 	pair.shape[1] = ConvexShape::shared(rectangle(2, 1), Real(0.1), Real(3));
 	pair.centre2  = Vector3(Real(1.5), Real(1.875), 0);
 	ContactSettings settings;
-	settings.normal            = NormalSource::InnerPotential; // as above
 	settings.section           = true;
 	const ContactResult result = query(pair, settings);
 	EXPECT_NEAR(result.area, 1.5 * 0.5, 1e-15);

@@ -156,8 +156,8 @@ TEST(Counters, SeparatedPairsAreDismissedAtOnce)
 	}
 }
 
-/// Queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left. averaged: warm, with the paper's
-/// averaged normal. A function that callgrind finds by its name.
+/// Queries 20 pairs so often; but for cold ones back and forth by a step, from what the last query has left. surface: warm, with the contact model
+/// spring. A function that callgrind finds by its name.
 __attribute__((noinline)) void countedQueries(int faces, const std::string& kind, int repetitions)
 {
 	const bool        cold = kind == "cold", apart = kind == "apart";
@@ -169,7 +169,7 @@ __attribute__((noinline)) void countedQueries(int faces, const std::string& kind
 	}
 	std::vector<PairMemory> memories(pairs.size());
 	ContactSettings         settings;
-	if (kind == "averaged") settings.normal = NormalSource::InnerPotential;
+	if (kind == "surface") settings.contactModel = ContactModel::Spring;
 	int contacts = 0;
 	for (int i = 0; i <= repetitions; ++i)
 		for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -177,7 +177,7 @@ __attribute__((noinline)) void countedQueries(int faces, const std::string& kind
 	EXPECT_EQ(contacts, apart ? 0 : (repetitions + 1) * int(pairs.size()));
 }
 
-/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED: words <cold|warm|averaged|apart>,<faces>,<repetitions>.
+/// Not a test of its own: what callgrind counts for instructions.py. POLYTOPE_COUNTED: words <cold|warm|surface|apart>,<faces>,<repetitions>.
 TEST(Counters, DISABLED_Queries)
 {
 	const char* text = std::getenv("POLYTOPE_COUNTED");

@@ -79,7 +79,7 @@ void expectSameFrom(const Kernel* kernels)
 		}
 		EXPECT_GT(contacts, 1000);
 	}
-	answers.expectFew(0, 0);
+	answers.expectFew(0);
 }
 
 TEST(InstructionSets, ScalarsGiveTheSame)

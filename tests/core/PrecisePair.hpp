@@ -183,41 +183,6 @@ public:
 		return true;
 	}
 
-	/// n of DualWeights.hpp at x, of unit length. Returns how many times a relative change of all slacks can turn it; −1 where n vanishes.
-	Number balancedNormal(const Vector& x, Vector& n) const
-	{
-		Number nearest = -violation(x);
-		if (!(nearest > 0)) return -1;
-		const auto weight = [&](const Plane& plane) {
-			const Number ratio = nearest / plane.slack(x);
-			return Number(ratio * ratio * ratio);
-		};
-		std::array<Vector, 3> m {};
-		Vector                c {};
-		for (const auto& body : planes)
-			for (const Plane& plane : body)
-				for (int k = 0; k < dimension; ++k) {
-					c[k] -= weight(plane) * plane.normal[k];
-					for (int j = 0; j < dimension; ++j)
-						m[k][j] += weight(plane) * plane.normal[k] * plane.normal[j];
-				}
-		solvePositive(m, c);
-		Number all = 0;
-		Vector sum[2] {};
-		for (int body = 0; body < 2; ++body)
-			for (const Plane& plane : planes[body]) {
-				const Number balanced = weight(plane) * (1 + dot(plane.normal, c));
-				sum[body]             = along(sum[body], balanced, plane.normal);
-				all += weight(plane) + abs(balanced);
-			}
-		n                   = minus(sum[0], sum[1]);
-		const Number length = norm(n);
-		if (!(length > Number(1e-24) * all)) return -1;
-		for (Number& component : n)
-			component /= length;
-		return 16 * all / length;
-	}
-
 	/// From x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.
 	struct Exit {
 		Number distance = std::numeric_limits<Number>::max();

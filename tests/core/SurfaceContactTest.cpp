@@ -123,24 +123,25 @@ TEST(SurfaceContact, OfAFaceOnAFaceIsTheOverlap)
 			}
 }
 
-/// A slab, and the two that a vertical plane through the seam cuts it into, as body 1; the side of each that the other one covers.
+/// A slab up to x = end, and the two that a vertical plane through the seam cuts it into, as body 1; the side of each that the other one covers.
 template <int D> struct CutSlab {
 	std::shared_ptr<const ConvexShape> whole, half[2];
-	Vector3                            centre[2];
+	Vector3                            middle, centre[2];
 	InternalPlanes                     covered[2];
 
-	explicit CutSlab(Real seam)
+	explicit CutSlab(Real seam, Real end = 4)
 	{
-		const Real wide = 4, high = 1;
-		whole = slab(wide, high);
+		const Real begin = -4, high = 1;
+		whole  = slab((end - begin) / 2, high);
+		middle = Vector3((begin + end) / 2, 0, 0);
 		for (int k = 0; k < 2; ++k) {
-			const Real low = k == 0 ? -wide : seam, top = k == 0 ? seam : wide;
+			const Real low = k == 0 ? begin : seam, top = k == 0 ? seam : end;
 			half[k]   = slab((top - low) / 2, high);
 			centre[k] = Vector3((top + low) / 2, 0, 0);
 			const Vector3 out((k == 0 ? 1 : -1), 0, 0);
 			for (int i = 0; i < half[k]->planeCount(); ++i)
 				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9))
-					covered[k].plane[0][covered[k].count[0]++] = i;
+					covered[k].add(0, i, { out, k == 0 ? end - centre[k][0] : centre[k][0] - begin });
 		}
 	}
 	static std::shared_ptr<const ConvexShape> slab(Real wide, Real high)
@@ -171,8 +172,10 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 		pair.shape[0]                = CutSlab<D>(0).whole;
 		const ContactResult touching = query(pair, with(ContactModel::Foundation));
 		if (!touching.inContact) continue;
-		const CutSlab<D> slab(touching.point[0] + overlap * some(random) / 2); // through the contact
+		const Real       seam = touching.point[0] + overlap * some(random) / 2; // through the contact
+		const CutSlab<D> slab(seam, trial % 2 ? Real(4) : seam + overlap / 3);  // the solid ends within it, or far away
 		pair.shape[0] = slab.whole;
+		pair.centre2 -= slab.middle;
 		for (const ContactModel model : models) {
 			const ContactResult all = query(pair, with(model));
 			if (!all.inContact) continue;
@@ -182,10 +185,17 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 			for (int k = 0; k < 2; ++k) {
 				Pair piece     = pair;
 				piece.shape[0] = slab.half[k];
-				piece.centre2 -= slab.centre[k];
-				ContactSettings settings   = with(model);
-				settings.internal          = &slab.covered[k];
-				const ContactResult result = query(piece, settings);
+				piece.centre2 += slab.middle - slab.centre[k];
+				ContactSettings       settings = with(model);
+				const InternalPlanes& covered  = slab.covered[k];
+				settings.internal              = &covered;
+				const ContactResult result     = query(piece, settings);
+				// named in the other order
+				InternalPlanes ofSecond;
+				for (int i = 0; i < covered.count[0]; ++i)
+					ofSecond.add(1, covered.plane[0][i], covered.end[0][i]);
+				settings.internal = &ofSecond;
+				EXPECT_EQ(query(swapped(piece), settings).share, result.share);
 				if (!result.inContact) continue;
 				EXPECT_EQ(result.status, all.status);
 				EXPECT_NEAR(result.depth / all.depth, 1, 1e-9);
@@ -193,7 +203,7 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 				const Real part = model == ContactModel::Spring ? result.share : Real(1);
 				share += result.share;
 				force += part * on.force;
-				moment += part * (on.moment + slab.centre[k].cross(on.force));
+				moment += part * (on.moment + Vector3(slab.centre[k] - slab.middle).cross(on.force));
 				energy += part * on.energy;
 				parted += result.share < Real(0.99) && result.share > Real(0.01);
 			}

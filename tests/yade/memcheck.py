@@ -34,7 +34,7 @@ def heap(contactModel):
 	O.trackEnergy = True
 	return functor
 
-for model in ('paper', 'foundation'):
+for model in ('boon2012', 'foundation'):
 	functor = heap(model)
 	O.run(60, True)
 	contacts = sum(i.isReal for i in O.interactions)

@@ -250,7 +250,7 @@ def opened():
 		O.engines = polytope.engines(timeStepper=False, gravity=(0, 0, 0))
 		O.dt = 1e-4
 	found = []
-	for velocity, number in (((0, 0.5, 0), 60), ((5, 0, 0), 400), ((-5, 0, 0), 415)):
+	for velocity, number in (((0, 0.5, 0), 60), ((5, 0, 0), 390), ((-5, 0, 0), 405)):
 		if master:
 			for k in range(1, 5):
 				O.bodies[k].state.vel, O.bodies[k].state.angVel = k * Vector3(velocity), (0, 0, 0)

@@ -49,8 +49,8 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gr
 
 
 def contactOf(model, perArea):
-	"""Attributes of geometry functors: *model* 'paper', or 'surface' for the one whose force is the gradient of an energy with such stiffnesses."""
-	return {'contactModel': model if model == 'paper' else 'foundation' if perArea else 'spring'}
+	"""Attributes of geometry functors: *model* 'boon2012', or 'surface' for the one whose force is the gradient of an energy with such stiffnesses."""
+	return {'contactModel': model if model == 'boon2012' else 'foundation' if perArea else 'spring'}
 
 
 def stepper(**attributes):

@@ -73,10 +73,10 @@ def testLimitsOfPairsAreThoseOfTheDocumentation(axis):
 
 ofScenes = {
 	'Stiffness ratio: normal forces at rest, worst relative error': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
-	'Mass ratio: heavy block left on a light one (paper), worst relative error of a force': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
+	'Mass ratio: heavy block left on a light one (surface), worst relative error of a force': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
 	'Mass ratio: momentum after a collision, worst relative change': ('stiffness ratio 1e6, mass ratio 1e9', 'momentum to 1e-14'),
-	'Tower of 50 blocks: worst relative error of a normal force (paper)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
-	'Tower of 50 blocks: worst relative error of a normal force (spring)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Tower of 50 blocks: worst relative error of a normal force (surface)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Tower of 50 blocks: worst relative error of a normal force (boon2012)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
 	'Steps at rest: way of a block of 1 m in 1000000 steps': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', '; 1e-11'),
 	'Steps at rest: its turn': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'm, 1e-10'),
 	'Slide: distance after 1000000 steps, worst relative error': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'distance to 1e-5'),
@@ -145,7 +145,7 @@ def testACoordinateCostsItsOwnRoundingOnly():
 		one.state.pos, two.state.pos = far, far + Vector3(0.7, 0.5, 1.1)
 		here, there = polytope.regular(12, 1), polytope.regular(8, 1, orientation=turn)
 		here.state.pos, there.state.pos = Vector3(0, 0, 0), two.state.pos - one.state.pos
-		for model in ('paper', 'spring'):
+		for model in ('foundation', 'spring', 'boon2012'):
 			c, near = polytope.contact(one, two, contactModel=model), polytope.contact(here, there, contactModel=model)
 			assert c.inContact and (c.infeasibility, c.depth, tuple(c.normal)) == (near.infeasibility, near.depth, tuple(near.normal))
 			assert (c.point - one.state.pos - near.point).norm() <= 4e-16 * max(distance, 1)

@@ -79,7 +79,8 @@ def testOverlapsWithOthersAreTheSame():
 	force, stored = O.forces.f(floor.id)[2], O.energy['elastPotential']
 	pieces = [O.bodies[k] for k in polytope.split(block.id, (1, 0.3, 0))]
 	O.step()
-	assert O.forces.f(floor.id)[2] == pytest.approx(force, rel=1e-6) and O.energy['elastPotential'] == pytest.approx(stored, rel=1e-6)
+	# but for the edges that each piece has at the cut now: the depth over its width
+	assert O.forces.f(floor.id)[2] == pytest.approx(force, rel=5e-4) and O.energy['elastPotential'] == pytest.approx(stored, rel=5e-4)
 	O.run(2000, wait=True)
 	assert max(piece.state.vel.norm() for piece in pieces) < 1e-5
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Both contact models on the paper's scenes: the example's table, and the paper's scripts with that of a contact surface."""
+"""Both contacts on the paper's scenes: the example's table, and the paper's scripts with the contact surface."""
 
 import csv
 import math
@@ -19,7 +19,7 @@ example = pathlib.Path(__file__).resolve().parents[2] / 'examples/paper/contactM
 
 
 def table(folder, *parts):
-	"""{quantity: (closed form, default, paper's normal, contact surface)}"""
+	"""{quantity: (closed form, contact surface, the paper's)}"""
 	subprocess.run(
 		[sys.executable, example, '--quick', '--only', *parts, '--output', 'out'],
 		cwd=folder,
@@ -34,8 +34,7 @@ def table(folder, *parts):
 withoutTheory = {
 	('B: peak load [N], centroid', 'surface'),
 	('B: peak load [N], analyticCentre', 'surface'),
-	('B: peak load [N], from the energy', 'default'),
-	('B: peak load [N], from the energy', 'paper'),
+	('B: peak load [N], from the energy', 'boon2012'),
 }
 """The contact surface has a closed form of its own; each other cell of these rows must have its figure."""
 
@@ -45,13 +44,11 @@ def testBothModelsAgreeWithClosedForms(tmp_path):
 	assert len(rows) == 6
 	for name, (closed, *found) in rows.items():
 		relative = {'B': 1e-3, 'C': 6e-3, 'D': 1e-3}[name[0]]
-		for model, value in zip(('default', 'paper', 'surface'), found, strict=True):
+		for model, value in zip(('surface', 'boon2012'), found, strict=True):
 			if (name, model) in withoutTheory:
 				assert value is None, (name, model)
-			elif (name[0], model) != ('C', 'default'):  # depends on the shear that is locked in: the next test
+			else:
 				assert value == pytest.approx(closed, rel=relative), (name, model)
-	_, default, paper, surface = rows['C: critical angle [°]']
-	assert 33.0 < default < 33.4 and 33.0 < paper < 33.4 and 33.0 < surface < 33.4
 
 
 def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
@@ -59,7 +56,7 @@ def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
 	angle that is found, to a friction step."""
 	blocks = BlockGeometry.read(example.parent / 'geometry/c_sliding_wedge.json')
 	theory = limitEquilibrium(blocks)
-	scene = WedgeScene(blocks, timeStepFraction=0.2, normal='dualWeights').build()
+	scene = WedgeScene(blocks, timeStepFraction=0.2, contactModel='surface').build()
 	scene.establishContacts()
 
 	def transverse():
@@ -78,15 +75,14 @@ def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
 	assert math.degrees(theory.lowerBound()[0]) < found < math.degrees(theory.frictionAngle())
 
 
-def testSlopeAndCollisionsWithTheDefault(tmp_path):
-	"""No corner radius leans the normal: the slope's angle is nearer to limit analysis, and collisions gain next to no energy."""
+def testSlopeAndCollisions(tmp_path):
+	"""No corner radius leans the contact surface's normal: the slope's angle is nearer to limit analysis, and collisions gain next to no energy."""
 	rows = table(tmp_path, 'E', 'F')
-	limit, default, paper, surface = rows['E: critical angle [°]']
-	assert default == pytest.approx(limit, rel=0.01) and abs(default - limit) < abs(paper - limit)
-	assert surface == pytest.approx(limit, rel=0.01)
+	limit, surface, paper = rows['E: critical angle [°]']
+	assert surface == pytest.approx(limit, rel=0.01) and abs(surface - limit) < abs(paper - limit)
 	for label in ('F1', 'F2'):
-		_, default, paper, surface = rows[f'F: largest rise of energy in 200 steps [J], {label}']
-		assert default < 1e-2 and default < paper and surface < 1e-6
+		_, surface, paper = rows[f'F: largest rise of energy in 200 steps [J], {label}']
+		assert surface < 1e-6 < paper
 
 
 def testRoofWedgeWithAContactSurface(tmp_path, monkeypatch):

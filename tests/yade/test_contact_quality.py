@@ -30,7 +30,7 @@ def testPathStudyHolds(tmp_path):
 	code, rows = study('contactPath', tmp_path, '--steps', '200')
 	assert code == 0, [row for row in rows.values() if row['good'] is False]
 	for quantity in ('point', 'normal', 'force'):
-		assert rows[f'default: largest jump of the {quantity}']['ours'] == 0
+		assert rows[f'foundation: largest jump of the {quantity}']['ours'] < 0.01  # overlap over edge, where sides come into line
 		assert rows[f'spring: largest jump of the {quantity}']['ours'] < 1e-5
 		assert rows[f'analytic centre: largest jump of the {quantity} (overlap below the corner radius)']['ours'] == 0
 	assert {path.name for path in tmp_path.iterdir()} >= {
@@ -100,21 +100,21 @@ def testSpheresKeepEnergyAndCountTheContact(steps):
 
 def testPapersErrorIsTheContactsNotTheIntegrators():
 	several = meetings(30)
-	paper = [spread(Collisions(several, Contact('paper'), steps).build().run()) for steps in (25, 50)]
-	sharp = spread(Collisions(several, Contact('paper', corner=0), 25).build().run())
-	spring = spread(Collisions(several, Contact('spring'), 50).build().run())
+	paper = [spread(Collisions(several, Contact('boon2012'), steps).build().run()) for steps in (25, 50)]
+	sharp = spread(Collisions(several, Contact('boon2012', corner=0), 25).build().run())
+	spring = spread(Collisions(several, Contact('surface'), 50).build().run())
 	assert paper[1]['median'] == pytest.approx(paper[0]['median'], rel=0.1) and paper[1]['median'] > 0.05
 	assert sharp['median'] < 0.3 * paper[0]['median']
 	assert spring['rms'] < 0.01 * paper[1]['rms']
 
 
 def testDampingTakesEnergyOfEveryCollisionOfASpring():
-	found = spread(Collisions(meetings(30), Contact('spring', contactDamping=0.1), 25).build().run())
+	found = spread(Collisions(meetings(30), Contact('surface', contactDamping=0.1), 25).build().run())
 	assert found['gaining'] == 0 and found['left'][1] < 0.9
 
 
 def testLevelFloorPushesUpOnly():
 	"""Without friction nothing may move a cube sideways; the paper's averaged normals do."""
-	spring, paper = (Bounces(Contact(model), 25, 4).build().run(4, samples=20) for model in ('spring', 'paper'))
+	spring, paper = (Bounces(Contact(model), 25, 4).build().run(4, samples=20) for model in ('surface', 'boon2012'))
 	assert max(spring['drift']) < 1e-6 < 0.1 < max(paper['drift'])
 	assert np.abs(lastEnergies(spring) - 1).max() < 0.2

@@ -167,7 +167,7 @@ def testCheckNamesTheOtherUnit(model):
 
 
 def testUnknownModelIsRefusedByNameOfTheOthers():
-	with pytest.raises(ValueError, match="contactModel: must be 'surface', 'foundation', 'spring' or 'paper'"):
+	with pytest.raises(ValueError, match="contactModel: must be 'surface', 'foundation', 'spring' or 'boon2012'"):
 		Ig2_Polytope_Polytope_PolytopeGeom(contactModel='winkler')
 
 

@@ -203,9 +203,11 @@ def testBlockOfTheFirstSceneRestsOnItsFace(name, tmp_path, monkeypatch):
 
 def testStrengthReductionFindsTheDip(capsys):
 	"""docs/strength-reduction.md: what its comments say."""
-	found = runs(project / 'docs/strength-reduction.md')['found']
+	names = runs(project / 'docs/strength-reduction.md')
+	found, safety = names['found'], names['safety']
 	assert math.degrees(found.stable) == pytest.approx(29) and math.degrees(found.failed) == pytest.approx(28)
-	*_, factor, settled = capsys.readouterr().out.splitlines()
+	assert safety.factor == pytest.approx(1.64, abs=0.01)
+	*_, factor, _, settled = capsys.readouterr().out.splitlines()
 	assert factor.startswith('factor of safety 1.54')
 	assert settled.startswith('True ') and float(settled.split()[1]) < 1e-5
 

@@ -147,9 +147,9 @@ def testTriaxialTestHoldsItsStress(runs, capsys):
 
 
 def testTimeStepsColumnStands(runs, capsys):
-	runs('timeStep', 'column', 'perArea', 'paper', '0.4', shorter={'	return 1\n': '	return 0.5\n'})
+	runs('timeStep', 'column', 'perArea', 'boon2012', '0.4', shorter={'	return 1\n': '	return 0.5\n'})
 	row = next(line for line in capsys.readouterr().out.splitlines() if line.startswith('column'))
-	assert row.split()[1:4] == ['paper', 'perArea', '0.4'] and 'stopped' not in row
+	assert row.split()[1:4] == ['boon2012', 'perArea', '0.4'] and 'stopped' not in row
 	assert float(re.search(r'unbalanced +(\S+)', row)[1]) < 1e-3
 	assert float(re.search(r'mean height (\S+)', row)[1]) == pytest.approx(1, abs=1e-3)
 
@@ -158,13 +158,13 @@ def testAGasOfAContactSurfaceKeepsItsEnergy(runs, capsys):
 	"""What examples/energy.py draws, with fewer solids: the error of a contact surface is that of the time step, the paper's is not."""
 	energies = runpy.run_path(str(folder / 'energy.py'))['energies']
 	worst = {}
-	for model in ('spring', 'foundation', 'paper'):
+	for model in ('spring', 'foundation', 'boon2012'):
 		_, values, stable = energies(model, 1, 0.5, samples=20, number=24)
 		worst[model] = max(abs(value - 1) for value in values)
 		assert noFailures() and O.dt < stable and O.engines[2].geomDispatcher.functors[0].stats()['contacts'] > 1000
-	assert worst['spring'] < 2e-4 and worst['foundation'] < 2e-4 and worst['paper'] > 2e-3
+	assert worst['spring'] < 2e-4 and worst['foundation'] < 2e-4 and worst['boon2012'] > 2e-3
 	monkey = runs('energy', '--seconds', '0.002', '--number', '5', '--output', 'small.png')
-	assert isPicture('small.png') and len(re.findall(r'^(?:default|paper|spring|foundation) ', capsys.readouterr().out, re.MULTILINE)) == len(monkey['runs'])
+	assert isPicture('small.png') and len(re.findall(r'^(?:boon2012|spring|foundation) ', capsys.readouterr().out, re.MULTILINE)) == len(monkey['runs'])
 
 
 def testGrainsStayInTheDrumAndRiseWithItsWall(runs, capsys):
@@ -210,6 +210,6 @@ def testTradeoffFindsTheHeightAtRest(runs, capsys):
 		rows = list(csv.DictReader(file))
 	assert [next(iter(row.values())) for row in rows] == list(names['settings'])
 	errors = {row['setting']: float(row['error']) for row in rows}
-	# of 0.5 m; the rocking stiffness of a spring is not that of the closed form
-	assert all(0 < error < (2e-4 if name == 'spring' else 2e-6) for name, error in errors.items())
+	# of 0.5 m; the rocking stiffness of the paper's contact is not that of the closed form
+	assert all(0 < error < (2e-4 if name == "the paper's contact" else 2e-6) for name, error in errors.items())
 	assert float(rows[0]['answer']) == pytest.approx(float(rows[2]['answer']), rel=1e-12), 'a cold start changes nothing but the time'

@@ -6,11 +6,14 @@ import types
 
 import numpy as np
 import pytest
+from flatFace import faceEnergy, faceForce
 from scenes import joint, loop
 from yade import O, Vector3, polytope
 from yade.polytope.grainBreakage import _sizeEffect, _use
 
 stiffness, px, pz = 1e9, 4e5, 1e6
+edges = 2e-3
+"""What the faces' edges take off their pressures: up to the depth over their width."""
 
 
 @pytest.fixture
@@ -41,8 +44,8 @@ limits = {'compression': pz, 'shear': pz / 2, 'octahedral': q, 'vonMises': 3 * q
 def testEachCriterionBreaksAtItsClosedForm(name, pressed):
 	block, _ = pressed
 	volume, mass = O.bodies[block].shape.volume, O.bodies[block].state.mass
-	assert polytope.breakGrains(**{name: limits[name] * (1 + 1e-3)}) == {}
-	broken = polytope.breakGrains(**{name: limits[name] * (1 - 1e-3)})
+	assert polytope.breakGrains(**{name: limits[name] * (1 + edges)}) == {}
+	broken = polytope.breakGrains(**{name: limits[name] * (1 - edges)})
 	assert list(broken) == [block] and O.bodies[block] is None
 	pieces = [O.bodies[k] for k in broken[block]]
 	assert len(pieces) == (4 if name == 'vonMises' else 2)
@@ -60,19 +63,21 @@ def testEachCriterionBreaksAtItsClosedForm(name, pressed):
 def testNoEnergyOfOverlapIsReleased(name, pressed):
 	_, plate = pressed
 	force, stored = O.forces.f(plate)[2], O.energy['elastPotential']
-	assert force == pytest.approx(-pz, rel=1e-6) and stored == pytest.approx((2 * pz**2 + 2 * 2 * px**2) / (2 * stiffness), rel=1e-6)
+	assert force == pytest.approx(-stiffness * faceForce(pz / stiffness, perArea=True), rel=1e-6)
+	assert stored == pytest.approx(2 * stiffness * (faceEnergy(pz / stiffness, perArea=True) + faceEnergy(px / stiffness, (1, 2), True)), rel=1e-6)
 	assert polytope.breakGrains(**{name: 1})
 	O.step()
-	assert O.forces.f(plate)[2] == pytest.approx(force, rel=1e-6) and O.energy['elastPotential'] == pytest.approx(stored, rel=1e-6)
+	# each piece has edges of its own
+	assert O.forces.f(plate)[2] == pytest.approx(force, rel=edges) and O.energy['elastPotential'] == pytest.approx(stored, rel=edges)
 
 
 def testStrengthFallsWithSizeAfterWeibull(pressed):
 	block, _ = pressed
 	given = dict(volume=0.25, modulus=3)  # the block has 2 m³: half the strength
-	assert polytope.breakGrains(compression=2 * pz * (1 + 1e-3), **given) == {}
+	assert polytope.breakGrains(compression=2 * pz * (1 + edges), **given) == {}
 	shared = (-math.log(1 - 0.9)) ** (1 / 3)
-	assert polytope.breakGrains(compression=2 * pz / shared * (1 + 1e-3), probability=0.9, **given) == {}
-	assert list(polytope.breakGrains(compression=2 * pz / shared * (1 - 1e-3), probability=0.9, **given)) == [block]
+	assert polytope.breakGrains(compression=2 * pz / shared * (1 + edges), probability=0.9, **given) == {}
+	assert list(polytope.breakGrains(compression=2 * pz / shared * (1 - edges), probability=0.9, **given)) == [block]
 
 
 def testRandomStrengthsAreThoseOfWeibull():

@@ -156,7 +156,7 @@ def testCloudFallsAndComesToRest():
 	O.bodies.append(polytope.cloud((0, 0, 0), (0.06, 0.06, 0.15), polytope.grains([(0.012, 0), (0.02, 1)], 0.1, seed=3), seed=3))
 	O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
 	O.materials[0].normalStiffness = O.materials[0].shearStiffness = 1e5
-	while O.time < 0.4:
+	while O.time < 0.8:
 		O.step()
 	grains = [body for body in O.bodies if body.dynamic]
 	assert all(0 < body.state.pos[2] < 0.1 for body in grains) and max(body.state.vel.norm() for body in grains) < 0.1

@@ -102,7 +102,7 @@ def testBadArgumentsAreNamed():
 		polytope.coordinationNumber()
 
 
-@pytest.mark.parametrize('model', ['paper', 'spring'])
+@pytest.mark.parametrize('model', ['surface', 'boon2012'])
 def testCoordinationOfATowerAndARattler(model):
 	joint(normalStiffness=1e8)
 	loop(normalDamping=1, gravity=(0, 0, -gravity), damping=0.3, ig2={'contactModel': model})

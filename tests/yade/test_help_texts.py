@@ -39,7 +39,7 @@ def testAllOfThePluginsClassesAreThere():
 def testDefaultsAreValues():
 	assert 'Default: 9.99' in yade.Ig2_Polytope_Polytope_PolytopeGeom.tolerance.__doc__
 	assert 'Default: inf.' in yade.PolytopeTimeStepper.maxDt.__doc__
-	assert "Default: 'paper'." in yade.Ig2_Polytope_Polytope_PolytopeGeom.contactModel.__doc__
+	assert "Default: 'surface'." in yade.Ig2_Polytope_Polytope_PolytopeGeom.contactModel.__doc__
 	assert 'τ' in yade.PolytopeTimeStepper.timestepSafetyCoefficient.__doc__
 
 

@@ -28,7 +28,8 @@ def testBuildInfoNamesTheVersion():
 def testOneContactAgreesWithNewton():
 	a = polytope.regular(12, circumradius=1.)
 	b = polytope.regular(20, circumradius=1., center=(.3, .2, 1.4), orientation=Quaternion((1, 2, 3), .7))
-	newton, ipopt = polytope.contact(a, b), polytope.contact(a, b, solver='ipopt')
+	paper = {'contactModel': 'boon2012'}
+	newton, ipopt = polytope.contact(a, b, **paper), polytope.contact(a, b, solver='ipopt', **paper)
 	assert newton.inContact and newton.ipoptIterations == 0 < newton.newtonIterations
 	assert ipopt.status == newton.status and ipopt.newtonIterations == 0 < ipopt.ipoptIterations
 	assert (ipopt.point - newton.point).norm() < 1e-8 * newton.depth
@@ -40,7 +41,7 @@ def tumblingBlock(solver):
 	"""Centre and velocity of a block that has landed on its edge and slid; with the counters."""
 	O.reset()
 	material = joint(normalStiffness=1e6, shearStiffness=1e6)
-	loop(gravity=(0, 0, -9.81), normalDamping=.1, ig2=dict(solver=solver))
+	loop(gravity=(0, 0, -9.81), normalDamping=.1, ig2=dict(solver=solver, contactModel='boon2012'))
 	blockOnFloor(overlap=-.01, half=(.4, .3, .5), material=material)
 	O.bodies[1].state.ori = Quaternion((1, 1, 0), .2)
 	O.bodies[1].state.vel = (.5, 0, -1)
@@ -67,7 +68,7 @@ import sys
 sys.path.insert(0, sys.argv[1])
 from yade import O, polytope
 from scenes import joint, loop
-loop(gravity=(0, 0, -9.81), normalDamping=.1, ig2=dict(solver='ipopt'))
+loop(gravity=(0, 0, -9.81), normalDamping=.1, ig2=dict(solver='ipopt', contactModel='boon2012'))
 material = joint(normalStiffness=1e6, shearStiffness=1e6)
 O.bodies.append(polytope.cuboid((0, 0, -1), (9, 9, 1), fixed=True, material=material))
 for i in range(6):

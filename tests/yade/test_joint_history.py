@@ -6,6 +6,7 @@ import pytest
 from yade import O, Vector3
 from yade import polytope
 
+from flatFace import faceForce
 from scenes import blockOnFloor, contact, driven, gravity, joint, loop
 
 overlap, stiffness, dt = 1e-3, 1e8, 1e-3
@@ -87,7 +88,8 @@ def testBlockPushedOffAnEdge():
 	block.state.pos = (4, 0, block.state.pos[2])
 	driven(block, (1, 0, 0))
 	O.dt = dt
-	elastic = overlap * tan(phi) * 2
+	normal = lambda length: faceForce(overlap, (length, 1), True)
+	elastic = normal(1) * tan(phi) * 2
 	O.run(200, True)
 	i = contact(floor, block)
 	assert i.phys.isSliding and i.phys.slip[0] == pytest.approx(0.2 - elastic, rel=1e-9)
@@ -97,12 +99,13 @@ def testBlockPushedOffAnEdge():
 	assert i.phys.contactArea == pytest.approx(1, abs=2e-3)
 	O.run(700, True)
 	terms, area, way = energies(), i.phys.contactArea, .7
-	assert area == pytest.approx(1 - (start + way - 4.5), rel=1e-9)
-	# the mean area along the way
-	friction = stiffness * overlap * tan(phi) * way * (1 - (start - 4.5) - way / 2)
+	assert area == pytest.approx(1 - (start + way - 4.5), rel=2e-5)  # seen along a normal that leans by the depth over the length
+	# at the mean area along the way, on which the force depends linearly
+	friction = stiffness * tan(phi) * way * normal(1 - (start - 4.5) - way / 2)
 	left = stiffness / 2 * elastic**2 / 2 * way
 	assert terms['plastDissip'] - begun['plastDissip'] == pytest.approx(friction + left, rel=1e-6)
-	assert terms['nonconservative'] - begun['nonconservative'] == pytest.approx(stiffness * overlap**2 / 2 * way, rel=1e-3)
+	# the elastic energy of the area that is lost is the work of the normal force, which leans towards the edge
+	assert abs(terms['nonconservative'] - begun['nonconservative']) < 1e-3 * stiffness * overlap**2 / 2 * way
 	largest = 0
 	while (0, 1) in {(one.id1, one.id2) for one in O.interactions} and O.iter < 2000:
 		largest = max(largest, i.phys.slip.norm() - (block.state.pos[0] - 4))
@@ -132,7 +135,7 @@ def testCohesionFollowsTheArea(way):
 	assert not i.phys.intact and dt * 440 > failure
 
 
-@pytest.mark.parametrize('model', ['paper', 'foundation'])
+@pytest.mark.parametrize('model', ['boon2012', 'surface'])
 @pytest.mark.parametrize('psi', [0, 5])
 def testSlipOfABlockThatTipsOntoItsEdge(model, psi):
 	"""Pressed and sheared on its face, then tipped about one edge until it leaves: slip and elastic displacement stay within the way that the
@@ -200,7 +203,7 @@ def testDilationIsRememberedWhileTheJointIsOpen():
 		assert i.isReal
 		assert i.phys.slip[0] == pytest.approx(.03, rel=1e-9) and abs(i.phys.slip[1]) < 1e-12
 		assert i.phys.dilation == pytest.approx(.03 * tan(psi), rel=1e-9)
-		assert i.phys.normalForce[2] == pytest.approx(stiffness * (overlap + .03 * tan(psi)), rel=1e-9)
+		assert i.phys.normalForce[2] == pytest.approx(stiffness * (faceForce(overlap, perArea=perArea) + .03 * tan(psi)), rel=1e-9)
 		assert i.phys.shearForce.norm() < 1e-14 * i.phys.normalForce.norm()  # rounding of the normal while it is pressed together
 
 
@@ -282,4 +285,4 @@ def testStiffnessSetByTheScript():
 			phys.kn, phys.ks = 2e7, 1e7
 			O.run(2, True)
 		assert (phys.kn, phys.ks) == (2e7, 1e7) == (phys.normalStiffnessPerContact, phys.shearStiffnessPerContact)
-		assert phys.normalForce[2] == pytest.approx(2e7 * overlap, rel=1e-9)
+		assert phys.normalForce[2] == pytest.approx(2e7 * faceForce(overlap, perArea=perArea), rel=1e-9)

@@ -147,7 +147,7 @@ def testTriaxialBetweenWallsHoldsItsStress():
 	test.run(0.02)
 	columns = test.columns
 	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['lateralStress'] == pytest.approx(1e5, rel=0.02)
-	assert columns['axialStrain'][[0, -1]] == pytest.approx([0, 0.02], abs=1e-4) and columns['deviator'][-1] > 5e4
+	assert columns['axialStrain'][[0, -1]] == pytest.approx([0, 0.02], abs=1e-4) and columns['deviator'][-1] > 4e4
 	assert columns['porosity'][-1] == pytest.approx(1 - (1 - columns['porosity'][0]) * exp(columns['volumetricStrain'][-1]), rel=1e-3)
 	sample.settle()
 	# the walls' friction, too, is in the mean stress, and 0.5 % of what the walls bear at right angles
@@ -177,7 +177,7 @@ def testContactAndWallStressDifferByInertia():
 	lateral, axial = found[2e-2, 0.2]
 	assert 0.01 < lateral < 0.025 and -0.03 < axial < -0.005
 	sure = 3 * np.hypot(unsure[2e-2, 0.2], unsure[2e-2, 0])
-	assert sure[0] < 0.006 and sure[1] < 0.03
+	assert sure[0] < 0.008 and sure[1] < 0.035
 	assert (abs(found[2e-2, 0] - found[2e-2, 0.2]) < sure).all(), 'without numerical damping the same'
 	assert np.abs(found[5e-3, 0.2]).max() < 0.006
 
@@ -213,7 +213,7 @@ def testTriaxialInAPeriodicCellHoldsItsStress():
 	assert test.sample.boundaryStress() == pytest.approx(1e5, rel=1e-3)
 	test.run(0.02)
 	columns = test.columns
-	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'][-1] > 5e4
+	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'][-1] > 4e4
 	stress = -sum(O.bodies[k].shape.volume * one for k, one in polytope.bodyStress().items()) / O.cell.volume
 	assert np.diag(stress) == pytest.approx(test.sample.boundaryStress(), rel=5e-3) and noFailures()
 

@@ -27,7 +27,7 @@ def cycle(number):
 	"""A heap of new hulls under both contact models, with areas; some are erased, others come; saved, loaded, picked up again."""
 	chance = random.Random(number)
 	O.load(empty, quiet=True)  # YADE's collider does not outlive O.bodies.clear()
-	O.engines[2].geomDispatcher.functors[0].contactModel = ('paper', 'foundation')[number % 3 == 0]
+	O.engines[2].geomDispatcher.functors[0].contactModel = ('boon2012', 'foundation')[number % 3 == 0]
 	O.engines[2].physDispatcher.functors[0].stiffnessPerArea = number % 2 == 0
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
 	for k in range(12):

@@ -184,6 +184,7 @@ def testASingleRunOfEachSolidIsJudgedToo(tmp_path):
 
 def fallen(steps=1500, sample=None):
 	scene = FallingPolyhedra(faces=6, number=36).build()
+	scene.geometryFunctor.contactModel = 'boon2012'
 	for _ in range(steps // 250):
 		for _ in range(250):
 			O.step()

@@ -175,7 +175,7 @@ def testCubesFallThroughTheOpenedFloor(runs):
 	O.reset()
 	names = runs('cubePPscaled', {**short, '98, 4.25': '5, 4.25'})
 	assert 0 < len(free()) < 12 and O.bodies[names['lid']] is None and failures() == 0
-	assert O.engines[2].geomDispatcher.functors[0].normal == 'innerPotential'
+	assert O.engines[2].geomDispatcher.functors[0].contactModel == 'boon2012'
 
 
 # ------------------------------------------------------------------------------------------------ polyhedra
@@ -266,4 +266,6 @@ def testCubeBreaksAtItsStrength(runs):
 	expected = 1e10 * (1e-9 / 0.035**3 * -np.log(1 - 0.6)) ** (1 / 3)
 	assert expected < names['stress'][0] < 1.15 * expected and failures() == 0
 	assert [len(pieces) for pieces in names['broken'].values()] == [2] and O.bodies[names['cube']] is None
-	assert names['stress'][1] == pytest.approx(names['stress'][0] / 5, rel=1e-6)
+	# a face of edge a that is pressed in by h carries K (a² h − a h²): a fifth of the depth is a little more than a fifth of the force
+	slope = names['stress'][0] / names['factor'] / 1e11 / names['size']
+	assert names['stress'][1] == pytest.approx(names['stress'][0] / 5 * (1 + 0.8 * slope), rel=1e-6)

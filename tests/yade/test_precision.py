@@ -107,7 +107,7 @@ def distance(a, b):
 def testLinearProgramHasAllDigits(pair, planesOf):
 	bodies = pair()
 	infeasibility = mpf(polytope.contact(*bodies).infeasibility)
-	point = numbers(polytope.contact(*bodies, contactPoint='chebyshevCentre').point)
+	point = numbers(polytope.contact(*bodies, contactModel='boon2012', contactPoint='chebyshevCentre').point)
 	with exactly():
 		planes, _ = planesOf()
 		s, x = exact.largestBall(planes[0] + planes[1])
@@ -118,7 +118,7 @@ def testLinearProgramHasAllDigits(pair, planesOf):
 
 @pairs
 def testCentreNormalAndDepthHaveAllDigits(pair, planesOf):
-	contact = polytope.contact(*pair(), normal='innerPotential')
+	contact = polytope.contact(*pair(), contactModel='boon2012')
 	assert contact.status == 'contact'
 	point, normal, depth = numbers(contact.point), numbers(contact.normal), mpf(contact.depth)
 	with exactly():

@@ -26,13 +26,13 @@ def testNothingToSayOfAGoodScene():
 
 
 def testFunctorsSwitches():
-	row(computeArea=True, timing=True, warmStart=False, contactPoint='chebyshevCentre')
+	row(contactModel='boon2012', computeArea=True, timing=True, warmStart=False, contactPoint='chebyshevCentre')
 	O.trackEnergy = True
 	assert advised() >= {'clocks', 'warm start', 'contact point', 'energy tracking'}
 
 
 def testAreaThatIsNeededIsNotBlamed():
-	row(computeArea=True)
+	row(computeArea=True, contactModel='boon2012')
 	O.engines[2].physDispatcher.functors[0].stiffnessPerArea = True
 	O.interactions.clear()
 	O.step()
@@ -43,7 +43,7 @@ def testAreaThatIsNeededIsNotBlamed():
 
 def testOverlapsOfALoadedSceneAreSaidToBeUnknown(tmp_path):
 	"""YADE's archives have no penetration depths."""
-	row(normal='innerPotential')
+	row(contactModel='boon2012')
 	O.save(str(tmp_path / 'scene.yade.gz'))
 	O.load(str(tmp_path / 'scene.yade.gz'))
 	missing = dict(polytope.requirements(O, measure=False).notSeen)
@@ -105,11 +105,11 @@ def testTimeStep():
 
 def testCornerRadiusStaysBelowTheInscribedRadius():
 	"""Contacts so soft that no radius is large enough, and so hard that any is."""
-	row(material={'normalStiffness': 3e4, 'shearStiffness': 3e4}, cornerRadius=0.1, steps=400, normal='innerPotential')
+	row(material={'normalStiffness': 3e4, 'shearStiffness': 3e4}, cornerRadius=0.1, steps=400, contactModel='boon2012')
 	found = polytope.requirements(O, measure=False)['corner radius']
 	assert found.advice.startswith('stiffer contacts, and cornerRadius up to 0.36 m')
 	assert ('gets no gradient' in found.advice) == (' 0 contact points' not in found.seen)
-	row(material={'normalStiffness': 1e13, 'shearStiffness': 1e13}, cornerRadius=0.1, steps=0, normal='innerPotential')
+	row(material={'normalStiffness': 1e13, 'shearStiffness': 1e13}, cornerRadius=0.1, steps=0, contactModel='boon2012')
 	O.bodies[1].state.pos -= (0, 0, 0.5 - 1e-6 - 0.4995)
 	O.dt = 1e-7
 	for body in O.bodies:
@@ -120,12 +120,12 @@ def testCornerRadiusStaysBelowTheInscribedRadius():
 
 
 def testOrdinaryBlocksAtRestKeepTheirDefaultCorner():
-	row(cornerRadius=None, material={'normalStiffness': 1e8, 'shearStiffness': 1e8}, steps=2000, normal='innerPotential')
+	row(cornerRadius=None, material={'normalStiffness': 1e8, 'shearStiffness': 1e8}, steps=2000, contactModel='boon2012')
 	assert 'corner radius' not in advised()
 
 
 def testCornersThatWereLostAreReported():
-	row(number=1, cornerRadius=1e-4, steps=0, spin=0.5, normal='innerPotential')
+	row(number=1, cornerRadius=1e-4, steps=0, spin=0.5, contactModel='boon2012')
 	O.bodies[1].state.pos += (0, 0, 0.2)
 	O.bodies[1].state.vel = (0, 0, -5)
 	for _ in range(4000):
@@ -147,7 +147,7 @@ def testCornersThatWereLostAreReported():
 
 
 def testCornerRadiusAgainstOverlaps():
-	row(cornerRadius=0.015, normal='innerPotential')
+	row(cornerRadius=0.015, contactModel='boon2012')
 	depth = max(float(contact.geom.penetrationDepth) for contact in O.interactions if contact.isReal)
 	for radius, word in ((1.1 * depth, 'at least'), (300 * depth, ''), (10 * depth, '')):
 		for body in O.bodies:
@@ -159,7 +159,7 @@ def testCornerRadiusAgainstOverlaps():
 
 
 def testEnergyOfTheUndampedPaperModel():
-	row()
+	row(contactModel='boon2012')
 	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
 	O.engines[3].damping = 0
 	assert 'damping and energy' in advised()
@@ -182,14 +182,14 @@ def testASpringHasNoStiffnessPerArea(contacts):
 	assert 'per area' in found.seen and "contactModel='surface', which goes by the unit, or 'foundation', or stiffnessPerArea=False" in found.advice
 	O.engines[2].geomDispatcher.functors[0].contactModel = 'foundation'
 	assert 'damping and energy' not in advised()
-	O.engines[2].geomDispatcher.functors[0].contactModel = 'paper'
+	O.engines[2].geomDispatcher.functors[0].contactModel = 'boon2012'
 	assert 'damping and energy' not in advised()
 
 
 def testPlanesWithoutAFace():
 	"""A block on its edge, with one more plane: far away, or through that edge and to one side."""
 	for direction, beyond, word in (((0, 0, -1), 1, ''), ((0.3, 0, -1), 0, 'keepRedundant')):
-		row(number=1, steps=0)
+		row(number=1, steps=0, contactModel='boon2012')
 		block = O.bodies[1]
 		block.state.ori = Quaternion((0, 1, 0), math.pi / 4) * block.state.ori
 		block.state.pos = (0, 0, 0.5 * math.sqrt(2) - 1e-3)
@@ -208,7 +208,7 @@ def testPlanesWithoutAFace():
 
 
 def testNewtonToleranceFarFromTheOrigin():
-	row()
+	row(contactModel='boon2012')
 	assert 'Newton tolerance' not in advised()
 	for body in O.bodies:
 		body.state.pos += (1e7, 0, 0)
@@ -217,7 +217,7 @@ def testNewtonToleranceFarFromTheOrigin():
 
 
 def testNewtonToleranceFinerThanTheDepthNeeds():
-	row(newtonTolerance=1e-15)
+	row(newtonTolerance=1e-15, contactModel='boon2012')
 	for body in O.bodies:
 		body.state.pos += (1e7, 0, 0)
 	found = polytope.requirements(O, measure=False)['Newton tolerance']

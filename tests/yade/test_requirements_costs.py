@@ -39,7 +39,7 @@ def testMeasuringTouchesNothing(tmp_path):
 
 @needsIpopt
 def testContactPointIsTimedWithTheSolverThatIsAdvised():
-	row(contactPoint='chebyshevCentre', solver='ipopt')
+	row(contactModel='boon2012', contactPoint='chebyshevCentre', solver='ipopt')
 	found = polytope.requirements(O)
 	solver, point = found['solver'], found['contact point']
 	assert solver.seen.startswith('ipopt, not in use') and 'newton' in solver.advice
@@ -52,14 +52,14 @@ def testContactPointIsTimedWithTheSolverThatIsAdvised():
 
 @needsIpopt
 def testSolverInUseIsBlamed():
-	row(solver='ipopt')
+	row(solver='ipopt', contactModel='boon2012')
 	found = polytope.requirements(O)
 	assert found['solver'].seen == 'ipopt for every contact'
 	assert found['solver'].cost > 0.5 * found.stepMicroseconds
 	assert 'Ipopt' in dict(found.notSeen)['Newton tolerance']
 
 
-@pytest.mark.parametrize('settings', [{'contactPoint': 'centroid'}, {'contactModel': 'spring'}])
+@pytest.mark.parametrize('settings', [{'contactModel': 'boon2012', 'contactPoint': 'centroid'}, {'contactModel': 'spring'}])
 def testSolverWithoutACentreToSolveFor(settings):
 	row(**settings)
 	found = polytope.requirements(O, measure=False)['solver']
@@ -71,7 +71,7 @@ def testSolverWithoutACentreToSolveFor(settings):
 
 
 def testContactModelIsTimedAfterWhatItMakesIdle():
-	row(contactPoint='chebyshevCentre')
+	row(contactModel='boon2012', contactPoint='chebyshevCentre')
 	O.engines[2].lawDispatcher.functors[0].normalDamping = O.engines[3].damping = 0
 	found = polytope.requirements(O, measure=False)
 	assert found.findings.index(found['contact point']) < found.findings.index(found['damping and energy'])

@@ -71,7 +71,7 @@ def centroidHeap():
 
 def ipoptTower():
 	joint(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.4)
-	loop(False, normalDamping=0.3, gravity=(0.3, 0, -gravity), damping=0.1, ig2={'solver': 'ipopt', 'normal': 'innerPotential'})
+	loop(False, normalDamping=0.3, gravity=(0.3, 0, -gravity), damping=0.1, ig2={'solver': 'ipopt', 'contactModel': 'boon2012'})
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 5, 1), fixed=True))
 	for k in range(2):
 		O.bodies.append(polytope.cuboid((0.1 * k, 0.05 * k, 0.499 + 0.998 * k), (.5, .5, .5), Quaternion((0, 0, 1), 0.3 * k)))

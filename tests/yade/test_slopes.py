@@ -38,9 +38,9 @@ def testTiltedCubeIsNotKickedAsideByAFrictionlessFloor(floor, perArea):
 @pytest.mark.parametrize(
 	'faces, perArea',
 	[
-		pytest.param(12, False, marks=pytest.mark.xfail(reason='2.6 % of the way for 0.5: impacts multiply what lifting off adds')),
+		(12, False),
 		(12, True),
-		pytest.param(20, False, marks=pytest.mark.xfail(reason='0.9 % of the way for 0.5: impacts multiply what lifting off adds')),
+		(20, False),
 		(20, True),
 	],
 )

@@ -25,10 +25,11 @@ def emptyScene():
 
 def testWhatReplacesTheFormerModelIsNamed():
 	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')
-	with pytest.raises(ValueError, match="contactModel: 'conservative' has been replaced by 'spring' .* and 'foundation'"):
-		functor.contactModel = 'conservative'
-	assert functor.contactModel == 'spring'
-	with pytest.raises(ValueError, match="contactModel: 'conservative' has been replaced"):
+	for former, now in (('conservative', 'surface'), ('paper', 'boon2012')):
+		with pytest.raises(ValueError, match=f"contactModel: '{former}' is '{now}' now"):
+			functor.contactModel = former
+		assert functor.contactModel == 'spring'
+	with pytest.raises(ValueError, match="contactModel: 'conservative' is 'surface' now"):
 		polytope.contact(*(polytope.cuboid((0, 0, z), (1, 1, 1)) for z in (0, 1.9)), contactModel='conservative')
 	assert not hasattr(functor, 'barrier')
 
@@ -127,8 +128,8 @@ def rms(errors):
 def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
 	"""With YADE's own integrator; boxes have three different moments of inertia."""
 	errors = [np.array([collide(seed, step, 'spring', cubes) for seed in meetings]) for step in steps]
-	paper = np.array([collide(seed, steps[0], 'paper', cubes) for seed in meetings])
-	for step, found in zip((*steps, 'paper'), (*errors, paper), strict=True):
+	paper = np.array([collide(seed, steps[0], 'boon2012', cubes) for seed in meetings])
+	for step, found in zip((*steps, 'boon2012'), (*errors, paper), strict=True):
 		print(f'{step}: median {np.median(abs(found)):.1e}, rms {rms(found):.1e}, largest {max(abs(found)):.1e}')
 	assert rms(errors[2]) < rms(errors[0]) / 3.5**2  # over both halvings: one alone depends on where the steps meet the corners
 	assert rms(paper) > 100 * rms(errors[0])
@@ -226,7 +227,7 @@ def testTowerOfTenStands():
 def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 	"""Frictionless, undamped solids of five kinds fall into a box and fly about (examples/energy.py: for longer, higher, and by other steps)."""
 	worst = {}
-	for model in ('spring', 'paper'):
+	for model in ('spring', 'boon2012'):
 		scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), columns=10, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.02).build()
 		scene.geometryFunctor.contactModel = model
 		start = polytope.mechanicalEnergy()
@@ -240,4 +241,4 @@ def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 		worst[model] = max(map(abs, values))
 	print(worst)
 	assert worst['spring'] < 5e-4
-	assert worst['paper'] > 100 * worst['spring']
+	assert worst['boon2012'] > 100 * worst['spring']

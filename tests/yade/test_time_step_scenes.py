@@ -114,7 +114,7 @@ supports = {
 
 
 @pytest.mark.parametrize('perArea', [False, True])
-@pytest.mark.parametrize('model', ['paper', 'surface'])
+@pytest.mark.parametrize('model', ['boon2012', 'surface'])
 @pytest.mark.parametrize('support', supports)
 def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 	"""A cube on a wall, a box or a facet has the step that it has on a polytope: rocking, too."""
@@ -136,7 +136,7 @@ def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 	assert steps[1] == pytest.approx(steps[0], rel=1e-2)
 
 
-@pytest.mark.parametrize('model', ['paper', 'spring'])
+@pytest.mark.parametrize('model', ['boon2012', 'spring'])
 def testAcrossAPeriodicBoundary(model):
 	steps = []
 	for shift in (0, 1):

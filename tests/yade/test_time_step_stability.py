@@ -8,7 +8,7 @@ import pytest
 from scenes import blockOnFloor, contactOf, density, gravity, joint, loop, stepUntil, stepper
 from yade import O, Quaternion, Vector3, _polytope, polytope, utils
 
-models = ('paper', 'surface')
+models = ('boon2012', 'surface')
 
 
 # ------------------------------------------------------------------------------------- against measured limits of stability

@@ -9,7 +9,7 @@ import pytest
 from scenes import blockOnFloor, contactOf, density, driven, gravity, joint, loop, stepUntil, stepper
 from yade import O, PolytopeTimeStepper, Quaternion, Vector3, _polytope, polytope
 
-models = ('paper', 'surface')
+models = ('boon2012', 'surface')
 
 
 # --------------------------------------------------------------------------------------------------- before there is a contact
@@ -47,7 +47,7 @@ def testStepIsThereBeforeTheFirstMotion():
 	assert O.dt == pytest.approx(0.4 / math.sqrt(5.5 * 1e8 / density), rel=1e-9)
 
 
-@pytest.mark.parametrize('model, stiffest', [('paper', 7), ('surface', 8)])
+@pytest.mark.parametrize('model, stiffest', [('boon2012', 7), ('surface', 8)])
 def testBeforeAContactAFlatFaceOfASpringIsStifferThanACorner(model, stiffest):
 	"""A flat triangle of width b on its side: I = m b²/24, so with k at a corner κ = k/m (1 + (b/2)²/(b²/24)), of its base rocking as a spring 4 k b²/12 over I."""
 	joint()

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""polytope.tradeoff: rows against known values of a block on a floor; and the order of the presets."""
+"""polytope.tradeoff: rows against known values of a block on a floor."""
 
 import csv
-import math
-import pathlib
 
 import pytest
 from yade import (
@@ -35,7 +33,7 @@ def build(density=1000):
 		ForceResetter(),
 		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.1),
 		InteractionLoop(
-			[Ig2_Polytope_Polytope_PolytopeGeom()],
+			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')],  # a face's depth is its force over the stiffness
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=1)],
 		),
@@ -149,60 +147,3 @@ def testDigitsBeyondDoubleCount():
 	for row, text in zip(rows, ('1.00000000000000000000000000001', '1'), strict=True):
 		row.take({'values': {'x': text}, 'timeStep': 1, 'seconds': 1, 'fallbacks': 0, 'failures': 0})
 	assert TradeoffTable(rows, 'b')['a'].error == pytest.approx(1e-29, rel=1e-6)
-
-
-def testPresetsStandInTheirOrder(monkeypatch):
-	"""As the rule of polytope.settings says, in two of its scenes: cost, and error, that of 'exact' in the geometric mean."""
-	monkeypatch.syspath_prepend(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/tradeoff'))
-	from tradeoffAxes import allScenes
-
-	gains = []
-	for letter in ('D', 'F'):
-		scene = allScenes()[letter]
-		changes = {name: polytope.settings(name) for name in ('fast', 'balanced', 'exact')}
-		table = polytope.tradeoff(scene.build, changes, scene.measure, scene.truth, timedSeconds=scene.timedSeconds and 0.1)
-		fast, balanced, exact = (table[name] for name in ('fast', 'balanced', 'exact'))
-		assert exact.timeStepOfLimit is None or exact.timeStepOfLimit <= 1  # safe by stableTimeStep, and without advice by requirements
-		assert fast.timeStep > balanced.timeStep > exact.timeStep  # the number of steps makes the cost: the time of one hardly differs
-		assert max(fast.error, 1e-4) <= 1.1 * max(balanced.error, 1e-4)
-		gains.append(max(exact.error, 1e-4) / max(balanced.error, 1e-4))
-	assert gains[1] < 0.01, 'energy'
-	assert math.prod(gains) < 0.01  # D is off by 2e-4, the default by 9e-5
-
-
-def tableOf(**results):
-	"""name → (cost, answer); the truth is 1."""
-	rows = [Row(name, {}) for name in results]
-	for row, (cost, answer) in zip(rows, results.values(), strict=True):
-		times = {'stepMicroseconds': cost, 'contactMicroseconds': cost, 'contacts': 1, 'timeStep': 1, 'seconds': 1}
-		row.take({'values': {'x': repr(answer)}, 'fallbacks': 0, 'failures': 0, **times} if answer else {'error': 'none'})
-	return TradeoffTable(rows, 1)
-
-
-def testRankingLeavesOutWhatDoesNotStand(monkeypatch):
-	monkeypatch.syspath_prepend(str(pathlib.Path(__file__).resolve().parents[2] / 'tools/measure/tradeoff'))
-	from tradeoffAxes import allScenes
-	from tradeoffReport import ranking
-
-	tables = {
-		'B': tableOf(default=(1, 5), good=(1, 9), bad=(1, 1), heapless=(1, 1)),  # of one law only: does not count
-		'C': tableOf(default=(2, 1.01), good=(1, 1.04), bad=(1, None), heapless=(1, 1.01)),
-		'D': tableOf(default=(2, 1.01), good=(4, 1.0000001), bad=(1, 1), heapless=(1, 1.01)),
-		'A': tableOf(**{'default': (1, 1), 'seed 2': (1, 1.1), 'seed 3': (1, 0.9), 'good': (1, 1.2), 'heapless': (1, 0.1)}),
-	}
-	found = {name: values for name, *values in ranking(tables, allScenes())}
-	assert set(found) == {'default', 'good'}
-	assert found['default'] == pytest.approx([1, 1, 1]) and found['good'] == pytest.approx([1, (4 * 0.01) ** 0.5, 4], rel=1e-6)
-
-
-def testSettingsAreTakenByTheFunctor():
-	for name in ('fast', 'balanced', 'exact'):
-		choice = polytope.settings(name)
-		assert choice.pop('timeStepFactor') > 0
-		functor = Ig2_Polytope_Polytope_PolytopeGeom(**choice)
-		assert all(getattr(functor, key) == value for key, value in choice.items())
-	polytope.settings('fast').clear()
-	assert polytope.settings('fast')
-	for name in ('best', ['fast'], None):
-		with pytest.raises(ValueError, match='name: '):
-			polytope.settings(name)

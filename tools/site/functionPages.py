@@ -24,7 +24,7 @@ topics = {
 		'bodyStress contactFabric particleFabric porosity coordinationNumber sizeDistribution aabbExtrema mechanicalEnergy '
 		'contactRose particleRose forceHistogram',
 	),
-	'costs': ('Accuracy and cost', 'settings tradeoff requirements'),
+	'costs': ('Accuracy and cost', 'tradeoff requirements'),
 }
 """Page, title, names. tests/yade/test_site.py sees to it that each public name is in one of them."""
 
@@ -44,7 +44,7 @@ inner = (
 )
 """Members of these that no script needs, or that lists and tuples have."""
 
-modules = ('frictionReduction', 'fallingPolyhedra', 'motionRecord', 'mpi')
+modules = ('frictionReduction', 'strengthReduction', 'fallingPolyhedra', 'motionRecord', 'mpi')
 """Those that are imported by their own names."""
 
 

@@ -159,14 +159,14 @@ def forces(scene, loop, functor, one, other):
 		yield (
 			'damping and energy',
 			f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: where edges cross or faces lift off they gain energy',
-			"take RockJointMat, or contactModel='spring', or NewtonIntegrator.damping above 0 (usual: 0.2)",
+			"take RockJointMat, or contactModel='surface', or NewtonIntegrator.damping above 0 (usual: 0.2)",
 		)
 
 
 def undamped(scene, functor, maker, phys, one, other):
 	"""Contacts of YADE's physics on two flat-faced bodies, without loss: with one stiffness for all areas the force is no gradient of an energy. A sphere
 	has none of it."""
-	if 'Sphere' in (one.shape, other.shape) or functor.contactModel in ('spring', 'surface') or isinstance(phys, yade.RockJointPhys):
+	if 'Sphere' in (one.shape, other.shape) or functor.contactModel != 'boon2012' or isinstance(phys, yade.RockJointPhys):
 		return False
 	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
 		return False

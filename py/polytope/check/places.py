@@ -66,7 +66,7 @@ def coincidence(scene):
 			there[where].append(body)
 	if pairs:
 		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
-		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: they are shot apart, in any direction'
+		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: nothing presses them apart until they have moved, and then in any direction'
 		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
 
 
@@ -189,7 +189,8 @@ def _meet(scene, one, other):
 
 def _depth(one, other):
 	try:
-		return float(_polytope.contact(one, other).depth)
+		# the chord: of a body within another, too, on which a contact surface would not act
+		return float(_polytope.contact(one, other, contactModel='boon2012', contactPoint='chebyshevCentre').depth)
 	except ValueError:  # a polygon and a polyhedron
 		return 0.0
 

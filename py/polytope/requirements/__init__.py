@@ -82,7 +82,7 @@ def requirements(O, measure=True):
 	"""Checks the present scene: which settings it needs, and which cost time without being used.
 
 	Checked are: contact area, several pieces under one face with a stiffness per contact, third dimension, damping and energy (and whether
-	the contact model conserves energy with these stiffnesses), cohesion, corner radius (of the normal 'innerPotential') against the
+	the contact model conserves energy with these stiffnesses), cohesion, corner radius (of the contact model 'boon2012') against the
 	overlaps there are, what planes without a face do to contacts, Newton tolerance against the rounding of positions, time step against
 	stiffness and mass, the collider's verletDist and boxes, warm start, solver, contact point, clocks and energy tracking. Check a scene in
 	motion or at rest, with contacts: without any, only settings are checked, no cost of contacts is measured, and the first line says so.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of the contact point and of its solver, of polytope.requirements().
 
-The two belong together: only the analytic centre of the paper's contact needs a solver.
+The two belong together: only the analytic centre of the paper's contact (boon2012) needs a solver.
 """
 
 __all__ = ['contactPoint', 'solver']
@@ -24,7 +24,7 @@ def solver(scene):
 
 def contactPoint(scene):
 	"""contact point"""
-	points = {functor.contactPoint for functor in scene.functors if functor.contactModel == 'paper'}
+	points = {functor.contactPoint for functor in scene.functors if functor.contactModel == 'boon2012'}
 	if not points:
 		return 'a contact surface has its own'
 	trial = ('contactPoint', 'analyticCentre')
@@ -38,15 +38,15 @@ def contactPoint(scene):
 
 def _solves(functor):
 	"""Whether the contacts of this functor need a solver."""
-	return functor.contactModel == 'paper' and functor.contactPoint == 'analyticCentre'
+	return functor.contactModel == 'boon2012' and functor.contactPoint == 'analyticCentre'
 
 
 def _waitingIpopt(scene):
 	"""Whether Ipopt is not in use, but would be with the contact point that is advised."""
-	return any(functor.solver == 'ipopt' and functor.contactModel == 'paper' and not _solves(functor) for functor in scene.functors)
+	return any(functor.solver == 'ipopt' and functor.contactModel == 'boon2012' and not _solves(functor) for functor in scene.functors)
 
 
 def _withoutSolver(scene):
 	"""Why no solver is in use."""
-	points = sorted({functor.contactPoint for functor in scene.functors if functor.contactModel == 'paper' and not _solves(functor)})
+	points = sorted({functor.contactPoint for functor in scene.functors if functor.contactModel == 'boon2012' and not _solves(functor)})
 	return f'the point of {" and ".join(points)} needs none' if points else 'a contact surface needs none'

@@ -12,7 +12,7 @@ import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
 from .._loads import permanentLoads
-from .._scene import geometryFunctors, interactionLoops, laws, stiffnessesPerArea, unitOfModel, wrongUnit
+from .._scene import geometryFunctors, interactionLoops, laws, stiffnessesPerArea, wrongUnit
 from ..arguments import vectors
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
@@ -107,6 +107,8 @@ def checks(O):
 
 def area(scene):
 	"""contact area"""
+	if 'boon2012' not in scene.values('contactModel'):
+		return 'a contact surface has its own'
 	if not scene.contacts:
 		return noContacts
 	users = sum(contact.geom.needsArea for contact in scene.contacts)
@@ -155,18 +157,17 @@ def energy(scene):
 	perArea = _stiffnessPerArea(scene)
 	for found in wrongUnit(models, perArea):
 		return found
-	if 'paper' not in models:
+	if 'boon2012' not in models:
 		return 'the energy of the contact surface is conserved but for the moment about the normal that a single force leaves out', ''
 	local = scene.newton.damping if scene.newton else 0
 	viscous = max((law.normalDamping for law in scene.dampers), default=0)
 	if local == 0 and viscous == 0:
-		surface = next(model for model, unit in unitOfModel.items() if unit == perArea)
 		return (
-			"nothing damps the normal direction, and contactModel 'paper' creates and destroys energy",
-			f"contactModel = {surface!r} (which uses neither contactPoint nor solver), or damping: "
-			"with contactModel 'paper' energy is not conserved at any time step",
+			"nothing damps the normal direction, and contactModel 'boon2012' creates and destroys energy",
+			"contactModel = 'surface' (which uses neither contactPoint nor solver), or damping: "
+			"with contactModel 'boon2012' energy is not conserved at any time step",
 			None,
-			('contactModel', surface),
+			('contactModel', 'surface'),
 		)
 	return f'NewtonIntegrator.damping {local:g}, normalDamping {viscous:g} of critical', ''
 
@@ -211,7 +212,7 @@ def planes(scene):
 	if not scene.pairs():
 		return f'{seen}, but no two polytopes are in contact now to measure their effect'
 	functor = scene.functors[0]
-	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'normal', 'solver', 'tolerance', 'newtonTolerance')}
+	how = {name: getattr(functor, name) for name in ('contactPoint', 'contactModel', 'solver', 'tolerance', 'newtonTolerance')}
 	angle = force = compared = 0
 	for pair in [pair for pair in scene.pairs() if spare.keys() & set(pair)][:mostTwins]:
 		bodies = [scene.O.bodies[key] for key in pair]

@@ -27,10 +27,8 @@ kernel = _polytope.tolerances()
 
 def cornerRadius(scene):
 	"""corner radius"""
-	if 'paper' not in scene.values('contactModel'):
+	if 'boon2012' not in scene.values('contactModel'):
 		return 'a contact surface has none'
-	if 'innerPotential' not in scene.values('normal'):
-		return "the normal 'innerPotential' alone reads it"
 	since, pairs = scene.count(*deeper), scene.pairs()
 	if not (scene.depths and pairs):
 		before = f'; {since} contact points were deeper than it since the start (or resetStats), by an unknown amount' if since else ''
@@ -75,7 +73,7 @@ def _ofABlow(scene):
 def newtonTolerance(scene):
 	"""Newton tolerance"""
 	thin = [-float(contact.geom.infeasibility) for contact in scene.contacts if contact.geom.infeasibility < 0]
-	if scene.values('contactModel') != ['paper'] or scene.values('contactPoint') != ['analyticCentre']:
+	if scene.values('contactModel') != ['boon2012'] or scene.values('contactPoint') != ['analyticCentre']:
 		return 'checked for the analytic centre alone'
 	if 'newton' not in scene.values('solver'):
 		return "it is Newton's, and Ipopt solves for the centre"

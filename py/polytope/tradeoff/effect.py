@@ -9,7 +9,7 @@ from .._scene import geometryFunctors
 
 __all__ = ['Effect', 'settable']
 
-settable = ('contactModel', 'normal', 'contactPoint', 'solver', 'warmStart', 'tolerance', 'newtonTolerance', 'computeArea', 'timing')
+settable = ('contactModel', 'contactPoint', 'solver', 'warmStart', 'tolerance', 'newtonTolerance', 'computeArea', 'timing')
 """Attributes of the contact functor that a setting may change."""
 closest = 1e-9
 """Relative difference of two numbers that are the same: files of scenes may hold fewer digits."""

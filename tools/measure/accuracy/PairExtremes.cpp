@@ -84,13 +84,11 @@ void pressIn(const PairAxis& deep, const std::string& kind, int number)
 	std::mt19937_64 random(seedOf("transitions/" + kind + '/' + std::to_string(number)));
 	const Pair      pair   = deep.make(Real(0.3), kind, random);
 	const Real      radius = pair.shape[0]->cornerRadius(), size = pair.size();
-	ContactSettings settings;
-	settings.normal         = NormalSource::InnerPotential;
-	const Vector3 direction = query(pair, settings).normal;
-	const auto    at        = [&](Real way) { return query(movedApart(pair, -way * direction), settings); };
-	const int     steps     = 400;
-	Real          before    = 0;
-	ContactResult last      = at(0);
+	const Vector3   direction = query(pair).normal;
+	const auto      at        = [&](Real way) { return query(movedApart(pair, -way * direction)); };
+	const int       steps     = 400;
+	Real            before    = 0;
+	ContactResult   last      = at(0);
 	for (int step = 1; step <= steps; ++step) {
 		const Real    way  = 4 * radius * step / steps;
 		ContactResult here = at(way);

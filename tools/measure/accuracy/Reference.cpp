@@ -54,7 +54,7 @@ namespace {
 
 	Real relative(const Digits150& difference, const Digits150& size) { return Real(abs(difference) / size); }
 
-	/// The normal at the reference's centre. False where there is none.
+	/// The normal at the reference's centre (Eq. 17). False where there is none.
 	bool referenceNormal(
 	        const PrecisePairOf<Digits150>& exact, const Vector& x, ContactStatus status, const Vector3& dual, Vector& normal)
 	{
@@ -63,30 +63,29 @@ namespace {
 			        dual.normalized()); // not unique where the program's basis is not: checked by its property instead
 			return true;
 		}
-		return exact.balancedNormal(x, normal) > 0;
+		if (status != ContactStatus::NormalFromOneBody) return exact.normal(x, normal);
+		const Vector    first = exact.innerGradient(0, x), second = exact.innerGradient(1, x);
+		const bool      ofFirst = norm(first) > 0;
+		const Digits150 length  = norm(ofFirst ? first : second);
+		if (!(length > 0)) return false;
+		normal = along(Vector {}, (ofFirst ? 1 : -1) / length, ofFirst ? first : second);
+		return true;
 	}
 
-	/// How far the normal at x turns when each plane does by a rounding about x. Far where parallel edges touch: along them the weights balance through
-	/// the ends of the overlap, ℓ away, whose weights (δ/ℓ)³ are below what two roundings leave of the others' (1e-32) once δ/ℓ < 2e-11.
-	Real tiltedNormal(const PrecisePairOf<Digits150>& exact, const Vector& x, const Vector& normal)
+	/// How far the normal at x turns when the point moves by `move` in the local norm.
+	Real turnedBy(const PrecisePairOf<Digits150>& exact, const Vector& x, const Digits150& move)
 	{
-		std::mt19937_64                random(1);
-		std::normal_distribution<Real> gauss;
-		Real                           largest = 0;
-		for (int trial = 0; trial < 4; ++trial) {
-			PrecisePairOf<Digits150> tilted = exact;
-			for (auto& body : tilted.planes)
-				for (auto& plane : body) {
-					const Digits150 slack = plane.slack(x);
-					for (int k = 0; k < exact.dimension; ++k)
-						plane.normal[k] += Digits150(tolerance::rounding * gauss(random));
-					plane.offset = slack + dot(plane.normal, x);
-				}
-			Vector other;
-			if (!(tilted.balancedNormal(x, other) > 0)) return 2;
-			largest = std::max(largest, Real(norm(minus(other, normal))));
+		Digits150 slip = 0;
+		Vector    sum {};
+		for (int body = 0; body < 2; ++body) {
+			const Vector    gradient = exact.innerGradient(body, x);
+			const Digits150 length   = norm(gradient);
+			if (!(length > 0)) continue;
+			slip += exact.normalSlip(body, x, move);
+			sum = along(sum, (body == 0 ? 1 : -1) / length, gradient);
 		}
-		return largest;
+		const Digits150 left = norm(sum); // nearly opposite gradients cancel
+		return Real(left > 0 && left < 1 ? Digits150(slip / left) : slip);
 	}
 
 	void compareGeometry(const Pair& pair, const ExactOptimum& optimum, Comparison& c)
@@ -108,10 +107,8 @@ namespace {
 		c.depthError         = relative(Digits150(r.depth) - depth, size);
 		const Real roundings = c.infeasibilityRounding * c.size;
 		c.centreRounding     = 2e-9 + 2 * roundings / Real(-optimum.infeasibility);
-		Vector          balanced;
-		const Digits150 slip = exact.balancedNormal(centre, balanced) * c.centreRounding;
 		c.normalRounding
-		        = 1e-14 + (r.status == ContactStatus::NormalFromDual ? 0 : Real(slip) + 2 * tiltedNormal(exact, centre, balanced));
+		        = 1e-14 + (r.status == ContactStatus::NormalFromDual ? Real(0) : turnedBy(exact, centre, c.centreRounding));
 		const auto exit1 = exact.exit(0, centre, normal, 1), exit2 = exact.exit(1, centre, normal, -1);
 		const Real glance = Real(1 / exit1.rate + 1 / exit2.rate);
 		// the way to a plane that is met at a grazing angle is as uncertain as the angle

@@ -2,13 +2,13 @@
 """Blocks and grains on joints, where theory has one answer: for each choice of contact and both rules of stiffness.
 
 Toppling (Goodman & Bray), a shaken and a rocking block (Housner), a masonry arch, cubes let go on slopes, edges on floors, solids that
-roll over flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, default, the
-paper's normal, contact surface. Ends with 1 if the default contact misses a limit. With --normal, --contact-model or --set that choice
-alone is measured, and checked against the same limits.
+roll over flush plates, grains in a drum and a funnel of facets. One line a quantity as it is measured, and one table: theory, contact surface
+(the default), the paper's contact. Ends with 1 if the default misses a limit. With --contact-model or --set that choice alone is
+measured, and checked against the same limits.
 
 	./run python tools/measure/accuracy/joints.py                                        # all
 	./run python tools/measure/accuracy/joints.py --quick                                # coarser, smaller
-	./run python tools/measure/accuracy/joints.py --scene slope edges --normal dualWeights --rule contact
+	./run python tools/measure/accuracy/joints.py --scene slope edges --contact-model boon2012 --rule contact
 	./run python tools/measure/accuracy/joints.py --scene toppling --contact-model foundation --per-area
 """
 
@@ -21,14 +21,13 @@ import sys
 os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; the scenes are small
 
 from jointStudy.measures import measures
-from surfaceModel import contactSurface
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # boon2012
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import paperParser, shown
 from boon2012.reporting.script import conclude
 
-contacts = {'default': {}, "paper's normal": {'normal': 'innerPotential'}, 'contact surface': contactSurface}
+contacts = {'surface': {}, 'boon2012': {'contactModel': 'boon2012'}}
 """Name: attributes of the geometry functors."""
 rules = {'contact': False, 'area': True}
 
@@ -51,7 +50,6 @@ def options(arguments=None):
 	parser.add_argument('--rule', choices=[*rules, 'both'], default='both', help='what stiffnesses are per')
 	parser.add_argument('--per-area', dest='rule', action='store_const', const='area', help='the same as --rule area')
 	parser.add_argument('--contact-model', help='of the geometry functors: this choice alone')
-	parser.add_argument('--normal', help='the same')
 	parser.add_argument(
 		'--set', type=attribute, nargs='+', default=[], metavar='NAME=VALUE', help='other attributes of the geometry functors'
 	)
@@ -60,8 +58,8 @@ def options(arguments=None):
 
 def choices(given):
 	"""{name: attributes of the geometry functors}"""
-	named = {'contactModel': given.contact_model, 'normal': given.normal}
-	chosen = {**{name: value for name, value in named.items() if value is not None}, **dict(given.set)}
+	model = {} if given.contact_model is None else {'contactModel': given.contact_model}
+	chosen = {**model, **dict(given.set)}
 	if chosen:
 		return {', '.join(f'{name}={value}' for name, value in chosen.items()): chosen}
 	return contacts

@@ -138,8 +138,8 @@ axes = {
 		'One body inside the other',
 		'inner over outer body',
 		[Limit('s* over the size', 'infeasibilityError', 1e-14)],
-		'No plane of the outer body is near: noDirection.',
-		unjudged=0.7,
+		'No plane of the outer body is near: noDirection, so only s* is judged.',
+		unjudged=1,
 	),
 	'deep': Axis(
 		'Overlap beyond the corner radius',

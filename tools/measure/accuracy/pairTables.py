@@ -44,8 +44,9 @@ class Sample:
 		return self.inContact and not self.touches and not self.within
 
 	def error(self, quantity):
-		"""A column or one of `derived`; NaN where the sample has none, or its status is a warning."""
-		if self.refused or self.status not in (*quiet, 'separated'):
+		"""A column or one of `derived`; NaN where the sample has none, or its status is a warning. s* needs no direction."""
+		ofProgram = quantity == 'infeasibilityError' and self.status == 'noDirection'
+		if self.refused or not (ofProgram or self.status in (*quiet, 'separated')):
 			return math.nan
 		if quantity in ('depthError', 'centreError', 'forceError', 'normalError') and not self.compared:
 			return math.nan
@@ -102,8 +103,12 @@ def faults(samples):
 
 
 def unjudged(samples):
-	"""Those of which error() has nothing to say: refused, with a status that is a warning, or contacts without a reference."""
-	return [s for s in samples if math.isnan(s.error('infeasibilityError')) or (s.inContact and not s.compared)]
+	"""Those of which error() has nothing to say but s*: refused, with a status that is a warning, or contacts without a reference."""
+	return [
+		s
+		for s in samples
+		if s.status not in (*quiet, 'separated') or math.isnan(s.error('infeasibilityError')) or (s.inContact and not s.compared)
+	]
 
 
 def worst(samples, limit):

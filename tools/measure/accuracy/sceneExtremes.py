@@ -28,7 +28,7 @@ from boon2012.reporting.script import conclude
 from sceneAxes import collide, rest, slide, stack, tower, vibrate
 from scenePlots import Line, plotScenes
 
-models = ('paper', 'spring')
+models = ('surface', 'boon2012')
 
 
 def cells(results):
@@ -69,7 +69,7 @@ def stiffness(findings, quick):
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
 	findings.row(f'{title}: normal forces at rest, worst relative error', worst(x for _, _, r in results for x in (r.lowerForce, r.upperForce)), accept=(0, 1e-7))
 	heights = worst(x for _, _, r in results for x in (r.lowerHeight, r.upperHeight))
-	findings.row(f'{title}: heights at rest over the softer overlap (paper), worst error', heights, accept=(0, 2e-7))
+	findings.row(f'{title}: heights at rest over the softer overlap, worst error', heights, accept=(0, 2e-7))
 	findings.text(
 		f'{title}. A block on a block on a floor; the joint below is up to a million times as stiff as the one between the blocks. The time step '
 		'follows the stiff joint, the settling the soft one. Each rounding of a position (1e-16 m) is a force of the stiff joint’s stiffness times that.'
@@ -84,15 +84,14 @@ def mass(findings, quick):
 	title = 'Mass ratio'
 	ratios = (1, 1e3, 1e9) if quick else (1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9)
 	results = [(f'{model}, {"light" if light else "heavy"} moves', ratio, collide(model, ratio, light)) for model in models for light in (True, False) for ratio in ratios]
-	# the closed form's overlaps are the paper's
-	stacks = [('paper', ratio, stack('paper', massRatio=ratio, away=0, most=5000)) for ratio in ratios]
+	stacks = [('surface', ratio, stack('surface', massRatio=ratio, away=0, most=5000)) for ratio in ratios]
 	everything = results + stacks
 	sound(findings, title, [r.failures for _, _, r in everything], [r.finite for _, _, r in everything])
 	findings.row(f'{title}: collisions that did not part', sum(not r.parted for _, _, r in results), accept=(0, 0))
 	findings.row(f'{title}: momentum after a collision, worst relative change', worst(r.momentum for _, _, r in results), accept=(0, 1e-14))
 	findings.row(f'{title}: light body’s speed after it, worst relative error', worst(r.speed for _, _, r in results), accept=(0, 1e-4))
 	errors = worst(x for _, _, r in stacks for x in (r.lowerForce, r.upperForce))
-	findings.row(f'{title}: heavy block left on a light one (paper), worst relative error of a force', errors, accept=(0, 1e-7))
+	findings.row(f'{title}: heavy block left on a light one (surface), worst relative error of a force', errors, accept=(0, 1e-7))
 	findings.text(
 		f'{title}. A cube meets another face on face, without friction and damping, at a fiftieth of √(m/k): the error of its speed is the time '
 		'step’s. And a heavy block is placed on a light one with the closed form’s overlaps, and left for 5000 steps of the light one; what the first step gave it (g Δt) swings on.'
@@ -107,7 +106,7 @@ def mass(findings, quick):
 		]
 		for model in models
 	}
-	lines['paper'] += [Line(label, ratios, [getattr(r, name) for _, _, r in stacks], 1) for name, label in (('lowerForce', 'below'), ('upperForce', 'above'))]
+	lines['surface'] += [Line(label, ratios, [getattr(r, name) for _, _, r in stacks], 1) for name, label in (('lowerForce', 'below'), ('upperForce', 'above'))]
 	return title, 'heavy over light body', ['collision: relative error', 'heavy on light at rest: relative error of the force'], lines, ()
 
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 __all__ = ['Line', 'plotScenes']
 
-colors = {'paper': '#1d4e79', 'spring': '#c8451b'}
+colors = {'surface': '#1d4e79', 'boon2012': '#c8451b'}
 styles = ('o-', 's--', '^:', 'D-.')
 
 

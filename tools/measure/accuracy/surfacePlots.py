@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 __all__ = ['plotCrossings']
 
-colors = {'default': '#1d4e79', "paper's normal": '#e0a030', 'contact surface': '#c8451b'}
+colors = {'surface': '#1d4e79', 'boon2012': '#c8451b'}
 marks = 'osD^v<>P*X'
 least = 1e-7
 """Losses below are drawn here."""

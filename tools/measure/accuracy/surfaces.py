@@ -2,12 +2,12 @@
 """Bodies on floors made of flush pieces: whether they slide, stop, accelerate and rest as on one smooth floor.
 
 All floors, bodies, contacts and both stiffness rules, other speeds, joints at an angle, friction, steps, gaps, impacts, rolling.
-Ends with 1 if the default contact misses a limit; the others are shown beside it. With --floor one crossing alone, in one line.
+Ends with 1 if the default contact misses a limit; the paper's is shown beside it. With --floor one crossing alone, in one line.
 
 	./run python tools/measure/accuracy/surfaces.py             # a quarter of an hour
 	./run python tools/measure/accuracy/surfaces.py --quick     # fewer floors, bodies and speeds: two minutes
 	./run python tools/measure/accuracy/surfaces.py --floor plates --body cube --speed 1
-	./run python tools/measure/accuracy/surfaces.py --floor facets --contact contactModel=foundation --per-area
+	./run python tools/measure/accuracy/surfaces.py --floor facets --contact contactModel=boon2012 --per-area
 """
 
 import argparse

@@ -42,7 +42,7 @@ namespace {
 			        workspace, result);
 		}
 
-		/// Paper's model: the motion along the linear program's dual direction separates the pair.
+		/// Boon2012: the motion along the linear program's dual direction separates the pair.
 		bool wayOutIsRight(const Pair& pair) const
 		{
 			if (!result.inContact) return !set->touching;
@@ -91,7 +91,7 @@ namespace {
 				contacts += result.inContact;
 				wrong += !answered(result.status);
 				const Pair& pair = set->pairs()[i];
-				wrong += settings.contactModel == ContactModel::Paper ? !wayOutIsRight(pair) : !energyIsRight(pair);
+				wrong += settings.contactModel == ContactModel::Boon2012 ? !wayOutIsRight(pair) : !energyIsRight(pair);
 			}
 			state.counters["wrong"]      = wrong;
 			state.counters["pivots"]     = pivots / double(set->pairs().size());
@@ -345,14 +345,6 @@ namespace {
 				ours.settings.section = true;
 				ours.run(state);
 			});
-			for (const bool warm : { false, true })
-				add(std::string("ours, stiffness per area ") + (warm ? "warm" : "cold"), set,
-				        [warm](benchmark::State& state, const PairSet& set) {
-					        Ours ours { &set, {}, warm, {}, {}, {} };
-					        ours.settings.section   = true;
-					        ours.settings.depthRule = DepthRule::Mean;
-					        ours.run(state);
-				        });
 			// a pair that its first basis dismisses has no linear program to time
 			if (set.touching)
 				for (const bool warm : { false, true })

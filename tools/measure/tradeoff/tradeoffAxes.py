@@ -10,11 +10,11 @@ from boon2012.beam.theory import BeamBetweenWalls
 from boon2012.slidingWedge.study import limitEquilibrium
 from boon2012.wedges.theory import roofWedgeFrictionAngle
 from yade.polytope import _builds
-from yade.polytope.settings import presets
 
 __all__ = ['Scene', 'allScenes', 'coarse', 'default', 'isNumerical', 'scatter']
 
 default = 'default'
+"""The scene as it is: the paper's contact (boon2012), whose point, solver and tolerance are varied."""
 
 points = {'Chebyshev centre': {'contactPoint': 'chebyshevCentre'}, 'centroid': {'contactPoint': 'centroid'}}
 models = {'spring': {'contactModel': 'spring'}}
@@ -54,7 +54,6 @@ class Scene:
 	:ivar str answer: what is measured
 	:ivar truth: the closed form; None: there is none
 	:ivar str because: where it comes from
-	:ivar bool ofAnyLaw: whether the closed form holds whatever the law between depth and force
 	:ivar float timedSeconds: of polytope.tradeoff
 	"""
 
@@ -66,15 +65,7 @@ class Scene:
 	answer: str
 	truth: float = None
 	because: str = ''
-	ofAnyLaw: bool = True
 	timedSeconds: float = 0.3
-
-	def __post_init__(self):
-		for name, preset in presets.items():
-			if name != 'balanced':  # that is the default
-				timeless = not self.settings.keys() & times.keys()  # statics: no answer depends on the time step
-				changes = {key: value for key, value in preset.items() if not (timeless and key == 'timeStepFactor')}
-				self.settings = {**self.settings, f"settings('{name}')": changes}
 
 	def chosen(self, quick):
 		"""The settings of a full or a quick run: the quick one leaves out what takes long or shows nothing new."""
@@ -109,7 +100,6 @@ def _statics():
 			'peak load',
 			BeamBetweenWalls().peak()[0],
 			'Appendix A of Boon et al. (2012), whose forces act at the centroid of the overlap',
-			ofAnyLaw=False,
 		),
 	)
 

@@ -2,7 +2,7 @@
 """Accuracy for speed in the paper's scenes: each setting's cost and the error of the answer that matters. The program behind `./run tradeoff`.
 
 Scenes: pair (contact forces), B (peak load), C and D (critical friction angles), F (energy of collisions), rest (where F1's cube comes to
-rest), A (a heap's coordination number). In each, one setting at a time is changed from the default: contact point, contact model,
+rest), A (a heap's coordination number). In each, one setting at a time of the paper's contact (boon2012) is changed from its default: contact point, contact model,
 Newton tolerance, warm start, solver, arithmetic, time step, stiffness. Out of it come a table on screen and as CSV, a Pareto plot for
 each scene, and one page, report.html. polytope.tradeoff() does the same for a scene of your own: examples/tradeoff.py.
 
@@ -52,7 +52,7 @@ sys.path.append(str(here.parents[2] / 'examples/paper'))  # boon2012
 from boon2012.reporting.origin import origin
 from boon2012.reporting.report import endOnTerm
 from tradeoffAxes import allScenes, default, scatter
-from tradeoffReport import notRun, ranking, rankingColumns, reportScene, show, summary, writePage, writeSummary
+from tradeoffReport import notRun, reportScene, show, summary, writePage, writeSummary
 from yade.polytope import tradeoff
 from yade.polytope._builds import precisions
 
@@ -107,11 +107,7 @@ def main(given):
 	(given.output / 'origin.json').write_text(json.dumps(about, indent='\t') + '\n')
 	print(f'\nAll scenes: cost over the default\'s, and error of the answer ({notRun}: not run there)')
 	show(columns, rows)
-	ranks = [[name, *(format(value, '.3g') for value in values)] for name, *values in ranking(tables, scenes)]
-	if ranks:
-		print('\nBasis of polytope.settings() (see there): means over the scenes with a closed form that holds for any law')
-		show(rankingColumns, ranks)
-	writePage(given.output / 'report.html', parts, columns, rows, ranks, pathlib.Path(__file__), given.quick, interrupted)
+	writePage(given.output / 'report.html', parts, columns, rows, pathlib.Path(__file__), given.quick, interrupted)
 	print(f'\nReport: {given.output / "report.html"}')
 	return 130 if interrupted else 1 if failed else 0
 

@@ -13,17 +13,12 @@ from tabulate import tabulate
 from tradeoffAxes import coarse, default, isNumerical, scatter
 from yade.polytope.tradeoff.plot import plotTradeoff
 
-__all__ = ['ranking', 'rankingColumns', 'reportScene', 'show', 'summary', 'writePage', 'writeSummary']
+__all__ = ['notRun', 'reportScene', 'show', 'summary', 'writePage', 'writeSummary']
 
 floor = 1e-17
 """Errors below this are drawn there."""
-leastError = 1e-4
-"""Smaller errors of a scene's answer count as this in the ranking: no input is known better."""
-mostDeviations = 3
-"""Of a heap's coordination number, over the scatter between seeds, for it to be the same heap."""
 notRun = '–'
 """In the summary, for a setting that is not run in that scene."""
-rankingColumns = ('setting', 'mean cost', 'mean error', 'largest error over the default\'s')
 
 
 def reportScene(scene, table, folder, finest):
@@ -87,35 +82,6 @@ def summary(tables, scenes):
 	return lines
 
 
-def ranking(tables, scenes):
-	"""Settings that the rule of polytope.settings ranks: settings that have an answer in all scenes that count, by their cost.
-
-	:returns: [(name, cost, error, largest error over the default's in any scene)], cost and error geometric means over the default's
-	"""
-	heap = tables.get('A')
-	counting = [letter for letter, scene in scenes.items() if letter in tables and scene.truth is not None and scene.ofAnyLaw]
-	names = [row.name for row in tables[counting[0]].rows] if counting else []
-	found = []
-	for name in names:
-		costs, errors = [], []
-		for letter in counting:
-			row, base = ({row.name: row for row in tables[letter].rows}.get(which) for which in (name, default))
-			if row is not None and row.error is not None and row.cost and base.error is not None and base.cost:
-				costs.append(row.cost / base.cost)
-				errors.append(max(row.error, leastError) / max(base.error, leastError))
-		stands = all(table[name].answer is not None and not table[name].note for table in tables.values() if name in [row.name for row in table.rows])
-		if stands and heap and name in [row.name for row in heap.rows]:
-			mean, deviation = scatter(heap)
-			stands = not abs(float(heap[name].answer) - mean) > mostDeviations * deviation
-		if stands and len(costs) == len(counting):
-			found.append((name, _mean(costs), _mean(errors), max(errors)))
-	return sorted(found, key=lambda line: line[1])
-
-
-def _mean(values):
-	return math.exp(sum(map(math.log, values)) / len(values))
-
-
 def writeSummary(lines, letters, path):
 	"""Writes the summary as CSV and returns (columns, rows of text), with *notRun* where a scene does not have the setting."""
 	columns = ['setting', 'cost: least', 'median', 'most', *(f'error {letter}' for letter in letters)]
@@ -141,12 +107,11 @@ def show(columns, rows):
 	print(tabulate(rows, columns, disable_numparse=True))
 
 
-def writePage(path, parts, columns, rows, ranks, script, quick, interrupted=False):
+def writePage(path, parts, columns, rows, script, quick, interrupted=False):
 	"""The HTML page.
 
 	:param list parts: (Scene, its Findings)
 	:param columns, rows: of the summary
-	:param ranks: rows of text of the ranking
 	:param bool interrupted: whether scenes or settings are missing that were asked for
 	"""
 	sections = []
@@ -155,7 +120,7 @@ def writePage(path, parts, columns, rows, ranks, script, quick, interrupted=Fals
 		sections.append(section(run))
 	environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
 	about = {'date': datetime.date.today().isoformat(), 'quick': quick, 'interrupted': interrupted}
-	tables = {'columns': columns, 'rows': rows, 'ranks': ranks, 'head': rankingColumns}
+	tables = {'columns': columns, 'rows': rows}
 	path.write_text(environment.from_string(_page).render(sections=sections, about=about, **tables))
 
 
@@ -180,11 +145,6 @@ answer that counts; the table of the scene says why.</p>
 <h2>All scenes</h2>
 <div class="wide"><table><tr>{% for title in columns %}<th>{{ title }}</th>{% endfor %}</tr>
 {% for row in rows %}<tr>{% for cell in row %}<td{% if ' ' in cell and not loop.first %} class="words"{% endif %}>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>
-{% if ranks %}<h2>Basis of polytope.settings()</h2>
-<p>Settings that have an answer in every scene with a closed form that holds for any law (C, D, F, rest): geometric means of cost and
-error over the default's; errors below 1e-4 count as 1e-4.</p>
-<div class="wide"><table><tr>{% for title in head %}<th>{{ title }}</th>{% endfor %}</tr>
-{% for row in ranks %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>{% endfor %}</table></div>{% endif %}
 {% for part in sections %}<h2 id="{{ part.letter }}">{{ part.letter }} · {{ part.title }}</h2>
 {% for item in part.parts %}
 {% if item.kind == 'text' %}<p>{{ item.text }}</p>

@@ -82,7 +82,7 @@ def buildPairs(each=4):
 		ForceResetter(),
 		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.05),
 		InteractionLoop(
-			[Ig2_Polytope_Polytope_PolytopeGeom()],
+			[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()],
 		),
@@ -211,7 +211,9 @@ heapTime = 1.5
 
 
 def buildHeap(stiffness=1, seed=1):
-	return FallingPolyhedra(faces=solids, number=96, columns=4, seed=seed, normalStiffness=1.25e6 * stiffness).build()
+	scene = FallingPolyhedra(faces=solids, number=96, columns=4, seed=seed, normalStiffness=1.25e6 * stiffness).build()
+	scene.geometryFunctor.contactModel = 'boon2012'
+	return scene
 
 
 def measureHeap(scene):

@@ -80,10 +80,8 @@ class ThreeHingedBeam:
 	100 against a rigid one: the paper's two values.)"""
 	cornerRadius: float = 0.0046
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
-	contactModel: str = 'paper'
-	"""Or 'spring', which reads neither contactPoint nor solver nor corner radius nor normal weight."""
-	normal: str = 'innerPotential'
-	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
+	contactModel: str = 'boon2012'
+	"""Or 'surface', 'spring', which read neither contactPoint nor solver nor corner radius nor normal weight."""
 	contactPoint: str = 'analyticCentre'
 	solver: str = 'newton'
 	density: float = 2600
@@ -153,7 +151,7 @@ class ThreeHingedBeam:
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 			InteractionLoop(
 				[Ig2_Polytope_Polytope_PolytopeGeom(
-						contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal, solver=self.solver
+						contactModel=self.contactModel, contactPoint=self.contactPoint, solver=self.solver
 					)],
 				[
 					Ip2_RockJointMat_RockJointMat_RockJointPhys(

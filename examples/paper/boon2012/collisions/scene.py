@@ -76,11 +76,9 @@ class Collision:
 	cornerRadius: float = 0.05
 	timeStep: float = 8.944e-5
 	"""0.02 sqrt(mass / normalStiffness) for the unit cube. [s]"""
-	normal: str = 'innerPotential'
-	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
-	contactModel: str = 'paper'
-	"""Or 'foundation', 'spring'; then *normal* and *contactPoint* are not read."""
+	contactModel: str = 'boon2012'
+	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
 
 	# what build() made
 	fixedId: int = dataclasses.field(default=-1, init=False)
@@ -99,7 +97,7 @@ class Collision:
 		)
 		self.fixedId = O.bodies.append(self._body(self.fixed, color=(0.86, 0.86, 0.84), fixed=True))
 		self.freeId = O.bodies.append(self._body(self.free, color=(0.35, 0.60, 0.72)))
-		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal)
+		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint)
 		self.integrator = NewtonIntegrator(damping=self.damping, dampGravity=self.dampGravity, gravity=(0, 0, -self.gravity))
 		O.engines = [
 			ForceResetter(),

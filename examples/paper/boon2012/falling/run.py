@@ -51,7 +51,6 @@ class FallingRun:
 		self.faces = tuple(solids.values()) if name == 'mixed' else (solids[name],)
 		self.scene = FallingPolyhedra(faces=self.faces, number=given.number, seed=seed, **given.parameters).build()
 		self.scene.geometryFunctor.contactModel = given.contact_model
-		self.scene.geometryFunctor.normal = given.normal
 		self.scene.geometryFunctor.contactPoint = given.contact_point
 		self.watch = RunWatch(self.scene.geometryFunctor, self.scene.interactionLoop)
 		self.energyUnit = given.number * self.scene.mass * self.scene.gravity * self.scene.size or 1
@@ -135,7 +134,7 @@ class FallingRun:
 			return {}
 		cold = self.sample.times(warmStart=False)
 		results = {'cold': cold, 'lpColdMicroseconds': cold['lpMicroseconds'], 'centreColdMicroseconds': cold['centreMicroseconds']}
-		if given.ipopt_every and given.contact_model == 'paper' and given.contact_point == 'analyticCentre' and hasSolver('ipopt'):
+		if given.ipopt_every and given.contact_model == 'boon2012' and given.contact_point == 'analyticCentre' and hasSolver('ipopt'):
 			ipopt = self.sample.times(every=given.ipopt_every, passes=3, solver='ipopt', warmStart=False)
 			results.update(ipopt=ipopt, ipoptMicroseconds=ipopt['centreMicroseconds'])
 		return results

@@ -38,8 +38,8 @@ __all__ = [
 ]
 
 contactPoints = ('analyticCentre', 'chebyshevCentre', 'centroid')
-contactModels = ('paper', 'foundation', 'spring')
-"""Of Ig2_Polytope_Polytope_PolytopeGeom."""
+contactModels = ('boon2012', 'surface', 'foundation', 'spring')
+"""Of Ig2_Polytope_Polytope_PolytopeGeom; the first is the paper's."""
 
 ofTheRun = ('quick', 'output', 'no_pictures')
 """What paperParser() adds: how a script is run, not what it computes."""

@@ -152,7 +152,7 @@ class RoofWedgeReport(WedgeReport):
 
 	def must(self, value, half):
 		"""Where the closed forms hold, which assume sharp edges."""
-		known = self.symmetric and self.given.stiffness_times == 'face' and self.given.contact_model == 'paper'
+		known = self.symmetric and self.given.stiffness_times == 'face' and self.given.contact_model == 'boon2012'
 		return (value - half, value + half) if known else None
 
 	def criticalAngles(self, papers, known):
@@ -188,7 +188,7 @@ class RoofWedgeReport(WedgeReport):
 
 	def prism(self, case):
 		"""A wedge between two joints beside the same closed form: shear on its two faces alone holds it, and keeps it from turning."""
-		known = self.given.stiffness_times == 'face' and self.given.contact_model == 'paper'
+		known = self.given.stiffness_times == 'face' and self.given.contact_model == 'boon2012'
 		self.findings.row(
 			f'critical friction angle, {case.label}',
 			case.critical,

@@ -113,11 +113,9 @@ class SlumpingSlope:
 	gravity: float = 10
 	cornerRadius: float = 0.05
 	timeStep: float = 1e-4
-	normal: str = 'innerPotential'
-	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
 	contactPoint: str = 'analyticCentre'
-	contactModel: str = 'paper'
-	"""Or 'foundation', 'spring'; then *normal* and *contactPoint* are not read."""
+	contactModel: str = 'boon2012'
+	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
 
 	# what build() made
 	freeIds: list = dataclasses.field(default_factory=list, init=False)
@@ -145,7 +143,7 @@ class SlumpingSlope:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.05),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessPerArea)],
 				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 			),

@@ -69,10 +69,8 @@ class WedgeScene:
 	"""Of each contact, normal and shear, fraction of critical."""
 	rockingDamping: float = 0.0
 	"""Of each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
-	contactModel: str = 'paper'
-	"""Or 'foundation', 'spring', which do not read contactPoint and normal."""
-	normal: str = 'innerPotential'
-	"""Of Ig2_Polytope_Polytope_PolytopeGeom: the paper's; 'dualWeights' is the plug-in's default."""
+	contactModel: str = 'boon2012'
+	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
 	contactPoint: str = 'analyticCentre'
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(wedge's mass / sum of its faces' normal stiffnesses)."""
@@ -110,7 +108,7 @@ class WedgeScene:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0.02 * wedge.shape.volume ** (1 / 3), avoidSelfInteractionMask=avoided),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, normal=self.normal)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self._contactModel(), contactPoint=self.contactPoint)],
 				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.stiffnessTimes != 'contact')],
 				[self._law()],
 			),
@@ -122,6 +120,10 @@ class WedgeScene:
 		)
 		O.dt = self.timeStepFraction * math.sqrt(wedge.state.mass / stiffness)
 		return self
+
+	def _contactModel(self):
+		"""That of a contact surface goes by the unit of the stiffness, which _fixStiffness makes one per contact after the contact has begun."""
+		return 'spring' if (self.contactModel, self.stiffnessTimes) == ('surface', 'face') else self.contactModel
 
 	def establishContacts(self):
 		"""Takes the first steps, until the wedge touches the blocks around, and sets those stiffnesses that are not to follow the contact

@@ -5,7 +5,7 @@ Nothing but the normal force acts, so that all energy is kinetic again once the 
 Δ(kinetic energy) is the contact's and the integrator's error. Regular solids have equal moments of inertia, which YADE's integrator
 turns without an error of its own. All bodies of a study are in one scene, each pair far from the others.
 
-	found = Collisions(meetings(200), Contact('paper'), steps=100).build().run()
+	found = Collisions(meetings(200), Contact('boon2012'), steps=100).build().run()
 """
 
 import dataclasses

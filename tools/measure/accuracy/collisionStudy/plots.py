@@ -8,10 +8,9 @@ __all__ = ['plotBounces', 'plotCorners', 'plotDamping', 'plotSteps']
 
 styles = {
 	"paper's model": ('#c8451b', '-'),
-	'default contact': ('#2a9d8f', '-'),
 	"paper's model, corner radius 0": ('#f2a541', '-'),
 	"paper's model, stiffness per area": ('#8d6bb0', '-'),
-	'spring': ('#1d4e79', '-'),
+	'contact surface': ('#1d4e79', '-'),
 	"YADE's PotentialBlock": ('#8d6bb0', ':'),
 	"YADE's Polyhedra": ('#4c8c4a', ':'),
 	"YADE's spheres": ('#222222', '--'),

@@ -34,22 +34,14 @@ __all__ = ['Contact', 'EnergyScene', 'freeFlight']
 class Contact:
 	"""How bodies touch."""
 
-	model: str = 'default'
-	"""'default', 'paper' (with the paper's averaged normal), 'perArea' (the paper's, with a stiffness per contact area), 'spring' or
-	'spheres' (YADE's own)."""
+	model: str = 'surface'
+	"""A contactModel, 'perArea' (boon2012 with a stiffness per contact area) or 'spheres' (YADE's own)."""
 	corner: float = 0.1
-	"""Corner radius over the inscribed radius, of the paper's normal."""
+	"""Corner radius over the inscribed radius, of boon2012."""
 	contactDamping: float = 0
 	"""Of the contact's normal, fraction of critical."""
 	damping: float = 0
 	"""YADE's own: NewtonIntegrator.damping."""
-
-
-def contactOf(model):
-	"""Attributes of the functor."""
-	if model == 'spring':
-		return {'contactModel': 'spring'}
-	return {'normal': 'innerPotential' if model in ('paper', 'perArea') else 'dualWeights'}
 
 
 class EnergyScene:
@@ -82,10 +74,10 @@ class EnergyScene:
 				[Law2_ScGeom_FrictPhys_CundallStrack()],
 			)
 		else:
-			bounds = [Bo1_Polytope_Aabb()]
+			bounds, perArea = [Bo1_Polytope_Aabb()], self.how.model == 'perArea'
 			self.interactionLoop = InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(**contactOf(self.how.model))],
-				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=self.how.model == 'perArea')],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012' if perArea else self.how.model)],
+				[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
 				[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping)],
 			)
 		O.engines = [

@@ -17,14 +17,11 @@ import numpy as np
 from yade import (
 	Bo1_Polytope_Aabb,
 	ForceResetter,
-	FrictMat,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
-	Ip2_FrictMat_FrictMat_FrictPhys,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
-	Law2_ScGeom_FrictPhys_CundallStrack,
 	O,
 )
 
@@ -180,13 +177,10 @@ def warmAnswers(found, name):
 	"""
 	O.reset()
 	pair = Pair(found.how[name], found.planes)
-	arguments = dict(pair.arguments)
-	depth = arguments.pop('depth', 'chord')
-	functor = Ig2_Polytope_Polytope_PolytopeGeom(**arguments)
+	perArea = found.how[name]['contactModel'] == 'foundation'
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(**pair.arguments)
 	for body in (pair.fixed, pair.moving):
 		body.state.blockedDOFs = 'xyzXYZ'
-	if depth == 'chord':
-		pair.fixed.material = pair.moving.material = FrictMat(density=1, young=1)
 	pair.place(found.poses[0])
 	ids = O.bodies.append([pair.fixed, pair.moving])
 	O.engines = [
@@ -194,8 +188,8 @@ def warmAnswers(found, name):
 		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 		InteractionLoop(
 			[functor],
-			[Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=depth == 'mean')],
-			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()],
+			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
+			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()],
 		),
 	]
 	O.dt = 1e-9
@@ -208,6 +202,6 @@ def warmAnswers(found, name):
 			answers.append(np.full((3, 3), np.nan))
 			continue
 		geom = here.geom
-		answers.append(np.array([geom.contactPoint, geom.normal, max(geom.penetrationDepth, 0) * geom.normal]))
+		answers.append(np.array([geom.contactPoint, geom.normal, pair.force(geom.penetrationDepth, geom.contactArea) * geom.normal]))
 	O.reset()
 	return np.array(answers)

@@ -14,9 +14,7 @@ from .scenes import fixedHalf, movingHalf
 __all__ = ['drawPaths', 'plotHalving', 'plotPaths']
 
 colors = {
-	'default': '#2a9d8f',
-	'default, per area': '#7bc8a4',
-	'default, per contact': '#b5c334',
+	'foundation': '#2a9d8f',
 	'analytic centre': '#c8451b',
 	'Chebyshev centre': '#8d6bb0',
 	'centroid': '#4c8c4a',
@@ -44,7 +42,7 @@ def plotPaths(path, scans):
 		axes[-1].set_xlabel('motion [edges]')
 	for axis, quantity in zip(grid[:, 0], quantities, strict=True):
 		axis.set_ylabel(labels[quantity])
-	figure.legend(*grid[0, 0].get_legend_handles_labels(), loc='lower center', ncol=5, frameon=False)
+	figure.legend(*grid[0, 0].get_legend_handles_labels(), loc='lower center', ncol=3, frameon=False)
 	figure.tight_layout(rect=(0, 0.04, 1, 1))
 	figure.savefig(path, dpi=110)
 
@@ -61,7 +59,7 @@ def plotHalving(path, worst):
 		axis.set_title(f'{quantity}: change per motion [{units[quantity]}]', fontsize=10)
 		axis.grid(alpha=0.3, lw=0.5)
 		axis.invert_xaxis()
-	figure.legend(*figure.axes[0].get_legend_handles_labels(), loc='lower center', ncol=5, frameon=False)
+	figure.legend(*figure.axes[0].get_legend_handles_labels(), loc='lower center', ncol=3, frameon=False)
 	figure.tight_layout(rect=(0, 0.06, 1, 1))
 	figure.savefig(path, dpi=110)
 

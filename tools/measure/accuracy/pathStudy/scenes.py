@@ -20,17 +20,15 @@ fixedHalf, movingHalf = 0.8, 0.5
 deep = 0.005
 """Radius of the largest ball in the overlap: half the overlap of faces."""
 variants = {
-	'default': {'depth': 'meanOnFaces'},
-	'default, per area': {'depth': 'mean'},
-	'default, per contact': {'depth': 'meanOnFaces'},
-	'analytic centre': {'normal': 'innerPotential'},
-	'Chebyshev centre': {'contactPoint': 'chebyshevCentre', 'normal': 'innerPotential'},
-	'centroid': {'contactPoint': 'centroid', 'normal': 'innerPotential'},
-	'analytic centre, corner radius 0': {'cornerRadius': 0.0, 'normal': 'innerPotential'},
+	'foundation': {'contactModel': 'foundation'},
 	'spring': {'contactModel': 'spring'},
+	'analytic centre': {'contactModel': 'boon2012'},
+	'Chebyshev centre': {'contactModel': 'boon2012', 'contactPoint': 'chebyshevCentre'},
+	'centroid': {'contactModel': 'boon2012', 'contactPoint': 'centroid'},
+	'analytic centre, corner radius 0': {'contactModel': 'boon2012', 'cornerRadius': 0.0},
 }
-"""Arguments of polytope.contact, and the corner radius where it is not the default: our default contact with YADE's physics and with rock joints, the paper's averaged normal at each
-contact point, and the contact model spring."""
+"""Arguments of polytope.contact, and the corner radius where it is not the default: the contact surface by both units of the stiffness, and the paper's
+contact at each contact point."""
 
 planeSets = ('plain', 'touching', 'repeated')
 """Six planes a cube; with planes through all edges and vertices that cut nothing; with the planes that face each other four times."""
@@ -128,14 +126,18 @@ class Pair:
 		"""(contact point, normal, force over stiffness) of a query without warm start."""
 		self.place(pose)
 		found = contact(self.fixed, self.moving, **self.arguments)
-		return np.array([found.point, found.normal, max(found.depth, 0) * found.normal])
+		return np.array([found.point, found.normal, self.force(found.depth, found.area) * found.normal])
+
+	def force(self, depth, area):
+		"""Over the stiffness, which is per area for *foundation*: the force then comes as if that of 1 m² were 1."""
+		return max(depth, 0) * (area if self.variant['contactModel'] == 'foundation' else 1)
 
 
 class Placing:
 	"""Finds poses; of plain cubes, since planes that cut nothing do not change s*."""
 
 	def __init__(self, overlap=1.0):
-		self.pair, self.overlap = Pair({}), overlap
+		self.pair, self.overlap = Pair({'contactModel': 'boon2012'}), overlap
 		self.corners = movingHalf * np.array(list(itertools.product((-1, 1), repeat=3)))
 
 	def pose(self, path, t):
@@ -145,7 +147,7 @@ class Placing:
 		moving.state.ori = orientation
 		for _ in range(60):
 			moving.state.pos = Vector3(*(point + way * direction))
-			found = contact(self.pair.fixed, moving)
+			found = contact(self.pair.fixed, moving, **self.pair.arguments)
 			nearer = (found.infeasibility + self.overlap * radius) / np.dot(found.dualDirection, direction)
 			if not nearer > 1e-15:
 				break

@@ -13,7 +13,7 @@ from .floors import Floor
 from .surface import SurfaceScene
 from .measures import planarFloor
 
-__all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'restOverEnd', 'roll']
+__all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'pressedPast', 'restOverEnd', 'roll']
 
 
 def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.002, speed=0.1):
@@ -33,6 +33,12 @@ def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.00
 	past = corners[corners[:, 0] > 1 + 2 * run.depth]
 	lowest = float(past[:, 2].min()) if len(past) else math.inf
 	return float(corners[:, 0].max() - 1), lowest, float(run.velocity[0] / speed)
+
+
+def pressedPast(speed, height=0.002, side=0.5, depth=SurfaceScene.depth):
+	"""How far at most a cube's front comes past a step's face, with a stiffness K per area: until the foundation has its kinetic energy. Further in than the
+	step is high, s, the energy grows by K b s²/2 over a way of 1, b: the cube's width. [m]"""
+	return depth * side * speed**2 / (SurfaceScene.gravity * height**2)
 
 
 def gapHolds(contact=None, perArea=False, floor='plates', gap=0.12, body='cube'):

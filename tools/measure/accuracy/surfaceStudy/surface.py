@@ -32,7 +32,6 @@ from yade import (
 	Vector3,
 )
 
-from surfaceModel import functorAttributes
 from yade.polytope.clumps import clump
 from yade.polytope.timeStep import stableTimeStep
 from .flatBodies import lyingBody, planarBodies
@@ -64,7 +63,7 @@ class SurfaceScene:
 	body: str = 'cube'
 	"""One of flatBodies.bodyKinds."""
 	contact: dict = dataclasses.field(default_factory=dict)
-	"""Attributes of all Ig2_*_PolytopeGeom, such as dict(contactModel='foundation'), or contactSurface."""
+	"""Attributes of all Ig2_*_PolytopeGeom, such as dict(contactModel='boon2012')."""
 	perArea: bool = False
 	"""Stiffness per area [Pa/m] instead of per contact [N/m]."""
 	pieces: Floor = dataclasses.field(default_factory=Floor)
@@ -142,7 +141,7 @@ class SurfaceScene:
 
 	def _engines(self):
 		pull = self.gravity * (math.sin(self.incline) * self.along - math.cos(self.incline) * self.up)
-		self.functors = [kind(**functorAttributes(self.contact, self.perArea)) for kind in ourPairs]
+		self.functors = [kind(**self.contact) for kind in ourPairs]
 		self.newton = NewtonIntegrator(gravity=self.turn * Vector3(*pull), damping=0)
 		self.lawFunctor = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**self.law)
 		# YADE's own pairs, for the sphere on facets, boxes and walls

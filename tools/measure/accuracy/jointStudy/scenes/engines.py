@@ -19,8 +19,6 @@ from yade import (
 	PolytopeCollider,
 )
 
-from surfaceModel import functorAttributes
-
 __all__ = ['failures', 'jointEngines']
 
 geometries = (
@@ -35,7 +33,7 @@ bounds = (Bo1_Polytope_Aabb, Bo1_Wall_Aabb, Bo1_Box_Aabb, Bo1_Facet_Aabb)
 def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), watching=(), **law):
 	"""Sets O.engines; returns their NewtonIntegrator.
 
-	:param dict ig2: attributes of the geometry functors, of all pairs of shapes alike: {} or contactModel='foundation' …, or contactSurface
+	:param dict ig2: attributes of the geometry functors, of all pairs of shapes alike: {} or contactModel='boon2012' …
 	:param bool perArea: stiffnesses are per area [Pa/m], else per contact [N/m]
 	:param gravity: [m/s²]
 	:param float damping: YADE's own: NewtonIntegrator.damping
@@ -49,7 +47,7 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 		ForceResetter(),
 		PolytopeCollider([bound() for bound in bounds], verletDist=verlet),
 		InteractionLoop(
-			[geometry(**functorAttributes(ig2, perArea)) for geometry in geometries],
+			[geometry(**ig2) for geometry in geometries],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**law)],
 		),
