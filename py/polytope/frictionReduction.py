@@ -18,8 +18,8 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import tan  # of YADE's numbers, in any precision
 
-from ._loads import givePermanentLoads, permanentLoads
 from ._scene import interactionLoops
+from ._stages import Reduction, Stage
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
 
@@ -43,25 +43,6 @@ def setFrictionAngle(angle):
 
 
 @dataclasses.dataclass
-class Stage:
-	"""What happened at one friction angle."""
-
-	angle: float
-	"""[rad]"""
-	outcome: str
-	"""'stable': at rest; 'failed': moved too far; 'creeping': neither by the time limit, which counts as failure."""
-	steps: int
-	speed: float
-	"""Of the fastest body at the end [m/s]."""
-	displacement: float
-	"""Of the body that has moved most since the scene had settled, at the end [m]."""
-	samples: list
-	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
-	measured: object = None
-	"""What *measure* returned at the end of the stage."""
-
-
-@dataclasses.dataclass
 class FrictionReductionResult:
 	stable: float
 	"""Lowest friction angle at which all bodies were at rest [rad]."""
@@ -78,7 +59,7 @@ class FrictionReductionResult:
 		return (self.stable + self.failed) / 2
 
 
-class FrictionReduction:
+class FrictionReduction(Reduction):
 	"""Finds the friction angle at which bodies fail (see the head of this file).
 
 	A stage is *stable* when all bodies are slower than *stableSpeed* at three consecutive checks, *checkEvery* steps apart (a body that
@@ -91,7 +72,7 @@ class FrictionReduction:
 	:param float start: friction angle to settle at [rad]
 	:param steps: reductions [rad], each smaller than the one before
 	:param float stableSpeed: [m/s]
-	:param float failedDistance: [m]
+	:param float failedDistance: [m]; default a fiftieth of the largest watched body: of the edge of the cube (square) that has its volume (area)
 	:param int checkEvery: steps between two checks
 	:param int mostSteps: of one stage; one that is neither stable nor failed by then is 'creeping' and counts as failed
 	:param measure: called without arguments at the end of each stage; what it returns is in Stage.measured
@@ -99,7 +80,6 @@ class FrictionReduction:
 	:raises ValueError: naming the argument that is out of range
 	"""
 
-	calmChecks = 3
 	mark = 'frictionReduction'
 
 	def __init__(
@@ -108,18 +88,14 @@ class FrictionReduction:
 		start,
 		steps,
 		stableSpeed=2e-7,
-		failedDistance=0.02,
+		failedDistance=None,
 		checkEvery=100,
 		mostSteps=200000,
 		measure=lambda: None,
 		progress=lambda stage: None,
 	):
-		self.bodies, self.start, self.steps = list(bodies), start, list(steps)
-		self.stableSpeed, self.failedDistance = stableSpeed, failedDistance
-		self.checkEvery, self.mostSteps = checkEvery, mostSteps
-		self.measure, self.progress = measure, progress
-		if not self.bodies:
-			raise ValueError('bodies: there must be at least one')
+		super().__init__(bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress)
+		self.start, self.steps = start, list(steps)
 		if not 0 < start < math.pi / 2:
 			raise ValueError(f'start: must be an angle in radians between 0 and pi/2, got {start}')
 		if (
@@ -128,9 +104,6 @@ class FrictionReduction:
 			or any(a <= b for a, b in zip(self.steps, self.steps[1:], strict=False))
 		):
 			raise ValueError(f'steps: must be positive angles, each smaller than the one before, got {self.steps}')
-		for name in ('stableSpeed', 'failedDistance', 'checkEvery', 'mostSteps'):
-			if not getattr(self, name) > 0:
-				raise ValueError(f'{name}: must be positive, got {getattr(self, name)}')
 
 	def run(self):
 		"""Settles the scene and reduces the angle. Leaves the scene in the failed state; restore() brings back the last stable state.
@@ -138,20 +111,7 @@ class FrictionReduction:
 		:returns: a FrictionReductionResult
 		:raises RuntimeError: if the scene does not come to rest at the starting angle, or stands at any angle
 		"""
-		self.stages, self.failedQueries = [], 0
-		settled = self._stage(self.start)
-		if settled.outcome != 'stable':
-			raise RuntimeError(
-				f'the scene is not stable at the starting angle, {math.degrees(self.start):g}°: {settled.outcome} '
-				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps); '
-				+ (
-					'start higher, with stiffer contacts, or with a larger failedDistance'
-					if settled.outcome == 'failed'
-					else 'take more damping, a larger stableSpeed, or more mostSteps'
-				)
-			)
-		self.origins = self._positions()
-		self._save()
+		self._begin(self.start, f'at the starting angle, {math.degrees(self.start):g}°')
 		stable = self.start
 		for level, step in enumerate(self.steps):
 			if level:
@@ -159,16 +119,6 @@ class FrictionReduction:
 			stable, failed = self._reduce(stable, step)
 		self._bookQueries()
 		return FrictionReductionResult(stable, failed, self.stages, self.failedQueries)
-
-	def restore(self):
-		"""Brings back the last stable state."""
-		self._bookQueries()
-		O.loadTmp(self.mark, quiet=True)
-		givePermanentLoads(self.loads)
-
-	def _save(self):
-		O.saveTmp(self.mark, quiet=True)
-		self.loads = permanentLoads()
 
 	def _reduce(self, stable, step):
 		"""Down from a stable angle by *step* until failure: (lowest stable angle, angle of failure)."""
@@ -181,38 +131,5 @@ class FrictionReduction:
 			self._save()
 		raise RuntimeError(f'stable at every friction angle down to {math.degrees(stable):g}°')
 
-	def _stage(self, angle):
-		setFrictionAngle(angle)
-		if not self.stages:
-			self.origins = self._positions()
-		stage = Stage(angle, 'creeping', 0, 0.0, 0.0, [])
-		self.stages.append(stage)
-		began, calm = O.time, 0
-		while stage.steps < self.mostSteps:
-			for _ in range(self.checkEvery):
-				O.step()  # O.run(…, wait=True) checks only every 40 ms whether it is done
-			stage.steps += self.checkEvery
-			stage.speed = max(float(O.bodies[k].state.vel.norm()) for k in self.bodies)
-			stage.displacement = max(float((O.bodies[k].state.pos - origin).norm()) for k, origin in self.origins.items())
-			stage.samples.append((O.time - began, stage.speed, stage.displacement))
-			self.progress(stage)
-			calm = calm + 1 if stage.speed < self.stableSpeed else 0
-			if not stage.displacement <= self.failedDistance:  # not a number counts as failed
-				stage.outcome = 'failed'
-				break
-			if calm == self.calmChecks:
-				stage.outcome = 'stable'
-				break
-		stage.measured = self.measure()
-		return stage
-
-	def _positions(self):
-		return {k: O.bodies[k].state.pos for k in self.bodies}
-
-	def _bookQueries(self):
-		"""Adds the contact functors' counts of failures to ours."""
-		for loop in interactionLoops():
-			for functor in loop.geomDispatcher.functors:
-				if hasattr(functor, 'stats'):
-					self.failedQueries += functor.stats()['failures']
-					functor.resetStats()
+	def _set(self, level):
+		setFrictionAngle(level)

@@ -105,7 +105,7 @@ def testSoftShearSpringsHaveAnAnswerToo(tmp_path, monkeypatch, damping):
 
 def testASettingWithoutAnAnswerSaysWhy(tmp_path, monkeypatch, capsys):
 	assert runHere(script, tmp_path, monkeypatch, '--shear-stiffness', '1e5', '--quick', '--no-pictures') == 1
-	assert 'start higher, with stiffer contacts' in capsys.readouterr().err
+	assert 'start with more strength, with stiffer contacts' in capsys.readouterr().err
 
 
 def testAnotherWedge(tmp_path, monkeypatch):

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The factor of safety of a scene of rock joints: the number by which all strengths may be divided until it fails::
+
+	from yade.polytope.strengthReduction import StrengthReduction
+
+	polytope.settle()  # at rest under its own strengths
+	found = StrengthReduction([body.id for body in O.bodies if body.dynamic], steps=(0.1, 0.02)).run()
+	print(found.stable, found.failed)
+
+tan φ, cohesion, tensile strength and their residual values of each joint and bond are divided by the same factor, so that joints, sets and materials of different strengths keep their proportions.
+"""
+
+import dataclasses
+import math
+
+from yade import O, RockJointMat, RockJointPhys
+from yade.math import atan, tan  # of YADE's numbers, in any precision
+
+from ._scene import interactionLoops
+from ._stages import Reduction
+from .bonding import madeBonds
+
+__all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths']
+
+
+def divideStrengths(factor):
+	"""Divides the strengths of all rock joints at once: of contacts that exist, through their materials of those to come, and of bonds.
+
+	tan φ, tan φᵣ, cohesion, residual cohesion and tensile strength; stiffnesses and dilation stay as they are.
+
+	:param float factor: above 0; 2 halves them
+	:raises ValueError: naming *factor* if out of range; naming *frictAngle* if a MatchMaker of the Ip2 functor sets another angle for new contacts
+	"""
+	if not (factor > 0 and math.isfinite(factor)):
+		raise ValueError(f'factor: must be a number above 0, got {factor}')
+	for loop in interactionLoops():
+		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
+			raise ValueError("frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials' angle")
+
+	def divide(one, names):
+		for name in names:
+			if getattr(one, name) > 0:  # -1: none of its own
+				setattr(one, name, getattr(one, name) / factor)
+
+	def lower(one, names):
+		for name in names:
+			if getattr(one, name) > 0:
+				setattr(one, name, atan(tan(getattr(one, name)) / factor))
+
+	for material in O.materials:
+		if isinstance(material, RockJointMat):
+			lower(material, ('frictionAngle', 'residualFrictionAngle'))
+			divide(material, ('cohesion', 'residualCohesion', 'tensileStrength'))
+	joints = [contact.phys for contact in O.interactions if contact.isReal and isinstance(contact.phys, RockJointPhys)]
+	for joint in joints:
+		divide(joint, ('tangensOfFrictionAngle', 'tangensOfResidualFrictionAngle', 'cohesion', 'residualCohesion', 'tensileStrength'))
+	for bond in [*madeBonds(), *(joint.bond for joint in joints if joint.bond)]:
+		lower(bond, ('frictionAngle',))
+		divide(bond, ('cohesion', 'tensileStrength'))
+
+
+@dataclasses.dataclass
+class StrengthReductionResult:
+	stable: float
+	"""Highest factor at which all bodies were at rest."""
+	failed: float
+	"""Lowest one at which they failed, one last step above *stable*."""
+	stages: list
+	"""All stages (*Stage* of frictionReduction, *angle* is the factor) in the order they were run, the first one at the factor 1."""
+	failedQueries: int
+	"""Contact queries without an answer, over all stages."""
+
+	@property
+	def factor(self):
+		"""Of safety: the middle of the bracket."""
+		return (self.stable + self.failed) / 2
+
+
+class StrengthReduction(Reduction):
+	"""Finds the factor of safety (see the head of this file). The scene must stand with its own strengths: *polytope.settle()* first.
+
+	The factor rises from 1 by the first step, each time until the bodies have come to rest again or have failed. At a failure the last stable state is restored, and the factor rises
+	from it by the next, finer step. Stages, states and what is kept are as of *FrictionReduction*.
+
+	:param bodies: ids of the bodies that are watched
+	:param steps: of the factor, each smaller than the one before
+	:param float most: factor at which to give up
+	:param float stableSpeed: [m/s]
+	:param float failedDistance: [m]; default a fiftieth of the largest watched body
+	:param int checkEvery: steps between two checks
+	:param int mostSteps: of one stage; one that is neither stable nor failed by then is 'creeping' and counts as failed
+	:param measure: called without arguments at the end of each stage; what it returns is in Stage.measured
+	:param progress: called with the Stage after each check, for a progress bar
+	:raises ValueError: naming the argument that is out of range
+	"""
+
+	mark = 'strengthReduction'
+
+	def __init__(
+		self,
+		bodies,
+		steps=(0.1, 0.02),
+		most=20.0,
+		stableSpeed=2e-7,
+		failedDistance=None,
+		checkEvery=100,
+		mostSteps=200000,
+		measure=lambda: None,
+		progress=lambda stage: None,
+	):
+		super().__init__(bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress)
+		self.steps, self.most = list(steps), most
+		falling = all(a > b for a, b in zip(self.steps, self.steps[1:], strict=False))
+		if not self.steps or not all(step > 0 for step in self.steps) or not falling:
+			raise ValueError(f'steps: must be positive, each smaller than the one before, got {self.steps}')
+		if not most > 1:
+			raise ValueError(f'most: must be above 1, got {most}')
+
+	def run(self):
+		"""Divides the strengths. Leaves the scene in the failed state; restore() brings back the last stable state, with its reduced strengths.
+
+		:returns: a StrengthReductionResult
+		:raises RuntimeError: if the scene does not stand with its own strengths, or stands with a *most*-th of them
+		"""
+		self.present = self.kept = 1.0
+		self._begin(1.0, 'with its own strengths')
+		stable = 1.0
+		for level, step in enumerate(self.steps):
+			if level:
+				self.restore()
+			stable, failed = self._reduce(stable, step)
+		self._bookQueries()
+		return StrengthReductionResult(stable, failed, self.stages, self.failedQueries)
+
+	def restore(self):
+		"""Brings back the last stable state."""
+		super().restore()
+		self.present = self.kept
+
+	def _save(self):
+		super()._save()
+		self.kept = self.present
+
+	def _reduce(self, stable, step):
+		"""Up from a stable factor by *step* until failure: (highest stable factor, factor of failure)."""
+		began, count = stable, 0
+		while stable < self.most:
+			count += 1
+			factor = began + count * step
+			if self._stage(factor).outcome != 'stable':
+				return stable, factor
+			stable = factor
+			self._save()
+		raise RuntimeError(f'stable with strengths divided by {stable:g}')
+
+	def _set(self, level):
+		if level != self.present:
+			divideStrengths(level / self.present)
+		self.present = level
