@@ -97,6 +97,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	// all pieces of a solid have the force's direction and its depth: no piece is pressed aside by an edge on its seam
 	const SurfaceSums<R, D>& sums    = surface.sums;
 	const R                  deepest = surface.deepest;
+	const bool               found   = surface.status == SurfaceStatus::Found;
 	const SurfaceLoad<R, D>  load(settings.contactModel, sums);
 	const R                  length = norm<R, D>(load.force);
 	// what a pressure everywhere along one direction would be: rounding of that is no force
@@ -109,7 +110,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	for (int k = 0; k < D && across; ++k)
 		n[k] = directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
 	for (int k = 0; k < D; ++k)
-		point[k] = centre[k] = sums.pressure > 0 ? sums.centre[k] / sums.pressure : x[k];
+		point[k] = centre[k] = sums.pressure > 0 && (!across || found) ? sums.centre[k] / sums.pressure : x[k];
 	if (directed && !across) {
 		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
 		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere
@@ -148,7 +149,8 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 		out.depth = depthAcrossGap<R, D>(planes, n, grown, basis.infeasibility + grown, dual);
 	}
 
-	const bool whole = surface.status == SurfaceStatus::Found || surface.status == SurfaceStatus::None;
+	// across a gap the program's own point will do as well
+	const bool whole = across || found || surface.status == SurfaceStatus::None;
 	publishContact<R, D>(in, f,
 	        !optimal            ? ContactStatus::LpNotConverged
 	                : !whole    ? ContactStatus::SurfaceIncomplete

@@ -17,7 +17,7 @@ def _volumes(h, sides):
 	"""V, dV/dh, W, dW/dh."""
 	area = Polynomial([1.0])
 	for side in sides:
-		area *= Polynomial([side, -1.0])
+		area *= Polynomial([float(side), -1.0])
 	t = Polynomial([0.0, 1.0])
 	zeroth, first, second = ((weight * area).integ()(h) for weight in (1, t, t**2))
 	return (h * zeroth - first) / 2, zeroth / 2, (h * first - second) / 4, first / 4
@@ -37,4 +37,5 @@ def faceEnergy(h, sides=(1.0, 1.0), perArea=False):
 
 def sunk(force, sides=(1.0, 1.0), perArea=False):
 	"""How far the block sinks [m]; *force*: over the stiffness."""
-	return brentq(lambda h: faceForce(h, sides, perArea) - force, 1e-12, min(sides) / 4, xtol=1e-16, rtol=1e-15)
+	force = float(force)  # of YADE's numbers
+	return brentq(lambda h: faceForce(h, sides, perArea) - force, 1e-12, float(min(sides)) / 4, xtol=1e-16, rtol=1e-15)
