@@ -8,10 +8,19 @@ from yade import O, Polytope
 from ._loads import givePermanentLoads, permanentLoads
 from ._scene import interactionLoops
 
-__all__ = ['Reduction', 'Stage']
+__all__ = ['Reduction', 'Stage', 'refuseMatchMaker']
 
 partOfSize = 0.02
 """Of the size of the largest watched body: the way at which it has failed, by default."""
+
+
+def refuseMatchMaker():
+	"""
+	:raises ValueError: naming *frictAngle* if a MatchMaker of the Ip2 functor sets the angle of new contacts
+	"""
+	for loop in interactionLoops():
+		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
+			raise ValueError("frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials' angle")
 
 
 @dataclasses.dataclass
@@ -34,7 +43,13 @@ class Stage:
 
 
 class Reduction:
-	"""What both reductions share. A subclass has *mark*, the name of its saved state, and _set(level), which gives joints the strength of a level."""
+	"""What both reductions share. A subclass has
+
+	- *mark*, the name of its saved state,
+	- _set(level), which gives joints the strength of a level,
+	- _levels(began, step), the levels that follow a stable one,
+	- _standsAnyway(stable), the message where all of them are stable.
+	"""
 
 	calmChecks = 3
 
@@ -50,6 +65,12 @@ class Reduction:
 			if value is not None and not value > 0:
 				raise ValueError(f'{name}: must be positive, got {value}')
 		self.stages, self.failedQueries = [], 0
+
+	def _takeSteps(self, steps, what):
+		self.steps = list(steps)
+		falling = all(a > b for a, b in zip(self.steps, self.steps[1:], strict=False))
+		if not self.steps or not all(step > 0 for step in self.steps) or not falling:
+			raise ValueError(f'steps: must be {what}, each smaller than the one before, got {self.steps}')
 
 	def _begin(self, level, what):
 		"""The stage that the scene begins with."""
@@ -69,6 +90,24 @@ class Reduction:
 			)
 		self.origins = self._positions()
 		self._save()
+
+	def _bracket(self, stable):
+		"""(last stable level, level of failure) by all steps, from a level that is stable."""
+		for number, step in enumerate(self.steps):
+			if number:
+				self.restore()
+			stable, failed = self._reduce(stable, step)
+		self._bookQueries()
+		return stable, failed
+
+	def _reduce(self, stable, step):
+		"""The same by one step."""
+		for level in self._levels(stable, step):
+			if self._stage(level).outcome != 'stable':
+				return stable, level
+			stable = level
+			self._save()
+		raise RuntimeError(self._standsAnyway(stable))
 
 	def restore(self):
 		"""Brings back the last stable state."""

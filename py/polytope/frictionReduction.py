@@ -18,8 +18,7 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import tan  # of YADE's numbers, in any precision
 
-from ._scene import interactionLoops
-from ._stages import Reduction, Stage
+from ._stages import Reduction, Stage, refuseMatchMaker
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
 
@@ -31,9 +30,7 @@ def setFrictionAngle(angle):
 	:raises ValueError: naming *frictionAngle* if out of range; naming *frictAngle* if a MatchMaker of the
 	    Ip2 functor sets another angle for new contacts
 	"""
-	for loop in interactionLoops():
-		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
-			raise ValueError('frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials\' angle')
+	refuseMatchMaker()
 	for material in O.materials:
 		if isinstance(material, RockJointMat):
 			material.frictionAngle = angle
@@ -95,15 +92,10 @@ class FrictionReduction(Reduction):
 		progress=lambda stage: None,
 	):
 		super().__init__(bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress)
-		self.start, self.steps = start, list(steps)
+		self.start = start
 		if not 0 < start < math.pi / 2:
 			raise ValueError(f'start: must be an angle in radians between 0 and pi/2, got {start}')
-		if (
-			not self.steps
-			or not all(step > 0 for step in self.steps)
-			or any(a <= b for a, b in zip(self.steps, self.steps[1:], strict=False))
-		):
-			raise ValueError(f'steps: must be positive angles, each smaller than the one before, got {self.steps}')
+		self._takeSteps(steps, 'positive angles')
 
 	def run(self):
 		"""Settles the scene and reduces the angle. Leaves the scene in the failed state; restore() brings back the last stable state.
@@ -112,24 +104,14 @@ class FrictionReduction(Reduction):
 		:raises RuntimeError: if the scene does not come to rest at the starting angle, or stands at any angle
 		"""
 		self._begin(self.start, f'at the starting angle, {math.degrees(self.start):g}°')
-		stable = self.start
-		for level, step in enumerate(self.steps):
-			if level:
-				self.restore()
-			stable, failed = self._reduce(stable, step)
-		self._bookQueries()
+		stable, failed = self._bracket(self.start)
 		return FrictionReductionResult(stable, failed, self.stages, self.failedQueries)
 
-	def _reduce(self, stable, step):
-		"""Down from a stable angle by *step* until failure: (lowest stable angle, angle of failure)."""
-		began = stable
-		for count in range(1, math.ceil(began / step)):
-			angle = began - count * step  # not by repeated subtraction: rounding would add up
-			if self._stage(angle).outcome != 'stable':
-				return stable, angle
-			stable = angle
-			self._save()
-		raise RuntimeError(f'stable at every friction angle down to {math.degrees(stable):g}°')
+	def _levels(self, began, step):
+		return (began - count * step for count in range(1, math.ceil(began / step)))  # not by repeated subtraction: rounding would add up
+
+	def _standsAnyway(self, stable):
+		return f'stable at every friction angle down to {math.degrees(stable):g}°'
 
 	def _set(self, level):
 		setFrictionAngle(level)

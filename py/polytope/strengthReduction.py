@@ -16,8 +16,7 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import atan, tan  # of YADE's numbers, in any precision
 
-from ._scene import interactionLoops
-from ._stages import Reduction
+from ._stages import Reduction, refuseMatchMaker
 from .bonding import madeBonds
 
 __all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths']
@@ -33,9 +32,7 @@ def divideStrengths(factor):
 	"""
 	if not (factor > 0 and math.isfinite(factor)):
 		raise ValueError(f'factor: must be a number above 0, got {factor}')
-	for loop in interactionLoops():
-		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
-			raise ValueError("frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials' angle")
+	refuseMatchMaker()
 
 	def divide(one, names):
 		for name in names:
@@ -109,10 +106,8 @@ class StrengthReduction(Reduction):
 		progress=lambda stage: None,
 	):
 		super().__init__(bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress)
-		self.steps, self.most = list(steps), most
-		falling = all(a > b for a, b in zip(self.steps, self.steps[1:], strict=False))
-		if not self.steps or not all(step > 0 for step in self.steps) or not falling:
-			raise ValueError(f'steps: must be positive, each smaller than the one before, got {self.steps}')
+		self.most = most
+		self._takeSteps(steps, 'positive')
 		if not most > 1:
 			raise ValueError(f'most: must be above 1, got {most}')
 
@@ -124,12 +119,7 @@ class StrengthReduction(Reduction):
 		"""
 		self.present = self.kept = 1.0
 		self._begin(1.0, 'with its own strengths')
-		stable = 1.0
-		for level, step in enumerate(self.steps):
-			if level:
-				self.restore()
-			stable, failed = self._reduce(stable, step)
-		self._bookQueries()
+		stable, failed = self._bracket(1.0)
 		return StrengthReductionResult(stable, failed, self.stages, self.failedQueries)
 
 	def restore(self):
@@ -141,17 +131,15 @@ class StrengthReduction(Reduction):
 		super()._save()
 		self.kept = self.present
 
-	def _reduce(self, stable, step):
-		"""Up from a stable factor by *step* until failure: (highest stable factor, factor of failure)."""
-		began, count = stable, 0
-		while stable < self.most:
+	def _levels(self, began, step):
+		level, count = began, 0
+		while level < self.most:
 			count += 1
-			factor = began + count * step
-			if self._stage(factor).outcome != 'stable':
-				return stable, factor
-			stable = factor
-			self._save()
-		raise RuntimeError(f'stable with strengths divided by {stable:g}')
+			level = began + count * step
+			yield level
+
+	def _standsAnyway(self, stable):
+		return f'stable with strengths divided by {stable:g}'
 
 	def _set(self, level):
 		if level != self.present:
