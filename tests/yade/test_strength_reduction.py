@@ -12,17 +12,17 @@ weight = 1000 * gravity
 """Of a block of 0.2 m³ [N]: so flat that all of its face is pressed on a slope of 40°."""
 
 
-def rock(**strength):
-	return O.materials.append(RockJointMat(density=5000, normalStiffness=stiffness, shearStiffness=stiffness, **strength))
+def rock(density=5000, **strength):
+	return O.materials.append(RockJointMat(density=density, normalStiffness=stiffness, shearStiffness=stiffness, **strength))
 
 
-def slope(dip, blocks, perArea=True):
-	"""Blocks of 1 m² side by side on a slope, each of a material that it shares with what is under it. Their ids."""
+def slope(dip, blocks, perArea=True, half=0.1):
+	"""Blocks of 1 m² and 1000 kg side by side on a slope, each of a material that it shares with what is under it. Their ids."""
 	numbers = []
 	for k, strength in enumerate(blocks):
-		made = rock(**strength)
+		made = rock(500 / half, **strength)
 		O.bodies.append(polytope.cuboid((0, 3 * k, -0.5), (3, 1, 0.5), fixed=True, material=made))
-		numbers.append(O.bodies.append(polytope.cuboid((0, 3 * k, 0.1), (0.5, 0.5, 0.1), material=made)))
+		numbers.append(O.bodies.append(polytope.cuboid((0, 3 * k, half), (0.5, 0.5, half), material=made)))
 	physics = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)
 	O.engines = polytope.engines(gravity=(gravity * sin(dip), 0, -gravity * cos(dip)), physics=physics, damping=0.4)
 	return numbers
@@ -41,6 +41,18 @@ def testABlockOnASlopeWithCohesion(residual, perArea):
 	assert found.stable < factor < found.failed and found.failed - found.stable == pytest.approx(0.02)
 	assert found.factor == pytest.approx(factor, abs=0.01) and found.failedQueries == 0
 	assert [stage.outcome for stage in found.stages].count('failed') == 2
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testCohesionActsOnWhatIsPressed():
+	"""Of a block half as high as wide the weight acts outside the middle third of the base: three times the way from there to the lower edge is pressed."""
+	dip, friction, cohesion = radians(40), radians(30), 6e3
+	numbers = slope(dip, [dict(frictionAngle=friction, cohesion=cohesion, residualCohesion=cohesion)], half=0.25)
+	polytope.settle()
+	found = StrengthReduction(numbers).run()
+	pressed = 3 * (0.5 - 0.25 * tan(dip))
+	factor = (weight * cos(dip) * tan(friction) + cohesion * pressed) / (weight * sin(dip))
+	assert factor == pytest.approx(1.516, abs=1e-3) and found.factor == pytest.approx(factor, abs=0.02)
 
 
 def testTheWeakestOfSeveralMaterialsFails():
