@@ -9,7 +9,7 @@
 #include "Seldom.hpp"
 #include "StiffnessRules.hpp"
 #include "StoredOutline.hpp"
-#include "StoredSurface.hpp"
+#include "StoredVertices.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -83,7 +83,7 @@ public:
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
-		((StoredSurface, surface, , (Attr::readonly | Attr::hidden), "Pieces of the last contact surface of the models that have one, by their planes"))
+		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each the plane through which the support ends beyond it: normal and offset in the body's own axes"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
@@ -142,7 +142,7 @@ public:
 		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts *foundation* and *spring* whose surface has the pieces of the step before), *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts *foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on

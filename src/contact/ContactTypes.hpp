@@ -4,7 +4,7 @@
 #include "contact/Status.hpp"
 #include "numbers/Tolerances.hpp"
 #include "shape/HalfSpaces.hpp"
-#include "surface/KeptSurface.hpp"
+#include "surface/KeptVertices.hpp"
 
 #include <array>
 #include <vector>
@@ -105,7 +105,7 @@ struct PairMemory {
 	/// Last n_λ, world axes. Any value is safe.
 	Vector3 dualDirection { Vector3::Zero() };
 	/// Of the models with a surface.
-	KeptSurface surface;
+	KeptVertices surface;
 };
 
 struct ContactResult {
@@ -129,7 +129,7 @@ struct ContactResult {
 	        = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real turningArm    = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	bool dismissed     = false; ///< separated by the first basis' bound, without evaluating the other planes
-	bool surfaceKept   = false; ///< foundation, spring: its pieces are those of the last step
+	bool surfaceKept   = false; ///< foundation, spring: the feasible set has the last step's vertices
 	int  simplexPivots = 0;
 	int  newtonIterations = 0;
 	bool ipoptSolved      = false; ///< Ipopt was called, with or without success

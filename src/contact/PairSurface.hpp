@@ -4,7 +4,7 @@
 #include "contact/ContactSection.hpp"
 #include "contact/ContactTypes.hpp"
 #include "program/LpBasis.hpp"
-#include "surface/ContactSurface.hpp"
+#include "surface/FeasibleSums.hpp"
 #include "surface/NearPlanes.hpp"
 
 /// The contact surface of a touching pair, from the optimum of its linear program.
@@ -24,27 +24,58 @@ template <class R, int D> struct PairSurface {
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
 };
 
-/// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: ContactSurface.hpp.
+/// From the vertices of the pair's feasible set, its planes tight as in the last step, or found anew. False if they do not say what it is.
+template <class R, int W>
+POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, bool energy,
+        KeptVertices* kept, FeasibleBuffers<R>& set, const SurfaceBuffers<R, 3>& spare, PairSurface<R, 3>& surface)
+{
+	const PairPlanes<R, 3>& planes = near ? near->planes() : all;
+	FeasibleSet<R, W>       vertices(planes, surface.size, set);
+	if (!(near ? vertices.explore(basis) : vertices.recall(*kept, all.first))) return false;
+	FeasibleSums<R> sums(set, energy, surface.sums);
+	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare, *surface.on);
+	surface.sums.kept = !near;
+	surface.status    = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
+	surface.nearest   = set.tightPlanes();
+	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
+	return true;
+}
+
+/// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: of the last step, and then
+/// of this, or null.
 template <class R, int D, int W>
-POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptSurface* kept,
+POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptVertices* kept,
         ContactWorkspace& workspace, PairSurface<R, D>& surface)
 {
-	using Near     = NearPlanes<R, D, W>;
-	using Buffers  = SurfaceBuffers<R, D>;
-	const int most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total),
-	          ownIndices  = Near::indicesNeeded(planes.total);
-	R* const      numbers = workspace.polygons(own + Buffers::numbersNeeded(most) + sectionNumbers(most));
-	int* const    indices = workspace.indices(ownIndices + Buffers::indicesNeeded(most));
-	LpBasis<R, D> basis   = optimum;
-	Near          near(planes, basis, size, numbers, indices);
-	surface.nearest = near.planes();
-	surface.spare   = numbers + own + Buffers::numbersNeeded(most);
+	using Near      = NearPlanes<R, D, W>;
+	using Buffers   = SurfaceBuffers<R, D>;
+	using Set       = FeasibleBuffers<R>;
+	const int  most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total), ofSet = Set::numbersNeeded(most);
+	R* const   numbers = workspace.polygons(own + ofSet + Buffers::numbersNeeded(most) + sectionNumbers(most));
+	int* const indices = workspace.indices(Near::indicesNeeded(planes.total) + Set::indicesNeeded(most) + Buffers::indicesNeeded(most));
+	R* const   walkNumbers = numbers + own + ofSet;
+	int *const setIndices = indices + Near::indicesNeeded(planes.total), *const walkIndices = setIndices + Set::indicesNeeded(most);
+	surface.spare   = walkNumbers + Buffers::numbersNeeded(most);
 	surface.deepest = -optimum.infeasibility;
 	surface.size    = size;
-	const Buffers      buffers(surface.nearest.total, numbers + own, indices + ownIndices);
+	Set set(most, numbers + own, setIndices);
+	if constexpr (D == 3) {
+		const Buffers spare(planes.total, walkNumbers, walkIndices);
+		if (kept && kept->vertices > 0 && !kept->exchanged
+		        && surfaceOfVertices<R, W>(planes, nullptr, nullptr, energy, kept, set, spare, surface))
+			return;
+		if (kept) kept->vertices = 0;
+	}
+	LpBasis<R, D> basis = optimum;
+	Near          near(planes, basis, size, numbers, indices);
+	const Buffers buffers(near.planes().total, walkNumbers, walkIndices);
+	if constexpr (D == 3) {
+		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, energy, kept, set, buffers, surface)) return;
+	}
+	surface.nearest          = near.planes();
 	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
 	surface.status           = contactSurface<R, D, W>(
-                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, buffers, surface.sums, kept, near.names(), surface.on);
+                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, buffers, surface.sums, surface.on);
 }
 
 } // namespace polytope

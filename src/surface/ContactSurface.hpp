@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "surface/KeptSurface.hpp"
 #include "surface/PieceQueue.hpp"
 #include "surface/SurfaceSums.hpp"
 #include "surface/TwinPlanes.hpp"
@@ -51,6 +50,17 @@ template <class R, int D> struct SurfaceOnPiece {
 		for (R& component : centre)
 			component = 0;
 	}
+	/// What lies on the piece of a polygon of the surface.
+	template <class Cut> POLYTOPE_APART void add(const SurfacePiece<R, D>& piece, const Cut& cut, const SurfaceBuffers<R, D>& buffers)
+	{
+		const ClippedPiece<R, D> clipped(piece, cut, clips, buffers);
+		if (clipped.count() == 0) return;
+		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
+		if (!(of.area > 0)) return;
+		pressure += of.p;
+		for (int k = 0; k < D; ++k)
+			centre[k] += of.pMoment[k];
+	}
 	POLYTOPE_INLINE void average(const SurfaceOnPiece& other)
 	{
 		pressure = (pressure + other.pressure) / 2;
@@ -63,35 +73,11 @@ template <class R, int D, int W> class SurfaceWalk {
 public:
 	/// `on`: a piece of a larger solid, or null.
 	POLYTOPE_INLINE SurfaceWalk(PairPlanes<R, D>& planes, const SurfaceBuffers<R, D>& buffers, R size, R deepest, SurfaceParts parts,
-	        int order, SurfaceRecord& record, SurfaceOnPiece<R, D>* on)
+	        int order, SurfaceOnPiece<R, D>* on)
 	        : planes_(planes), buffers_(buffers), reach_(R(tolerance::pieceBox) * size), deepest_(deepest),
 	          all_(parts == SurfaceParts::Cells), faces_(parts != SurfaceParts::Facing), twins_(planes, buffers, size, order),
-	          queue_(buffers), cones_(buffers), record_(record), on_(on)
+	          queue_(buffers), cones_(buffers.cell), on_(on)
 	{
-	}
-
-	/// From the pieces of the last step; false if they are not this step's.
-	///
-	/// Each is the whole piece if its vertices are (SurfaceCut), and where the surface goes on at its edges is in what is kept, too: so what is connected
-	/// with it is all there. Other parts are missed as little as by run(), whose sum of area vectors is asked here as well.
-	POLYTOPE_INLINE bool again(KeptPieces pieces, SurfaceSums<R, D>& sums)
-	{
-		reset(sums);
-		while (pieces.next()) {
-			SurfacePiece<R, D> piece;
-			if (!placePiece<R, D>(planes_, pieces.i, pieces.j, reach_, piece)) return false;
-			planesOnPiece<R, D, W>(planes_, piece, buffers_);
-			const SurfaceCut<R, D, W> cut(buffers_, deepest_, pieces.tag, pieces.edges);
-			if (cut.count() == 0) return false;
-			const PieceIntegrals<R, D> of = integrate<R>(piece, cut);
-			if (!(of.area > 0)) return false;
-			sum(piece, cut, of, sums);
-			sums.vertices += cut.count();
-		}
-		SurfaceStatus status;
-		close(status, sums);
-		sums.kept = pieces.atEnd() && status == SurfaceStatus::Found;
-		return sums.kept;
 	}
 
 	/// `basis`: planes that are nearest somewhere. True if planes of both bodies coincide, so that the sums depend on the order.
@@ -108,7 +94,6 @@ public:
 				look(piece, sums);
 			close(status, sums);
 		}
-		if (twins_.shared() || status != SurfaceStatus::Found) record_.giveUp();
 		twins_.restore();
 		return twins_.shared();
 	}
@@ -121,14 +106,13 @@ private:
 		if (on_) on_->reset();
 		for (int k = 0; k < D; ++k)
 			face_[0][k] = face_[1][k] = 0;
-		if (all_) cones_.clear();
+		if (all_) cones_.clear(planes_.total);
 	}
 
 	POLYTOPE_INLINE void begin(const int* basis, int count, bool everywhere, SurfaceSums<R, D>& sums)
 	{
 		reset(sums);
 		queue_.clear();
-		record_.begin();
 		int edge[tolerance::planesInAnEdge];
 		for (int k = 0; k < count; ++k)
 			edge[k] = basis[k];
@@ -174,9 +158,6 @@ private:
 		if (cut.count() == 0) return;
 		const PieceIntegrals<R, D> of = integrate<R>(piece, cut);
 		sum(piece, cut, of, sums);
-		sums.vertices += cut.count();
-		if (!cut.hasPlainEdges()) record_.giveUp();
-		else if (of.area > 0) record_.add(i, j, cut);
 		for (int t = 0; t < cut.count(); ++t)
 			goOn(piece, cut, t);
 	}
@@ -228,22 +209,11 @@ private:
 				vector[k] += of.area * piece.normal[k];
 		} else if (ofFirst(piece.i) != ofFirst(piece.j)) {
 			sums.add(piece, of);
-			if (on_) addClipped(piece, cut);
+			if (on_) on_->add(piece, cut, buffers_);
 		}
 		if (!all_) return;
 		cones_.add(piece.i, piece, of, sums);
 		if (!face) cones_.add(piece.j, piece, of, sums);
-	}
-
-	template <class Cut> POLYTOPE_APART void addClipped(const SurfacePiece<R, D>& piece, const Cut& cut)
-	{
-		const ClippedPiece<R, D> clipped(piece, cut, on_->clips, buffers_);
-		if (clipped.count() == 0) return;
-		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
-		if (!(of.area > 0)) return;
-		on_->pressure += of.p;
-		for (int k = 0; k < D; ++k)
-			on_->centre[k] += of.pMoment[k];
 	}
 
 	POLYTOPE_INLINE void close(SurfaceStatus& status, SurfaceSums<R, D>& sums) const
@@ -269,7 +239,6 @@ private:
 	TwinPlanes<R, D, W>         twins_;
 	PieceQueue<R, D>            queue_;
 	CellCones<R, D>             cones_;
-	SurfaceRecord&              record_;
 	SurfaceOnPiece<R, D>*       on_;
 	R                           face_[2][D] = {}; ///< area vectors of the overlap's faces of each body
 	R                           faceArea_   = 0;
@@ -278,23 +247,15 @@ private:
 /// Of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller body's
 /// circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre, and the digits there: best at the optimum. Offsets of
 /// the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
-/// `kept`: the pieces of the last step, and then of this, or null; `names`: of the planes; `on`: a piece of a larger solid, or null.
+/// `on`: a piece of a larger solid, or null.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,
-        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, KeptSurface* kept = nullptr, const PlaneNames& names = {},
-        SurfaceOnPiece<R, D>* on = nullptr)
+        const SurfaceBuffers<R, D>& buffers, SurfaceSums<R, D>& sums, SurfaceOnPiece<R, D>* on = nullptr)
 {
-	SurfaceRecord record(D == 3 ? kept : nullptr, names);
-	if constexpr (D == 3) {
-		if (kept && kept->used > 0 && kept->parts == int(parts) && !kept->exchanged) {
-			SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, 0, record, on);
-			if (walk.again(KeptPieces(*kept, names), sums)) return SurfaceStatus::Found;
-		}
-	}
 	SurfaceStatus status[2] = { SurfaceStatus::Found, SurfaceStatus::Found };
 	bool          shared    = true;
 	for (int order = 0; order < 2 && shared; ++order) {
-		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, record, on);
+		SurfaceWalk<R, D, W> walk(planes, buffers, size, deepest, parts, order, on);
 		SurfaceSums<R, D>    own;
 		SurfaceOnPiece<R, D> before;
 		if (on) before = *on;
@@ -305,7 +266,6 @@ POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int
 			if (on) on->average(before);
 		}
 	}
-	record.end(int(parts), parts != SurfaceParts::Cells, parts != SurfaceParts::Facing);
 	const auto worse = status[0] > status[1] ? status[0] : status[1];
 	// of a surface that is there in one order alone the mean is as good
 	return worse == SurfaceStatus::None && sums.pieces > 0 ? SurfaceStatus::Found : worse;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "program/BasisSolver.hpp"
-#include "surface/KeptSurface.hpp"
 #include "surface/SurfaceTolerances.hpp"
 
 /// The planes that can be nearest anywhere in the overlap, by the linear program's optimum (x*, s*) with its weights λ.
@@ -15,14 +14,12 @@ namespace polytope {
 template <class R, int D, int W> class NearPlanes {
 public:
 	static int numbersNeeded(int planes) { return (D + 1) * (planes + 2 * padWidth); }
-	static int indicesNeeded(int planes) { return 2 * planes + 2 * padWidth; }
+	static int indicesNeeded(int planes) { return planes + 2 * padWidth; }
 
 	/// Copies those of `all` to `numbers`. `basis`: planes of the optimal one; rows of the copies are written to it.
 	POLYTOPE_INLINE NearPlanes(const PairPlanes<R, D>& all, LpBasis<R, D>& basis, R size, R* numbers, int* indices)
-	        : size_(size), nearOf_(indices), allOf_(indices + all.total), firstOfAll_(all.first), allPlanes_(all.total)
+	        : size_(size), allOf_(indices)
 	{
-		for (int k = 0; k < all.total; ++k)
-			nearOf_[k] = PlaneNames::unknown;
 		begin(all, basis);
 		const int room = all.total + 2 * padWidth;
 		for (int k = 0; k < D; ++k)
@@ -39,7 +36,8 @@ public:
 	}
 
 	PairPlanes<R, D>& planes() { return near_; }
-	PlaneNames        names() const { return { allOf_, nearOf_, firstOfAll_, allPlanes_, near_.total }; }
+	/// Row among all planes of one of these.
+	int rowOfAll(int row) const { return allOf_[row]; }
 
 	/// Whether all of body 1's are turned more to n than all of body 2's: then along n the pressure of one body falls and the other's rises, so that the
 	/// surface is met once on each line and is connected.
@@ -111,7 +109,7 @@ private:
 		while (near_.total % padWidth) {
 			for (int k = 0; k < D; ++k)
 				near_.normal[k][near_.total] = 0;
-			allOf_[near_.total]         = PlaneNames::unknown;
+			allOf_[near_.total]         = -1;
 			near_.offset[near_.total++] = R(padOffset);
 		}
 	}
@@ -125,9 +123,8 @@ private:
 		for (int lane = 0; lane < W; ++lane) {
 			const int from = i + lane;
 			if (far[lane] > beyond || all.offset[from] >= R(padOffset) / 2) continue;
-			const int to  = near_.total++;
-			nearOf_[from] = to;
-			allOf_[to]    = from;
+			const int to = near_.total++;
+			allOf_[to]   = from;
 			for (int k = 0; k < D; ++k)
 				near_.normal[k][to] = all.normal[k][from];
 			near_.offset[to] = all.offset[from];
@@ -139,9 +136,7 @@ private:
 
 	R                size_;
 	PairPlanes<R, D> near_;
-	int*             nearOf_; ///< PlaneNames
-	int*             allOf_;
-	int              firstOfAll_, allPlanes_;
+	int*             allOf_; ///< of each: its row among all
 	bool             bounded_ = false, slab_ = false;
 	R                x_[D], n_[D], up_ = 0, down_ = 0;
 	R                corner_[D + 1][D]; ///< of the simplex, from x*

@@ -30,38 +30,6 @@ public:
 		if (count_ < 3) count_ = 0;
 	}
 
-	/// Of the piece as it was, with these planes along its edges in turn. Its vertices are where neighbouring edges meet. If no plane cuts any of them
-	/// off, none cuts the polygon, and it is the piece; else nothing is left.
-	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R deepest, const int* tag, int edges)
-	        : buffers_(buffers), deepest_(deepest)
-	{
-		for (int t = 0; t < edges; ++t) {
-			buffers_.line[0][t]    = buffers_.rate[0][tag[t]];
-			buffers_.line[1][t]    = buffers_.rate[1][tag[t]];
-			buffers_.line[2][t]    = buffers_.rest[tag[t]];
-			buffers_.lineTag[t]    = tag[t];
-			buffers_.edge[now_][t] = t;
-		}
-		bool crosses = edges > 2;
-		for (int t = 0; t < edges && crosses; ++t) {
-			R uv[2];
-			crosses  = cross(t > 0 ? t - 1 : edges - 1, t, R(tolerance::keptCrossing), uv);
-			at(U, t) = uv[0];
-			at(Y, t) = uv[1];
-		}
-		if (!crosses) return;
-		count_ = lines_ = edges;
-		setCloseness();
-		const R allowed = R(tolerance::keptVertex / tolerance::meetingPlanes) * close_;
-		V       least   = leastSlack(0);
-		for (int k = W; k < buffers.length; k += W)
-			least = minOf(least, leastSlack(k));
-		if (!(horizontalMin<R, W>(least) >= -allowed)) count_ = 0;
-	}
-
-	/// Whether each edge has one plane along it: but for edges so short that rounding makes them, where more than three meet in a vertex.
-	POLYTOPE_INLINE bool hasPlainEdges() const { return !touched_ || edgesArePlain(); }
-
 	/// Vertices, and edges, of which one begins at each vertex. Zero: nothing is left.
 	int                  count() const { return count_; }
 	POLYTOPE_INLINE void vertex(int t, R* uv) const
@@ -214,17 +182,6 @@ private:
 		const R inverse = 1 / sine;
 		uv[0]           = (b * r - q * c) * inverse;
 		uv[1]           = (p * c - a * r) * inverse;
-		return true;
-	}
-
-	POLYTOPE_APART bool edgesArePlain() const
-	{
-		int found[1];
-		for (int t = 0; t < count_; ++t) {
-			const int next = t + 1 < count_ ? t + 1 : 0;
-			const R   way  = maxOf<R>(abs(at(U, next) - at(U, t)), abs(at(Y, next) - at(Y, t)));
-			if (way > close_ && meetingAt(t, found, 1) > 0) return false;
-		}
 		return true;
 	}
 

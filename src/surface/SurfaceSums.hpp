@@ -36,8 +36,7 @@ template <class R, int D> struct SurfaceSums {
 	R    mainNormal[D] = {}; ///< times n
 	R    mainCentre[D] = {}; ///< times the piece's centre of pressure
 	int  pieces        = 0;
-	int  vertices      = 0;
-	bool kept          = false; ///< they are those of the last step
+	bool kept          = false; ///< the vertices are those of the last step (KeptVertices)
 
 	// over all cells, if asked for
 	R overlap = 0; ///< ∫ dV over the overlap [m³]
@@ -96,7 +95,6 @@ template <class R, int D> struct SurfaceSums {
 		}
 		open = maxOf<R>(open, other.open);
 		pieces += other.pieces;
-		vertices += other.vertices;
 	}
 };
 
@@ -106,18 +104,19 @@ template <class R, int D> struct SurfaceSums {
 ///     ∫ dV = H ∫ t^(D−1) dt A,     ∫ p dV = H ∫∫ (σ (1 − t) + t p) t^(D−1) dt dS,     likewise ∫ p² dV.
 template <class R, int D> class CellCones {
 public:
-	explicit CellCones(const SurfaceBuffers<R, D>& buffers) : buffers_(buffers) { }
+	/// `cells`: D + 2 numbers for each plane: a point of its cell, the pressure there, whether it has one.
+	explicit CellCones(R* cells) : cells_(cells) { }
 
-	void clear()
+	POLYTOPE_INLINE void clear(int planes)
 	{
-		for (int k = 0; k < buffers_.planes; ++k)
-			buffers_.cell[(D + 2) * k + D + 1] = 0;
+		for (int k = 0; k < planes; ++k)
+			cells_[(D + 2) * k + D + 1] = 0;
 	}
 
 	/// The cone from cell i's apex; the first piece of a cell gives the apex.
 	POLYTOPE_INLINE void add(int i, const SurfacePiece<R, D>& piece, const PieceIntegrals<R, D>& of, SurfaceSums<R, D>& sums) const
 	{
-		R* const cell = buffers_.cell + (D + 2) * i;
+		R* const cell = cells_ + (D + 2) * i;
 		if (cell[D + 1] == 0) {
 			for (int k = 0; k < D; ++k)
 				cell[k] = of.any[k];
@@ -137,7 +136,7 @@ public:
 	}
 
 private:
-	const SurfaceBuffers<R, D>& buffers_;
+	R* cells_;
 };
 
 } // namespace polytope

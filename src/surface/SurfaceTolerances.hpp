@@ -22,12 +22,25 @@ constexpr Real crossingLines = 1e-3;
 /// tell, and the surface may go on between any two of them. Pieces looked at in vain cost time alone, so that this is far above rounding.
 constexpr Real meetingPlanes = 65536 * rounding;
 
-/// × extent of a piece: a vertex that is found anew from the planes of the last step may lie beyond others by this, which rounding explains.
-constexpr Real keptVertex = 64 * rounding;
+/// × size and coordinates of a vertex of the feasible set: planes may be violated there by this, which rounding explains.
+constexpr Real feasibleVertex = 8 * rounding;
 
-/// Sine of the angle between two neighbouring edges below which their planes are not taken for a vertex again. Above, what rounding moves the vertex
-/// by is along both edges, so that the area between them changes by its square.
-constexpr Real keptCrossing = 1e-8;
+/// Vertices of a feasible set, and planes that are tight in them, at the most. Pairs have a dozen mostly; where there are more, the surface
+/// is walked (SurfaceWalk).
+constexpr int feasibleVertices = 64, feasiblePlanes = 64;
+
+/// Least volume of the parallelepiped of a vertex' planes over that of their lengths: below, they are too nearly parallel to say where they meet.
+constexpr Real vertexVolume = 1e-8;
+
+/// The same: below, it matters for the digits of a vertex which plane is subtracted from the others.
+constexpr Real sharpVertex = 1e-2;
+
+/// × size: offsets of planes are changed by no more than this, each by its own part, to say which four of several planes that meet belong together. Far
+/// above rounding, and far below what a contact can be seen in; no vertex has changed offsets.
+constexpr Real splitPlanes = 65536 * rounding;
+
+/// Pivots to the vertex that is the optimum with the changed offsets, at the most: as many as there are planes that meet in it.
+constexpr int splitPivots = 16;
 
 /// Largest sum of the surface's area vectors over its area where it ought to be closed, and what is added to it × size over the overlap's
 /// thickness: rounding leaves less, a piece that is missing more, unless it is so small that it is of no account.

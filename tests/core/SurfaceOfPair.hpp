@@ -3,7 +3,7 @@
 
 #include "ExactCells.hpp"
 #include "PlaneRows.hpp"
-#include "surface/ContactSurface.hpp"
+#include "surface/FeasibleSums.hpp"
 #include "surface/NearPlanes.hpp"
 
 #include <algorithm>
@@ -20,9 +20,10 @@ template <int D> struct SurfaceOfPair {
 	int                  planes = 0;     ///< that are looked at
 	bool                 facing = false; ///< NearPlanes::facing()
 
-	enum Start { Nowhere, Basis, NearPlanesAlone };
+	enum Start { Nowhere, Basis, NearPlanesAlone, Vertices };
 
-	/// Begun at the program's basis, without any, or at the basis with those planes alone that can be near.
+	/// Walked from the program's basis, without any, or from the basis with those planes alone that can be near; or (3-D) from the vertices of the
+	/// feasible set: then the status is NoRoom where they do not say what it is.
 	explicit SurfaceOfPair(const Pair& pair, SurfaceParts parts = SurfaceParts::Cells, Start start = Basis)
 	        : SurfaceOfPair(pair, linearProgram(pair), parts, start)
 	{
@@ -56,7 +57,8 @@ private:
 		std::vector<int>           indices(std::size_t(NearPlanes<Real, D, width>::indicesNeeded(rows.planes.total)), -77);
 		NearPlanes<Real, D, width> near(rows.planes, ofNear, pair.size(), numbers.data(), indices.data());
 		facing = near.facing();
-		if (start == NearPlanesAlone) walk(near.planes(), ofNear.plane, D + 1, pair.size(), parts);
+		if (start == Vertices) explore(near.planes(), ofNear.plane, pair.size());
+		else if (start == NearPlanesAlone) walk(near.planes(), ofNear.plane, D + 1, pair.size(), parts);
 		else walk(rows.planes, basis.plane, start == Basis ? D + 1 : 0, pair.size(), parts);
 	}
 
@@ -67,6 +69,20 @@ private:
 		std::vector<int>              indices(std::size_t(SurfaceBuffers<Real, D>::indicesNeeded(planes)), -77);
 		const SurfaceBuffers<Real, D> buffers(planes, numbers.data(), indices.data());
 		status = contactSurface<Real, D, width>(all, basis, count, size, deepest, parts, buffers, sums);
+	}
+
+	void explore(const PairPlanes<Real, D>& all, const int* basis, Real size)
+	{
+		status = SurfaceStatus::NoRoom;
+		if constexpr (D == 3) {
+			std::vector<Real>        numbers(std::size_t(FeasibleBuffers<Real>::numbersNeeded(all.total)), Real(NAN));
+			std::vector<int>         indices(std::size_t(FeasibleBuffers<Real>::indicesNeeded(all.total)), -77);
+			FeasibleBuffers<Real>    buffers(all.total, numbers.data(), indices.data());
+			FeasibleSet<Real, width> set(all, size, buffers);
+			if (!set.explore(basis)) return;
+			FeasibleSums<Real> sum(buffers, true, sums);
+			status = sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
+		}
 	}
 
 	Vector3 about(const Real* turn, const Vector3& f) const

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "program/PairPlanes.hpp"
+#include "surface/KeptVertices.hpp"
+
+/// Memory for one feasible set (FeasibleSet.hpp) and for the sums over it (FeasibleSums.hpp), which the caller has: nothing here allocates.
+namespace polytope {
+
+template <class R> struct FeasibleBuffers {
+	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices,
+	                     mostEdges = 2 * mostVertices, mostPieces = 2 * mostVertices;
+	static constexpr int noBody    = 2; ///< of the plane of no pressure
+	static constexpr int pieceRows = 16;
+
+	int planes, vertices, edges;
+
+	// of the planes that are tight somewhere, in any order
+	R*           plane; ///< a, d; zero: the plane of no pressure
+	int          rowOf[mostPlanes];
+	std::uint8_t bodyOf[mostPlanes]; ///< 0, 1 or noBody
+
+	R*            point; ///< of the vertices: x, y, z, s
+	std::uint8_t  tight[mostVertices][4];
+	std::uint64_t mask[mostVertices];    ///< a bit for each tight plane
+	std::uint64_t dropped[mostVertices]; ///< bits of those that are not tight along one of the vertex' edges
+
+	std::uint8_t edge[mostEdges][2]; ///< vertices
+
+	// of all planes of the pair
+	R*   split; ///< offsets with which no more than four planes meet
+	R*   slack;
+	int* localOf; ///< number among the tight ones, or −1
+
+	R* piece; ///< pieceRows of each pair of planes
+	R* cell;  ///< CellCones
+
+	static int numbersNeeded(int total)
+	{
+		return (4 + 5 + 4) * mostPlanes + 4 * mostVertices + 2 * (total + padWidth) + pieceRows * mostPieces;
+	}
+	static int indicesNeeded(int total) { return total + padWidth; }
+
+	/// In memory of numbersNeeded() and indicesNeeded(), whatever is in it.
+	FeasibleBuffers(int total, R* numbers, int* indices)
+	{
+		plane = take(numbers, 4 * mostPlanes);
+		cell  = take(numbers, 5 * mostPlanes);
+		for (R*& row : component_)
+			row = take(numbers, mostPlanes);
+		point   = take(numbers, 4 * mostVertices);
+		split   = take(numbers, total + padWidth);
+		slack   = take(numbers, total + padWidth);
+		piece   = take(numbers, pieceRows * mostPieces);
+		localOf = indices;
+	}
+
+	/// The tight planes, copied.
+	POLYTOPE_INLINE PairPlanes<R, 3> tightPlanes() const
+	{
+		for (int k = 0; k < planes; ++k)
+			for (int m = 0; m < 4; ++m)
+				component_[m][k] = plane[4 * k + m];
+		return { { component_[0], component_[1], component_[2] }, component_[3], nullptr, nullptr, planes, planes };
+	}
+
+private:
+	static R* take(R*& memory, int count)
+	{
+		R* const own = memory;
+		memory += count;
+		return own;
+	}
+
+	R* component_[4];
+};
+
+} // namespace polytope

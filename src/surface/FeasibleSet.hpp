@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "surface/FeasibleBuffers.hpp"
+
+#include <utility>
+
+/// The set {(x, s): a_i·x + s ≤ d_i, s ≥ 0} of a pair that overlaps, a polytope in four dimensions, by its vertices and edges.
+///
+/// A vertex has four tight planes, an edge three; the plane of no pressure, s ≥ 0, counts as one. The vertices are found from the linear program's optimum
+/// along the edges, as in the simplex method. In the next step the same planes are mostly tight in the same vertices. Then nothing is looked for: points
+/// at which no plane is violated, and each of whose four edges ends in another of them, are all vertices, for the edges of a polytope
+/// connect all its vertices.
+///
+/// Where more planes meet (regular bodies have the same slack on several planes along a line), offsets that are changed by
+/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets. What that does not make a
+/// simple polytope, as planes that coincide, is left to SurfaceWalk.
+namespace polytope {
+
+template <class R, int W> class FeasibleSet {
+public:
+	using Buffers = FeasibleBuffers<R>;
+
+	/// `size`: of the smaller body. The planes may be all of a pair, or those that are near.
+	POLYTOPE_INLINE FeasibleSet(const PairPlanes<R, 3>& planes, R size, Buffers& buffers)
+	        : planes_(planes), size_(size), buffers_(buffers)
+	{
+	}
+
+	/// With the tight planes of the last step. False if they do not make this step's vertices.
+	POLYTOPE_INLINE bool recall(const KeptVertices& kept, int rowsOfBody1)
+	{
+		const int planes = kept.planes, vertices = kept.vertices;
+		if (vertices < 5 || vertices > Buffers::mostVertices || planes > Buffers::mostPlanes) return false;
+		for (int k = 0; k < planes; ++k) {
+			const int row = kept.row(k, rowsOfBody1, planes_.total);
+			if (row < 0) return false;
+			setPlane(k, row);
+		}
+		bool right = true;
+		for (int v = 0; v < vertices; ++v) {
+			std::uint64_t mask = 0;
+			for (int k = 0; k < 4; ++k) {
+				const int plane = kept.tight[std::size_t(v)][std::size_t(k)];
+				if (plane >= planes) return false;
+				right                = right && (k == 3 || buffers_.bodyOf[plane] != Buffers::noBody);
+				buffers_.tight[v][k] = std::uint8_t(plane);
+				mask |= bit(plane);
+			}
+			buffers_.mask[v]    = mask;
+			buffers_.dropped[v] = 0;
+		}
+		buffers_.planes   = planes;
+		buffers_.vertices = vertices;
+		buffers_.edges    = 2 * vertices;
+		for (int e = 0; e < buffers_.edges; ++e) {
+			const int v = kept.edge[std::size_t(e)][0], w = kept.edge[std::size_t(e)][1];
+			if (v >= vertices || w >= vertices) return false;
+			buffers_.edge[e][0]     = std::uint8_t(v);
+			buffers_.edge[e][1]     = std::uint8_t(w);
+			const std::uint64_t one = buffers_.mask[v] & ~buffers_.mask[w], other = buffers_.mask[w] & ~buffers_.mask[v];
+			right = right && one != 0 && (one & (one - 1)) == 0;
+			buffers_.dropped[v] |= one;
+			buffers_.dropped[w] |= other;
+		}
+		return right && everyEdgeOnce() && placeAll();
+	}
+
+	/// What recall() needs in the next step; `rowOfAll`: of a row its number among all planes of the pair.
+	template <class Rows> POLYTOPE_INLINE void keep(KeptVertices& kept, int rowsOfBody1, const Rows& rowOfAll) const
+	{
+		kept.exchanged = 0;
+		kept.planes    = std::uint8_t(buffers_.planes);
+		kept.vertices  = std::uint8_t(buffers_.vertices);
+		for (int k = 0; k < buffers_.planes; ++k) {
+			const bool none = buffers_.bodyOf[k] == Buffers::noBody;
+			const int  name
+			        = none ? int(KeptVertices::noPressure) : KeptVertices::name(rowOfAll(buffers_.rowOf[k]), rowsOfBody1);
+			if (name < 0) kept.vertices = 0;
+			kept.plane[std::size_t(k)] = std::uint16_t(name);
+		}
+		for (int v = 0; v < buffers_.vertices; ++v)
+			for (int k = 0; k < 4; ++k)
+				kept.tight[std::size_t(v)][std::size_t(k)] = buffers_.tight[v][k];
+		for (int e = 0; e < buffers_.edges; ++e)
+			for (int k = 0; k < 2; ++k)
+				kept.edge[std::size_t(e)][std::size_t(k)] = buffers_.edge[e][k];
+	}
+
+	/// From the vertex at which these planes are tight. False if the set is not simple.
+	POLYTOPE_INLINE bool explore(const int* basis)
+	{
+		buffers_.planes = buffers_.edges = 0;
+		for (int k = 0; k <= planes_.total; ++k)
+			buffers_.localOf[k] = -1;
+		for (int k = 0; k < planes_.total; ++k)
+			buffers_.split[k] = planes_.offset[k] + R(tolerance::splitPlanes) * size_ * shareOf(k);
+		for (int k = 0; k < 4; ++k) {
+			const int plane = use(basis[k]);
+			if (plane < 0) return false;
+			buffers_.tight[0][k] = std::uint8_t(plane);
+		}
+		buffers_.vertices = 1;
+		begin(0);
+		if (!startIsFeasible()) return false;
+		for (int v = 0; v < buffers_.vertices; ++v)
+			if (!goOn(v)) return false;
+		for (int k = 0; k < buffers_.planes; ++k)
+			setPlane(k, buffers_.rowOf[k]);
+		return buffers_.vertices > 4 && everyEdgeOnce() && !coincide() && placeAll();
+	}
+
+private:
+	using V    = typename Lanes<R, W>::Type;
+	using Four = typename Lanes<R, 4>::Type; ///< x, y, z and s, or a and d
+
+	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
+	int                  none() const { return planes_.total; }
+	bool                 isNone(int v, int slot) const { return buffers_.bodyOf[buffers_.tight[v][slot]] == Buffers::noBody; }
+
+	POLYTOPE_INLINE void setPlane(int k, int row)
+	{
+		const bool no      = row == none();
+		buffers_.rowOf[k]  = row;
+		buffers_.bodyOf[k] = std::uint8_t(no ? Buffers::noBody : row >= planes_.first);
+		for (int m = 0; m < 3; ++m)
+			buffers_.plane[4 * k + m] = no ? R(0) : planes_.normal[m][row];
+		buffers_.plane[4 * k + 3] = no ? R(0) : planes_.offset[row];
+	}
+
+	POLYTOPE_INLINE bool everyEdgeOnce() const
+	{
+		bool all = buffers_.edges == 2 * buffers_.vertices;
+		for (int v = 0; v < buffers_.vertices; ++v)
+			all = all && buffers_.dropped[v] == buffers_.mask[v];
+		return all;
+	}
+
+	// -------------------------------------------------------------------------------------------------------------------------------- vertices
+
+	static POLYTOPE_INLINE Four crossProduct(const Four& a, const Four& b)
+	{
+		return shuffled<R, 1, 2, 0, 3>(a) * shuffled<R, 2, 0, 1, 3>(b) - shuffled<R, 2, 0, 1, 3>(a) * shuffled<R, 1, 2, 0, 3>(b);
+	}
+	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)
+	{
+		const Four product = a * b;
+		return product[0] + product[1] + product[2];
+	}
+
+	/// Where a vertex' planes cross: three less the `last`, and the cross products of two of those in turn.
+	struct Crossing {
+		Four row[3], across[3], last;
+		R    volume, lengths; ///< of the three; the product of the squares of their lengths
+
+		/// Whether the planes are so nearly parallel that it matters which is subtracted from which.
+		bool isSharp() const { return volume * volume < R(tolerance::sharpVertex) * R(tolerance::sharpVertex) * lengths; }
+	};
+	POLYTOPE_INLINE bool cross(int v, Crossing& c, int last = 3) const
+	{
+		const std::uint8_t* const tight = buffers_.tight[v];
+		c.last                          = load<R, 4>(buffers_.plane + 4 * tight[last]);
+		for (int k = 0; k < 3; ++k)
+			c.row[k] = load<R, 4>(buffers_.plane + 4 * tight[k == last ? 3 : k]) - c.last;
+		for (int k = 0; k < 3; ++k)
+			c.across[k] = crossProduct(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
+		c.volume      = dotOf3(c.row[0], c.across[0]);
+		c.lengths     = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
+		const R least = R(tolerance::vertexVolume);
+		return c.volume * c.volume > least * least * c.lengths;
+	}
+
+	/// One of the two planes of a vertex that are most nearly parallel: their difference is exact.
+	POLYTOPE_APART int nearlyParallel(int v) const
+	{
+		int found = 3;
+		R   least = R(padOffset);
+		for (int k = 0; k < 4; ++k)
+			for (int j = 0; j < k; ++j) {
+				const Four apart = load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][k])
+				        - load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][j]);
+				const R square = dotOf3(apart, apart);
+				if (!(square < least)) continue;
+				least = square;
+				found = k;
+			}
+		return found;
+	}
+
+	/// Point and pressure of a vertex.
+	POLYTOPE_INLINE void place(int v, const Crossing& c)
+	{
+		if (c.isSharp()) {
+			Crossing sharp;
+			cross(v, sharp, nearlyParallel(v));
+			placeAt(v, sharp);
+		} else placeAt(v, c);
+	}
+
+	POLYTOPE_INLINE void placeAt(int v, const Crossing& c)
+	{
+		const Four x = (c.across[0] * broadcast<R, 4>(c.row[0][3]) + c.across[1] * broadcast<R, 4>(c.row[1][3])
+		                       + c.across[2] * broadcast<R, 4>(c.row[2][3]))
+		        * broadcast<R, 4>(1 / c.volume);
+		R point[4];
+		store<R, 4>(point, x);
+		for (int m = 0; m < 3; ++m)
+			buffers_.point[4 * v + m] = point[m];
+		buffers_.point[4 * v + 3] = isNone(v, 3) ? R(0) : c.last[3] - dotOf3(c.last, x);
+	}
+
+	/// What rounding leaves of the slack of a plane through a vertex.
+	R closeness(int v) const
+	{
+		const R* const p = buffers_.point + 4 * v;
+		return R(tolerance::feasibleVertex) * (size_ + abs(p[0]) + abs(p[1]) + abs(p[2]));
+	}
+
+	POLYTOPE_INLINE bool placeAll()
+	{
+		R extent = 0;
+		for (int v = 0; v < buffers_.vertices; ++v) {
+			Crossing c;
+			if (!cross(v, c)) return false;
+			place(v, c);
+			extent = maxOf<R>(extent, closeness(v));
+		}
+		V least = broadcast<R, W>(R(padOffset));
+		for (int v = 0; v < buffers_.vertices; ++v) {
+			const R* const p = buffers_.point + 4 * v;
+			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
+			least = minOf(least, s);
+			for (int k = 0; k < planes_.total; k += W) {
+				V a[3];
+				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
+			}
+		}
+		return horizontalMin<R, W>(least) >= -extent;
+	}
+
+	// --------------------------------------------------------------------------------------------------------------------------------- exploring
+
+	/// Of 0 … 1, different for each plane and the same in each step. Mixed, for sums of those of a regular body's planes must differ, too.
+	static R shareOf(int row)
+	{
+		std::uint32_t mixed = 2654435761u * std::uint32_t(row + 1);
+		mixed               = (mixed ^ mixed >> 15) * 2246822519u;
+		return R(mixed >> 1) / R(2147483648.);
+	}
+
+	/// Number of a row of the planes, or of that of no pressure, among those that are tight, with its split offset; −1: there is no room.
+	POLYTOPE_INLINE int use(int row)
+	{
+		if (buffers_.localOf[row] >= 0) return buffers_.localOf[row];
+		if (buffers_.planes == Buffers::mostPlanes) return -1;
+		const int k = buffers_.localOf[row] = buffers_.planes++;
+		setPlane(k, row);
+		if (row != none()) buffers_.plane[4 * k + 3] = buffers_.split[row];
+		return k;
+	}
+
+	/// A new vertex, whose planes are known. That of no pressure, whose slack is s and not d − a·x − s, comes last.
+	POLYTOPE_INLINE void begin(int v)
+	{
+		std::uint8_t* const tight = buffers_.tight[v];
+		for (int k = 0; k < 3; ++k)
+			if (buffers_.bodyOf[tight[k]] == Buffers::noBody) std::swap(tight[k], tight[3]);
+		buffers_.mask[v]    = bit(tight[0]) | bit(tight[1]) | bit(tight[2]) | bit(tight[3]);
+		buffers_.dropped[v] = 0;
+	}
+
+	/// The edge on which the plane in `slot` is not tight: of the planes that are the differences stay zero, and of one of them d − a·x − s. Returns how
+	/// s changes on it.
+	POLYTOPE_INLINE R edge(int v, const Crossing& c, int slot, Four& way) const
+	{
+		const Four out = broadcast<R, 4>(c.volume > 0 ? R(1) : R(-1));
+		way            = slot < 3 ? -out * c.across[slot] : out * (c.across[0] + c.across[1] + c.across[2]);
+		if (slot == 3 && isNone(v, 3)) way = -way;
+		return slot < 3 ? -dotOf3(c.last, way) : -dotOf3(load<R, 4>(buffers_.plane + 4 * buffers_.tight[v][0]), way);
+	}
+
+	/// The optimum's planes may be no vertex with the split offsets. Dual pivots lead to that which is the optimum with those.
+	POLYTOPE_INLINE bool startIsFeasible()
+	{
+		for (int pivot = 0; pivot <= tolerance::splitPivots; ++pivot) {
+			Crossing c;
+			if (!cross(0, c)) return false;
+			place(0, c);
+			if (slacksAt(0)) return true;
+			int violated = 0;
+			for (int k = 1; k < planes_.total; ++k)
+				if (buffers_.slack[k] < buffers_.slack[violated]) violated = k;
+			int leaves = -1;
+			R   least  = R(padOffset);
+			for (int slot = 0; slot < 4; ++slot) {
+				Four    way;
+				const R up      = edge(0, c, slot, way);
+				R       towards = up;
+				for (int m = 0; m < 3; ++m)
+					towards += planes_.normal[m][violated] * way[m];
+				if (!(towards < 0) || !(up / towards < least)) continue;
+				least  = up / towards;
+				leaves = slot;
+			}
+			const int plane = use(violated);
+			if (leaves < 0 || plane < 0) return false;
+			buffers_.tight[0][leaves] = std::uint8_t(plane);
+			begin(0);
+		}
+		return false;
+	}
+
+	/// Along the edges of vertex v that have not been followed from their other end.
+	POLYTOPE_INLINE bool goOn(int v)
+	{
+		Crossing c;
+		if (!cross(v, c)) return false;
+		place(v, c);
+		if (!slacksAt(v)) return false;
+		for (int slot = 0; slot < 4; ++slot) {
+			if (buffers_.dropped[v] & bit(buffers_.tight[v][slot])) continue;
+			Four      way;
+			const R   up   = edge(v, c, slot, way);
+			const int next = firstMet(v, way, up), plane = next < 0 ? -1 : use(next);
+			if (plane < 0 || !arrive(v, slot, plane)) return false;
+		}
+		return true;
+	}
+
+	/// Slacks at vertex v with the split offsets; false if a plane is violated. Those of its own planes count as far away: rounding must not meet them again.
+	POLYTOPE_INLINE bool slacksAt(int v)
+	{
+		const R* const p    = buffers_.point + 4 * v;
+		const V        x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
+		V              least = s;
+		for (int k = 0; k < planes_.total; k += W) {
+			V slack = load<R, W>(buffers_.split + k) - s;
+			for (int m = 0; m < 3; ++m)
+				slack -= load<R, W>(planes_.normal[m] + k) * x[m];
+			least = minOf(least, slack);
+			store<R, W>(buffers_.slack + k, slack);
+		}
+		for (int k = 0; k < 4; ++k)
+			if (!isNone(v, k)) buffers_.slack[buffers_.rowOf[buffers_.tight[v][k]]] = R(padOffset);
+		return horizontalMin<R, W>(least) >= -closeness(v);
+	}
+
+	/// The row that is met first along an edge, on which s changes by `up`; −1: none.
+	POLYTOPE_INLINE int firstMet(int v, const Four& way, R up) const
+	{
+		const V along[3] = { broadcast<R, W>(way[0]), broadcast<R, W>(way[1]), broadcast<R, W>(way[2]) };
+		const V far = broadcast<R, W>(R(padOffset)), zero = far - far;
+		V       least = far, place = zero, here = firstIndices<R, W>();
+		for (int k = 0; k < planes_.total; k += W) {
+			V towards = broadcast<R, W>(up);
+			for (int m = 0; m < 3; ++m)
+				towards += load<R, W>(planes_.normal[m] + k) * along[m];
+			const V    step   = towards > zero ? V(load<R, W>(buffers_.slack + k) / towards) : far;
+			const auto better = step < least;
+			place             = better ? here : place;
+			least             = better ? step : least;
+			here += broadcast<R, W>(R(W));
+		}
+		R first[W], row[W];
+		store<R, W>(first, least);
+		store<R, W>(row, place);
+		int best = 0;
+		for (int lane = 1; lane < W; ++lane)
+			if (first[lane] < first[best]) best = lane;
+		if (up < 0 && !isNone(v, 3) && buffers_.point[4 * v + 3] < -up * first[best]) return none();
+		return first[best] < R(padOffset) / 2 ? int(row[best]) : -1;
+	}
+
+	/// At the vertex that has plane `next` in place of v's in `slot`.
+	POLYTOPE_INLINE bool arrive(int v, int slot, int next)
+	{
+		const std::uint64_t left = bit(buffers_.tight[v][slot]), mask = (buffers_.mask[v] & ~left) | bit(next);
+		int                 w = 0;
+		while (w < buffers_.vertices && buffers_.mask[w] != mask)
+			++w;
+		if (w == v || w == Buffers::mostVertices || buffers_.edges == Buffers::mostEdges) return false;
+		if (w == buffers_.vertices) {
+			++buffers_.vertices;
+			for (int k = 0; k < 4; ++k)
+				buffers_.tight[w][k] = k == slot ? std::uint8_t(next) : buffers_.tight[v][k];
+			begin(w);
+		}
+		if (buffers_.dropped[w] & bit(next)) return false;
+		buffers_.dropped[w] |= bit(next);
+		buffers_.dropped[v] |= left;
+		std::uint8_t* const edge = buffers_.edge[buffers_.edges++];
+		edge[0]                  = std::uint8_t(v);
+		edge[1]                  = std::uint8_t(w);
+		return true;
+	}
+
+	/// Whether planes of both bodies coincide: the energy has a ridge there, which SurfaceWalk knows.
+	POLYTOPE_INLINE bool coincide() const
+	{
+		const R same = R(tolerance::twinPlanes), offset = same * size_;
+		for (int k = 0; k < buffers_.planes; ++k) {
+			if (buffers_.bodyOf[k] == Buffers::noBody) continue;
+			const int      other = 1 - buffers_.bodyOf[k];
+			const R* const a     = buffers_.plane + 4 * k;
+			const V own[3] = { broadcast<R, W>(a[0]), broadcast<R, W>(a[1]), broadcast<R, W>(a[2]) }, d = broadcast<R, W>(a[3]),
+			        far = broadcast<R, W>(R(1));
+			V least     = far;
+			for (int i = planes_.begin(other); i < planes_.end(other); i += W) {
+				V square = far - far;
+				for (int m = 0; m < 3; ++m) {
+					const V step = load<R, W>(planes_.normal[m] + i) - own[m];
+					square += step * step;
+				}
+				const V apart = absolute(V(load<R, W>(planes_.offset + i) - d));
+				least         = minOf(least, apart <= broadcast<R, W>(offset) ? square : far);
+			}
+			if (horizontalMin<R, W>(least) <= same * same) return true;
+		}
+		return false;
+	}
+
+	const PairPlanes<R, 3>& planes_;
+	R                       size_;
+	Buffers&                buffers_;
+};
+
+} // namespace polytope

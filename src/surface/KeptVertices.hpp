@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "surface/SurfaceTolerances.hpp"
+
+#include <array>
+#include <cstdint>
+
+/// Which planes are tight in the vertices of a pair's last feasible set, and which vertices its edges join. From step to step they seldom change: then
+/// FeasibleSet::recall() has the contact surface without looking for it.
+namespace polytope {
+
+/// Values, no pointers: copied and saved with the interaction. Any value is safe.
+struct KeptVertices {
+	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices, noPressure = 65535,
+	                     mostOfBody = 32767;
+
+	std::uint8_t planes    = 0; ///< that are tight somewhere
+	std::uint8_t vertices  = 0; ///< 0: nothing is kept; of edges there are twice as many
+	std::uint8_t exchanged = 0; ///< whether the bodies are in the other order than they were then
+
+	/// 2 × index + (0: body 1, 1: body 2), or noPressure.
+	std::array<std::uint16_t, mostPlanes> plane;
+	/// Places of four planes in that list; the plane of no pressure comes last.
+	std::array<std::array<std::uint8_t, 4>, mostVertices> tight;
+	/// Both vertices.
+	std::array<std::array<std::uint8_t, 2>, 2 * mostVertices> edge;
+
+	/// Row of a plane among all of a pair, that of no pressure being `total`; −1 if there is none.
+	int row(int k, int rowsOfBody1, int total) const
+	{
+		const int name = plane[std::size_t(k)];
+		if (name == noPressure) return total;
+		const int index = name >> 1, own = (name & 1) ? rowsOfBody1 + index : index;
+		return own < ((name & 1) ? total : rowsOfBody1) ? own : -1;
+	}
+
+	/// The number of a row; −1 if it has none.
+	static int name(int row, int rowsOfBody1)
+	{
+		const int second = row >= rowsOfBody1, index = row - (second ? rowsOfBody1 : 0);
+		return index < mostOfBody ? 2 * index + second : -1;
+	}
+};
+
+} // namespace polytope
