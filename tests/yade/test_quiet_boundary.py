@@ -100,6 +100,38 @@ def testAWaveThatComesInIsTwiceAsLargeAtTheFreeEndAndLeaves(direction, speed):
 	assert max(float(body.state.vel.norm()) for body in O.bodies) < 0.01e-3
 
 
+def energyLeft(quiet, number=11):
+	"""Of the motion of a square mass of joined blocks, struck in its middle, over that at first, when waves have crossed it three times; no side is held."""
+	O.materials.append(
+		RockJointMat(density=density, normalStiffness=kn, shearStiffness=ks, frictionAngle=0.5, cohesion=1e9, tensileStrength=1e9)
+	)
+	widths = np.array([0.5 * size, *[size] * (number - 2), 0.5 * size])
+	begins = np.cumsum([0, *widths]) - 1e-9 * size * np.arange(number + 1)
+	ids = np.empty((number, number), int)
+	for i, j in np.ndindex(number, number):
+		x, y, right, top = begins[i], begins[j], begins[i] + widths[i], begins[j] + widths[j]
+		ids[i, j] = O.bodies.append(polytope.polygon([(x, y), (right, y), (right, top), (x, top)]))
+	law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.05, shearDamping=0.05)
+	O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, law=law)
+	if quiet:
+		for side, normal in ((ids[0], (-1, 0, 0)), (ids[-1], (1, 0, 0)), (ids[:, 0], (0, -1, 0)), (ids[:, -1], (0, 1, 0))):
+			polytope.quietBoundary(side, normal, pWave, sWave)
+	for i, j in np.ndindex(number, number):
+		far = ((i - number // 2) ** 2 + (j - number // 2) ** 2) / 2**2
+		O.bodies[int(ids[i, j])].state.vel = Vector3(0, 1e-3, 0) * math.exp(-far / 2)
+	begin = polytope.mechanicalEnergy()
+	while O.time < 3 * number * size / pWave:
+		O.run(20, wait=True)
+	return polytope.mechanicalEnergy() / begin
+
+
+def testAMassStruckInItsMiddleComesToRestThroughItsFourSides():
+	"""P and S waves, obliquely too; blocks at the corners have two boundaries, and blocks turn."""
+	assert energyLeft(quiet=False) > 0.2
+	O.reset()
+	assert energyLeft(quiet=True) < 2e-3
+
+
 # ------------------------------------------------------------------------------------------------ a column under gravity
 
 

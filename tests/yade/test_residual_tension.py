@@ -154,6 +154,36 @@ def testABrickHungBesideItsMiddleFallsWhenAllOfItsFaceYields(two, factor, holds)
 	assert (body.state.vel.norm() < 1e-5 and (body.state.pos - place).norm() < 1e-4) == holds
 
 
+@pytest.mark.parametrize('factor, holds', [(0.9, True), (1.03, False)])
+def testACantileverOfBlocksFailsByAPlasticHingeAtItsClampedEnd(factor, holds):
+	"""F L = T b h²/2: three times the load at which its outermost fibre yields. At nine tenths it has turned by 2 mrad. The joint nearer to the load has a third
+	of the moment, and does not yield."""
+	O.materials.append(
+		RockJointMat(
+			density=2600,
+			normalStiffness=1e10,
+			shearStiffness=1e10,
+			cohesion=1e9,
+			tensileStrength=strength,
+			residualTensileStrength=strength,
+		)
+	)
+	size = 2 * half
+	O.bodies.append([polytope.cuboid((k * (size - 1e-10), 0, 0), (half, half, half), fixed=k == 0) for k in range(3)])
+	O.engines = polytope.engines(gravity=(0, 0, 0), damping=0.4)
+	O.run(20, wait=True)
+	limit = strength * size**3 / 2 / (1.5 * size)  # at the middle of the last block
+	for part in np.linspace(0.02, 1, 50):
+		O.forces.setPermF(2, (0, 0, -factor * part * limit))
+		O.run(400, wait=True)
+	O.run(4000, wait=True)
+	height = float(O.bodies[2].state.pos[2])
+	O.run(4000, wait=True)
+	fallen = height - float(O.bodies[2].state.pos[2])
+	assert (fallen < 1e-6 and O.bodies[2].state.vel.norm() < 1e-5) if holds else fallen > 5e-3
+	assert not holds or O.interactions[1, 2].phys.bond.edgeStress < strength
+
+
 @perArea
 @pytest.mark.parametrize('residual, holds', [(1, True), (0, False)])
 def testASwingOverTheStrengthIsNoFailureWhereItIsPerfectlyPlastic(perArea, residual, holds):
