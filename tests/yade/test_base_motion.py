@@ -252,8 +252,10 @@ def testAMovingBaseMustBeFixedAndWithoutDamping():
 	for ids, message in ((block.id, 'is not fixed'), (7, 'no body 7'), ([], 'one at least'), ([base, base], 'twice'), ('a', 'no body')):
 		with pytest.raises(ValueError, match='^ids: .*' + message):
 			polytope.baseMotion(ids, history)
-	with pytest.raises(ValueError, match='^history'):
+	with pytest.raises(ValueError, match='^history: must be'):
 		polytope.baseMotion(base, [0, 1])
+	with pytest.raises(ValueError, match='^history: begins at 0 s'):
+		polytope.baseMotion(base, polytope.velocityHistory([0, 1, 0], times=0.1, start=0))
 	O.engines[3].damping = 0.2
 	with pytest.raises(ValueError, match='^damping: .*0.2'):
 		polytope.baseMotion(base, history)

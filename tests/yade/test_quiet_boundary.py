@@ -145,11 +145,16 @@ def column():
 	return base
 
 
-def testWhatTheBoundaryBearsAtRestIsHeld():
+@pytest.mark.parametrize('loaded', [False, True])
+def testWhatTheBoundaryBearsAtRestIsHeld(loaded, tmp_path):
+	"""Also right after O.load, before forces are computed again."""
 	base = column()
+	if loaded:
+		O.save(str(tmp_path / 'state.yade'))
+		O.load(str(tmp_path / 'state.yade'))
 	polytope.quietBoundary(base, (0, 0, -1), pWave, sWave)
 	weight = sum(float(body.state.mass) for body in O.bodies) * 9.81
-	engine = next(one for one in O.engines if isinstance(one, QuietBoundary))
+	(engine,) = (one for one in O.engines if isinstance(one, QuietBoundary))
 	assert engine.supports[0][2] == pytest.approx(weight, rel=1e-4)
 	assert engine.normalDashpots[0] == pytest.approx(1.2 * density * pWave) and engine.shearDashpots[0] == pytest.approx(
 		1.2 * density * sWave

@@ -30,6 +30,11 @@ def bodiesOf(ids):
 def historyOf(given):
 	if not isinstance(given, VelocityHistory) or not len(given.times):
 		raise ValueError(f'history: must be what polytope.velocityHistory returns, got {given!r}')
+	began = float(given.times[0])
+	if began < O.time:
+		raise ValueError(
+			f'history: begins at {began:g} s, and O.time is {O.time:g} s; make it now (after polytope.settle()), or give it another start'
+		)
 	return given
 
 

@@ -23,7 +23,7 @@ def baseMotion(ids, history):
 	:param ids: number of a body, or several; fixed ones
 	:param history: what *velocityHistory* returns
 	:returns: the engine *BaseMotion*; ``O.engines = [one for one in O.engines if one is not engine]`` removes it, engine.dead = True stops it
-	:raises ValueError: naming the argument: bodies that are not there or not fixed, damping other than 0, no NewtonIntegrator
+	:raises ValueError: naming the argument: bodies that are not there or not fixed, a history that has begun already, damping other than 0, no NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), historyOf(history)
 	for k in ids:

@@ -5,7 +5,9 @@ import numpy as np
 from yade import NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
 
 from .._faces import localVertices
+from .._loads import permanentLoads
 from ..arguments import namedArguments, number, vector
+from ..bonding import madeBonds
 from ..precision import real
 from ._bodies import bodiesOf, historyOf, integrator
 
@@ -33,7 +35,8 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free surface of the same
 	    rock; None: none does
 	:returns: the engine *QuietBoundary*, which stands before NewtonIntegrator in O.engines and is saved with the scene
-	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal; no NewtonIntegrator
+	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal; a history that has begun
+	    already; no NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), None if history is None else historyOf(history)
 	normal = np.array([float(x) for x in vector(normal, 'normal')])
@@ -49,7 +52,8 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 			raise ValueError('ids: O.engines has a QuietBoundary of this normal for some of them; remove it first')
 	gravity = integrator().gravity
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
-	supports = [_support(O.bodies[k], gravity) for k in ids]
+	borne = _contactForces(ids)
+	supports = [_support(O.bodies[k], gravity, borne[k]) for k in ids]
 	impedances = [
 		[real(area * float(speed) * float(O.bodies[k].material.density)) for k, area in zip(ids, areas, strict=True)] for speed in speeds
 	]
@@ -99,8 +103,21 @@ def _area(corners):
 	return twice.sum(axis=0) / 2, corners[0] + np.average((first + second) / 3, axis=0, weights=np.linalg.norm(twice, axis=1))
 
 
-def _support(body, gravity):
+def _contactForces(ids):
+	"""Number of each of these bodies → force of its contacts and bonds on it [N]. Not O.forces, which are not known after O.load."""
+	borne = dict.fromkeys(ids, Vector3.Zero)
+	forces = [(one, one.phys.normalForce + one.phys.shearForce) for one in O.interactions if one.isReal]
+	forces += [(one, one.force) for one in madeBonds() if one.intact]
+	for one, force in forces:  # on body 2
+		if one.id1 in borne:
+			borne[one.id1] -= force
+		if one.id2 in borne:
+			borne[one.id2] += force
+	return borne
+
+
+def _support(body, gravity, borne):
 	"""That holds a fixed body where it is; none of one that is free."""
 	if set('xyz') - set(body.state.blockedDOFs):
 		return Vector3.Zero
-	return -(O.forces.f(body.id) + body.state.mass * gravity)
+	return -(borne + permanentLoads().get(body.id, (Vector3.Zero,))[0] + body.state.mass * gravity)
