@@ -23,6 +23,13 @@ public:
 	}
 	/// Sets force, moment, energy, their arms and the stresses from where the bodies are, body 2 in the period of body 1 by `shift`.
 	polytope::BondMotion follow(const State& state1, const State& state2, const Vector3r& shift);
+	/// From now on its fibres bear no more than the tensile strength each (src/bond/TensionFibres.hpp).
+	void beginToYield();
+	bool yields() const { return !lastingOpenings.empty(); }
+	/// Mean of the lasting openings over the area [m].
+	Real meanLastingOpening() const;
+	/// Taken by fibres that yielded in the last follow() [J].
+	Real plasticWork() const { return plasticWork_; }
 	/// Strength that these stresses exceed: "tension", "shear", or none.
 	const char* exceeded() const;
 	/// Whether its two bodies are those between which it was made, not others that have got their numbers. A bond from a file
@@ -73,15 +80,18 @@ public:
 		((Real, normalStress, 0, Attr::readonly, "Mean normal stress $\\sigma$ [Pa], tension positive."))
 		((Real, edgeStress, 0, Attr::readonly, "Largest normal stress over the area with the share of bending [Pa], tension positive: fails at $\\sigma_t$."))
 		((Real, shearStress, 0, Attr::readonly, "Mean shear stress plus the share of the largest one of twisting [Pa]: fails at $c-\\sigma\\tan\\phi$."))
+		((vector<Real>, lastingOpenings, , (Attr::readonly | Attr::hidden), "Of the fibres of a joint that yields in tension [m]; none: it does not"))
 		((Vector3r, arm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the point in the last step"))
 		((Vector3r, arm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
 	);
 	// clang-format on
 
 private:
-	void setStresses(const Vector3r& displacement, const Vector3r& rotation);
+	polytope::BondForce yieldingForce(const polytope::BondMotion& motion);
+	void                setStresses(const Vector3r& displacement, const Vector3r& rotation);
 
 	boost::weak_ptr<Body> body1_, body2_;
+	Real                  plasticWork_ = 0;
 };
 REGISTER_SERIALIZABLE(PolytopeBond);
 

@@ -120,10 +120,13 @@ namespace {
 			bool       swap    = false;
 			const auto functor = loop->physDispatcher->getFunctor2D(material1, material2, swap);
 			if (!functor) continue;
-			if (dynamic_cast<Ip2_FrictMat_FrictMat_FrictPhys*>(functor.get())
-			        || dynamic_cast<Ip2_RockJointMat_RockJointMat_RockJointPhys*>(functor.get())) {
+			auto* joints = dynamic_cast<Ip2_RockJointMat_RockJointMat_RockJointPhys*>(functor.get());
+			if (joints || dynamic_cast<Ip2_FrictMat_FrictMat_FrictPhys*>(functor.get())) {
 				functor->scene = &scene;
-				functor->go(material1, material2, contact);
+				if (joints) // which face they will lie on is not known
+					joints->make(static_cast<const RockJointMat&>(*material1),
+					        static_cast<const RockJointMat&>(*material2), contact);
+				else functor->go(material1, material2, contact);
 				if (const auto* phys = dynamic_cast<const NormShearPhys*>(contact->phys.get()))
 					return { phys->kn, phys->ks };
 			}

@@ -13,20 +13,21 @@ YADE_PLUGIN((RockJointMat)(RockJointPhys));
 RockJointMat::Values RockJointMat::values() const
 {
 	return { { normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle,
-		dilationLimit, residualCohesion } };
+		dilationLimit, residualCohesion, residualTensileStrength } };
 }
 
 void RockJointMat::setValues(const Values& v)
 {
-	normalStiffness       = v[0];
-	shearStiffness        = v[1];
-	frictionAngle         = v[2];
-	cohesion              = v[3];
-	tensileStrength       = v[4];
-	residualFrictionAngle = v[5];
-	dilationAngle         = v[6];
-	dilationLimit         = v[7];
-	residualCohesion      = v[8];
+	normalStiffness         = v[0];
+	shearStiffness          = v[1];
+	frictionAngle           = v[2];
+	cohesion                = v[3];
+	tensileStrength         = v[4];
+	residualFrictionAngle   = v[5];
+	dilationAngle           = v[6];
+	dilationLimit           = v[7];
+	residualCohesion        = v[8];
+	residualTensileStrength = v[9];
 }
 
 void RockJointMat::postLoad(RockJointMat&)
@@ -48,6 +49,7 @@ void RockJointMat::postLoad(RockJointMat&)
 	require(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);
 	require(strength(cohesion), "cohesion", cohesion, "at least 0 and finite [Pa]");
 	require(strength(residualCohesion), "residualCohesion", residualCohesion, "at least 0 and finite [Pa]");
+	require(strength(residualTensileStrength), "residualTensileStrength", residualTensileStrength, "at least 0 and finite [Pa]");
 	require(strength(tensileStrength), "tensileStrength", tensileStrength, "at least 0 and finite [Pa]");
 	require(angle(residualFrictionAngle) || residualFrictionAngle == -1, "residualFrictionAngle", residualFrictionAngle,
 	        "-1 (the same as frictionAngle) or an angle in radians, at least 0 and below pi/2");
@@ -91,11 +93,20 @@ void RockJointPhys::fail()
 
 void RockJointPhys::losesTension()
 {
-	tensileStrength = 0;
-	if (!(cohesion > residualCohesion)) fail();
+	tensileStrength = residualTensileStrength;
+	if (!(tensileStrength > 0) && !(cohesion > residualCohesion)) fail();
 }
 
-bool RockJointPhys::bearsTension(Real force) const { return intact && force <= tensileStrength * contactArea; }
+Real RockJointPhys::yieldInTension(Real& normalForce)
+{
+	if (intact) losesTension();
+	const Real bears = residualTensileStrength * contactArea, beyond = (-normalForce - bears) / kn;
+	lastingOpening += beyond;
+	normalForce = -bears;
+	return bears * beyond;
+}
+
+bool RockJointPhys::bearsTension(Real force) const { return force <= presentTensileStrength() * contactArea; }
 
 Real RockJointPhys::shearStrength(Real normal) const
 {

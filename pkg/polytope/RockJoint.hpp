@@ -41,7 +41,8 @@ public:
 		((Real, shearStiffness, 1e9, Attr::triggerPostLoad, "Shear stiffness $k_s$ of the joint, above 0, in the units of :yref:`normalStiffness<RockJointMat.normalStiffness>`."))
 		((Real, cohesion, 0, Attr::triggerPostLoad, "Cohesion $c$ [Pa], at least 0: shear strength of the intact joint at zero normal force over its contact area. When the joint fails in shear or tension, :yref:`residualCohesion<RockJointMat.residualCohesion>` takes its place for good."))
 		((Real, residualCohesion, 0, Attr::triggerPostLoad, "Cohesion after the joint has failed [Pa], at least 0; counts up to :yref:`cohesion<RockJointMat.cohesion>`. 0: the joint is brittle, and where a body is held by several joints the first one that fails may take the others with it. Equal to *cohesion*: perfectly plastic, as limit equilibrium assumes (Hoek & Bray, *Rock Slope Engineering*): all joints bear their full strength at the same time."))
-		((Real, tensileStrength, 0, Attr::triggerPostLoad, "Tensile strength [Pa] of the intact joint, at least 0, times the contact area. Lost for good when the joint fails in shear or tension. A joint with cohesion but no tensile strength fails when it opens."))
+		((Real, tensileStrength, 0, Attr::triggerPostLoad, "Tensile strength [Pa] of the intact joint, at least 0, times the contact area. When the joint fails in shear or tension, :yref:`residualTensileStrength<RockJointMat.residualTensileStrength>` takes its place for good. A joint with cohesion but no tensile strength fails when it opens."))
+		((Real, residualTensileStrength, 0, Attr::triggerPostLoad, "Tensile strength that stays while the joint is pulled open [Pa], at least 0; counts up to :yref:`tensileStrength<RockJointMat.tensileStrength>`. 0: the joint is brittle. Equal to *tensileStrength*: perfectly plastic. With a stiffness per area each fibre of the faces' common area yields for itself, so that an intact joint that is bent bears more than its edge; after slip, and with a stiffness per contact, the whole joint does. It ends where the gap reaches the inscribed radius of the smaller body."))
 		((Real, residualFrictionAngle, -1, Attr::triggerPostLoad, "Friction angle after the joint has failed (first slip, or tension) [rad], from 0 to below $\\pi/2$; -1: the same as :yref:`frictionAngle<RockJointMat.frictionAngle>`."))
 		((Real, dilationAngle, 0, Attr::triggerPostLoad, "Dilation angle $\\psi$ [rad], from 0 to below $\\pi/2$: a joint that has slipped by $u$ in total is wider by $u\\tan\\psi$. Not above the friction angle in any real joint."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest widening by dilation [m], at least 0 (infinity: none); the height of the joint's asperities."))
@@ -53,7 +54,7 @@ public:
 	REGISTER_CLASS_INDEX(RockJointMat, FrictMat);
 
 private:
-	using Values = std::array<Real, 9>;
+	using Values = std::array<Real, 10>;
 	Values values() const;
 	void   setValues(const Values& values);
 	Values good_ = values();
@@ -101,11 +102,21 @@ public:
 	Real presentCohesion() const { return intact ? cohesion : residualCohesion; }
 	/// Whether an open joint differs from one that is made anew when it closes.
 	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()); }
+	/// At present [Pa].
+	Real presentTensileStrength() const { return intact ? tensileStrength : residualTensileStrength; }
+	/// Force of the normal spring at this overlap [N], negative in tension.
+	Real normalSpring(Real overlap) const
+	{
+		const Real force = kn * (overlap + dilation - restOverlap);
+		return force < 0 ? math::min(Real(0), Real(force + kn * lastingOpening)) : force;
+	}
+	/// A force of the normal spring beyond the strength in tension: it keeps the residual one, and the rest becomes lasting opening; returns its work [J].
+	Real yieldInTension(Real& normalForce);
 	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
 	void slide(const Vector3r& excess);
 	/// The joint fails: peak values are replaced by residual ones.
 	void fail();
-	/// The intact joint loses its tensile strength, and fails if it has no cohesion either.
+	/// The intact joint has its residual tensile strength from now on; without any it fails if it has no cohesion either.
 	void losesTension();
 	/// Whether it acts as a bond of its faces, or will once they lie on each other (RockJointBond.cpp).
 	bool mayActAsBond() const { return bond || (intact && tensileStrength > 0 && normalStiffness > 0 && shearStiffness > 0); }
@@ -146,7 +157,9 @@ public:
 		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, residualCohesion, 0, , "Cohesion once the joint has failed [Pa]."))
-		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]."))
+		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]; from where it was reached on the residual one."))
+		((Real, residualTensileStrength, 0, , "Tensile strength once it was reached, or the joint has failed [Pa]."))
+		((Real, lastingOpening, 0, Attr::readonly, "By which a joint with residual tensile strength has been torn open [m]: within it, it bears nothing. Of a :yref:`bond<RockJointPhys.bond>` fibres have their own."))
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))

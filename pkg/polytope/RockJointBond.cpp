@@ -73,6 +73,24 @@ namespace {
 		return bond->edgeStress <= phys.normalStiffness * touching ? bond : nullptr;
 	}
 
+	/// Where the bodies are now. Fibres of a joint with residual tensile strength yield from where its edge has reached the strength on.
+	/// \param lost set where that took a part of the strength away
+	polytope::BondMotion followOrYield(PolytopeBond& bond, RockJointPhys& phys, const State& state1, const State& state2,
+	        const Vector3r& shift, bool unbreakable, bool& lost)
+	{
+		takeStiffnesses(bond, phys);
+		if (unbreakable && bond.yields()) bond.tensileStrength = std::numeric_limits<Real>::infinity();
+		const auto motion = bond.follow(state1, state2, shift);
+		lost              = false;
+		if (unbreakable || bond.yields() || bond.edgeStress <= phys.tensileStrength || !(phys.residualTensileStrength > 0))
+			return motion;
+		lost = phys.tensileStrength > phys.residualTensileStrength;
+		phys.losesTension();
+		bond.tensileStrength = phys.tensileStrength;
+		bond.beginToYield();
+		return bond.follow(state1, state2, shift);
+	}
+
 } // namespace
 
 /// Force and moment of the joint's bond in this step, which is made where the faces have come to lie on each other. False where there is none, or
@@ -88,20 +106,22 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 		phys.bond = bondOfFaces(contact, *pair.body1, *pair.body2, shift, geom.normal, phys, elasticShear - phys.ks * increment);
 	if (!phys.bond) return false;
 
-	PolytopeBond& bond = *phys.bond;
-	takeStiffnesses(bond, phys);
-	const Vector3r normal  = bond.follow(pair.state1, pair.state2, shift).mean * Vector3r(1, 0, 0);
+	PolytopeBond&  bond = *phys.bond;
+	StepWork       work;
+	const auto     motion  = followOrYield(bond, phys, pair.state1, pair.state2, shift, unbreakable, work.fractured);
+	const Vector3r normal  = motion.mean * Vector3r(1, 0, 0);
 	const Real     elastic = bond.force.dot(normal);
 	const Vector3r shear   = bond.force - elastic * normal;
 	phys.contactArea       = bond.area;
 	phys.setStiffnesses(1);
 	// what rounding of positions leaves is no shear: a joint without cohesion has no strength against it when pulled
-	const Real shown   = Real(polytope::tolerance::rounding) * phys.shearStiffness * math::min(geom.refR1, geom.refR2);
-	const bool parted  = !unbreakable && !(bond.edgeStress <= phys.tensileStrength);
+	const Real size = math::min(geom.refR1, geom.refR2), shown = Real(polytope::tolerance::rounding) * phys.shearStiffness * size;
+	const bool parted = !unbreakable && !(bond.edgeStress <= phys.tensileStrength && (motion.displacement[0] < size || !bond.yields()));
 	const bool sheared = !unbreakable && !(bond.shearStress <= math::max(phys.shearStrength(elastic) / bond.area, shown));
 	if (parted || sheared) {
 		if (sheared) phys.fail();
 		else phys.losesTension();
+		phys.lastingOpening = bond.meanLastingOpening();
 		phys.shearPoint     = bond.point;
 		phys.twistingMoment = bond.moment.dot(normal);
 		phys.bond.reset();
@@ -110,7 +130,8 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	geom.normal       = normal;
 	geom.contactPoint = bond.point;
 	const Pair     atBond(contact, geom, scene);
-	const Real     viscous      = normalDamping > 0 ? normalDamper(atBond, phys, elastic) : Real(0);
+	const bool     yields       = bond.yields() && bond.plasticWork() > 0; // then it is not damped
+	const Real     viscous      = normalDamping > 0 && !yields ? normalDamper(atBond, phys, elastic) : Real(0);
 	const Vector3r shearViscous = shearDamping > 0 ? shearDamper(atBond, phys, elastic + viscous, shear) : Vector3r::Zero();
 	phys.isSliding              = false;
 	phys.normalViscous          = viscous * normal;
@@ -125,7 +146,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	geom.energyPerStiffness = (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn;
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
-		StepWork work;
+		work.plastic        = bond.yields() ? bond.plasticWork() : Real(0);
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * normal.dot(atBond.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(atBond.spin()) / 2 * scene->dt;
 		work.shearDamping   = -(last.shearViscous + shearViscous).dot(increment) / 2;

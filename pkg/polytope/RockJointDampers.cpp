@@ -153,7 +153,7 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair,
 {
 	const Vector3r& normal       = pair.geom.normal;
 	const Real      viscous      = -damper(pair, phys, normalDamping, phys.kn, normal) * normal.dot(pair.velocity());
-	const bool      takesTension = phys.intact && phys.tensileStrength > 0;
+	const bool      takesTension = phys.presentTensileStrength() > 0;
 	return takesTension ? viscous : math::max(viscous, -elastic);
 }
 

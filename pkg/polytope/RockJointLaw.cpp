@@ -7,6 +7,9 @@ YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
 
 namespace {
 
+	/// So far that a joint does not remember what it was.
+	bool isFarApart(const PolytopeGeom& geom) { return !(-geom.penetrationDepth < math::min(geom.refR1, geom.refR2)); }
+
 	/// Energy of the normal spring; the geometry of a contact surface has the energy whose gradient its force is.
 	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
 	{
@@ -40,9 +43,15 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	shear.adapt(phys);
 	shear.move(geom.shearIncrement());
 
-	const Real elasticNormal = phys.kn * (geom.penetrationDepth + phys.dilation - phys.restOverlap);
-	if (elasticNormal < 0 && !(unbreakable && phys.intact) && !phys.bearsTension(-elasticNormal)) return open(pair, phys, last, shear);
-	const Real viscous = normalDamping > 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
+	StepWork work;
+	Real     elasticNormal = phys.normalSpring(geom.penetrationDepth);
+	if (elasticNormal < 0 && !(unbreakable && phys.intact) && !phys.bearsTension(-elasticNormal)) {
+		if (!(phys.residualTensileStrength > 0) || isFarApart(geom)) return open(pair, phys, last, shear);
+		work.fractured = phys.presentTensileStrength() > phys.residualTensileStrength;
+		work.plastic   = phys.yieldInTension(elasticNormal);
+	}
+	// what yields is not damped, as what slides is not
+	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
 	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
@@ -67,10 +76,9 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
-		StepWork   work;
 		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
-		work.fractured      = last.wasBond || last.actedAsBond;
-		work.plastic        = last.wasBond ? Real(0) : shear.loss() - lifting;
+		work.fractured      = work.fractured || last.wasBond || last.actedAsBond;
+		work.plastic        = last.wasBond ? Real(0) : work.plastic + shear.loss() - lifting;
 		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
 		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
 		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
@@ -90,7 +98,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys
 		phys.isSliding = asIntact.limit(phys, normal);
 		if (!phys.isSliding) return true;
 		phys.fail();
-		if (normal < 0) return false;
+		if (normal < 0 && !(phys.residualTensileStrength > 0)) return false;
 	}
 	phys.isSliding = shear.limit(phys, normal);
 	if (phys.isSliding) phys.slide(shear.excess());
@@ -122,7 +130,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJo
 bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear)
 {
 	StepWork work;
-	work.fractured = phys.intact || last.wasBond || last.actedAsBond;
+	work.fractured = phys.intact || last.wasBond || last.actedAsBond || phys.residualTensileStrength > 0;
 	phys.slide(shear.trialForce());
 	shear.vanish();
 	if (phys.intact) phys.fail();
@@ -133,7 +141,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJoi
 	phys.dampedStiffness = 0;
 	if (scene->trackEnergy) book(pair, phys, last, work);
 	else phys.lastStep.clear();
-	return phys.hasHistory() && -pair.geom.penetrationDepth < math::min(pair.geom.refR1, pair.geom.refR2);
+	return phys.hasHistory() && !isFarApart(pair.geom);
 }
 
 Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts() const

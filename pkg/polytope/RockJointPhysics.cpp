@@ -4,7 +4,10 @@
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
+#include "Polytope.hpp"
 #include "PolytopeGeom.hpp"
+
+#include <src/bond/BondTolerances.hpp>
 
 namespace yade {
 
@@ -18,6 +21,52 @@ namespace {
 	Real residualAngle(const RockJointMat& material)
 	{
 		return material.residualFrictionAngle < 0 ? material.frictionAngle : material.residualFrictionAngle;
+	}
+
+	/// The face of a body that lies closest to the plane of a contact.
+	struct FaceOfContact {
+		const RockJointMat* material = nullptr; ///< of that face; null where faces have no materials
+		Real                cosine   = -1;      ///< of the angle between its normal and that of the contact
+	};
+
+	/// \param normal of the contact, out of the body
+	FaceOfContact faceOf(const Body& body, const Vector3r& normal, const Scene& scene)
+	{
+		const auto*   shape = dynamic_cast<const Polytope*>(body.shape.get());
+		FaceOfContact found;
+		if (!shape || !shape->convex()) return found;
+		const auto&    normals = shape->convex()->planes().normals;
+		const Vector3r turned  = body.state->ori.conjugate() * normal;
+		std::size_t    best    = 0;
+		for (std::size_t k = 0; k < normals.size(); ++k)
+			if (const Real cosine = normals[k].dot(turned); cosine > found.cosine) {
+				found.cosine = cosine;
+				best         = k;
+			}
+		if (best >= shape->faceMaterials.size()) return found;
+		const int index = shape->faceMaterials[best];
+		if (index >= 0 && std::size_t(index) < scene.materials.size())
+			found.material = dynamic_cast<const RockJointMat*>(scene.materials[std::size_t(index)].get());
+		return found;
+	}
+
+	/// Joint materials of the two sides of a contact: those of the faces that it lies on, in place of the bodies' own.
+	void takeFaces(const RockJointMat*& m1, const RockJointMat*& m2, const Interaction& contact, const Scene& scene)
+	{
+		const auto* geom = dynamic_cast<const PolytopeGeom*>(contact.geom.get());
+		if (!geom || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2())) return;
+		const Body &body1 = *(*scene.bodies)[contact.getId1()], &body2 = *(*scene.bodies)[contact.getId2()];
+		const auto  facesOf = [](const Body& body) {
+                        const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
+                        return shape && !shape->faceMaterials.empty();
+		};
+		if (!facesOf(body1) && !facesOf(body2)) return;
+		const FaceOfContact face1 = faceOf(body1, geom->normal, scene), face2 = faceOf(body2, -geom->normal, scene);
+		const RockJointMat *own1 = face1.material ? face1.material : m1, *own2 = face2.material ? face2.material : m2;
+		const Real          flush = math::cos(Real(polytope::tolerance::facingOfJoints));
+		const bool          both  = face1.cosine > flush && face2.cosine > flush;
+		m1                        = both || face1.cosine >= face2.cosine ? own1 : own2;
+		m2                        = both || face2.cosine > face1.cosine ? own2 : own1;
 	}
 
 	/// Area of a contact that has no contact section.
@@ -62,10 +111,16 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
         const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& contact)
 {
 	if (contact->phys) return;
-	const auto& m1 = static_cast<const RockJointMat&>(*material1);
-	const auto& m2 = static_cast<const RockJointMat&>(*material2);
-	const auto  of = [&](const shared_ptr<MatchMaker>& rule, Real v1, Real v2, Real otherwise) {
-                return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise;
+	const auto *side1 = static_cast<const RockJointMat*>(material1.get()), *side2 = static_cast<const RockJointMat*>(material2.get());
+	takeFaces(side1, side2, *contact, *scene);
+	make(*side1, *side2, contact);
+}
+
+void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
+        const RockJointMat& m1, const RockJointMat& m2, const shared_ptr<Interaction>& contact)
+{
+	const auto of = [&](const shared_ptr<MatchMaker>& rule, Real v1, Real v2, Real otherwise) {
+		return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise;
 	};
 
 	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
@@ -76,11 +131,12 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
 	        = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
 	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
 		phys->tangensOfResidualFrictionAngle = math::tan(math::min(residualAngle(m1), residualAngle(m2)));
-	phys->cohesion               = math::min(m1.cohesion, m2.cohesion);
-	phys->residualCohesion       = math::min(math::min(m1.residualCohesion, m2.residualCohesion), phys->cohesion);
-	phys->tensileStrength        = math::min(m1.tensileStrength, m2.tensileStrength);
-	phys->tangensOfDilationAngle = math::tan(math::min(m1.dilationAngle, m2.dilationAngle));
-	phys->dilationLimit          = math::min(m1.dilationLimit, m2.dilationLimit);
+	phys->cohesion                = math::min(m1.cohesion, m2.cohesion);
+	phys->residualCohesion        = math::min(math::min(m1.residualCohesion, m2.residualCohesion), phys->cohesion);
+	phys->tensileStrength         = math::min(m1.tensileStrength, m2.tensileStrength);
+	phys->residualTensileStrength = math::min(math::min(m1.residualTensileStrength, m2.residualTensileStrength), phys->tensileStrength);
+	phys->tangensOfDilationAngle  = math::tan(math::min(m1.dilationAngle, m2.dilationAngle));
+	phys->dilationLimit           = math::min(m1.dilationLimit, m2.dilationLimit);
 	if (phys->hasPeak()) {
 		phys->intact = intactUntilStep < 0 || scene->iter <= intactUntilStep;
 		if (!phys->intact) phys->fail();

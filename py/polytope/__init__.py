@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -28,6 +28,9 @@ from .breakage import split
 from .check import check
 from .checkpoints import checkpoint, continueFrom
 from .clumps import clump
+from .dynamics.base import baseMotion
+from .dynamics.history import velocityHistory
+from .dynamics.quiet import quietBoundary
 from .energy import mechanicalEnergy
 from .engines import engines
 from .grainBreakage import breakGrains
@@ -74,6 +77,7 @@ __all__ = [
 	'VoronoiCells',
 	'aabbExtrema',
 	'arrays',
+	'baseMotion',
 	'bodyStress',
 	'bond',
 	'bonds',
@@ -109,6 +113,7 @@ __all__ = [
 	'polygon',
 	'porosity',
 	'prism',
+	'quietBoundary',
 	'randomGrain',
 	'readJoints',
 	'readShapes',
@@ -129,6 +134,7 @@ __all__ = [
 	'tradeoff',
 	'triaxial',
 	'tube',
+	'velocityHistory',
 	'voronoi',
 	'writeShapes',
 ]

@@ -17,6 +17,7 @@ from .arguments import namedArguments
 from .bodies import fromHalfSpaces, randomColour
 from .clumps import rigid
 from .precision import real
+from .rock.faceMaterials import faceMaterials, materialsOfFaces
 from .rock.joint import Joint, asArguments, finite
 from .rock.jointSets import JointSet
 from .rock.region import regionOf
@@ -60,20 +61,32 @@ class JointedRock:
 	"""For each joint its own extent (rock.joint.Cut): normal, centre, radius, edges."""
 	uncut: int
 	"""Cuts that were not made, as they would have left a piece below *smallest*."""
+	entries: int
+	"""Number of *jointSets*."""
 
-	def append(self, **body):
+	def append(self, jointMaterials=None, **body):
 		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
 
 		Mass and inertia of a clump are the sums over its blocks, which do not overlap. There are no contacts between blocks of one clump.
 
+		A material belongs to the faces that its joint has made: a contact that ends and is made again, with the same block or another, has that of the face which it
+		lies on (Polytope.faceMaterials).
+
+		:param jointMaterials: for each of *jointSets* the RockJointMat of its joints, by index or label in O.materials or itself; None among them: the body's own
 		:param body: arguments of *fromHalfSpaces*: material, fixed, color …
 		:returns: numbers in O.bodies, in the order of *bodies*: of the body, or of the clump
+		:raises ValueError: naming *jointMaterials*: not one for each of *jointSets*, no RockJointMat, or stiffer than the body's own material, which sets the
+		    time step before blocks touch
 		"""
+		chosen = None if jointMaterials is None else materialsOfFaces(jointMaterials, self.entries, body.get('material', -1))
 		given = body.get('color')
 		ids = []
 		for parts in self.bodies:
 			colour = randomColour() if given is None else given
 			made = [fromHalfSpaces(*self.blocks[k], **{**body, 'color': colour}) for k in parts]
+			for k, one in zip(parts, made, strict=True):
+				if chosen is not None:
+					one.shape.faceMaterials = faceMaterials(one, self.blocks[k][0], self.faces[k], self.sets, chosen)
 			ids.append(O.bodies.append(made[0]) if len(made) == 1 else rigid(made)[0])
 		return ids
 
@@ -126,7 +139,7 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
 	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
 	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
-	return _rock(made, cuts, region.centre)
+	return _rock(made, cuts, region.centre, len(entries))
 
 
 def _entriesOf(jointSets):
@@ -149,7 +162,7 @@ def _cuts(entries, region, random):
 	return cuts
 
 
-def _rock(made, cuts, centre):
+def _rock(made, cuts, centre, entries):
 	"""The result in world coordinates, with the joints that have cut."""
 	planes = np.frombuffer(made['planes']).reshape(-1, 4)
 	normals, offsets = planes[:, :3].copy(), planes[:, 3] + planes[:, :3] @ centre
@@ -174,6 +187,7 @@ def _rock(made, cuts, centre):
 		sections[cutting],
 		[cuts[j].moved(centre) for j in cutting],
 		made['uncut'],
+		entries,
 	)
 
 

@@ -25,7 +25,7 @@ __all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths']
 def divideStrengths(factor):
 	"""Divides the strengths of all rock joints at once: of contacts that exist, through their materials of those to come, and of bonds.
 
-	tan φ, tan φᵣ, cohesion, residual cohesion and tensile strength; stiffnesses and dilation stay as they are.
+	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are.
 
 	:param float factor: above 0; 2 halves them
 	:raises ValueError: naming *factor* if out of range; naming *frictAngle* if a MatchMaker of the Ip2 functor sets another angle for new contacts
@@ -47,10 +47,10 @@ def divideStrengths(factor):
 	for material in O.materials:
 		if isinstance(material, RockJointMat):
 			lower(material, ('frictionAngle', 'residualFrictionAngle'))
-			divide(material, ('cohesion', 'residualCohesion', 'tensileStrength'))
+			divide(material, ('cohesion', 'residualCohesion', 'tensileStrength', 'residualTensileStrength'))
 	joints = [contact.phys for contact in O.interactions if contact.isReal and isinstance(contact.phys, RockJointPhys)]
 	for joint in joints:
-		divide(joint, ('tangensOfFrictionAngle', 'tangensOfResidualFrictionAngle', 'cohesion', 'residualCohesion', 'tensileStrength'))
+		divide(joint, ('tangensOfFrictionAngle', 'tangensOfResidualFrictionAngle', 'cohesion', 'residualCohesion', 'tensileStrength', 'residualTensileStrength'))
 	for bond in [*madeBonds(), *(joint.bond for joint in joints if joint.bond)]:
 		lower(bond, ('frictionAngle',))
 		divide(bond, ('cohesion', 'tensileStrength'))

@@ -49,16 +49,22 @@ struct BondForce {
 	Real    energy;
 };
 
+/// \param f,m derivatives of V by d and θ [N, N m]
+inline BondForce bondForce(const BondMotion& motion, const Vector3& f, const Vector3& m, Real energy)
+{
+	const Vector3 &d = motion.displacement, v = motion.half.vec();
+	const Vector3  g      = 4 * m + 2 * d.cross(f).cross(v);
+	const Vector3  moment = (g - v * v.dot(g)) / (4 * motion.half.w());
+	// f and M are derivatives of V by the motion of body 2: the forces on it are their negatives
+	return { motion.mean * Vector3(-f), motion.mean * Vector3(-moment), energy };
+}
+
 /// \param linear diagonal of K [N/m]
 /// \param angular diagonal of B [N m/rad]
 inline BondForce bondForce(const BondMotion& motion, const Vector3& linear, const Vector3& angular)
 {
-	const Vector3 &d = motion.displacement, v = motion.half.vec();
-	const Vector3  f = linear.cwiseProduct(d), m = angular.cwiseProduct(motion.rotation);
-	const Vector3  g      = 4 * m + 2 * d.cross(f).cross(v);
-	const Vector3  moment = (g - v * v.dot(g)) / (4 * motion.half.w());
-	// f and M are derivatives of V by the motion of body 2: the forces on it are their negatives
-	return { motion.mean * Vector3(-f), motion.mean * Vector3(-moment), (d.dot(f) + motion.rotation.dot(m)) / 2 };
+	const Vector3 &d = motion.displacement, f = linear.cwiseProduct(d), m = angular.cwiseProduct(motion.rotation);
+	return bondForce(motion, f, m, (d.dot(f) + motion.rotation.dot(m)) / 2);
 }
 
 } // namespace polytope

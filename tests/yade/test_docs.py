@@ -164,6 +164,7 @@ def runs(page):
 prints = {
 	'docs/stiffness.md': [r'wanted one: (1\.0000|0\.9999)', '^normalDamping=0.255$'],
 	'docs/moving-walls.md': [r'^0\.5$', '^True$'],
+	'docs/dynamics.md': [r'^0\.15[78] m, by Newmark 0\.157 m$', '^True$'],
 	'docs/hopper.md': [r'^nothing was found that is wrong$', r'^[12]\.\d kg/s; empty after 0\.\d\d s$'],
 	'docs/ballast.md': [r'^36 stones; porosity of the lower 5 cm: 0\.[4-7]', r'^settlement \d{1,2}\.\d mm$'],
 }

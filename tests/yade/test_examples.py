@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -185,6 +185,19 @@ def testBallastSettlesUnderItsLoad(runs, capsys):
 	assert len(settlement) == 2 and 0 < settlement[0] < 0.05 and settlement[1] > 0 and noFailures()
 	assert isPicture('output/ballast.png') and '2 cycles' in capsys.readouterr().out
 	assert all(0 < z < 0.7 and 0 < x < 0.26 and 0 < y < 0.2 for x, y, z in (O.bodies[k].state.pos for k in names['ballast']))
+
+
+def testRockingLosesAsThePageSays(runs, capsys):
+	"""Two rows of the table of docs/dynamics.md. More damping loses more, and Housner's loss lies between them."""
+	names = runs('rocking', shorter={'(0, 0.2, 0.5, 0.6, 0.7, 0.8, 1)': '(0.5, 0.7)'})
+	printed = [[float(word) for word in line.split()] for line in capsys.readouterr().out.splitlines() if re.match(r' *0\.', line)]
+	page = (folder.parent / 'docs/dynamics.md').read_text()
+	rows = [[float(cell) for cell in row.strip('|').split('|')] for row in re.findall(r'^\| [01][\d.]* \|.*\|$', page, re.MULTILINE)]
+	rows = {damping: values for damping, *values in rows}
+	assert len(rows) == 7 and len(printed) == 2
+	for damping, *values, period in printed:
+		assert rows[damping] == pytest.approx(values, abs=2e-3) and period == pytest.approx(1.01, abs=5e-3)
+	assert rows[0.7][0] < names['housner']() == pytest.approx(0.912, abs=5e-4) and names['housner']() < rows[0.5][0]
 
 
 def testRestitutionIsThatOfTheClosedForm(runs, capsys):

@@ -28,7 +28,10 @@ groups = {
 		'RockJointMat RockJointPhys Ip2_RockJointMat_RockJointMat_RockJointPhys Law2_PolytopeGeom_RockJointPhys_MohrCoulomb'.split(),
 	),
 	'bonds': ('Bonds', ['PolytopeBonds', 'PolytopeBond']),
-	'engines': ('Engines', 'PolytopeCollider PolytopeTimeStepper PolytopeVTKRecorder PolytopeCheckpoint'.split()),
+	'engines': (
+		'Engines',
+		'PolytopeCollider PolytopeTimeStepper PolytopeVTKRecorder PolytopeCheckpoint BaseMotion QuietBoundary VelocityHistory'.split(),
+	),
 }
 """Page, title, names. tests/yade/test_site.py sees to it that each class is in one of them."""
 
@@ -46,6 +49,8 @@ references = """References
 .. [Hart1988] R. Hart, P.A. Cundall, J. Lemos (1988): *Formulation of a three-dimensional distinct element model. Part II: Mechanical
    calculations for motion and interaction of a system composed of many polyhedral blocks*, International Journal of Rock Mechanics and
    Mining Sciences 25:117-125
+.. [Lysmer1969] J. Lysmer, R.L. Kuhlemeyer (1969): *Finite dynamic model for infinite media*, Journal of the Engineering Mechanics Division
+   (ASCE) 95(4):859-877
 """
 
 

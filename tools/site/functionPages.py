@@ -18,6 +18,7 @@ topics = {
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'scene': ('Scenes', 'engines check settle stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
+	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
 	'measures': (
 		'Measures',

@@ -2,6 +2,7 @@
 """Checks of O.engines and of the settings of functors, of polytope.check(). Each yields (what, seen, advice)."""
 
 from yade import (
+	BaseMotion,
 	ForceResetter,
 	GlobalStiffnessTimeStepper,
 	Ig2_Polytope_Polytope_PolytopeGeom,
@@ -10,6 +11,7 @@ from yade import (
 	NewtonIntegrator,
 	Polytope,
 	PolytopeBonds,
+	QuietBoundary,
 	Sphere,
 	TriaxialStressController,
 )
@@ -21,7 +23,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, dampingOfShaken, boundaries, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -108,6 +110,31 @@ def bonds(scene):
 	after = scene.engines[start + 1 :] + scene.engines[:start]
 	if after.index(those[0]) > after.index(scene.integrators[0]):
 		yield 'bonds', 'PolytopeBonds is not before the NewtonIntegrator: forces of bonds are erased before they act', 'put it after the InteractionLoop'
+
+
+def dampingOfShaken(scene):
+	"""Numerical damping of motion that comes from a base or leaves through a boundary."""
+	shaken = [type(one).__name__ for one in scene.those(BaseMotion, QuietBoundary)]
+	damping = max((float(one.damping) for one in scene.integrators), default=0.0)
+	if shaken and damping > 0:
+		seen = f'NewtonIntegrator has damping={damping:g} beside {shaken[0]}: it acts on absolute velocities, so that it holds back all that is carried along'
+		advice = "damping=0, and polytope.settle() for coming to rest before; joints have dampers of their own (the law's normalDamping, shearDamping)"
+		yield 'damping', seen, advice
+
+
+def boundaries(scene):
+	"""Forces of a quiet boundary that are erased before they act."""
+	resetters = scene.those(ForceResetter)
+	if not resetters or not scene.integrators:
+		return
+	start = scene.engines.index(resetters[0])
+	after = scene.engines[start + 1 :] + scene.engines[:start]
+	if any(after.index(one) > after.index(scene.integrators[0]) for one in scene.those(QuietBoundary)):
+		yield (
+			'order of engines',
+			'QuietBoundary is not before the NewtonIntegrator: its forces are erased before they act',
+			'put it after the InteractionLoop',
+		)
 
 
 def contactModels(scene):

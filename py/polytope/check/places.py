@@ -129,7 +129,9 @@ def suddenGravity(scene):
 
 
 def _canLoseStrength(material):
-	return isinstance(material, RockJointMat) and (material.cohesion > material.residualCohesion or material.tensileStrength > 0)
+	return isinstance(material, RockJointMat) and (
+		material.cohesion > material.residualCohesion or material.tensileStrength > material.residualTensileStrength
+	)
 
 
 def _anyTouch(scene, bodies):

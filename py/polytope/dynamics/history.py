@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A velocity over time from a record of velocity or acceleration: `polytope.velocityHistory(…)`."""
+
+import os
+
+import numpy as np
+from scipy.integrate import cumulative_trapezoid
+from yade import O, Vector3, VelocityHistory
+
+from ..arguments import flag, namedArguments, number, vector
+from ..precision import real
+
+__all__ = ['velocityHistory']
+
+kinds = ('velocity', 'acceleration')
+
+
+@namedArguments
+def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction=(1, 0, 0), baseline=True, start=None):
+	"""The velocity over time that a record tells, for *baseMotion* and *quietBoundary*::
+
+		quake = polytope.velocityHistory('record.txt', unit=9.81)                                     # time [s], acceleration [g]
+		pulse = polytope.velocityHistory([0, 1, 0], times=[0, 0.1, 0.2], kind='velocity')             # [m/s]
+
+	The record is linear between its instants. An acceleration is integrated by the trapezoidal rule, from rest. Records do not end at rest, as their
+	zero is not exact: the baseline correction takes away the straight line from the first velocity to the last one, as one constant acceleration would give it.
+
+	:param record: name of a text file, or values: n numbers, or n rows of three, the components along x, y, z. A file has a column of times [s] and one of values, or three;
+	    lines that begin with # are left out, and columns are separated by blanks or commas
+	:param times: n instants [s], or the interval between them; not for a file
+	:param str kind: 'acceleration' or 'velocity'
+	:param float unit: of the values, in m/s² or m/s: 9.81 for a record in g, 0.01 for one in cm
+	:param direction: of a record with one component; of any length but zero
+	:param bool baseline: whether the baseline is corrected
+	:param float start: O.time [s] at which the record begins; default: now
+	:returns: *VelocityHistory*, with *times* [s] from *start* on, and *velocities* [m/s]; before it the velocity is zero, after it the last one goes on
+	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns
+	:raises FileNotFoundError: if there is no such file
+	"""
+	if kind not in kinds:
+		raise ValueError(f'kind: must be one of {kinds}, got {kind!r}')
+	unit, baseline = number(unit, 'unit'), flag(baseline, 'baseline')
+	if not 0 < abs(unit) < np.inf:
+		raise ValueError(f'unit: must be finite and not zero, got {unit!r}')
+	start = O.time if start is None else number(start, 'start')
+	times, values = _fromFile(record, times) if isinstance(record, (str, os.PathLike)) else _fromValues(record, times)
+	velocities = float(unit) * _components(values, direction)
+	if kind == 'acceleration':
+		velocities = cumulative_trapezoid(velocities, times, axis=0, initial=0)
+	if baseline:
+		part = (times - times[0]) / (times[-1] - times[0])
+		velocities = velocities - (velocities[0] + np.outer(part, velocities[-1] - velocities[0]))
+	instants = float(start) + times - times[0]
+	return VelocityHistory(times=[real(t) for t in instants], velocities=[Vector3(*map(real, v)) for v in velocities.tolist()])
+
+
+def _fromFile(name, times):
+	if times is not None:
+		raise ValueError('times: the file has them in its first column')
+	if not os.path.isfile(name):
+		raise FileNotFoundError(f'record: there is no file {os.fspath(name)!r}; its place is relative to {os.getcwd()!r}')
+	try:
+		with open(name) as lines:
+			table = np.loadtxt((line.replace(',', ' ') for line in lines), ndmin=2)
+	except ValueError as error:
+		raise ValueError(f'record: {os.fspath(name)!r} must have columns of numbers, time and one or three values: {error}') from None
+	if table.shape[1] not in (2, 4):
+		raise ValueError(f'record: {os.fspath(name)!r} has {table.shape[1]} columns; must be time and one value, or time and three')
+	return _checked(table[:, 0], table[:, 1:], 'record')
+
+
+def _fromValues(record, times):
+	if times is None:
+		raise ValueError('times: needed with values: as many instants, or the interval between them [s]')
+	try:
+		values = np.array(record, float)
+	except (TypeError, ValueError):
+		raise ValueError('record: must be the name of a file, n numbers, or n rows of three') from None
+	values = values.reshape(-1, 1) if values.ndim == 1 else values
+	if values.ndim != 2 or values.shape[1] not in (1, 3):
+		raise ValueError(f'record: must be n numbers, or n rows of three, got an array of shape {np.shape(record)}')
+	try:
+		instants = np.array(times, float)
+	except (TypeError, ValueError):
+		raise ValueError('times: must be a sequence of numbers, or one number') from None
+	if instants.ndim == 0:
+		instants = instants * np.arange(len(values))
+	if instants.shape != (len(values),):
+		raise ValueError(f'times: must be as many as there are values, {len(values)}, got {instants.size}')
+	return _checked(instants, values, 'times')
+
+
+def _checked(times, values, name):
+	"""*name*: of the argument that has the times."""
+	if len(times) < 2:
+		raise ValueError(f'record: must have two instants at least, got {len(times)}')
+	for where, column in ((name, times), ('record', values)):
+		bad = np.flatnonzero(~np.isfinite(column.reshape(len(times), -1)).all(axis=1))
+		if len(bad):
+			raise ValueError(f'{where}: must be finite, and is not in row {bad[0]} (from 0 on); fill the gap or leave the row out')
+	back = np.flatnonzero(np.diff(times) <= 0)
+	if len(back):
+		k = back[0]
+		raise ValueError(f'{name}: times must increase; that of row {k + 1} (from 0 on) is {times[k + 1]:g} s, after {times[k]:g} s')
+	return times, values
+
+
+def _components(values, direction):
+	if values.shape[1] == 3:
+		return values
+	along = np.array([float(x) for x in vector(direction, 'direction')])
+	if not np.linalg.norm(along) > 0:
+		raise ValueError('direction: must not be zero')
+	return np.outer(values[:, 0], along / np.linalg.norm(along))

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Boundaries that let waves out: `polytope.quietBoundary(…)`."""
+
+import numpy as np
+from yade import NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
+
+from .._faces import localVertices
+from .._loads import permanentLoads
+from ..arguments import namedArguments, number, vector
+from ..bonding import madeBonds
+from ..precision import real
+from ._bodies import bodiesOf, historyOf, integrator
+
+__all__ = ['quietBoundary']
+
+outward = np.cos(0.01)
+"""Cosine of the largest angle between the normal of the boundary and that of a face which belongs to it: what settling turns bodies by."""
+
+
+@namedArguments
+def quietBoundary(ids, normal, pWave, sWave, history=None):
+	"""Lets waves out of the model through the outer faces of bodies, by dashpots (Lysmer & Kuhlemeyer 1969, J. Eng. Mech. Div. ASCE 95:859-877), from now on::
+
+		polytope.quietBoundary(base, (0, 0, -1), pWave=sqrt(kn * spacing / density), sWave=sqrt(ks * spacing / density))
+
+	The stress on the faces is ρ c_p times the normal part of their velocity and ρ c_s times the tangential part, against it. In blocks with joints of stiffness k per area
+	that lie across the wave's way at a spacing h, waves much longer than h run at c = √(k h/ρ).
+
+	Bodies that were fixed can move along x, y and z after this and cannot turn; what the rest pressed them with at this moment, and their weight, is held by a constant force. Blocks at the boundary
+	that are half as thick as the others reflect least.
+
+	:param ids: number of a body, or several; polytopes with a face of this outward normal
+	:param normal: outward normal of the boundary, of any length
+	:param float pWave, sWave: speeds c_p, c_s of waves with motion along the normal and across it [m/s]
+	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free surface of the same
+	    rock; None: none does
+	:returns: the engine *QuietBoundary*, which stands before NewtonIntegrator in O.engines and is saved with the scene
+	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal; a history that has begun
+	    already; no NewtonIntegrator
+	"""
+	ids, history = bodiesOf(ids), None if history is None else historyOf(history)
+	normal = np.array([float(x) for x in vector(normal, 'normal')])
+	if not np.linalg.norm(normal) > 0:
+		raise ValueError('normal: must not be zero')
+	normal /= np.linalg.norm(normal)
+	speeds = [number(pWave, 'pWave'), number(sWave, 'sWave')]
+	for name, speed in zip(('pWave', 'sWave'), speeds, strict=True):
+		if not 0 <= speed < np.inf:
+			raise ValueError(f'{name}: must be a finite speed, at least 0 [m/s], got {speed:g}')
+	for one in O.engines:
+		if isinstance(one, QuietBoundary) and set(one.ids) & set(ids) and np.dot(list(map(float, one.normal)), normal) > outward:
+			raise ValueError('ids: O.engines has a QuietBoundary of this normal for some of them; remove it first')
+	gravity = integrator().gravity
+	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
+	borne = _contactForces(ids)
+	supports = [_support(O.bodies[k], gravity, borne[k]) for k in ids]
+	impedances = [
+		[real(area * float(speed) * float(O.bodies[k].material.density)) for k, area in zip(ids, areas, strict=True)] for speed in speeds
+	]
+	engine = QuietBoundary(
+		ids=ids,
+		normal=Vector3(*map(real, normal)),
+		normalDashpots=impedances[0],
+		shearDashpots=impedances[1],
+		faces=[Vector3(*map(real, face)) for face in faces],
+		supports=supports,
+		history=history,
+	)
+	for k in ids:
+		state = O.bodies[k].state
+		if not set('xyz') - set(state.blockedDOFs):
+			state.vel, state.blockedDOFs = Vector3.Zero, ''.join(sorted(set(state.blockedDOFs) - set('xyz')))
+	place = next(k for k, one in enumerate(O.engines) if isinstance(one, NewtonIntegrator))
+	O.engines = [*O.engines[:place], engine, *O.engines[place:]]
+	return engine
+
+
+def _outerFace(number, normal):
+	"""(area [m²], centroid in the body's axes [m]) of the faces that look out."""
+	body = O.bodies[number]
+	if not isinstance(body.shape, Polytope):
+		raise ValueError(f'ids: body {number} is no polytope ({type(body.shape).__name__}); boundaries are made of polytopes')
+	if body.isClumpMember:
+		raise ValueError(
+			f"ids: body {number} is a member of clump {body.clumpId}, which moves as one; make blocks at the boundary that are none (jointedRock: incomplete='cut')"
+		)
+	turned = np.array(body.state.ori.conjugate() * Vector3(*map(real, normal)), float)
+	vertices = localVertices(body.shape)
+	faces = [_area(vertices[face]) for face in body.shape.faces]  # of a polygon those of its prism
+	outer = [(np.linalg.norm(area), centroid) for area, centroid in faces if area @ turned > outward * np.linalg.norm(area)]
+	if not outer:
+		raise ValueError(
+			f'ids: body {number} has no face of the normal {tuple(np.round(normal, 3).tolist())}; name the bodies at the boundary alone'
+		)
+	areas, centroids = zip(*outer, strict=True)
+	return float(sum(areas)), np.average(centroids, axis=0, weights=areas)
+
+
+def _area(corners):
+	"""(outward normal times area [m²], centroid [m]) of a convex face, by the triangles about its first corner."""
+	first, second = corners[1:-1] - corners[0], corners[2:] - corners[0]
+	twice = np.cross(first, second)
+	return twice.sum(axis=0) / 2, corners[0] + np.average((first + second) / 3, axis=0, weights=np.linalg.norm(twice, axis=1))
+
+
+def _contactForces(ids):
+	"""Number of each of these bodies → force of its contacts and bonds on it [N]. Not O.forces, which are not known after O.load."""
+	borne = dict.fromkeys(ids, Vector3.Zero)
+	forces = [(one, one.phys.normalForce + one.phys.shearForce) for one in O.interactions if one.isReal]
+	forces += [(one, one.force) for one in madeBonds() if one.intact]
+	for one, force in forces:  # on body 2
+		if one.id1 in borne:
+			borne[one.id1] -= force
+		if one.id2 in borne:
+			borne[one.id2] += force
+	return borne
+
+
+def _support(body, gravity, borne):
+	"""That holds a fixed body where it is; none of one that is free."""
+	if set('xyz') - set(body.state.blockedDOFs):
+		return Vector3.Zero
+	return -(borne + permanentLoads().get(body.id, (Vector3.Zero,))[0] + body.state.mass * gravity)

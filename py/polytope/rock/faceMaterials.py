@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Materials of a block's faces by the joints that made them."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from yade import O, RockJointMat
+
+from ..arguments import materialOf
+
+__all__ = ['faceMaterials', 'materialsOfFaces']
+
+
+def materialsOfFaces(given, entries, own):
+	"""Index in O.materials for each of the joint sets, -1: the body's own.
+
+	:param own: the bodies' material, as builders take it
+	"""
+	if isinstance(given, str) or not isinstance(given, Iterable) or len(given := list(given)) != entries:
+		raise ValueError(f'jointMaterials: must be a sequence with a material, or None, for each of the {entries} jointSets, got {given!r}')
+	own = materialOf(own)
+	chosen = []
+	for number, material in enumerate(given):
+		if material is None:
+			chosen.append(-1)
+			continue
+		try:
+			material = materialOf(material)
+		except (TypeError, ValueError) as error:
+			raise ValueError(f'jointMaterials[{number}]: {error}') from None
+		if not isinstance(material, RockJointMat):
+			raise ValueError(f'jointMaterials[{number}]: must be a RockJointMat, got {type(material).__name__}')
+		for name in ('normalStiffness', 'shearStiffness'):
+			if getattr(material, name) > getattr(own, name, 0):
+				raise ValueError(
+					f'jointMaterials[{number}]: its {name} is above that of the bodies\' own material, {getattr(own, name, 0):g}, by which the time step is chosen '
+					'before blocks touch; give the bodies a RockJointMat that is at least as stiff'
+				)
+		chosen.append(_index(material))
+	return chosen
+
+
+def _index(material):
+	"""In O.materials, where it is appended if it is not there."""
+	listed = 0 <= material.id < len(O.materials) and O.materials[material.id] is material
+	return material.id if listed else O.materials.append(material)
+
+
+def faceMaterials(body, normals, joints, sets, chosen):
+	"""For each plane of the body's shape the material of the joint that made it.
+
+	:param normals: of the block, in world axes
+	:param joints: for each of these the number of its joint, -1: none
+	:param sets: for each joint the number of its set
+	"""
+	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)
+	nearest = joints[np.argmax(own @ (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T, axis=1)]
+	return [int(chosen[sets[joint]]) if joint >= 0 else -1 for joint in nearest]
