@@ -28,7 +28,7 @@ groups = {
 		'RockJointMat RockJointPhys Ip2_RockJointMat_RockJointMat_RockJointPhys Law2_PolytopeGeom_RockJointPhys_MohrCoulomb'.split(),
 	),
 	'bonds': ('Bonds', ['PolytopeBonds', 'PolytopeBond']),
-	'engines': ('Engines', 'PolytopeCollider PolytopeTimeStepper PolytopeVTKRecorder PolytopeCheckpoint'.split()),
+	'engines': ('Engines', 'PolytopeCollider PolytopeTimeStepper PolytopeWater PolytopeVTKRecorder PolytopeCheckpoint'.split()),
 }
 """Page, title, names. tests/yade/test_site.py sees to it that each class is in one of them."""
 

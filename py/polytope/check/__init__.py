@@ -37,7 +37,7 @@ def check(O):
 	apply forces as for spheres, functors of one loop that disagree in contactModel, contact models whose unit of stiffness is another, contacts of
 	YADE's materials without any damping, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes
 	in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres only, YADE's density scaling, bodies too large for a periodic cell,
-	bonds whose engine is missing, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, gravity that begins at once on joints with a strength to lose, attributes that nothing
+	bonds whose engine is missing, water that acts too late, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, gravity that begins at once on joints with a strength to lose, attributes that nothing
 	reads, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's
 	collider does not notice.
 

@@ -10,6 +10,7 @@ from yade import (
 	NewtonIntegrator,
 	Polytope,
 	PolytopeBonds,
+	PolytopeWater,
 	Sphere,
 	TriaxialStressController,
 )
@@ -21,7 +22,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, water, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -108,6 +109,17 @@ def bonds(scene):
 	after = scene.engines[start + 1 :] + scene.engines[:start]
 	if after.index(those[0]) > after.index(scene.integrators[0]):
 		yield 'bonds', 'PolytopeBonds is not before the NewtonIntegrator: forces of bonds are erased before they act', 'put it after the InteractionLoop'
+
+
+def water(scene):
+	"""Of which the forces are not there when bodies are moved."""
+	those, resetters = scene.those(PolytopeWater), scene.those(ForceResetter)
+	if not those or not resetters or not scene.integrators:
+		return
+	start = scene.engines.index(resetters[0])
+	after = scene.engines[start + 1 :] + scene.engines[:start]
+	if any(after.index(one) > after.index(scene.integrators[0]) for one in those):
+		yield 'water', 'PolytopeWater is not before the NewtonIntegrator: its forces are erased before they act', 'put it after the InteractionLoop'
 
 
 def contactModels(scene):
