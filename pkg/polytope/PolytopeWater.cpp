@@ -7,6 +7,8 @@
 
 #include "Polytope.hpp"
 
+#include <algorithm>
+
 namespace yade {
 
 YADE_PLUGIN((PolytopeWater));

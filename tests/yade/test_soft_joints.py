@@ -45,6 +45,8 @@ def testTheClosedFormIsThatOfTheWedgeOfPressure():
 			assert rigid[0] == pytest.approx(atan(ratio), rel=1e-12)
 			assert elastic[0] == pytest.approx(atan(elasticToppling(ratio, 1.0, softness * ratio**2, 1.0)), abs=radians(0.01))
 	assert stableTilt([1.0], [1e-12])[0][0] == pytest.approx(pi / 4, abs=radians(0.05))
+	elastic, rigid = stableTilt([5.0, 50.0, 500.0], [1e-3] * 3)  # plates
+	assert (elastic <= rigid).all() and np.isfinite(elastic).all()
 	assert (np.diff(stableTilt([0.4] * 4, [1e-4, 1e-3, 1e-2, 1e-1])[0]) < 0).all()
 
 

@@ -63,6 +63,21 @@ def testForcesActInTheStepAndAddUp():
 	assert light.load(body)[0][2] == pytest.approx(weight * volume, rel=1e-12)
 
 
+def testAClumpFloatsAsTheBlockThatItMakes():
+	"""Water on the faces that its parts share cancels."""
+	rock(density=600)
+	turn = Quaternion((0, 1, 0), 0.2)
+	whole = O.bodies.append(polytope.cuboid((9, 0, 0), (1, 1, 0.5), turn))
+	clump, _ = polytope.clump([polytope.cuboid(turn * Vector3(side * 0.5, 0, 0), (0.5, 1, 0.5), turn) for side in (-1, 1)])
+	O.engines = polytope.engines(damping=0, timeStepper=False)
+	O.dt = 1e-3
+	polytope.water(level=0.1)
+	O.run(2000, wait=True)
+	one, other = O.bodies[whole].state, O.bodies[clump].state
+	assert one.pos[2] == pytest.approx(other.pos[2], abs=1e-9) and (one.angVel - other.angVel).norm() < 1e-8
+	assert one.vel.norm() > 1e-3 and abs(one.angVel[1]) > 1e-3
+
+
 @pytest.mark.parametrize('flat', [False, True])
 def testAFloatingBlockHasItsDraftAndRightingMoment(flat):
 	"""Archimedes: draft h ρ_b/ρ_w; of a box turned by θ without a dry bottom the moment ρ g L sin θ (b³/12 (1 + tan² θ/2) − A (h − T)/2)."""

@@ -51,11 +51,11 @@ def stableTilt(ratio, softness):
 	sine, cosine = np.sin(turn), np.cos(turn)
 	tangent = ratio
 	for _ in range(rounds):
-		wedge = np.minimum(
-			np.sqrt(2 * softness * np.cos(np.arctan(tangent)) / turn), 1
-		)  # lengths over the width; until the heel opens all of it is pressed
-		values = (0.5 * cosine - 0.5 / ratio * sine - wedge / 3) / (0.5 / ratio * cosine + 0.5 * sine - wedge * sine)
-		tangent = np.maximum(values.max(axis=1, keepdims=True), 0)
+		pressing = softness * np.cos(np.arctan(tangent))
+		wedge = np.minimum(np.sqrt(2 * pressing / turn), 1)  # lengths over the width; until the heel opens all of it is pressed
+		behind, above = 0.5 * cosine - 0.5 / ratio * sine - wedge / 3, 0.5 / ratio * cosine + 0.5 * sine - wedge * sine
+		values = np.where(above > 0, behind / above, 0)  # flat plates: their centre comes below the toe's depth
+		tangent = np.clip(values.max(axis=1, keepdims=True), 0, ratio)
 	return np.arctan(tangent[:, 0]), np.arctan(ratio[:, 0])
 
 
