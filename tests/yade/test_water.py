@@ -182,7 +182,7 @@ def testTheSlopeOfHoekAndBrayWithWaterInItsTensionCrack(flat):
 
 @pytest.mark.parametrize('drained', [False, True])
 @pytest.mark.parametrize('margin', [0.99, 1.01])
-@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.filterwarnings('ignore:soft joint')  # of a slice of 1 m, across it
 def testADamSlidesAtItsFactorWithUplift(drained, margin):
 	"""(W − U) tan φ / H: thrust of 9 m of water, uplift under the base that falls to zero at the toe, with a drain 2 m from the heel to a third of it there."""
 	wide, high, deep = 8.0, 10.0, 9.0
@@ -226,6 +226,32 @@ def testABlockUnderWaterPressesWithItsEffectiveWeight(flat):
 	assert joint.shearForce.norm() == pytest.approx(effective * sin(dip), rel=1e-4)
 	O.run(2000, wait=True)
 	assert O.bodies[number].state.vel.norm() < 1e-6
+
+
+@pytest.mark.parametrize('flat', [False, True])
+@pytest.mark.parametrize('margin', [0.98, 1.02])
+def testALayerOfBlocksWithSeepageAlongTheSlope(margin, flat):
+	"""Infinite slope with water up to its surface that flows along it (Taylor 1948): p = ρ g d cos β at the depth d across it, factor (γ − γ_w) tan φ / (γ tan β)."""
+	slope, deep, wide, number = radians(15), 2.0, 3.0, 5
+	rock(density=2200, frictionAngle=np.arctan(margin * 2200 / (2200 - density) * tan(slope)))
+	up = Vector3(0, flat, not flat)
+	if flat:
+		O.bodies.append(polytope.polygon([(-9, -1), (24, -1), (24, 0), (-9, 0)], 1, fixed=True))
+		blocks = [polytope.polygon([(x, 0), (x + wide, 0), (x + wide, deep), (x, deep)], 1) for x in wide * np.arange(number)]
+	else:
+		O.bodies.append(polytope.cuboid((7, 0, -0.5), (16, 9, 0.5), fixed=True))
+		blocks = [polytope.cuboid((x + wide / 2, y, deep / 2), (wide / 2, 1, deep / 2)) for x in wide * np.arange(number) for y in (-1, 1)]
+	ids = O.bodies.append(blocks)
+	O.engines = polytope.engines(gravity=gravity * (sin(slope) * Vector3(1, 0, 0) - cos(slope) * up), damping=0.4)
+	water = polytope.water(pressures=[(deep * up, 0), (0 * up, weight * deep * cos(slope))])
+	area = wide * (1 if flat else 2)
+	for one in ids:
+		uplift = weight * deep * cos(slope) * area
+		assert (water.load(one)[0] - uplift * up).norm() < 1e-12 * uplift
+	polytope.settle()
+	O.run(4000, wait=True)
+	fastest = max(O.bodies[one].state.vel.norm() for one in ids)
+	assert (fastest < 1e-6) == (margin > 1), fastest
 
 
 def testBelowATableThatSlopesWaterPushesDownTheSlope():
