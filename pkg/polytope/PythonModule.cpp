@@ -92,6 +92,11 @@ py::tuple packedFaces(const yade::Polytope& shape)
 	return py::make_tuple(bytesOf(coordinates), bytesOf(counts), bytesOf(corners));
 }
 
+py::object planesOfFaces(const yade::Polytope& shape)
+{
+	return bytesOf(shape.convex() ? shape.convex()->polyhedron().planeOfFace : std::vector<int>());
+}
+
 /// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
 boost::shared_ptr<yade::Body> bodyOf(const py::object& given, const char* name)
 {
@@ -224,6 +229,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("packedFaces", &packedFaces, py::arg("shape"),
 	        "Of a Polytope, as bytes of NumPy arrays: vertices (n, 3) float64 in the body's frame, number of corners of each face, "
 	        "int32, and the corners of all faces one after another, int32.");
+	py::def("planesOfFaces", &planesOfFaces, py::arg("shape"),
+	        "Of a Polytope, as bytes of a NumPy array: index of the half-space of each face, int32; -1 for both caps of a polygon.");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "

@@ -20,6 +20,7 @@ __all__ = [
 	'interactionLoops',
 	'laws',
 	'meanwhile',
+	'placeOfForces',
 	'stiffnessesPerArea',
 	'unitOfModel',
 	'wrongUnit',
@@ -76,6 +77,22 @@ def wrongUnit(models, perArea):
 			f"contactModel='surface', which goes by the unit, or {other!r}, or stiffnessPerArea={not perArea} and stiffnesses in "
 			f'{"N/m" if perArea else "Pa/m"}',
 		)
+
+
+def placeOfForces(what):
+	"""Where in O.engines forces of an engine must be added: after what finds contacts, before what moves the bodies.
+
+	:param str what: what acts there, with its verb, for the messages
+	:raises ValueError: naming *engines* if there is no such place
+	"""
+	engines = list(O.engines)
+	integrator = next((k for k, one in enumerate(engines) if isinstance(one, NewtonIntegrator)), None)
+	if integrator is None:
+		raise ValueError(f'engines: set O.engines first, for example O.engines = polytope.engines(); {what} before NewtonIntegrator')
+	loops = [k for k, one in enumerate(engines) if isinstance(one, InteractionLoop)]
+	if loops and loops[-1] > integrator:
+		raise ValueError(f'engines: NewtonIntegrator is before InteractionLoop in O.engines; {what} between them, put it behind')
+	return integrator
 
 
 @contextlib.contextmanager

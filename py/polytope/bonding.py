@@ -4,8 +4,9 @@
 import math
 import numbers
 
-from yade import Clump, InteractionLoop, NewtonIntegrator, O, Polytope, PolytopeBond, PolytopeBonds
+from yade import Clump, O, Polytope, PolytopeBond, PolytopeBonds
 
+from ._scene import placeOfForces
 from .arguments import namedArguments, warn
 from .precision import isNumber, real
 
@@ -74,7 +75,7 @@ def bond(
 	engine = bonds()
 	new = engine is None
 	if new:
-		place, engine = _place(), PolytopeBonds()
+		place, engine = placeOfForces('bonds act'), PolytopeBonds()
 	made = engine.make(bodies, -1 if gap is None else real(gap), real(angle), pattern)
 	if made == 0 and engine.intactCount == 0:
 		within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
@@ -140,15 +141,3 @@ def _parts(ids):
 		else:
 			raise ValueError(f'ids: body {number} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder')
 	return sorted(set(parts))
-
-
-def _place():
-	"""Where the bonds act in O.engines: before what moves the bodies, after what finds their contacts."""
-	engines = list(O.engines)
-	integrator = next((k for k, one in enumerate(engines) if isinstance(one, NewtonIntegrator)), None)
-	if integrator is None:
-		raise ValueError('engines: set O.engines first, for example O.engines = polytope.engines(); bonds act before NewtonIntegrator')
-	loops = [k for k, one in enumerate(engines) if isinstance(one, InteractionLoop)]
-	if loops and loops[-1] > integrator:
-		raise ValueError('engines: NewtonIntegrator is before InteractionLoop in O.engines; bonds act between them, put it behind')
-	return integrator

@@ -129,7 +129,7 @@ def clumpedSettled():
 	return settled('startClumps')
 
 
-def sliding(pieces, number):
+def sliding(pieces, number, waterTable=None):
 	mpi.merge()
 	O.reset()
 	if master:
@@ -143,6 +143,8 @@ def sliding(pieces, number):
 			O.bodies[-1].state.vel = (2.0 + 0.05 * k, 0.1, 0)
 		O.engines = polytope.engines(timeStepper=False)
 		O.dt = 3e-4
+		if waterTable is not None:
+			polytope.water(level=waterTable)
 	mpi.divide()
 	mpi.run(number)
 	return state()
@@ -204,6 +206,10 @@ def crossing():
 
 def smooth():
 	return sliding(1, 400)
+
+
+def wet():
+	return sliding(1, 300, waterTable=0.25)
 
 
 def joints():

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -65,6 +65,22 @@ def testBondedCubeBreaksInPart(runs, capsys):
 	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
 	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
 	assert made == intact + tension + shear and 0 < intact < made and isPicture('output/bondedCube.png') and noFailures()
+
+
+def testBlocksOnSlopesStandSlideAndToppleAs3DecSays(runs, capsys):
+	with pytest.raises(SystemExit) as end:
+		runs('blockOnSlope')
+	lines = [line.split(': ')[1].split(';')[0] for line in capsys.readouterr().out.splitlines() if line.startswith('  ')]
+	usual, soft = ['stands', 'slides', 'slides', 'stands', 'topples'], ['topples', 'topples', 'slides', 'topples', 'topples']
+	assert not end.value.code and lines == usual + soft + usual and noFailures()
+
+
+def testColumnsToppleAtTheAngleOfGoodmanAndBray(runs, capsys):
+	"""Less closely than the example."""
+	with pytest.raises(SystemExit) as end:
+		runs('goodmanBray', shorter={'start=radians(50), steps=[radians(2), radians(0.5), radians(0.1)]': 'start=radians(42), steps=[radians(2), radians(0.5)]'})
+	stands, fails, exact = map(float, re.findall(r'[\d.]+(?=°)', capsys.readouterr().out))
+	assert not end.value.code and exact == pytest.approx(38.13, abs=0.01) and fails - 0.3 < exact < stands + 0.3 and noFailures()
 
 
 def testCrushedCubeBalancesItsEnergy(runs, capsys):

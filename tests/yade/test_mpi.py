@@ -36,7 +36,7 @@ sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
 sessions = tempfile.TemporaryDirectory(prefix='mpi')
 """Of the runs' own files, a folder each: mpirun names its by its process number and does not start where one that was killed left the same."""
-moving = ['smooth', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
+moving = ['smooth', 'wet', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
 
 def launch(ranks, *command):
@@ -162,7 +162,7 @@ def testFixedBodiesWithAVelocityMoveOnAllRanks(found):
 	assert pushed[2] > 0.2 + 0.9 * 0.01 and pushed[7] > 1  # carried upwards, and struck by the plate
 
 
-@pytest.mark.parametrize('name, moved', [('smooth', 400), ('joints', 80)])
+@pytest.mark.parametrize('name, moved', [('smooth', 400), ('wet', 300), ('joints', 80)])
 def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	one, several = found(name, 1), found(name, 3)
 	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()

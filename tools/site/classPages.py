@@ -30,7 +30,7 @@ groups = {
 	'bonds': ('Bonds', ['PolytopeBonds', 'PolytopeBond']),
 	'engines': (
 		'Engines',
-		'PolytopeCollider PolytopeTimeStepper PolytopeVTKRecorder PolytopeCheckpoint BaseMotion QuietBoundary VelocityHistory'.split(),
+		'PolytopeCollider PolytopeTimeStepper PolytopeWater PolytopeVTKRecorder PolytopeCheckpoint BaseMotion QuietBoundary VelocityHistory'.split(),
 	),
 }
 """Page, title, names. tests/yade/test_site.py sees to it that each class is in one of them."""

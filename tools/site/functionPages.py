@@ -17,7 +17,7 @@ topics = {
 		'voronoi VoronoiCells',
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
-	'scene': ('Scenes', 'engines check settle stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
+	'scene': ('Scenes', 'engines check settle water stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
 	'measures': (

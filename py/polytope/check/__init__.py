@@ -7,6 +7,7 @@ from .engines import engineFindings
 from .pairs import pairFindings
 from .places import notNumbers, placeFindings
 from .scene import SceneToCheck
+from .softJoints import softJoints
 from .steps import stepFindings
 
 __all__ = ['Check', 'check', 'checkOf']
@@ -37,7 +38,7 @@ def check(O):
 	apply forces as for spheres, functors of one loop that disagree in contactModel, contact models whose unit of stiffness is another, contacts of
 	YADE's materials without any damping, polygons that meet what they cannot touch, positions and velocities that are not numbers, polytopes
 	in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres only, YADE's density scaling, bodies too large for a periodic cell,
-	bonds whose engine is missing, numerical damping beside a moving base or a quiet boundary, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, gravity that begins at once on joints with a strength to lose, attributes that nothing
+	bonds whose engine is missing, numerical damping beside a moving base or a quiet boundary, water that acts too late, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads, joints so soft that a block topples a degree below its own angle, gravity that begins at once on joints with a strength to lose, attributes that nothing
 	reads, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's
 	collider does not notice.
 
@@ -59,5 +60,8 @@ def checkOf(O, engines):
 	lost = list(notNumbers(scene))
 	found = [*lost, *engineFindings(scene), *pairFindings(scene), *bodyFindings(scene)]
 	if not lost:
-		found += [*placeFindings(scene), *stepFindings(scene)]
+		places = list(placeFindings(scene))
+		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to
+			places += softJoints(scene)
+		found += [*places, *stepFindings(scene)]
 	return Check(Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same

@@ -11,6 +11,7 @@ from yade import (
 	NewtonIntegrator,
 	Polytope,
 	PolytopeBonds,
+	PolytopeWater,
 	QuietBoundary,
 	Sphere,
 	TriaxialStressController,
@@ -23,7 +24,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, dampingOfShaken, boundaries, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -96,20 +97,13 @@ def order(scene):
 
 
 def bonds(scene):
-	"""Bonds whose forces are not there when bodies are moved, or of which others know nothing."""
+	"""Bonds that are lost, or of which others know nothing."""
 	those, removed = scene.those(PolytopeBonds), removedBonds() if scene.ownEngines else None
 	if removed is not None:
 		seen = f'O.engines has no PolytopeBonds any more, whose {removed.intactInScene} bonds were intact: those bodies are loose'
 		yield 'bonds', seen, 'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.bonds() before NewtonIntegrator'
 	if len(those) > 1:
 		yield 'bonds', f'O.engines has {len(those)} PolytopeBonds: contacts know the bonds of the first one only', 'keep one, and make all bonds with polytope.bond'
-	resetters = scene.those(ForceResetter)
-	if not those or not resetters or not scene.integrators:
-		return
-	start = scene.engines.index(resetters[0])
-	after = scene.engines[start + 1 :] + scene.engines[:start]
-	if after.index(those[0]) > after.index(scene.integrators[0]):
-		yield 'bonds', 'PolytopeBonds is not before the NewtonIntegrator: forces of bonds are erased before they act', 'put it after the InteractionLoop'
 
 
 def dampingOfShaken(scene):
@@ -122,19 +116,17 @@ def dampingOfShaken(scene):
 		yield 'damping', seen, advice
 
 
-def boundaries(scene):
-	"""Forces of a quiet boundary that are erased before they act."""
+def erasedForces(scene):
+	"""Forces that are not there any more when bodies are moved."""
 	resetters = scene.those(ForceResetter)
 	if not resetters or not scene.integrators:
 		return
 	start = scene.engines.index(resetters[0])
 	after = scene.engines[start + 1 :] + scene.engines[:start]
-	if any(after.index(one) > after.index(scene.integrators[0]) for one in scene.those(QuietBoundary)):
-		yield (
-			'order of engines',
-			'QuietBoundary is not before the NewtonIntegrator: its forces are erased before they act',
-			'put it after the InteractionLoop',
-		)
+	for kind, what in ((PolytopeBonds, 'bonds'), (PolytopeWater, 'water'), (QuietBoundary, 'order of engines')):
+		if any(after.index(one) > after.index(scene.integrators[0]) for one in scene.those(kind)):
+			seen = f'{kind.__name__} is not before the NewtonIntegrator: its forces are erased before they act'
+			yield what, seen, 'put it after the InteractionLoop'
 
 
 def contactModels(scene):

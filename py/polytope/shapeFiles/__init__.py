@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Shapes from and to text files: YADE's own format for polyhedra, Neper's tessellations (.tess), Rockable's shapes (.shp)."""
+"""Shapes from and to text files: YADE's own format for polyhedra, Neper's tessellations (.tess), Rockable's shapes (.shp), blocks of COMPAS (.json)."""
 
 import math
 import os
@@ -10,11 +10,11 @@ from ..arguments import number, vector
 from ..bodies import builder
 from ..heap import namedBodies
 from ..meshes.files import isMeshFile
-from . import neper, rockable, yadeText
+from . import compas, neper, rockable, yadeText
 
 __all__ = ['readShapes', 'writeShapes']
 
-formats = {'.tess': neper.bodies, '.shp': rockable.bodies}
+formats = {'.tess': neper.bodies, '.shp': rockable.bodies, '.json': compas.bodies}
 """By the ends of file names; all others are YADE's text."""
 
 
@@ -26,6 +26,7 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, **body):
 	  write, are left out.
 	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges,
 	  there round, are sharp); a flat shape is a plate of twice that thickness. They lie where their vertices do.
+	- ``.json``: blocks of masonry from COMPAS (compas_assembly, compas_dem, compas_cra, or a list of meshes), convex hulls; supports are *fixed*, unless that is given.
 	- names of meshes (.stl, .obj, .msh …) are refused: fromMesh reads them.
 	- any other name: polyhedra in YADE's text format, from writeShapes or from YADE's export.textPolyhedra, as convex hulls.
 
