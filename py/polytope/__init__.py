@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; *factorOfSafety*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -34,6 +34,7 @@ from .factorOfSafety import FactorOfSafety, factorOfSafety
 from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
+from .history import history
 from .jointedRock import JointedRock, JointSet, jointedRock
 from .loading.oedometer import oedometer
 from .loading.shearBox import shearBox
@@ -102,6 +103,7 @@ __all__ = [
 	'fromVertices',
 	'frustum',
 	'grains',
+	'history',
 	'inSitu',
 	'jointedRock',
 	'mechanicalEnergy',

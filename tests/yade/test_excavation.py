@@ -113,6 +113,17 @@ def testABlockThatHangsBetweenWallsKeepsItsCohesionWhereItsSupportIsRelaxed(over
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
+def testWhatHangsHasTheFactorOfSafetyOfItsJoints():
+	"""Stress, excavation and strength reduction one after the other: (c A + H tan φ)/(W/2), of brittle joints."""
+	heldBySides(1.3)
+	polytope.excavate([2], over=3000)
+	assert polytope.settle(elastic=False) >= 3000
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(1.3, rel=0.01)
+	assert found.bodies == [3] and found.directions[0] == pytest.approx((0, 0, -1), abs=1e-3)
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
 def testStrongerItSwingsToTwiceItsLoad():
 	weight = heldBySides(3)
 	polytope.excavate([2])

@@ -124,6 +124,25 @@ def testOfSeveralBlocksTheWeakerMoves():
 	assert found.factor == pytest.approx(1.9, rel=0.01) and found.bodies == [1]
 
 
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('bonded', [False, True])
+def testWhatHangsByTension(bonded):
+	"""A block of 1 m³ under a roof, by its joint and by a bond: σ A/W."""
+	strength = 1.6 * 5000 * gravity
+	material(**({} if bonded else {'tensileStrength': strength, 'cohesion': 1e7}))
+	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
+	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5 + 1e-7), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	if bonded:
+		polytope.bond(tensileStrength=strength, cohesion=1e7)
+	polytope.settle()
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(1.6, rel=0.01)
+	assert found.bodies == [hanging] and found.directions[0] == pytest.approx((0, 0, -1), abs=1e-3)
+	with pytest.raises(RuntimeError, match='fails by no lack of friction, cohesion'):
+		polytope.factorOfSafety(reduce=('friction', 'cohesion'), most=3)
+
+
 def limitOfTwoBlocks(upper, lower, steep, gentle, angle):
 	"""Factor at which a block on a steep plane pushes another one along a gentle one, with a vertical joint between them: all three joints at their strength.
 

@@ -18,7 +18,7 @@ topics = {
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'scene': ('Scenes', 'engines check settle stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
-	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate factorOfSafety FactorOfSafety'),
+	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
 	'measures': (
 		'Measures',

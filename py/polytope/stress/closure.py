@@ -68,7 +68,9 @@ def _enlargeOne(body, planes):
 		foot = place + turn @ (offsets[plane] * normals[plane])  # the plane's point nearest to the centre
 		offsets[plane] += at + slope @ foot
 		normals[plane] -= across
-	made = _polytope.ofHalfSpaces(vectors(normals, 'normals', 3), list(offsets), old.dimension, old.thickness, True, old.cornerRadius, 0.1)
+	made = _polytope.ofHalfSpaces(
+		vectors(normals, 'normals', 3), offsets.tolist(), old.dimension, old.thickness, True, old.cornerRadius, 0.1
+	)
 	new = _polytope.body(made, body.material, None, Quaternion.Identity, False, isotropyTolerance, old.color)
 	shape, density = new.shape, state.mass / old.volume
 	shape.wire, shape.highlight = old.wire, old.highlight
