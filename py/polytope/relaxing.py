@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Forces of bodies that have been taken away, which fade to zero: an engine that goes on after saving and loading, and then removes itself."""
 
+import functools
+import json
 import math
 
 from yade import NewtonIntegrator, O, PyRunner, Vector3
@@ -20,7 +22,7 @@ def startRelaxing(loads, steps):
 	place = next((k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator)), None)
 	if place is None:
 		raise ValueError('O.engines: there must be a NewtonIntegrator, before which the forces act')
-	plain = {int(k): tuple(tuple(float(x) for x in vector) for vector in load) for k, load in loads.items()}
+	plain = json.dumps([[int(k), *([float(x) for x in vector] for vector in load)] for k, load in loads.items()])
 	engines.insert(place, PyRunner(command=_command(int(O.iter), steps, plain), iterPeriod=1, initRun=True))
 	O.engines = engines
 
@@ -38,7 +40,7 @@ def act(began, steps, loads):
 		O.engines = [engine for engine in O.engines if not (isinstance(engine, PyRunner) and engine.command == command)]
 		return
 	left = (1 + math.cos(math.pi * part)) / 2  # without a jump of the rate at either end, which would make bodies swing
-	for k, (force, torque) in loads.items():
+	for k, force, torque in _unpacked(loads):
 		if k < len(O.bodies) and O.bodies[k] is not None:
 			O.forces.addF(k, left * Vector3(*force))
 			O.forces.addT(k, left * Vector3(*torque))
@@ -47,3 +49,9 @@ def act(began, steps, loads):
 def _command(began, steps, loads):
 	"""The state is in the command, which is saved with the engine."""
 	return f'{module}({began}, {steps}, {loads!r})'
+
+
+@functools.lru_cache(maxsize=8)
+def _unpacked(loads):
+	"""Kept: a command is read in each step, and a word is read sooner than a list of numbers."""
+	return json.loads(loads)

@@ -102,6 +102,18 @@ def testTheErrorIsAboutThreeTimesTheClosureOverTheWidth():
 	assert 0.01 < error(StressField(np.diag((-4e6, -5e6, -6e6)))) < 3 * 0.006
 
 
+def testBlocksOfTwoMaterials():
+	"""In turns; each has the closure of its own."""
+	material(label='hard', normalStiffness=4e10)
+	material(label='soft', normalStiffness=1e10)
+	for i, j, k in np.ndindex(3, 3, 3):
+		O.bodies.append(polytope.cuboid((i + 0.5, j + 0.5, k + 0.5), (0.5, 0.5, 0.5), material=('hard', 'soft')[(i + j + k) % 2]))
+	around((0, 0, 0), (3, 3, 3))
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	polytope.inSitu(general)
+	assert staysAtRest(StressField(general), 0.002)
+
+
 def testObliqueJoints():
 	"""Thin blocks included, of joints that close by 0.03 mm."""
 	rock(normalStiffness=2e11, shearStiffness=1e11)

@@ -27,8 +27,9 @@ class StressField:
 		self.slope = np.zeros((3, 3, 3)) if gradient is None else _tensors(gradient, 'gradient', (3, 3, 3), what)
 
 	def at(self, point):
-		"""(3, 3) tensor [Pa]"""
-		return self.origin + np.tensordot(np.asarray(point, float), self.slope, 1)
+		"""(3, 3) tensor [Pa]; (n, 3, 3) of n points"""
+		points = np.asarray(point, float)
+		return self.origin + (points @ self.slope.reshape(3, 9)).reshape(*points.shape[:-1], 3, 3)
 
 	@property
 	def divergence(self):

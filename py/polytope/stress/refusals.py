@@ -82,16 +82,17 @@ def refuseScene(chosen):
 def refuseField(field, faces, chosen):
 	if not faces:
 		raise ValueError('bodies: no two faces touch; blocks must lie face on face as polytope.jointedRock makes them')
-	largest = max(float(np.abs(field.at(point)).max()) for face in faces for point in face.corners)
-	for face in faces:
-		for point in face.corners:
-			pull = face.normal @ field.at(point) @ face.normal
-			if pull > rounding * largest:
-				place = ', '.join(f'{x:.4g}' for x in point)
-				raise ValueError(
-					f'stress: tension of {pull:.3g} Pa across the joint between {face.id1} and {face.id2} at ({place}); compression is negative, '
-					'and a surface where it ends in the mass is where the blocks must end'
-				)
+	stresses = [field.at(face.corners) for face in faces]
+	largest = max(float(np.abs(several).max()) for several in stresses)
+	for face, several in zip(faces, stresses, strict=True):
+		pulls = several @ face.normal @ face.normal
+		worst = int(np.argmax(pulls))
+		if pulls[worst] > rounding * largest:
+			place = ', '.join(f'{x:.4g}' for x in face.corners[worst])
+			raise ValueError(
+				f'stress: tension of {pulls[worst]:.3g} Pa across the joint between {face.id1} and {face.id2} at ({place}); compression is negative, '
+				'and a surface where it ends in the mass is where the blocks must end'
+			)
 	_refuseStrength(field, faces, largest)
 	_refuseOverlap(faces, largest)
 	_refuseCover(field, faces, chosen)
