@@ -130,6 +130,22 @@ def testGravityWithK0(without):
 	assert staysAtRest(StressField(np.zeros((3, 3)), upwards), steps=1000)
 
 
+def testBlocksAtTheRegionsBoundaryMayBeTheFixedOnes():
+	"""No plates; of the region, an octahedron, whose sides are no box."""
+	material(normalStiffness=2e11)
+	octahedron = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+	joints = [(50, 80, 1.1), (70, 200, 1.2), (20, 310, 1.1)]
+	sets = [polytope.JointSet(math.radians(dip), math.radians(direction), spacing) for dip, direction, spacing in joints]
+	mass = polytope.jointedRock(octahedron, [4] * 8, sets)
+	for k, made in zip(mass.append(), mass.faces, strict=True):
+		if (made < 0).any():  # a face of the region
+			O.bodies[k].dynamic = False
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	polytope.inSitu(general)
+	assert len(polytope.bodyStress()) > 4 and error(StressField(general)) < 0.001
+	assert polytope.settle(elastic=False) <= 500 and error(StressField(general)) < 0.001
+
+
 def testShearThatChangesInSpaceTurnsFacesAboutTheirNormals():
 	"""σ_xy = a z: a face with the normal x and sides b has the moment a b⁴/12 on body 2."""
 	material()
