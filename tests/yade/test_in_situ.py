@@ -114,6 +114,20 @@ def testBlocksOfTwoMaterials():
 	assert staysAtRest(StressField(general), 0.002)
 
 
+def testPlanesWithoutAFaceStayWhereTheyAre():
+	"""One before the face's own among the planes, one behind it."""
+	material()
+	far, near = [(1, 0, 0), (0, 1, 0)], [1.3, 1.2]
+	O.bodies.append(polytope.fromHalfSpaces([far[0], *sides, far[1]], [near[0], 1, 0, 1, 0, 1, 0, near[1]]))
+	assert len(O.bodies[0].shape.normals) == 8
+	for low in ((1, 0, 0), (0, 1, 0), (1, 1, 0)):
+		cuboid(low, np.add(low, 1))
+	around((0, 0, 0), (2, 2, 1))
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	polytope.inSitu(general)
+	assert staysAtRest(StressField(general), 0.002)
+
+
 def testObliqueJoints():
 	"""Thin blocks included, of joints that close by 0.03 mm."""
 	rock(normalStiffness=2e11, shearStiffness=1e11)

@@ -26,10 +26,11 @@ def closures(faces, field):
 	for face in faces:
 		for k, side in ((face.id1, 1), (face.id2, -1)):
 			body = O.bodies[k]
-			normals, _ = planesOf(body)
-			cosines = side * normals @ face.normal
-			plane = int(np.argmax(cosines))
-			if 1 - cosines[plane] <= samePlane:
+			normals, offsets = planesOf(body)
+			away = np.abs(normals @ face.centroid - offsets)
+			away[1 - side * normals @ face.normal > samePlane] = np.inf  # of those that are parallel one has the face
+			plane = int(np.argmin(away))
+			if np.isfinite(away[plane]):
 				found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(body.material.normalStiffness))
 	return found
 

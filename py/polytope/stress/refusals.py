@@ -142,6 +142,8 @@ def _refuseCover(field, faces, chosen):
 		vertices, (normals, offsets) = worldVertices(body), planesOf(body)
 		for normal, offset in zip(normals, offsets, strict=True):
 			area = areaOfFace(vertices, normal, offset)
+			if area == 0:  # a plane that owns no face
+				continue
 			covered = sum(part for n, part in touching.get(k, []) if n @ normal > 1 - 1e-4)
 			missing = abs(area - covered) * float(np.linalg.norm(field.at(_middle(vertices, normal, offset)) @ normal))
 			if missing > accuracy * bears.get(k, 0.0):
