@@ -363,14 +363,17 @@ def testScenesThatCannotHaveAStress(what):
 
 
 def testAClumpGetsIt():
-	"""Of three cubes in an L, and one that fills the corner."""
+	"""Of three blocks in an L, and one that fills the corner. Parts get other centres and axes with their size, and stay where they are."""
 	material()
-	clump, _ = polytope.clump([polytope.cuboid((x + 0.5, y + 0.5, 0.5), (0.5, 0.5, 0.5)) for x, y in ((0, 0), (1, 0), (0, 1))])
+	corners = [(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)], [(1, 0), (2, 0), (2, 1), (1, 1)], [(0, 1), (1, 1), (1, 2), (0, 2)]
+	prisms = [[(x, y, z) for x, y in outline for z in (0, 1)] for outline in corners]
+	clump, _ = polytope.clump([polytope.fromVertices(points) for points in prisms])
 	cuboid((1, 1, 0), (2, 2, 1))
 	around((0, 0, 0), (2, 2, 1))
 	O.engines = polytope.engines(gravity=(0, 0, 0))
 	polytope.inSitu(general)
 	assert clump in polytope.bodyStress() and error(StressField(general)) < 0.005
+	assert staysAtRest(StressField(general), 0.005)
 
 
 def testAClumpWhosePartsDoNotAddUpOnAPlateIsRefused():

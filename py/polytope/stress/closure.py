@@ -52,6 +52,7 @@ def enlarge(bodies):
 		for k, planes in bodies.items():
 			before.append(_stateOf(O.bodies[k]))
 			_enlargeOne(O.bodies[k], planes)
+		_followParts(bodies)
 	except Exception:
 		restore(before)
 		raise
@@ -96,3 +97,14 @@ def restore(before):
 		body.shape, body.aspherical = shape, aspherical
 		for name, value in zip(ofState, values, strict=True):
 			setattr(body.state, name, value)
+	_followParts(body.id for body, *_ in before)
+
+
+def _followParts(bodies):
+	"""Clumps know where their parts are."""
+	for k in {O.bodies[k].clumpId for k in bodies if O.bodies[k].isClumpMember}:
+		clump = O.bodies[k]
+		state = clump.state
+		reference = state.refPos, state.refOri
+		_polytope.setClump(clump, state.mass, state.inertia, state.pos, state.ori, isotropyTolerance)
+		state.refPos, state.refOri = reference
