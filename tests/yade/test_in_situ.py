@@ -259,6 +259,7 @@ def uniform(x):
 		(np.diag((-4, -math.inf, -1)), None, '^stress: must be finite'),
 		((-4, -5, -6), None, r'^stress: must be a symmetric \(3, 3\) tensor'),
 		('high', None, '^stress: must be a symmetric'),
+		(np.zeros((3, 3)), None, '^stress: is zero'),
 		(uniform(-1e6), None, '^stress: tension of 1e.06 Pa.*compression is negative'),
 		(np.diag((-1e6, -1e6, 1e3)), None, '^stress: tension of 1e.03 Pa'),
 		(uniform(1e6), np.diag((1, 2, 3)), r'^gradient: must be three symmetric \(3, 3\) tensors'),

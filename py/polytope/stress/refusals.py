@@ -84,6 +84,8 @@ def refuseField(field, faces, chosen):
 		raise ValueError('bodies: no two faces touch; blocks must lie face on face as polytope.jointedRock makes them')
 	stresses = [field.at(face.corners) for face in faces]
 	largest = max(float(np.abs(several).max()) for several in stresses)
+	if largest == 0:
+		raise ValueError('stress: is zero at all joints; a mass without stress needs none')
 	for face, several in zip(faces, stresses, strict=True):
 		pulls = several @ face.normal @ face.normal
 		worst = int(np.argmax(pulls))
