@@ -166,7 +166,7 @@ public:
 		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
 		((Real, restOverlap, 0, Attr::readonly, "Overlap at which the joint has no normal force [m], taken from :yref:`penetrationDepth<ScGeom.penetrationDepth>`: where a bond has failed (:yref:`PolytopeBonds`) the overlap with which it was made, else 0."))
 		((Vector3r, shearPoint, Vector3r::Zero(), Attr::readonly, "Point through which the shear force acts [m]: the centroid of the contact area, a joint being a bed of shear springs over it. The normal force acts at the contact point, the centroid of the pressure."))
-		((Real, twistingMoment, 0, Attr::readonly, "Moment of the shear bed on body 2 about the normal at :yref:`shearPoint<RockJointPhys.shearPoint>`, viscous part included [N·m]; body 1 gets the opposite."))
+		((Real, twistingMoment, 0, , "Moment of the shear bed on body 2 about the normal at :yref:`shearPoint<RockJointPhys.shearPoint>`, viscous part included [N·m]; body 1 gets the opposite."))
 		((Real, twistingViscous, 0, Attr::readonly, "Viscous part of :yref:`twistingMoment<RockJointPhys.twistingMoment>` [N·m]."))
 		((Real, twistingStiffness, 0, Attr::readonly, "Stiffness of the bed against turning about the normal, :yref:`ks<NormShearPhys.ks>` times the mean square of the distance from the area's centroid [N·m/rad]; 0 for polygons and spheres."))
 		((Layers, shearLayers, , (Attr::readonly | Attr::hidden), "Displacement of the bed's springs by when they joined; none: all alike"))

@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -33,9 +33,11 @@ from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
 from .energy import mechanicalEnergy
 from .engines import engines
+from .factorOfSafety import FactorOfSafety, factorOfSafety
 from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
+from .history import history
 from .jointedRock import JointedRock, JointSet, jointedRock
 from .loading.oedometer import oedometer
 from .loading.shearBox import shearBox
@@ -55,6 +57,8 @@ from .roses import contactRose, forceHistogram, particleRose
 from .settling import settle
 from .shapeFiles import readShapes, writeShapes
 from .solids import frustum, plates, prism, terrain, tube
+from .stress.excavation import excavate
+from .stress.inSitu import inSitu
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
 from .voronoi import VoronoiCells, voronoi
@@ -70,6 +74,7 @@ for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
 _helpTexts.rewrite()
 
 __all__ = [
+	'FactorOfSafety',
 	'Joint',
 	'JointSet',
 	'JointedRock',
@@ -95,12 +100,16 @@ __all__ = [
 	'coordinationNumber',
 	'cuboid',
 	'engines',
+	'excavate',
+	'factorOfSafety',
 	'forceHistogram',
 	'fromHalfSpaces',
 	'fromMesh',
 	'fromVertices',
 	'frustum',
 	'grains',
+	'history',
+	'inSitu',
 	'jointedRock',
 	'mechanicalEnergy',
 	'keyBlocks',

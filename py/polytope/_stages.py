@@ -8,7 +8,7 @@ from yade import O, Polytope
 from ._loads import givePermanentLoads, permanentLoads
 from ._scene import interactionLoops
 
-__all__ = ['Reduction', 'Stage', 'refuseMatchMaker']
+__all__ = ['Reduction', 'Stage', 'partOfSize', 'refuseMatchMaker', 'sizeOf']
 
 partOfSize = 0.02
 """Of the size of the largest watched body: the way at which it has failed, by default."""
@@ -76,7 +76,7 @@ class Reduction:
 		"""The stage that the scene begins with."""
 		self.stages, self.failedQueries = [], 0
 		if self.failedDistance is None:
-			self.failedDistance = partOfSize * max(map(_size, self.bodies))
+			self.failedDistance = partOfSize * max(map(sizeOf, self.bodies))
 		settled = self._stage(level)
 		if settled.outcome != 'stable':
 			raise RuntimeError(
@@ -156,9 +156,12 @@ class Reduction:
 					functor.resetStats()
 
 
-def _size(number):
-	"""Edge of the cube, or square, of the body's volume, or area [m]."""
-	shape = O.bodies[number].shape
+def sizeOf(number):
+	"""Edge of the cube, or square, of the body's volume, or area [m]; of a clump that of its parts together."""
+	body = O.bodies[number]
+	if body.isClump:
+		return sum(sizeOf(part) ** 3 for part in body.shape.members) ** (1 / 3)
+	shape = body.shape
 	if not isinstance(shape, Polytope):
 		return 2 * float(getattr(shape, 'radius', 0.5))
 	return (float(shape.volume) / (float(shape.thickness) if shape.dimension == 2 else 1)) ** (1 / shape.dimension)

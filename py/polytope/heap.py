@@ -14,7 +14,17 @@ from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
 from .bonding import madeBonds
 
-__all__ = ['Coordination', 'coordinationNumber', 'moverOf', 'namedBodies', 'partsOf', 'porosity', 'solidVolume', 'volumeInside', 'volumeWithin']
+__all__ = [
+	'Coordination',
+	'coordinationNumber',
+	'moverOf',
+	'namedBodies',
+	'partsOf',
+	'porosity',
+	'solidVolume',
+	'volumeInside',
+	'volumeWithin',
+]
 
 thin = 1e-9
 """Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
@@ -162,7 +172,9 @@ def volumeInside(body, normals, offsets):
 	normals = np.vstack([normals, planes[0]])
 	offsets = np.concatenate([offsets, planes[1] - planes[0] @ position]) / size
 	# the largest ball inside: its centre is interior
-	found = scipy.optimize.linprog([0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs')
+	found = scipy.optimize.linprog(
+		[0, 0, 0, -1], A_ub=np.column_stack([normals, np.ones(len(normals))]), b_ub=offsets, bounds=[(None, None)] * 4, method='highs'
+	)
 	if found.status != 0 or found.x[3] < thin:
 		return 0.0
 	part = scipy.spatial.HalfspaceIntersection(np.column_stack([normals, -offsets]), found.x[:3])
@@ -210,25 +222,26 @@ def moverOf(k):
 	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
 
 
-def namedBodies(ids, erased=False):
-	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming *ids*.
+def namedBodies(ids, erased=False, name='ids'):
+	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming them.
 
 	:param bool erased: leave out numbers of bodies that have been erased, in place of refusing them
+	:param str name: of the argument
 	"""
 	if ids is not None:
 		try:
 			ids = list(ids)
 		except TypeError:
-			raise ValueError(f'ids: must be a list of numbers of bodies, got {ids!r}') from None
+			raise ValueError(f'{name}: must be a list of numbers of bodies, got {ids!r}') from None
 		if erased:
 			ids = [k for k in ids if not (isinstance(k, numbers.Integral) and 0 <= k < len(O.bodies) and O.bodies[k] is None)]
 		for k in ids:
 			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
-				raise ValueError(f'ids: there is no body {k!r}')
+				raise ValueError(f'{name}: there is no body {k!r}')
 			if moverOf(k) != k:
-				raise ValueError(f'ids: body {k} is a member of clump {moverOf(k)}; name the clump')
+				raise ValueError(f'{name}: body {k} is a member of clump {moverOf(k)}; name the clump')
 		if len(set(ids)) < len(ids):
-			raise ValueError('ids: some bodies are named twice')
+			raise ValueError(f'{name}: some bodies are named twice')
 		return ids
 	free = (moverOf(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
 	return [k for k in dict.fromkeys(free) if O.bodies[k].dynamic]

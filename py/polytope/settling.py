@@ -8,8 +8,9 @@ from yade import O, Vector3
 from ._scene import integrators, laws, meanwhile
 from .arguments import flag, namedArguments, number
 from .bonding import bonds, madeBonds
+from .relaxing import relaxing
 
-__all__ = ['settle']
+__all__ = ['settle', 'unbalancedForce']
 
 between = 50
 """Steps between two looks at the unbalanced force."""
@@ -26,7 +27,8 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) do not break; motion is damped strongly. Then they have their strength
 	and the scene its damping again. What they can't bear fails in the steps that follow, from rest.
 
-	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run.
+	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
+	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
 	A state that is saved meanwhile has joints with their strength, but this damping.
 
 	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts and bonds bear where that is more, below which it counts as
@@ -64,10 +66,10 @@ def _untilRest(unbalanced, steps):
 			now = min(between, steps - taken)
 			O.run(now, wait=True)
 			taken += now
-			force = _unbalancedForce()
+			force = unbalancedForce()
 			bar.set_postfix_str(f'unbalanced force {force:.2g} for {unbalanced:g}', refresh=False)
 			bar.update(now)
-			quiet = quiet + 1 if force < unbalanced else 0
+			quiet = quiet + 1 if force < unbalanced and not relaxing() else 0
 			if quiet == looks:
 				return taken
 	raise RuntimeError(
@@ -75,15 +77,18 @@ def _untilRest(unbalanced, steps):
 	)
 
 
-def _unbalancedForce():
-	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts and bonds press and pull it with, where that is more."""
+def unbalancedForce(watched=None):
+	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts and bonds press and pull it with, where that is more.
+
+	:param watched: ids, of clumps their own; None: all that can move
+	"""
 	last = len(O.bodies)
 	owner, borne = np.arange(last), np.zeros(last)  # a clump moves as one
 	moving = []
 	for body in O.bodies:
 		if body.isClumpMember:
 			owner[body.id] = body.clumpId
-		elif body.dynamic:
+		elif body.dynamic and (watched is None or body.id in watched):
 			moving.append(body)
 	forces = [(contact, contact.phys.normalForce + contact.phys.shearForce) for contact in O.interactions if contact.isReal]
 	forces += [(bond, bond.force) for bond in madeBonds() if bond.intact]

@@ -19,41 +19,56 @@ from yade.math import atan, tan  # of YADE's numbers, in any precision
 from ._stages import Reduction, refuseMatchMaker
 from .bonding import madeBonds
 
-__all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths']
+__all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths', 'strengths']
+
+strengths = 'friction', 'cohesion', 'tension'
+"""What can be divided."""
 
 
-def divideStrengths(factor):
+def divideStrengths(factor, reduce=strengths):
 	"""Divides the strengths of all rock joints at once: of contacts that exist, through their materials of those to come, and of bonds.
 
 	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are.
 
 	:param float factor: above 0; 2 halves them
-	:raises ValueError: naming *factor* if out of range; naming *frictAngle* if a MatchMaker of the Ip2 functor sets another angle for new contacts
+	:param reduce: which: of 'friction', 'cohesion' and 'tension', residual values with the peak's
+	:raises ValueError: naming *factor* if out of range; *reduce* if there is another word in it; *frictAngle* if a MatchMaker of the Ip2 functor sets another angle for new contacts
 	"""
 	if not (factor > 0 and math.isfinite(factor)):
 		raise ValueError(f'factor: must be a number above 0, got {factor}')
+	if isinstance(reduce, str) or not set(reduce) or not set(reduce) <= set(strengths):
+		raise ValueError(f'reduce: must be a sequence of one or more of {strengths}, got {reduce!r}')
 	refuseMatchMaker()
+	angles, tangents, pressures = _names(reduce)
 
 	def divide(one, names):
 		for name in names:
-			if getattr(one, name) > 0:  # -1: none of its own
+			if getattr(one, name, -1) > 0:  # -1: none of its own
 				setattr(one, name, getattr(one, name) / factor)
 
-	def lower(one, names):
-		for name in names:
-			if getattr(one, name) > 0:
+	def lower(one):
+		for name in angles:
+			if getattr(one, name, -1) > 0:
 				setattr(one, name, atan(tan(getattr(one, name)) / factor))
 
 	for material in O.materials:
 		if isinstance(material, RockJointMat):
-			lower(material, ('frictionAngle', 'residualFrictionAngle'))
-			divide(material, ('cohesion', 'residualCohesion', 'tensileStrength', 'residualTensileStrength'))
+			lower(material)
+			divide(material, pressures)
 	joints = [contact.phys for contact in O.interactions if contact.isReal and isinstance(contact.phys, RockJointPhys)]
 	for joint in joints:
-		divide(joint, ('tangensOfFrictionAngle', 'tangensOfResidualFrictionAngle', 'cohesion', 'residualCohesion', 'tensileStrength', 'residualTensileStrength'))
+		divide(joint, tangents + pressures)
 	for bond in [*madeBonds(), *(joint.bond for joint in joints if joint.bond)]:
-		lower(bond, ('frictionAngle',))
-		divide(bond, ('cohesion', 'tensileStrength'))
+		lower(bond)
+		divide(bond, pressures)
+
+
+def _names(reduce):
+	"""Attributes of materials, joints and bonds: angles, their tangents, and strengths in Pa."""
+	angles = ('frictionAngle', 'residualFrictionAngle') if 'friction' in reduce else ()
+	tangents = ('tangensOfFrictionAngle', 'tangensOfResidualFrictionAngle') if 'friction' in reduce else ()
+	cohesions = ('cohesion', 'residualCohesion') if 'cohesion' in reduce else ()
+	return angles, tangents, cohesions + (('tensileStrength', 'residualTensileStrength') if 'tension' in reduce else ())
 
 
 @dataclasses.dataclass

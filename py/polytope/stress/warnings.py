@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What an initial stress is warned of: the scene takes it, but moves, or has it less exactly."""
+
+import numpy as np
+from yade import O
+
+from .._scene import canMove, integrators
+from ..arguments import warn
+from ..heap import moverOf
+from .refusals import accuracy, forcesBorne
+
+__all__ = ['warnOfClosure', 'warnOfGravity']
+
+errorOfClosure = 3
+"""Error of a block's stress over the closure of its joints by its width: the rim of faces and neighbours across edges; 2.1 for a cube, 2.7 for slivers (test_in_situ.py)."""
+
+
+def warnOfGravity(field, faces, chosen):
+	"""Where the divergence of the stress is not the weight."""
+	gravity = np.array(integrators()[0].gravity, float) if integrators() else np.zeros(3)
+	bears, forces = forcesBorne(field, faces), {}
+	for k in chosen:
+		body = O.bodies[k]
+		if canMove(body):
+			left = float(body.shape.volume) * (field.divergence + float(body.material.density) * gravity)
+			forces[moverOf(k)] = forces.get(moverOf(k), np.zeros(3)) + left
+	parts = {k: float(np.linalg.norm(left)) / bears[k] for k, left in forces.items() if bears.get(k, 0) > 0}
+	worst = max(parts, key=parts.get, default=None)
+	if worst is not None and parts[worst] > accuracy:
+		warn(
+			f'gradient: stress and gravity do not balance, by {parts[worst]:.2g} of what body {worst} bears; the mass will move until they do. '
+			'The divergence of the stress must be -ρg: with z upwards and gravity along -z the derivative of σ_zz along z is ρg'
+		)
+
+
+def warnOfClosure(field, faces, chosen):
+	"""Where the closure of joints is a large part of a block."""
+	closures = {}
+	for face in faces:
+		for k in {face.id1, face.id2} & chosen:
+			pressure = -float(face.normal @ field.at(face.centroid) @ face.normal)
+			closures[k] = max(closures.get(k, 0.0), pressure / float(O.bodies[k].material.normalStiffness))
+	errors = {k: errorOfClosure * closure / (2 * float(O.bodies[k].shape.inscribedRadius)) for k, closure in closures.items()}
+	many = [k for k, error in errors.items() if error > accuracy]
+	if many:
+		worst = max(many, key=errors.get)
+		warn(
+			f'stress: joints close by {closures[worst]:.2g} m, and the stress of {len(many)} of {len(chosen)} blocks is off by more than 1 % for that, of body {worst} by some '
+			f'{100 * errors[worst]:.2g} %; stiffer joints, or no blocks so thin (*smallest* of jointedRock)'
+		)

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.factorOfSafety against closed forms, and that it leaves the scene as it was."""
+
+import math
+import pathlib
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from yade import O, RockJointMat, Vector3, polytope
+
+gravity = 9.81
+
+
+def material(**joint):
+	O.materials.append(
+		RockJointMat(**{'density': 5000, 'normalStiffness': 1e9, 'shearStiffness': 1e9, 'frictionAngle': math.radians(30), **joint})
+	)
+
+
+def onSlope(dip, half, flat=False, **joint):
+	"""A block on a plane, at rest; by gravity that leans."""
+	material(**joint)
+	if flat:
+		O.bodies.append(polytope.polygon([(-3, -1), (3, -1), (3, 0), (-3, 0)], fixed=True))
+		x, y = half[0], 2 * half[2]
+		block = O.bodies.append(polytope.polygon([(-x, 0), (x, 0), (x, y), (-x, y)]))
+		down = (gravity * math.sin(dip), -gravity * math.cos(dip), 0)
+	else:
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+		block = O.bodies.append(polytope.cuboid((0, 0, half[2]), half))
+		down = (gravity * math.sin(dip), 0, -gravity * math.cos(dip))
+	O.engines = polytope.engines(gravity=down)
+	for k in (0, 1):
+		O.bodies[k].state.pos -= Vector3(*down) * (k * 1e-9)  # in touch
+	polytope.settle()
+	return block
+
+
+dip, friction = math.radians(40), math.radians(30)
+weight = 1000 * gravity
+across, along = weight * math.cos(dip), weight * math.sin(dip)
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('flat', [False, True])
+@pytest.mark.parametrize(
+	'reduce, theory',
+	[
+		(('friction', 'cohesion', 'tension'), (across * math.tan(friction) + 6e3) / along),
+		(['friction'], across * math.tan(friction) / (along - 6e3)),
+		(['cohesion'], 6e3 / (along - across * math.tan(friction))),
+	],
+)
+def testPlaneFailure(flat, reduce, theory):
+	block = onSlope(dip, (0.5, 0.5, 0.1), flat, cohesion=6e3)
+	found = polytope.factorOfSafety(reduce=reduce)
+	assert found.stable <= theory * 1.003 and found.failed >= theory * 0.997
+	assert found.factor == pytest.approx(theory, rel=0.01) and found.failed / found.stable <= 1.0101
+	assert found.bodies == [block] and found.directions[0] == pytest.approx((1, 0, 0), abs=1e-3)
+	assert 0.02 * 0.46 < np.linalg.norm(found.displacements[0]) < 0.1 and np.abs(found.rotations).max() < 1e-2
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('flat', [False, True])
+def testTopplingOfAColumnHeldByTheTensionOfItsBase(flat):
+	"""It parts where the beam formula's stress at the edge is the strength: σ = 6 M/b² − N/b, of unit width."""
+	wide, high, steep = 0.5, 1.0, math.radians(40)
+	load = 5000 * gravity * wide * high
+	stress = 6 * load * math.sin(steep) * high / 2 / wide**2 - load * math.cos(steep) / wide
+	block = onSlope(steep, (wide / 2, 0.5, high / 2), flat, tensileStrength=1.7 * stress, cohesion=1e7, frictionAngle=math.radians(60))
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(1.7, rel=0.01)
+	assert found.bodies == [block]
+	turn = found.rotations[0] @ ((0, 0, -1) if flat else (0, 1, 0))  # forwards, about the foot
+	assert turn == pytest.approx(np.linalg.norm(found.displacements[0]) / math.hypot(wide / 2, high / 2), rel=0.05)
+
+
+def normalOf(joint):
+	return np.array(polytope.JointSet(math.radians(joint[0]), math.radians(joint[1]), 1).normal)
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('shearStiffness', [1e9, 1e8, 1e5])
+def testTheWedgeOfHoekAndBray(shearStiffness):
+	"""Two joints of 24 kPa, 20° and 48 kPa, 30°, perfectly plastic; slides along their line of intersection."""
+	one, two, face, top = map(normalOf, ((45, 105), (70, 235), (65, 185), (12, 195)))
+	for label, cohesion, angle in (('A', 24e3, 20), ('B', 48e3, 30), ('W', 1e9, 80)):
+		material(
+			label=label,
+			density=2600,
+			shearStiffness=shearStiffness,
+			frictionAngle=math.radians(angle),
+			cohesion=cohesion,
+			residualCohesion=cohesion,
+		)
+	line = np.cross(one, two)
+	line *= -np.sign(line[2]) / np.linalg.norm(line)
+	up = np.array([-face[0] * face[2], -face[1] * face[2], 1 - face[2] ** 2])
+	box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+	O.bodies.append(polytope.fromHalfSpaces([one, *box], [0] + [200] * 6, material='A', fixed=True))
+	O.bodies.append(polytope.fromHalfSpaces([two, -one, *box], [0, 0] + [200] * 6, material='B', fixed=True))
+	wedge = O.bodies.append(polytope.fromHalfSpaces([-one, -two, face, top], [0, 0, 0, float(top @ (30 * up / up[2]))], material='W'))
+	O.engines = polytope.engines()
+	polytope.settle()
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(1.877, rel=0.01)
+	assert found.bodies == [wedge] and found.directions[0] @ line > 0.999
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testOfSeveralBlocksTheWeakerMoves():
+	"""Side by side, with cohesions of factors of safety 1.4 and 1.9; the stronger one is not part of the mode."""
+	material()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (9, 9, 0.5), fixed=True, material=0))
+	O.materials[0].cohesion = 1e6
+	for k, factor in enumerate((1.9, 1.4)):
+		material(cohesion=factor * along - across * math.tan(friction))
+		O.bodies.append(polytope.cuboid((0, 3 * k, 0.1), (0.5, 0.5, 0.1), material=k + 1))
+	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
+	polytope.settle()
+	assert polytope.factorOfSafety().factor == pytest.approx(1.4, rel=0.01)
+	found = polytope.factorOfSafety(bodies=[1])
+	assert found.factor == pytest.approx(1.9, rel=0.01) and found.bodies == [1]
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize('bonded', [False, True])
+def testWhatHangsByTension(bonded):
+	"""A block of 1 m³ under a roof, by its joint and by a bond: σ A/W."""
+	strength = 1.6 * 5000 * gravity
+	material(**({} if bonded else {'tensileStrength': strength, 'cohesion': 1e7}))
+	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
+	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5 + 1e-7), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	if bonded:
+		polytope.bond(tensileStrength=strength, cohesion=1e7)
+	polytope.settle()
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(1.6, rel=0.01)
+	assert found.bodies == [hanging] and found.directions[0] == pytest.approx((0, 0, -1), abs=1e-3)
+	with pytest.raises(RuntimeError, match='fails by no lack of friction, cohesion'):
+		polytope.factorOfSafety(reduce=('friction', 'cohesion'), most=3)
+
+
+def limitOfTwoBlocks(upper, lower, steep, gentle, angle):
+	"""Factor at which a block on a steep plane pushes another one along a gentle one, with a vertical joint between them: all three joints at their strength.
+
+	:param upper, lower: weights
+	"""
+
+	def missing(factor):
+		t = math.tan(angle) / factor
+		s, c = math.sin(steep), math.cos(steep)
+		# of the upper block with the normal force N: thrust P = N (s - t c), and N (c + t s) + t P = its weight
+		normal = upper / (c + t * s + t * (s - t * c))
+		thrust = normal * (s - t * c)
+		s, c = math.sin(gentle), math.cos(gentle)
+		return thrust + (lower + t * thrust) / (c + t * s) * (s - t * c)
+
+	return brentq(missing, 0.5, 5)
+
+
+@pytest.mark.parametrize('angle', [30, 35])
+def testABlockThatPushesAnother(angle):
+	"""None of the three joints decides alone: in the plane, under gravity. The joint between the blocks ends above the kink, where the upper one would be held by the gentle plane."""
+	steep, gentle, high, long, above = math.radians(50), math.radians(10), 1.0, 2.0, 0.05
+	back, down, along = high / math.tan(steep), math.tan(gentle), above / math.tan(steep)
+	material(density=2600, frictionAngle=math.radians(angle), normalStiffness=1e10, shearStiffness=1e10)
+	O.bodies.append(polytope.polygon([(0, 0), (-1.5 * back, 1.5 * high), (-1.5 * back, -1), (0, -1)], fixed=True))
+	O.bodies.append(polytope.polygon([(0, 0), (2 * long, -2 * long * down), (2 * long, -2), (0, -2)], fixed=True))
+	O.bodies.append(polytope.polygon([(-along, above), (-along, high), (-back, high)]))
+	O.bodies.append(polytope.polygon([(0, 0), (-along, above), (-along, high), (long, high), (long, -long * down)]))
+	O.engines = polytope.engines()
+	polytope.settle(elastic=False)
+	found = polytope.factorOfSafety(tolerance=0.005)
+	weights = [O.bodies[k].state.mass * gravity for k in (2, 3)]
+	assert found.factor == pytest.approx(limitOfTwoBlocks(*weights, steep, gentle, math.radians(angle)), rel=0.01)
+	assert sorted(found.bodies) == [2, 3]
+	ways = dict(zip(found.bodies, found.directions, strict=True))
+	assert ways[2] == pytest.approx((math.cos(steep), -math.sin(steep), 0), abs=0.05)
+	assert ways[3] == pytest.approx((math.cos(gentle), -math.sin(gentle), 0), abs=0.05)
+
+
+def settled(**joint):
+	block = onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3, **joint)
+	O.forces.setPermF(block, (1, 2, 3))
+	O.engines[-1].label = 'last'
+	return block
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testTheSceneIsWhatItWas():
+	block = settled()
+
+	def state():
+		O.forces.f(0, sync=True)  # before that YADE does not know what it was given
+		one, joint = O.bodies[block].state, O.interactions[0, block].phys
+		return (
+			O.iter,
+			O.time,
+			one.pos,
+			one.ori,
+			Vector3(one.vel),
+			O.forces.permF(block),
+			joint.cohesion,
+			Vector3(joint.shearForce),
+			O.materials[0].cohesion,
+			[getattr(engine, 'damping', None) for engine in O.engines],
+		)
+
+	before = state()
+	polytope.factorOfSafety(tolerance=0.1)
+	assert state() == before
+	with pytest.raises(RuntimeError, match='stable with strengths divided by 1.2: .*cohesion'):
+		polytope.factorOfSafety(reduce=['cohesion'], most=1.2)
+	assert state() == before
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testASceneThatDoesNotStandIsRefused():
+	block = settled()
+	O.interactions[0, block].phys.cohesion = 1e3
+	before = O.bodies[block].state.pos
+	with pytest.raises(RuntimeError, match=r'does not stand with its own strengths: failed.*polytope\.settle\(\)'):
+		polytope.factorOfSafety()
+	assert O.bodies[block].state.pos == before and O.interactions[0, block].phys.cohesion == 1e3
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+@pytest.mark.parametrize(
+	'name, value',
+	[
+		('tolerance', 0),
+		('tolerance', math.nan),
+		('most', 1),
+		('steps', 10),
+		('reduce', 'friction'),
+		('reduce', ['weight']),
+		('reduce', []),
+		('bodies', [7]),
+		('bodies', []),
+	],
+)
+def testBadArgumentsAreNamed(name, value):
+	settled()
+	cohesion = O.materials[0].cohesion
+	with pytest.raises(ValueError, match=f'^{name}: '):
+		polytope.factorOfSafety(**{name: value})
+	assert O.materials[0].cohesion == cohesion
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testPictureAndText(tmp_path):
+	block = settled()
+	found = polytope.factorOfSafety(tolerance=0.2)
+	assert str(found).startswith('factor of safety 1.') and f'body {block} by 0.01' in str(found) and 'towards (1.00' in str(found)
+	path = pathlib.Path(tmp_path) / 'mode.png'
+	found.picture(path)
+	assert path.read_bytes()[:4] == b'\x89PNG'
