@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/Body.hpp>
-#include <core/Scene.hpp>
+#include "SpringsOfScene.hpp"
 
 #include <atomic>
-#include <functional>
 
-/// What contacts and the time step have to know about bonds between bodies (PolytopeBonds), without the engine itself.
+/// What contacts have to know about bonds between bodies (PolytopeBonds), without the engine itself.
 namespace yade {
 
 /// What a bond that has failed leaves to the ordinary joint of the two bodies.
@@ -19,19 +17,11 @@ struct BondRemains {
 	Real     energy     = 0;                ///< stored in it [J]
 };
 
-/// Springs of one bond as one of its bodies feels them, world axes.
-struct SpringsOfBond {
-	Vector3r normal;
-	Vector3r point;                           ///< in the period of this body [m]
-	Real     normalStiffness, shearStiffness; ///< [N/m]
-	Matrix3r rotationStiffness;               ///< moment per rotation [N m/rad]
-};
-
 /// An engine with bonds.
-class KnowsBonds {
+class KnowsBonds : public HasSprings {
 public:
 	KnowsBonds() { ++changes(); }
-	virtual ~KnowsBonds() { ++changes(); }
+	~KnowsBonds() override { ++changes(); }
 	KnowsBonds(const KnowsBonds&)            = delete;
 	KnowsBonds& operator=(const KnowsBonds&) = delete;
 	/// Such engines made and destroyed so far, in all scenes.
@@ -43,11 +33,7 @@ public:
 	/// Whether an intact bond joins the bodies: then it acts in place of their contact.
 	virtual bool joins(Body::id_t id1, Body::id_t id2) const = 0;
 	/// Whether a bond of the bodies has failed; what it leaves.
-	virtual bool left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const                           = 0;
-	virtual bool hasBonds(Body::id_t id) const                                                              = 0;
-	virtual void forBondsOf(const Body& body, const std::function<void(const SpringsOfBond&)>& visit) const = 0;
-	/// Bonds made so far.
-	virtual std::size_t made() const = 0;
+	virtual bool left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const = 0;
 };
 
 /// The scene's engine with bonds, null where it has none that acts.

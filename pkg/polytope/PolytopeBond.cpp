@@ -7,27 +7,12 @@ namespace yade {
 
 YADE_PLUGIN((PolytopeBond));
 
-namespace {
-
-	bool isStill(const boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies)
-	{
-		if (!bodies.exists(id)) return false;
-		return own.empty() || (!own.owner_before(bodies[id]) && !bodies[id].owner_before(own));
-	}
-
-	void adopt(boost::weak_ptr<Body>& own, Body::id_t id, const BodyContainer& bodies, bool anew)
-	{
-		if ((anew || own.empty()) && bodies.exists(id)) own = bodies[id];
-	}
-
-} // namespace
-
-bool PolytopeBond::hasItsBodies(const BodyContainer& bodies) const { return isStill(body1_, id1, bodies) && isStill(body2_, id2, bodies); }
+bool PolytopeBond::hasItsBodies(const BodyContainer& bodies) const { return body1_.isStill(id1, bodies) && body2_.isStill(id2, bodies); }
 
 void PolytopeBond::adoptBodies(const BodyContainer& bodies, bool anew)
 {
-	adopt(body1_, id1, bodies, anew);
-	adopt(body2_, id2, bodies, anew);
+	body1_.adopt(id1, bodies, anew);
+	body2_.adopt(id2, bodies, anew);
 }
 
 polytope::BondMotion PolytopeBond::follow(const State& state1, const State& state2, const Vector3r& shift)

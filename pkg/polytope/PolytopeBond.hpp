@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <core/BodyContainer.hpp>
+#include "AttachedBody.hpp"
 
 #include <src/bond/BondSprings.hpp>
-
-#include <boost/weak_ptr.hpp>
 
 namespace yade {
 
@@ -36,7 +34,7 @@ public:
 	/// has those of its numbers.
 	bool hasItsBodies(const BodyContainer& bodies) const;
 	/// Whether it has been with its bodies since it was made or loaded.
-	bool knowsItsBodies() const { return !body1_.empty() && !body2_.empty(); }
+	bool knowsItsBodies() const { return body1_.isKnown() && body2_.isKnown(); }
 	/// Makes those of its numbers its own, where it has none yet, or anew.
 	void adoptBodies(const BodyContainer& bodies, bool anew = false);
 	/// One of its bodies is gone.
@@ -90,8 +88,8 @@ private:
 	polytope::BondForce yieldingForce(const polytope::BondMotion& motion);
 	void                setStresses(const Vector3r& displacement, const Vector3r& rotation);
 
-	boost::weak_ptr<Body> body1_, body2_;
-	Real                  plasticWork_ = 0;
+	AttachedBody body1_, body2_;
+	Real         plasticWork_ = 0;
 };
 REGISTER_SERIALIZABLE(PolytopeBond);
 

@@ -279,15 +279,15 @@ bool PolytopeBonds::left(Body::id_t id1, Body::id_t id2, BondRemains& remains) c
 	return true;
 }
 
-bool PolytopeBonds::hasBonds(Body::id_t id) const
+bool PolytopeBonds::holds(Body::id_t id) const
 {
 	if (id < 0 || std::size_t(id) >= ofBody_.size()) return false;
 	return std::any_of(ofBody_[id].begin(), ofBody_[id].end(), [&](int k) { return bonds[k]->intact; });
 }
 
-void PolytopeBonds::forBondsOf(const Body& body, const std::function<void(const SpringsOfBond&)>& visit) const
+void PolytopeBonds::forSpringsOf(const Body& body, const std::function<void(const SpringsAtPoint&)>& visit) const
 {
-	if (!hasBonds(body.id)) return;
+	if (!holds(body.id)) return;
 	for (int k : ofBody_[body.id]) {
 		const PolytopeBond& bond = *bonds[k];
 		if (!bond.intact) continue;

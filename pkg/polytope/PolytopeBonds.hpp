@@ -37,8 +37,8 @@ public:
 
 	bool        joins(Body::id_t id1, Body::id_t id2) const override;
 	bool        left(Body::id_t id1, Body::id_t id2, BondRemains& remains) const override;
-	bool        hasBonds(Body::id_t id) const override;
-	void        forBondsOf(const Body& body, const std::function<void(const SpringsOfBond&)>& visit) const override;
+	bool        holds(Body::id_t id) const override;
+	void        forSpringsOf(const Body& body, const std::function<void(const SpringsAtPoint&)>& visit) const override;
 	std::size_t made() const override { return bonds.size(); }
 
 	// clang-format off

@@ -3,8 +3,8 @@
 
 #include <pkg/common/PeriodicEngines.hpp>
 
-#include "BondsOfScene.hpp"
 #include "PolytopeCollider.hpp"
+#include "SpringsOfScene.hpp"
 
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -14,10 +14,12 @@ YADE_PLUGIN((PolytopeTimeStepper));
 
 namespace {
 
-	std::size_t bondsMade(const Scene& scene)
+	std::size_t springsMade(const Scene& scene)
 	{
-		const KnowsBonds* const bonds = bondsOf(scene);
-		return bonds ? bonds->made() : 0;
+		std::size_t sum = 0;
+		for (const HasSprings* springs : springsOf(scene))
+			sum += springs->made();
+		return sum;
 	}
 
 	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper before these
@@ -41,7 +43,7 @@ namespace {
 bool PolytopeTimeStepper::isActivated()
 {
 	if (!active) return false;
-	return !hasRun_ || bodies_ != scene->bodies->size() || bonds_ != bondsMade(*scene) || isErased(limitingBody, *scene)
+	return !hasRun_ || bodies_ != scene->bodies->size() || springs_ != springsMade(*scene) || isErased(limitingBody, *scene)
 	        || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
 }
 
@@ -52,9 +54,9 @@ void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 		material_ = potential_.limit(*ofScene);
 		updates_  = 0;
 	}
-	hasRun_ = true;
-	bodies_ = ofScene->bodies->size();
-	bonds_  = bondsMade(*ofScene);
+	hasRun_  = true;
+	bodies_  = ofScene->bodies->size();
+	springs_ = springsMade(*ofScene);
 
 	TimeStepLimit chosen;
 	limitedBy.clear();

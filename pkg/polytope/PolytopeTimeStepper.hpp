@@ -9,7 +9,7 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper {
 public:
-	/// Active in steps that are multiples of the interval, in its first step, when bodies or bonds were added, and when the one that limits the time step
+	/// Active in steps that are multiples of the interval, in its first step, when bodies, bonds or bolts were added, and when the one that limits the time step
 	/// was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
@@ -27,7 +27,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeTimeStepper, TimeStepper,
 	R"""(Sets and updates *O.dt* for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes :yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
 
-* *contacts*, *rocking*: $\tau$ of all present contacts and bonds (:yref:`PolytopeBonds`), normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and, which :yref:`GlobalStiffnessTimeStepper` neglects, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
+* *contacts*, *rocking*: $\tau$ of all present contacts, bonds (:yref:`PolytopeBonds`) and bolts (:yref:`PolytopeBolts`), normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and, which :yref:`GlobalStiffnessTimeStepper` neglects, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
 * *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`). Evaluated when bodies are added and with each tenth update.
 
 and no more than what *motion* allows: in a step no two bodies that may meet before the next update move against each other by more than :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times the smaller one's inscribed radius. What has left the others, or moves along with all that is near, does not count. (In periodic cells, on several processes and where nothing else limits the step it is the way of each body alone.)
@@ -53,7 +53,7 @@ private:
 	TimeStepLimit       material_;    ///< of the last evaluation of potential_
 	unsigned            updates_ = 0; ///< since then
 	bool                hasRun_  = false;
-	std::size_t         bodies_ = 0, bonds_ = 0; ///< that there were
+	std::size_t         bodies_ = 0, springs_ = 0; ///< that there were
 	std::array<Real, 3> good_ { { timestepSafetyCoefficient, motionLimit, maxDt } };
 };
 REGISTER_SERIALIZABLE(PolytopeTimeStepper);

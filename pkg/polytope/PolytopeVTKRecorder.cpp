@@ -84,8 +84,8 @@ string PolytopeVTKRecorder::snapshotName(const string& recorder, long step, cons
 void PolytopeVTKRecorder::postLoad(PolytopeVTKRecorder&)
 {
 	for (const string& recorder : recorders)
-		if (recorder != "bodies" && recorder != "contacts" && recorder != "bonds") {
-			const string message = "recorders: must be among 'bodies', 'contacts' and 'bonds', not '" + recorder + "'";
+		if (recorder != "bodies" && recorder != "contacts" && recorder != "bonds" && recorder != "bolts") {
+			const string message = "recorders: must be among 'bodies', 'contacts', 'bonds' and 'bolts', not '" + recorder + "'";
 			recorders            = goodRecorders_;
 			throw std::invalid_argument(message);
 		}
@@ -115,6 +115,10 @@ void PolytopeVTKRecorder::action()
 	if (has("bonds")) {
 		writeBonds(snapshotName("bonds", scene->iter, "vtp"));
 		writeSeries("bonds", "vtp");
+	}
+	if (has("bolts")) {
+		writeBolts(snapshotName("bolts", scene->iter, "vtp"));
+		writeSeries("bolts", "vtp");
 	}
 }
 

@@ -24,11 +24,13 @@ public:
 	``<fileName>contacts.<step>.vtp``: a point for each real interaction with a :yref:`PolytopeGeom`, with *id1*, *id2*, *normal* (from body 1 to 2), *normalForce* and *shearForce* (on body 2), *depth*, *area* (0 where it was not computed), *infeasibility* and *status* (a number; the file's field data *statusNames* has the names in this order). Show them with a Glyph filter.
 ``bonds`` (where it is among the :yref:`recorders<PolytopeVTKRecorder.recorders>`)
 	``<fileName>bonds.<step>.vtp``: the area of each bond of :yref:`PolytopeBonds` as a polygon, with *id1*, *id2*, *state* (0 intact, 1 failed in tension, 2 in shear; names in the field data *stateNames*), *force* and *moment* (on body 2), *normalStress*, *edgeStress*, *shearStress* and *energy* as in :yref:`PolytopeBond`, 0 where it has failed. A failed bond stays on the first body; bonds of erased bodies are left out.
+``bolts`` (where it is among the :yref:`recorders<PolytopeVTKRecorder.recorders>`)
+	``<fileName>bolts.<step>.vtp``: each element of steel of each bolt of :yref:`PolytopeBolts` as a line, with *bolt* (its number), *force* (tension), *strain*, *broken* (0 or 1), *shearForce* (of the dowel, on the block farther from the head) and *radius* (for a Tube filter). Elements at an erased block are left out.
 
 In a periodic scene, bodies and contact points are moved into the cell. Called as a function, ``recorder()`` writes a snapshot at once. :yref:`PeriodicEngine.initRun` is ``True`` here.)""",
 		((string, fileName, "", , "Beginning of all file names; may contain folders, which are created where they are missing."))
-		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad, "What to record: *bodies*, *contacts*, *bonds*."))
-		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts and bonds that have such a body; 0: all."))
+		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad, "What to record: *bodies*, *contacts*, *bonds*, *bolts*."))
+		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts, bonds and bolts that have such a body; 0: all."))
 		((bool, skipNondynamic, false, , "Leave out bodies that cannot move (floors, walls); their contacts are kept."))
 		((bool, compress, true, , "Compress the data."))
 		((bool, ascii, false, , "Data as readable text."))
@@ -45,6 +47,7 @@ private:
 	void           writeBodies(const string& file) const;
 	void           writeContacts(const string& file) const;
 	void           writeBonds(const string& file) const;
+	void           writeBolts(const string& file) const;
 	void           writeSeries(const string& recorder, const string& extension) const;
 	string         snapshotName(const string& recorder, long step, const string& extension) const;
 	vector<string> goodRecorders_ = recorders;

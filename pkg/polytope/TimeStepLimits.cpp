@@ -10,11 +10,11 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
-#include "BondsOfScene.hpp"
 #include "PolytopeGeom.hpp"
 #include "RockJoint.hpp"
 #include "RockJointDampers.hpp"
 #include "RockJointLaw.hpp"
+#include "SpringsOfScene.hpp"
 
 namespace yade {
 
@@ -155,37 +155,41 @@ namespace {
 			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
 	}
 
-	bool hasContacts(const Body& body, const Scene& scene, const KnowsBonds* bonds)
+	using AllSprings = std::vector<const HasSprings*>;
+
+	bool hasContacts(const Body& body, const Scene& scene, const AllSprings& others)
 	{
 		bool has = false;
 		forParts(body, scene, [&](const Body& part) {
-			has = has || (bonds && bonds->hasBonds(part.id));
+			for (const HasSprings* other : others)
+				has = has || other->holds(part.id);
 			for (const auto& known : part.intrs)
 				has = has || known.second->isReal();
 		});
 		return has;
 	}
 
-	/// All bonds of a body, or a member of a clump, whose moving centre is there.
-	void addBonds(polytope::BodyStiffness& sum, const Body& part, const Vector3r& centre, const KnowsBonds& bonds)
+	/// All bonds or bolts of a body, or a member of a clump, whose moving centre is there.
+	void addSprings(polytope::BodyStiffness& sum, const Body& part, const Vector3r& centre, const HasSprings& other)
 	{
-		bonds.forBondsOf(part, [&](const SpringsOfBond& bond) {
+		other.forSpringsOf(part, [&](const SpringsAtPoint& at) {
 			polytope::ContactSprings springs;
-			springs.normal           = bond.normal;
-			springs.normalStiffness  = bond.normalStiffness;
-			springs.shearStiffness   = bond.shearStiffness;
-			springs.rockingStiffness = bond.rotationStiffness;
-			sum.add(springs, bond.point - centre);
+			springs.normal           = at.normal;
+			springs.normalStiffness  = at.normalStiffness;
+			springs.shearStiffness   = at.shearStiffness;
+			springs.rockingStiffness = at.rotationStiffness;
+			sum.add(springs, at.point - centre);
 		});
 	}
 
-	/// All contacts and bonds of a body (or of a clump's members).
+	/// All contacts, bonds and bolts of a body (or of a clump's members).
 	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene,
-	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law, const KnowsBonds* bonds)
+	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law, const AllSprings& others)
 	{
 		polytope::BodyStiffness sum(mobility);
 		forParts(body, scene, [&](const Body& part) {
-			if (bonds) addBonds(sum, part, body.state->pos, *bonds);
+			for (const HasSprings* other : others)
+				addSprings(sum, part, body.state->pos, *other);
 			for (const auto& known : part.intrs) {
 				const Interaction& contact = *known.second;
 				if (!contact.isReal() || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2()))
@@ -223,8 +227,8 @@ namespace {
 
 ContactLimit contactLimit(const Scene& scene, Real below)
 {
-	const auto*  law   = dampingLaw(scene);
-	const auto*  bonds = bondsOf(scene);
+	const auto*  law    = dampingLaw(scene);
+	const auto   others = springsOf(scene);
 	ContactLimit limit;
 	const long   count = long(scene.bodies->size());
 #pragma omp parallel
@@ -233,10 +237,10 @@ ContactLimit contactLimit(const Scene& scene, Real below)
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < count; ++id) {
 			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
-			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, bonds)) continue;
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, others)) continue;
 			const auto mobility = mobilityOf(*body);
 			if (!mobility.moves()) continue;
-			const auto stiffness = stiffnessOf(*body, mobility, scene, law, bonds);
+			const auto stiffness = stiffnessOf(*body, mobility, scene, law, others);
 			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
 			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
 				continue;

@@ -15,7 +15,7 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
-/// What the recorders of bodies, contacts and bonds share: columns of a data set, points, and the file.
+/// What the recorders of bodies, contacts, bonds and bolts share: columns of a data set, points, and the file.
 namespace yade::vtkFiles {
 
 /// An array of the data set's attributes under this name; the attributes own it.

@@ -3,7 +3,7 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
-*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; a body broken along a plane: *split*; grains
+*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
@@ -23,6 +23,7 @@ from yade._polytope import buildInfo, contact
 from . import _helpTexts
 from .arrays import arrays
 from .bodies import cuboid, fromHalfSpaces, fromVertices, polygon, regular
+from .bolting import Dowel, Grout, bolt, boltArrays, bolts
 from .bonding import bond, bonds
 from .breakage import split
 from .check import check
@@ -74,7 +75,9 @@ for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
 _helpTexts.rewrite()
 
 __all__ = [
+	'Dowel',
 	'FactorOfSafety',
+	'Grout',
 	'Joint',
 	'JointSet',
 	'JointedRock',
@@ -85,6 +88,9 @@ __all__ = [
 	'arrays',
 	'baseMotion',
 	'bodyStress',
+	'bolt',
+	'boltArrays',
+	'bolts',
 	'bond',
 	'bonds',
 	'breakGrains',

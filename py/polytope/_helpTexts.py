@@ -14,7 +14,7 @@ __all__ = ['classes', 'plain', 'rewrite']
 classes = (
 	'BaseMotion Bo1_Polytope_Aabb Gl1_Polytope Ig2_Box_Polytope_PolytopeGeom Ig2_Facet_Polytope_PolytopeGeom Ig2_Polytope_Polytope_PolytopeGeom '
 	'Ig2_Sphere_Polytope_PolytopeGeom Ig2_Wall_Polytope_PolytopeGeom Ip2_RockJointMat_RockJointMat_RockJointPhys '
-	'Law2_PolytopeGeom_RockJointPhys_MohrCoulomb Polytope PolytopeBond PolytopeBonds PolytopeCheckpoint PolytopeCollider PolytopeGeom PolytopeTimeStepper '
+	'Law2_PolytopeGeom_RockJointPhys_MohrCoulomb Polytope PolytopeBolt PolytopeBoltCrossing PolytopeBolts PolytopeBond PolytopeBonds PolytopeCheckpoint PolytopeCollider PolytopeGeom PolytopeTimeStepper '
 	'PolytopeVTKRecorder PolytopeWater QuietBoundary RockJointMat RockJointPhys VelocityHistory'
 ).split()
 

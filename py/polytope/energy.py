@@ -4,13 +4,14 @@
 from yade import O, Vector3
 
 from ._scene import canMove, geometryFunctors, integrators, meanwhile
+from .bolting import madeBolts
 from .bonding import madeBonds
 
 __all__ = ['mechanicalEnergy']
 
 
 def mechanicalEnergy():
-	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of contacts and bonds.
+	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of contacts, bonds and bolts.
 
 	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
 	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
@@ -28,7 +29,7 @@ def mechanicalEnergy():
 	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
 	with meanwhile([(geometry, 'computeEnergy', True) for geometry in geometryFunctors()]):
 		O.step()
-	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(bond.energy for bond in madeBonds())
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(one.energy for one in madeBonds() + madeBolts())
 	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
 
 

@@ -32,6 +32,7 @@ from yade import (
 )
 
 from .arguments import namedArguments, number, vector, warn
+from .bolting import bolts, removedBolts
 from .bonding import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
@@ -55,7 +56,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; the bonds that there are (polytope.bond), and the water (polytope.water); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s. What is wrong with the scene is warned of, as *check* finds it.
+	and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), and the water (polytope.water); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
@@ -86,7 +87,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 		ForceResetter(),
 		_one(collider, Collider, 'collider') or _collider(scene),
 		loop,
-		*(engine for engine in (bonds() or removedBonds(),) if engine),
+		*(engine for engine in (bonds() or removedBonds(), bolts() or removedBolts()) if engine),
 		*(engine for engine in O.engines if isinstance(engine, PolytopeWater)),
 		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=damping),
 	]

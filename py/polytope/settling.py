@@ -7,6 +7,7 @@ from yade import O, Vector3
 
 from ._scene import integrators, laws, meanwhile
 from .arguments import flag, namedArguments, number
+from .bolting import bolts, madeBolts
 from .bonding import bonds, madeBonds
 from .relaxing import relaxing
 
@@ -24,14 +25,14 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 
 	Gravity that begins at once makes bodies swing: joints then bear up to twice their load, and one with cohesion or tensile strength and a
 	factor of safety below two fails in the first swing. So while the bodies come to rest the joints are elastic: those that touch do
-	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) do not break; motion is damped strongly. Then they have their strength
+	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield; motion is damped strongly. Then they have their strength
 	and the scene its damping again. What they can't bear fails in the steps that follow, from rest.
 
 	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
 	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
 	A state that is saved meanwhile has joints with their strength, but this damping.
 
-	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts and bonds bear where that is more, below which it counts as
+	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts, bonds and bolts bear where that is more, below which it counts as
 	    being at rest [-]; of all bodies that can move
 	:param elastic: False: joints keep their strength, only damping is changed
 	:param damping: of NewtonIntegrator meanwhile [-], above 0 and below 1
@@ -53,7 +54,7 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000):
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose damping counts')
 	changed = [(integrator, 'damping', damping) for integrator in integrators()]
 	if flag(elastic, 'elastic'):
-		breakable = [*laws(), *([bonds()] if bonds() else [])]
+		breakable = [*laws(), *(engine for engine in (bonds(), bolts()) if engine)]
 		changed += [(one, 'unbreakable', True) for one in breakable]
 	with meanwhile(changed):
 		return _untilRest(unbalanced, int(steps))
@@ -78,7 +79,7 @@ def _untilRest(unbalanced, steps):
 
 
 def unbalancedForce(watched=None):
-	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts and bonds press and pull it with, where that is more.
+	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
 
 	:param watched: ids, of clumps their own; None: all that can move
 	"""
@@ -90,11 +91,12 @@ def unbalancedForce(watched=None):
 			owner[body.id] = body.clumpId
 		elif body.dynamic and (watched is None or body.id in watched):
 			moving.append(body)
-	forces = [(contact, contact.phys.normalForce + contact.phys.shearForce) for contact in O.interactions if contact.isReal]
-	forces += [(bond, bond.force) for bond in madeBonds() if bond.intact]
+	forces = [(contact, (contact.phys.normalForce + contact.phys.shearForce).norm()) for contact in O.interactions if contact.isReal]
+	forces += [(bond, bond.force.norm()) for bond in madeBonds() if bond.intact]
+	forces += [(crossing, abs(crossing.tension) + crossing.shearForce.norm()) for one in madeBolts() for crossing in one.crossings if not crossing.failure]
 	for link, force in forces:
 		for key in (link.id1, link.id2):
-			borne[owner[key]] += float(force.norm()) / 2
+			borne[owner[key]] += float(force) / 2
 	gravity = integrators()[0].gravity
 	worst = 0.0
 	for body in moving:

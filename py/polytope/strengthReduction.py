@@ -7,7 +7,7 @@
 	found = StrengthReduction([body.id for body in O.bodies if body.dynamic], steps=(0.1, 0.02)).run()
 	print(found.stable, found.failed)
 
-tan φ, cohesion, tensile strength and their residual values of each joint and bond are divided by the same factor, so that joints, sets and materials of different strengths keep their proportions.
+tan φ, cohesion, tensile strength and their residual values of each joint and bond are divided by the same factor, so that joints, sets and materials of different strengths keep their proportions. Bolts (polytope.bolt) keep theirs.
 """
 
 import dataclasses

@@ -372,6 +372,10 @@ def refused():
 	O.bodies[member].subdomain = 2
 	saysNo('Body.subdomain')
 	O.load(f'{folder}/start.yade', quiet=True)
+	ends = [body.state.pos for body in O.bodies if isinstance(body.shape, yade.Polytope)][:2]
+	polytope.bolt(*ends, area=1e-4, youngsModulus=2e11)
+	saysNo('bolts')
+	O.load(f'{folder}/start.yade', quiet=True)
 	O.periodic = True
 	saysNo('O.periodic')
 	return said

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'blockOnSlope', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -81,6 +81,19 @@ def testColumnsToppleAtTheAngleOfGoodmanAndBray(runs, capsys):
 		runs('goodmanBray', shorter={'start=radians(50), steps=[radians(2), radians(0.5), radians(0.1)]': 'start=radians(42), steps=[radians(2), radians(0.5)]'})
 	stands, fails, exact = map(float, re.findall(r'[\d.]+(?=°)', capsys.readouterr().out))
 	assert not end.value.code and exact == pytest.approx(38.13, abs=0.01) and fails - 0.3 < exact < stands + 0.3 and noFailures()
+
+
+def testBoltsAreAsTheirClosedFormsSay(runs, capsys):
+	runs('boltCurves')
+	differences = [float(found) for found in re.findall(r'([\d.]+) %', capsys.readouterr().out)]
+	assert len(differences) == 2 and max(differences) < 0.2 and isPicture('output/boltCurves.png')
+
+
+def testBoltsRaiseTheFactorOfARoofWedge(runs, capsys):
+	runs('boltedWedge', shorter={'(0, 2000, 4000, 6000)': '(0, 4000)'})
+	found = [[float(number) for number in re.findall(r'[\d.]+', line)] for line in capsys.readouterr().out.splitlines()]
+	assert [row[0] for row in found] == [0, 4000] and found[0][2] == pytest.approx(1.55, abs=1e-3) and found[1][2] > 2
+	assert all(measured == pytest.approx(theory, rel=0.01) for _, measured, theory in found)
 
 
 def testCrushedCubeBalancesItsEnergy(runs, capsys):

@@ -69,7 +69,7 @@ def testTheCoreKnowsNothingAboveIt():
 				assert name in own, f'{path.name} includes {name} of pkg'
 
 
-folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'surface', 'contact', 'timestep', 'bond', 'neighbours'
+folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'surface', 'contact', 'timestep', 'bond', 'bolt', 'neighbours'
 """Of src, in this order."""
 
 

@@ -244,6 +244,7 @@ def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
 	('O.trackEnergy', 'polytope.mpi.arrays()'),
 	('ForceRecorder', 'polytope.mpi.merge()'),
 	('Body.subdomain', 'call polytope.mpi.divide()'),
+	('bolts', 'run this scene on one'),
 	('O.periodic', 'on one process'),
 ])
 def testWhatCannotBeHadIsRefused(found, name, remedy):

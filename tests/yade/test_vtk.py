@@ -3,6 +3,7 @@
 import os
 import xml.etree.ElementTree
 
+import numpy as np
 import pytest
 import vtk
 from scenes import joint, loop
@@ -222,7 +223,7 @@ def testEmptySceneGivesFilesWithoutCells(tmp_path):
 
 
 def testRefusesWhatItCannotDo(tmp_path):
-	with pytest.raises(ValueError, match="recorders: must be among 'bodies', 'contacts' and 'bonds', not 'spheres'"):
+	with pytest.raises(ValueError, match="recorders: must be among 'bodies', 'contacts', 'bonds' and 'bolts', not 'spheres'"):
 		PolytopeVTKRecorder(recorders=['spheres'])
 	recorder = PolytopeVTKRecorder(recorders=['bodies'])
 	with pytest.raises(ValueError, match='recorders'):
@@ -264,3 +265,37 @@ def testBondsAreReadBack(tmp_path):
 	recorder()
 	newest = max(tmp_path.glob('r-bonds.*.vtp'), key=lambda path: int(path.name.split('.')[1]))
 	assert arraysOf(readContacts(newest).GetCellData())['id2'].tolist() == [1, 2]
+
+
+def testBoltsAreReadBack(tmp_path):
+	"""Elements of steel between the stations where the blocks have carried them, with their forces; what is at an erased block is left out."""
+	joint()
+	O.bodies.append([polytope.cuboid((2.1 * k, 0, 0), (1, 0.5, 0.5), fixed=k == 0) for k in range(3)])
+	loop(True)
+	polytope.bolt((-0.5, 0, 0), (2.0, 0, 0), area=5e-4, youngsModulus=2e11)
+	grouted = polytope.bolt((-0.5, 0.2, 0), (5, 0.2, 0), area=5e-4, youngsModulus=2e11, grout=polytope.Grout(1e9, 1e6), dowel=polytope.Dowel(1e8, 1e6))
+	O.dt = 1e-12
+	for k in (1, 2):
+		O.bodies[k].state.pos += (1e-3, 0, 2e-3)
+	recorder = PolytopeVTKRecorder(fileName=str(tmp_path / 'r-'), recorders=['bolts'], ascii=True)
+	O.step()
+	recorder()
+	(file,) = tmp_path.glob('r-bolts.*.vtp')
+	data, arrays = readContacts(file), polytope.boltArrays()
+	cells = arraysOf(data.GetCellData())
+	assert cells['bolt'].tolist() == arrays.bolts.tolist() and cells['bolt'][0] == 0
+	assert cells['force'] == pytest.approx(arrays.forces) and cells['strain'] == pytest.approx(arrays.strains)
+	assert cells['force'][0] == pytest.approx(1e8 / 2.5 * (np.hypot(2.501, 2e-3) - 2.5), rel=1e-6)
+	sheared = cells['shearForce'][np.abs(cells['shearForce']).sum(axis=1) > 0]
+	assert sheared[0] == pytest.approx([0, 0, -2e5], abs=1e-2) and cells['radius'][0] == pytest.approx((5e-4 / np.pi) ** 0.5)
+	ends = vtk_to_numpy(data.GetCell(0).GetPoints().GetData())
+	assert ends == pytest.approx(np.array([(-0.5, 0, 0), (2.001, 0, 2e-3)]), abs=1e-9)
+	last = vtk_to_numpy(data.GetCell(data.GetNumberOfCells() - 1).GetPoints().GetData())
+	assert last[1] == pytest.approx(np.array([grouted.stations[-1] - 0.5 + 1e-3, 0.2, 2e-3]), abs=1e-9)
+	O.bodies.erase(2)
+	O.step()
+	recorder()
+	newest = max(tmp_path.glob('r-bolts.*.vtp'), key=lambda path: int(path.name.split('.')[1]))
+	fewer = readContacts(newest)
+	assert 0 < fewer.GetNumberOfCells() < data.GetNumberOfCells()
+	assert max(vtk_to_numpy(fewer.GetPoints().GetData())[:, 0]) < 3.2

@@ -28,6 +28,7 @@ groups = {
 		'RockJointMat RockJointPhys Ip2_RockJointMat_RockJointMat_RockJointPhys Law2_PolytopeGeom_RockJointPhys_MohrCoulomb'.split(),
 	),
 	'bonds': ('Bonds', ['PolytopeBonds', 'PolytopeBond']),
+	'bolts': ('Rock bolts and cables', ['PolytopeBolts', 'PolytopeBolt', 'PolytopeBoltCrossing']),
 	'engines': (
 		'Engines',
 		'PolytopeCollider PolytopeTimeStepper PolytopeWater PolytopeVTKRecorder PolytopeCheckpoint BaseMotion QuietBoundary VelocityHistory'.split(),

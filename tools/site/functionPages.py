@@ -17,6 +17,7 @@ topics = {
 		'voronoi VoronoiCells',
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
+	'support': ('Rock bolts and cables', 'bolt Grout Dowel bolts boltArrays'),
 	'scene': ('Scenes', 'engines check settle water stableTimeStep checkpoint continueFrom picture arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
@@ -31,6 +32,7 @@ topics = {
 """Page, title, names. tests/yade/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
+	'support': ('bolting.BoltArrays',),
 	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check'),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),

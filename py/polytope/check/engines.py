@@ -10,6 +10,7 @@ from yade import (
 	InteractionLoop,
 	NewtonIntegrator,
 	Polytope,
+	PolytopeBolts,
 	PolytopeBonds,
 	PolytopeWater,
 	QuietBoundary,
@@ -18,13 +19,14 @@ from yade import (
 )
 
 from .._scene import stiffnessesPerArea, wrongUnit
+from ..bolting import removedBolts
 from ..bonding import removedBonds
 
 __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, bolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -106,6 +108,16 @@ def bonds(scene):
 		yield 'bonds', f'O.engines has {len(those)} PolytopeBonds: contacts know the bonds of the first one only', 'keep one, and make all bonds with polytope.bond'
 
 
+def bolts(scene):
+	"""The same of bolts."""
+	those, removed = scene.those(PolytopeBolts), removedBolts() if scene.ownEngines else None
+	if removed is not None:
+		seen = f'O.engines has no PolytopeBolts any more, of which {removed.actingInScene} held blocks: they hold nothing now'
+		yield 'bolts', seen, 'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.bolts() before NewtonIntegrator'
+	if len(those) > 1:
+		yield 'bolts', f'O.engines has {len(those)} PolytopeBolts: polytope.bolts() and the functions that need bolts know the first one only', 'keep one'
+
+
 def dampingOfShaken(scene):
 	"""Numerical damping of motion that comes from a base or leaves through a boundary."""
 	shaken = [type(one).__name__ for one in scene.those(BaseMotion, QuietBoundary)]
@@ -123,7 +135,7 @@ def erasedForces(scene):
 		return
 	start = scene.engines.index(resetters[0])
 	after = scene.engines[start + 1 :] + scene.engines[:start]
-	for kind, what in ((PolytopeBonds, 'bonds'), (PolytopeWater, 'water'), (QuietBoundary, 'order of engines')):
+	for kind, what in ((PolytopeBonds, 'bonds'), (PolytopeBolts, 'bolts'), (PolytopeWater, 'water'), (QuietBoundary, 'order of engines')):
 		if any(after.index(one) > after.index(scene.integrators[0]) for one in scene.those(kind)):
 			seen = f'{kind.__name__} is not before the NewtonIntegrator: its forces are erased before they act'
 			yield what, seen, 'put it after the InteractionLoop'

@@ -6,6 +6,7 @@ import math
 from yade import (
 	GlobalStiffnessTimeStepper,
 	Polytope,
+	PolytopeBolts,
 	PolytopeBonds,
 	PolytopeCollider,
 	PolytopeTimeStepper,
@@ -38,8 +39,11 @@ def steppers(scene):
 		if isinstance(engine, GlobalStiffnessTimeStepper) and not float(engine.defaultDt) > 0:
 			seen = 'GlobalStiffnessTimeStepper has no defaultDt: until the first contact O.dt is that of a wave in spheres, 1 s or so'
 			yield 'time step', seen, 'PolytopeTimeStepper() in its place, or defaultDt = 0.2 √(m/k) with the least mass'
-		if isinstance(engine, GlobalStiffnessTimeStepper) and any(bonds.intactCount for bonds in scene.those(PolytopeBonds)):
-			yield 'time step', 'GlobalStiffnessTimeStepper does not know bonds: its step may be unstable', 'PolytopeTimeStepper() in its place'
+		unknown = ['bonds'] if any(bonds.intactCount for bonds in scene.those(PolytopeBonds)) else []
+		unknown += ['bolts'] if any(bolts.actingCount for bolts in scene.those(PolytopeBolts)) else []
+		if isinstance(engine, GlobalStiffnessTimeStepper) and unknown:
+			seen = f'GlobalStiffnessTimeStepper does not know {" and ".join(unknown)}: its step may be unstable'
+			yield 'time step', seen, 'PolytopeTimeStepper() in its place'
 
 
 def timeStep(scene):

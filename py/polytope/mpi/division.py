@@ -15,6 +15,7 @@ import traceback
 import yade
 from yade import InteractionLoop, O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
 
+from .. import bolting
 from .._ranks import eraseRanks
 from . import bonds, clumps, dampers, decomposition, joints, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
@@ -146,6 +147,8 @@ def check():
 	_typedEngine('InsertionSortCollider')
 	_typedEngine('NewtonIntegrator')
 	_checkSettings()
+	if bolting.madeBolts():
+		raise RuntimeError('O.engines: bolts (polytope.bolt) do not act on several processes; run this scene on one process')
 	if O.periodic:
 		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
 	if O.trackEnergy:
