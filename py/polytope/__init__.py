@@ -9,7 +9,7 @@ pair without a scene: *contact*. The usual engines: *engines*; what is wrong bef
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
-Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*. The classes (Polytope,
+Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*; a film of its run: *animate*. The classes (Polytope,
 Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
 The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
@@ -35,6 +35,7 @@ from .dynamics.quiet import quietBoundary
 from .energy import mechanicalEnergy
 from .engines import engines
 from .factorOfSafety import FactorOfSafety, factorOfSafety
+from .films import Film, animate
 from .grainBreakage import breakGrains
 from .grains import cloud, grains, randomGrain
 from .heap import coordinationNumber, porosity
@@ -77,6 +78,7 @@ _helpTexts.rewrite()
 __all__ = [
 	'Dowel',
 	'FactorOfSafety',
+	'Film',
 	'Grout',
 	'Joint',
 	'JointSet',
@@ -85,6 +87,7 @@ __all__ = [
 	'RockReport',
 	'VoronoiCells',
 	'aabbExtrema',
+	'animate',
 	'arrays',
 	'baseMotion',
 	'bodyStress',

@@ -12,6 +12,7 @@ from ._scene import integrators
 from ._stages import partOfSize, sizeOf
 from .arguments import namedArguments, number
 from .heap import namedBodies
+from .films import filmEngines
 from .history import histories
 from .pictures import picture
 from .relaxing import relaxing
@@ -197,7 +198,7 @@ class _Search:
 	def _trial(self, factor):
 		for integrator in integrators():
 			integrator.damping = damping
-		for engine in histories():
+		for engine in [*histories(), *filmEngines()]:
 			engine.dead = True  # what happens in a trial is none of the scene's history
 		trial, quiet = Trial(factor, 'creeping', 0, 0.0, 0.0), 0
 		self.trials.append(trial)

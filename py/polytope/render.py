@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Draws one picture: a program of its own, called by pictures.py.
+"""Draws pictures: a program of its own, called by pictures.py.
 
-	python3 -P render.py FOLDER PICTURE.png
+	python3 -P render.py FOLDER PICTURE.png [FOLDER PICTURE.png …]
 
-FOLDER has meshes.npz and settings.json as pictures.py writes them. Needs VTK, and Xvfb for a virtual display.
+Each FOLDER has meshes.npz and settings.json as pictures.py writes them. Needs VTK, and Xvfb for a virtual display.
 """
+
 import contextlib
 import json
 import os
@@ -57,10 +58,10 @@ def virtualDisplay():
 		raise SystemExit('Xvfb is needed to draw without a screen: install the package xvfb.')
 	readEnd, writeEnd = os.pipe()
 	server = subprocess.Popen(
-	        ['Xvfb', '-displayfd', str(writeEnd), '-screen', '0', '640x480x24', '-nolisten', 'tcp', '-noreset'],
-	        pass_fds=[writeEnd],
-	        stdout=subprocess.DEVNULL,
-	        stderr=subprocess.DEVNULL
+		['Xvfb', '-displayfd', str(writeEnd), '-screen', '0', '640x480x24', '-nolisten', 'tcp', '-noreset'],
+		pass_fds=[writeEnd],
+		stdout=subprocess.DEVNULL,
+		stderr=subprocess.DEVNULL,
 	)
 	os.close(writeEnd)
 	try:
@@ -282,16 +283,22 @@ def draw(meshes, settings, path):
 	write(pixels, path)
 
 
-def main(folder, path):
-	with open(os.path.join(folder, 'settings.json')) as file:
-		settings = json.load(file)
+def main(*names):
+	"""Pairs of a folder and the picture of it."""
+	with virtualDisplay():
+		for folder, path in zip(names[::2], names[1::2], strict=True):
+			with open(os.path.join(folder, 'settings.json')) as file:
+				settings = json.load(file)
+			draw(meshesOf(folder), settings, path)
+
+
+def meshesOf(folder):
 	meshes = {}
 	with np.load(os.path.join(folder, 'meshes.npz')) as arrays:
 		for key in arrays:
 			style, name = key.split('.')
 			meshes.setdefault(style, {})[name] = arrays[key]
-	with virtualDisplay():
-		draw(meshes, settings, path)
+	return meshes
 
 
 if __name__ == '__main__':

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures: they show what is in the scene. Colours of pixels are compared, not pictures to the last bit."""
+
 import os
 import shutil
 import subprocess
@@ -9,8 +10,10 @@ import matplotlib.image
 import numpy as np
 import pytest
 from yade import FrictMat, NewtonIntegrator, O, Quaternion, polytope, utils
+from yade.polytope._camera import against, fromTheFront
 from yade.polytope._faces import _rings, mostSphereFaces
-from yade.polytope.pictures import _against, _colors, _fromTheFront, collect, picture, usualFixedColor
+from yade.polytope._looks import colors, usualFixedColor
+from yade.polytope.pictures import collect, picture
 
 red, blue = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9)
 
@@ -125,17 +128,17 @@ def testAWallReachesAsFarAsTheOtherBodies():
 def testUpIsAgainstGravity():
 	O.bodies.append(polytope.regular(6, 0.5))
 	O.engines = []
-	assert list(_against(False)) == [0, 0, 1] and list(_against(True)) == [0, 1, 0]
+	assert list(against(False)) == [0, 0, 1] and list(against(True)) == [0, 1, 0]
 	O.engines = [NewtonIntegrator(gravity=(0, -9.81, 0))]
-	up = _against(False)
-	assert list(up / np.linalg.norm(up)) == [0, 1, 0] and list(_against(True)) == [0, 9.81, 0]
-	usual = _fromTheFront(np.array([0.0, 0, 1]))
+	up = against(False)
+	assert list(up / np.linalg.norm(up)) == [0, 1, 0] and list(against(True)) == [0, 9.81, 0]
+	usual = fromTheFront(np.array([0.0, 0, 1]))
 	assert list(usual) == [-0.55, -1, 0.62]
 	for up in np.eye(3), -np.eye(3), [np.array([0.6, 0, 0.8])]:
 		for one in up:
-			turned = _fromTheFront(one)
+			turned = fromTheFront(one)
 			assert turned @ one == pytest.approx(0.62) and np.linalg.norm(turned) == pytest.approx(np.linalg.norm(usual))
-	tilted = _fromTheFront(np.array([0.0, 1, 0]))
+	tilted = fromTheFront(np.array([0.0, 1, 0]))
 	assert tilted == pytest.approx([-0.55, 0.62, 1]), 'what was the front, against y, now looks along z'
 
 
@@ -143,12 +146,12 @@ def testColoursOfBodiesThatCannotMove():
 	O.bodies.append(polytope.regular(6, 0.5, color=red, fixed=True))
 	O.bodies.append(polytope.regular(6, 0.5, center=(0, 3, 0), color=blue))
 	up = np.array([0.0, 1, 0])
-	low, high, usual = _colors(list(O.bodies), 'height', None, up, usualFixedColor)
+	low, high, usual = colors(list(O.bodies), 'height', None, up, usualFixedColor)
 	assert (low, high) == (3, 3) and usual(O.bodies[0]) == usualFixedColor
-	*_, own = _colors(list(O.bodies), 'height', None, up, 'own')
+	*_, own = colors(list(O.bodies), 'height', None, up, 'own')
 	assert list(own(O.bodies[0])) == list(red) and list(own(O.bodies[1])) != list(blue)
 	with pytest.raises(ValueError, match='fixedColor'):
-		_colors(list(O.bodies), 'speed', None, up, 'red')
+		colors(list(O.bodies), 'speed', None, up, 'red')
 
 
 def testPictureOfASmallSceneTakesLittleTime(tmp_path):
