@@ -124,7 +124,7 @@ def _divided():
 
 
 class Film:
-	"""A film that is being made, begun by *polytope.animate*. As a context manager it is closed at the end of the block, also after an error.
+	"""A film that *polytope.animate* began. As a context manager it is closed at the end of the block, also after an error.
 
 	Frames end with O.reset() and O.load(…), which take the engine away (unless the state was saved while this film was being made:
 	then they go on); *close* then writes those taken before. While a scene is divided on several processes (MPI) there are none:
@@ -141,7 +141,9 @@ class Film:
 			self._kept.remove()
 			raise
 		stale = filmEngines(path)  # of an earlier process, in a scene that was loaded
-		O.engines = [*(e for e in O.engines if e not in stale), PyRunner(command=f'{module}({path!r})', iterPeriod=every)]
+		# without iterLast it would act in the next step, too, if steps were taken before
+		engine = PyRunner(command=f'{module}({path!r})', iterPeriod=every, iterLast=O.iter)
+		O.engines = [*(one for one in O.engines if one not in stale), engine]
 		openFilms[path] = self
 		atexit.register(self.close)  # is called before the folder's own removal, which was registered earlier
 

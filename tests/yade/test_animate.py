@@ -123,6 +123,31 @@ def testWhatEndsAFilm(tmp_path):
 	assert again.close() and again.frames == 1
 
 
+def testNoFramesOfADividedScene(tmp_path, monkeypatch):
+	"""Each process knows the motion of its own bodies only."""
+	movingBlock()
+	film = polytope.animate(tmp_path / 'a.gif', every=100, **look)
+	monkeypatch.setattr(O, 'splitted', True, raising=False)  # as yade.mpy does
+	with pytest.warns(UserWarning, match='no frames while the scene is divided'):
+		O.run(150, wait=True)
+	assert film.close() and film.frames == 1
+
+
+def testTrialsOfTheFactorOfSafetyAreNotFilmed(tmp_path):
+	"""A block on a slope of 20 degrees, with friction of 30: tan 30° / tan 20°."""
+	dip = np.radians(20)
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=np.radians(30)))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines(gravity=(9.81 * np.sin(dip), 0, -9.81 * np.cos(dip)))
+	polytope.settle()
+	film = polytope.animate(tmp_path / 'a.gif', every=10, **look)
+	O.run(25, wait=True)
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(np.tan(np.radians(30)) / np.tan(dip), rel=0.02)
+	assert film.frames == 3
+
+
 def testAFilmThatWasNotClosedIsWrittenAtTheEnd(tmp_path):
 	script = f"""
 from yade import O, polytope
