@@ -6,6 +6,7 @@ import numbers
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
+from tqdm import tqdm
 from yade import Body, Polytope, Quaternion, Vector3, _polytope
 
 from ._faces import localVertices
@@ -120,7 +121,8 @@ def cloud(lower, upper, bodies, seed=None):
 	]
 	radii = [float(np.linalg.norm(points, axis=1).max()) for points in corners]
 	random, placed = randomOf(seed), _Placed(min(radii, default=1))
-	for k in sorted(range(len(bodies)), key=lambda k: -radii[k]):
+	order = sorted(range(len(bodies)), key=lambda k: -radii[k])
+	for k in tqdm(order, desc='placing', unit=' bodies', disable=None, leave=False):
 		begin, end = low - corners[k].min(axis=0), high - corners[k].max(axis=0)
 		if not (begin <= end).all():
 			raise ValueError(f'upper: the box is smaller than the largest body, which is {np.ptp(corners[k], axis=0).max():.3g} m')

@@ -5,6 +5,7 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
+from tqdm import tqdm
 from yade import Body, O, Polytope, Vector3, Wall
 
 from ._scene import geometryFunctors
@@ -212,13 +213,16 @@ def _compress(made, stress, porosity):
 		return
 	if porosity > made.porosity:
 		raise ValueError(f'porosity: is {made.porosity:.3g} in the box at the beginning; take a larger box, or a smaller porosity')
-	while (left := math.log((1 - porosity) / (1 - made.porosity)) / 3) > reached * (1 - porosity):
-		# ever slower at the end, over as many steps as the walls' easing needs to follow
-		made.control(rates=dict.fromkeys(range(3), min(fastestStrain, left / 200) / float(O.dt)))
-		for _ in range(between):
-			O.step()
-		if (pressed := made.overlap()) > deepest:
-			raise RuntimeError(f'porosity: {made.porosity:.3g} is reached so far, and {tooDeep(pressed)}')
+	with tqdm(desc='compressing', unit=' steps', disable=None, leave=False) as bar:
+		while (left := math.log((1 - porosity) / (1 - made.porosity)) / 3) > reached * (1 - porosity):
+			# ever slower at the end, over as many steps as the walls' easing needs to follow
+			made.control(rates=dict.fromkeys(range(3), min(fastestStrain, left / 200) / float(O.dt)))
+			for _ in range(between):
+				O.step()
+			bar.set_postfix_str(f'porosity {made.porosity:.3f} for {porosity:.3f}', refresh=False)
+			bar.update(between)
+			if (pressed := made.overlap()) > deepest:
+				raise RuntimeError(f'porosity: {made.porosity:.3g} is reached so far, and {tooDeep(pressed)}')
 	made.control()
 	for k in made.ids:
 		state = O.bodies[k].state

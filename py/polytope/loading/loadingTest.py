@@ -5,6 +5,7 @@ import math
 import os
 
 import numpy as np
+from tqdm import tqdm
 from yade import O
 
 from ..precision import isNumber
@@ -85,7 +86,8 @@ class LoadingTest:
 		self.sample.mustBePresent()
 		begin = progress()
 		sign = 1 if goal >= begin else -1
-		for mark in np.linspace(begin, goal, rows + 1)[0 if not self.record else 1 :]:
+		marks = np.linspace(begin, goal, rows + 1)[0 if not self.record else 1 :]
+		for mark in tqdm(marks, desc='loading', unit=' rows', disable=None, leave=False):
 			while sign * (mark - progress()) > 0:
 				O.step()
 			self.note()

@@ -9,6 +9,7 @@ import math
 import weakref
 
 import numpy as np
+from tqdm import tqdm
 from yade import O, Polytope, utils
 
 from ..arrays import arrays
@@ -167,18 +168,21 @@ class Sample:
 		:param bool untouched: bodies that bear no force at all count as being at rest
 		:raises RuntimeError: if they are not after so many steps, or are pressed into each other
 		"""
-		quiet = 0
-		for _ in range(0, steps, between):
-			for _ in range(between):
-				O.step()
-			unbalanced = float(utils.unbalancedForce())  # not a number where nothing bears a force
-			resting = unbalanced < restingForce or untouched and math.isnan(unbalanced)
-			quiet = quiet + 1 if resting and self.deviation() < stressError else 0
-			if quiet == looks:
-				return
-			if (pressed := self.overlap()) > deepest:
-				raise RuntimeError(f'loading: {tooDeep(pressed)}')
-		seen = f'stress off by {100 * self.deviation():.2g} %, unbalanced force {float(utils.unbalancedForce()):.2g}'
+		quiet, seen = 0, ''
+		with tqdm(desc='settling', unit=' steps', disable=None, leave=False) as bar:
+			for _ in range(0, steps, between):
+				for _ in range(between):
+					O.step()
+				unbalanced, deviation = float(utils.unbalancedForce()), self.deviation()  # nan where nothing bears a force
+				seen = f'stress off by {100 * deviation:.2g} %, unbalanced force {unbalanced:.2g}'
+				bar.set_postfix_str(seen, refresh=False)
+				bar.update(between)
+				resting = unbalanced < restingForce or untouched and math.isnan(unbalanced)
+				quiet = quiet + 1 if resting and deviation < stressError else 0
+				if quiet == looks:
+					return
+				if (pressed := self.overlap()) > deepest:
+					raise RuntimeError(f'loading: {tooDeep(pressed)}')
 		raise RuntimeError(
 			f'loading: the sample has not come to rest within {steps} steps ({seen}); give more damping, or a stress that it can bear'
 		)
