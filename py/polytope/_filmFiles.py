@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy  # loads its packages at their first use: half a second
 
 __all__ = ['checkedName', 'encode']
 
@@ -50,20 +50,20 @@ def encode(path, pictures, fps):
 
 
 def _gif(path, pictures, fps):
-	from PIL import Image  # takes as long to load as a tenth of this package
+	from PIL import Image  # films alone need it
 
 	def opened(name):
 		with Image.open(name) as image:
 			return image.convert('RGB')
 
 	palette = _palette([opened(name) for name in pictures[:: -(-len(pictures) // forPalette)]])
-	nearest = cKDTree(palette)
+	nearest = scipy.spatial.cKDTree(palette)
 
 	def indexed(name):  # Pillow's own search takes neighbouring colours for one: white becomes grey
 		image = opened(name)
 		rgb, _, which = _colorsOf([image])
 		chosen = nearest.query(rgb)[1].astype(np.uint8)[which]
-		found = Image.fromarray(chosen.reshape(image.height, image.width), 'P')
+		found = Image.fromarray(chosen.reshape(image.height, image.width))
 		found.putpalette(palette.ravel().tolist())
 		return found
 
