@@ -114,9 +114,7 @@ def record(path):
 	if path not in openFilms:
 		return
 	if _divided():
-		warn(
-			'polytope.animate: no frames while the scene is divided on several processes; call film.take() on rank 0 after mpi.run(…) or mpi.merge()'
-		)
+		warn('polytope.animate: no frames while the scene is divided on several processes; film.take() on rank 0 after mpi.run(…)')
 		return
 	openFilms[path].take()
 
