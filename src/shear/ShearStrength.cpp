@@ -208,19 +208,26 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 	}
 }
 
-/// The sums of (1) at points in the triangles between the centre and the edges: the direction of slip changes little over the outline.
-Vector3 ShearStrength::byPoints(const Vector3& slip, Matrix3* slope) const
+/// The sums of (1) at points in the triangles between the centre and the edges: the direction of slip changes little over the outline. So little that it is
+/// a polynomial of low degree; `precise`: of a higher one.
+Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
 {
-	// Gauss-Legendre with three points on 0 … 1
-	static const Real root = sqrt(Real(15)) / 10, place[3] = { Real(0.5) - root, Real(0.5), Real(0.5) + root },
-	                  weight[3] = { Real(5) / 18, Real(8) / 18, Real(5) / 18 };
-	Vector3 result              = Vector3::Zero();
+	// Gauss-Legendre with three and five points on 0 … 1
+	static const Real root = sqrt(Real(15)) / 10, inner = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 6,
+	                  outer = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 6, half = Real(0.5), light = (322 - 13 * sqrt(Real(70))) / 1800,
+	                  heavy       = (322 + 13 * sqrt(Real(70))) / 1800;
+	static const Real three[2][3] = { { half - root, half, half + root }, { Real(5) / 18, Real(8) / 18, Real(5) / 18 } };
+	static const Real five[2][5]
+	        = { { half - outer, half - inner, half, half + inner, half + outer }, { light, heavy, Real(64) / 225, heavy, light } };
+	const Real *const place = precise ? five[0] : three[0], *const weight = precise ? five[1] : three[1];
+	const int points = precise ? 5 : 3;
+	Vector3   result = Vector3::Zero();
 	if (slope) slope->setZero();
 	for (int k = 0; k < count_; ++k) {
 		const Vector2 from = corner(k), along = corner(k + 1 < count_ ? k + 1 : 0) - from;
 		const Real    twice = cross(from, along);
-		for (int i = 0; i < 3; ++i)
-			for (int j = 0; j < 3; ++j) {
+		for (int i = 0; i < points; ++i)
+			for (int j = 0; j < points; ++j) {
 				const Vector2 x = place[i] * (from + place[j] * along), v = slip.head<2>() + slip[2] * left(x);
 				const Real    share = weight[i] * weight[j] * place[i] * twice * at(x), speed = v.norm();
 				const Vector2 d = v / speed, across = left(d);
@@ -240,7 +247,8 @@ Vector3 ShearStrength::resistance(const Vector3& slip, Matrix3* slope) const
 	Vector3       result = Vector3::Zero();
 	if (slope) slope->setZero();
 	if (!(length > 0) && turn == 0) return result;
-	if (length >= Real(tolerance::shearPoleFar) * farthest_ * abs(turn)) return byPoints(slip, slope);
+	const Real near = farthest_ * abs(turn);
+	if (length >= Real(tolerance::shearPoleFar) * near) return byPoints(slip, length < Real(tolerance::shearPoleFarther) * near, slope);
 	const Vector2 pole   = left(s) / turn; // v = 0 there
 	const Real    atPole = at(pole);
 	const bool    narrow = isNarrowFrom(pole);

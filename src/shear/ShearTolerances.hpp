@@ -14,8 +14,11 @@ constexpr double shearSliver = 1e-14;
 constexpr double shearPole = 1e-14;
 
 /// Times the outline's size: for a centre of rotation farther than this the resistance is summed at points, since the sums over edges lose digits with the
-/// fourth power of the distance. Here both agree to 1e-6 of the strength, and better beyond.
-constexpr double shearPoleFar = 4;
+/// fourth power of the distance. Here both agree to 1e-10 of the strength; what jumped by more would have motions that differ by rounding part.
+constexpr double shearPoleFar = 16;
+
+/// The same: beyond, three points do in place of five, whose error falls with the third power of the distance.
+constexpr double shearPoleFarther = 500;
 
 /// Times an outline's half width: from a centre of rotation farther than this the sums over edges lose digits with the square of distance over width, and
 /// five points of Gauss-Legendre across are exact to 1e-14 (their error falls with the tenth power).

@@ -291,7 +291,7 @@ def testBoltsAreReadBack(tmp_path):
 	ends = vtk_to_numpy(data.GetCell(0).GetPoints().GetData())
 	assert ends == pytest.approx(np.array([(-0.5, 0, 0), (2.001, 0, 2e-3)]), abs=1e-9)
 	last = vtk_to_numpy(data.GetCell(data.GetNumberOfCells() - 1).GetPoints().GetData())
-	assert last[1] == pytest.approx(np.array([grouted.stations[-1] - 0.5 + 1e-3, 0.2, 2e-3]), abs=1e-9)
+	assert last[1] == pytest.approx(np.array([float(grouted.stations[-1]) - 0.5 + 1e-3, 0.2, 2e-3]), abs=1e-9)
 	O.bodies.erase(2)
 	O.step()
 	recorder()
