@@ -3,6 +3,7 @@
 
 import yade
 from yade import (
+	BaseMotion,
 	Bo1_Box_Aabb,
 	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
@@ -25,6 +26,7 @@ from yade import (
 	PolytopeCollider,
 	PolytopeTimeStepper,
 	PolytopeWater,
+	QuietBoundary,
 	RockJointMat,
 	Sphere,
 	TimeStepper,
@@ -36,6 +38,9 @@ from .bolting import bolts, removedBolts
 from .bonding import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
+from .films import filmEngines
+from .history import histories
+from .relaxing import relaxing
 
 __all__ = ['engines']
 
@@ -56,7 +61,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
 	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), and the water (polytope.water); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s. What is wrong with the scene is warned of, as *check* finds it.
+	and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), the water (polytope.water), moving bases and quiet boundaries (baseMotion, quietBoundary), forces that fade (excavate); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s; histories and films. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
@@ -84,17 +89,20 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	gravity = _usualGravity(scene) if gravity is None else vector(gravity, 'gravity')
 	loop = InteractionLoop(_geometry(scene, geometry), _physics(scene, physics), _laws(scene, law))
 	made = [
+		*(engine for engine in O.engines if isinstance(engine, BaseMotion)),
 		ForceResetter(),
 		_one(collider, Collider, 'collider') or _collider(scene),
 		loop,
 		*(engine for engine in (bonds() or removedBonds(), bolts() or removedBolts()) if engine),
-		*(engine for engine in O.engines if isinstance(engine, PolytopeWater)),
+		*(engine for engine in O.engines if isinstance(engine, (PolytopeWater, QuietBoundary))),
+		*relaxing(),
 		_one(integrator, NewtonIntegrator, 'integrator') or NewtonIntegrator(gravity=gravity, damping=damping),
 	]
 	if timeStepper is not False:
 		made.append(_one(timeStepper, TimeStepper, 'timeStepper') or PolytopeTimeStepper())
 	if isinstance(made[-1], PolytopeTimeStepper):
 		O.dt = min(O.dt, firstStep)
+	made += [*histories(), *filmEngines()]
 	for finding in checkOf(O, made):
 		warn(f'{finding.what}: {finding.seen}; {finding.advice}')
 	return made

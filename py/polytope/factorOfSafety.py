@@ -5,14 +5,16 @@ import dataclasses
 
 import numpy as np
 from tqdm import tqdm
-from yade import O
+from yade import O, RockJointMat
 
 from ._loads import givePermanentLoads, permanentLoads
-from ._scene import integrators
+from ._scene import canMove, integrators
 from ._stages import partOfSize, sizeOf
-from .arguments import namedArguments, number
-from .heap import namedBodies
+from .arguments import namedArguments, number, warn
+from .bolting import madeBolts
+from .bonding import madeBonds
 from .films import filmEngines
+from .heap import namedBodies
 from .history import histories
 from .pictures import picture
 from .relaxing import relaxing
@@ -113,7 +115,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	:param float most: factor at which to give up
 	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
 	:returns: *FactorOfSafety*
-	:raises ValueError: naming the argument
+	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
 	:raises RuntimeError: the scene does not stand with its own strengths, or stands with a *most*-th of them; it is what it was
 	"""
 	tolerance, most, steps = number(tolerance, 'tolerance'), number(most, 'most'), number(steps, 'steps')
@@ -127,6 +129,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	watched = [int(k) for k in namedBodies(bodies, name='bodies')]
 	if not watched:
 		raise ValueError('bodies: there is none that can move')
+	_refuseBodies(watched)
 	_refuseScene()
 	O.saveTmp(before, quiet=True)
 	loads = permanentLoads()
@@ -134,6 +137,21 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 		return _Search(watched, reduce, int(steps), loads).run(tolerance, most)
 	finally:
 		_load(before, loads)
+
+
+def _refuseBodies(watched):
+	fixed = [k for k in watched if not canMove(O.bodies[k])]
+	if fixed:
+		raise ValueError(f'bodies: body {fixed[0]} cannot move; name bodies that can')
+	parts = [part for k in watched for part in ([O.bodies[m] for m in O.bodies[k].shape.members] if O.bodies[k].isClump else [O.bodies[k]])]
+	if not madeBonds() and not any(isinstance(part.material, RockJointMat) for part in parts):
+		kinds = ', '.join(sorted({type(part.material).__name__ for part in parts}))
+		raise ValueError(f'bodies: they are of {kinds}, and what is reduced are strengths of RockJointMat and of bonds')
+	if any(float(bolt.pretension) == 0 for bolt in madeBolts()):
+		warn(
+			'bolts without pretension: a trial takes strength away at once, and what moves until such a bolt bears overshoots, so that the factor may be far too low; '
+			'give bolts a pretension, or take polytope.strengthReduction.StrengthReduction, which goes in small steps'
+		)
 
 
 def _refuseScene():

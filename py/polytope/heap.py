@@ -242,6 +242,6 @@ def namedBodies(ids, erased=False, name='ids'):
 				raise ValueError(f'{name}: body {k} is a member of clump {moverOf(k)}; name the clump')
 		if len(set(ids)) < len(ids):
 			raise ValueError(f'{name}: some bodies are named twice')
-		return ids
+		return [int(k) for k in ids]
 	free = (moverOf(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
 	return [k for k in dict.fromkeys(free) if O.bodies[k].dynamic]

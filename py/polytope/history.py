@@ -90,6 +90,7 @@ def _name(name):
 def _follow(name, point):
 	"""(id of what moves, the point in its axes, the point where it is now)"""
 	if isinstance(point, numbers.Integral) and not isinstance(point, bool):
+		point = int(point)
 		if not 0 <= point < len(O.bodies) or O.bodies[point] is None:
 			raise ValueError(f'points: {name}: there is no body {point}')
 		k = moverOf(int(point))

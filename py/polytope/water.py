@@ -31,6 +31,10 @@ class Face(NamedTuple):
 	"""[m²]"""
 
 
+sameMass = 1e-6
+"""Of a clump: more than its parts' rounding, less than any overlap that is seen."""
+
+
 @namedArguments
 def water(level=None, density=1000, pressures=None, faces=None):
 	"""Water presses on faces of blocks, in joints and outside: ``polytope.water(level=12)``. Set O.engines first.
@@ -45,7 +49,7 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	:param pressures: in place of *level*: [(point, pressure [Pa]), …] in order along a joint: linear between the points, constant across their line and beyond its ends
 	:param faces: function of a *Face* (body, plane, normal, centre, area), called once for each: whether it has this water; default all faces of all polytopes, of later ones too
 	:returns: the engine; ``engine.load(id)`` has force and moment on a body, ``engine.dead = True`` takes the water away
-	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints
+	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, clumps of parts that overlap
 	"""
 	place = placeOfForces('water acts')
 	if O.periodic:
@@ -56,6 +60,7 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	bodies = [body for body in O.bodies if body is not None and isinstance(body.shape, Polytope)]
 	if not bodies:
 		raise ValueError('O.bodies: there are no polytopes that water could press on; make them first')
+	_refuseOverlappingParts()
 	pieces = _along(pressures) if level is None else _below(level, density, bodies, faces is not None)
 	wet, corners = _chosen(faces, bodies)
 	engine = PolytopeWater(**_attributes(pieces), **wet)
@@ -64,6 +69,20 @@ def water(level=None, density=1000, pressures=None, faces=None):
 		raise ValueError(f'{name}: no face gets any pressure; the bodies reach from {_text(low)} to {_text(high)} m')
 	O.engines = O.engines[:place] + [engine] + O.engines[place:]
 	return engine
+
+
+def _refuseOverlappingParts():
+	"""Water would press on faces that are inside a clump."""
+	for clump in O.bodies:
+		if clump is None or not clump.isClump:
+			continue
+		parts = [O.bodies[k] for k in clump.shape.members]
+		of = sum(float(part.shape.volume) * float(part.material.density) for part in parts if isinstance(part.shape, Polytope))
+		if of > float(clump.state.mass) * (1 + sameMass):
+			raise ValueError(
+				f'O.bodies: the parts of clump {clump.id} weigh {of:g} kg and the clump {float(clump.state.mass):g} kg, so they overlap, and water would press on '
+				'what is inside; make it of parts that only touch'
+			)
 
 
 def _anyPressure(pieces, corners):

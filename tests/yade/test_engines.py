@@ -201,3 +201,22 @@ def testAStepMadeBeforeDoesNotShootTheBodies():
 	O.dt = 0.8
 	polytope.engines(timeStepper=False)
 	assert O.dt == 0.8, "without a time stepper it is the script's"
+
+
+def testWhatActsOnTheSceneIsStillThereAfterwards():
+	"""A moving base, a quiet boundary, forces that fade and histories."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.6))
+	shaken, quiet, gone = (O.bodies.append(polytope.cuboid((3 * k, 0, 0.25), (0.5, 0.5, 0.25), fixed=True)) for k in range(3))
+	block = O.bodies.append(polytope.cuboid((6, 0, 1), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines(damping=0)
+	polytope.settle(unbalanced=1e-7)
+	polytope.quietBoundary(quiet, (0, 0, -1), 600, 400)
+	polytope.baseMotion(shaken, polytope.velocityHistory([0, 1, 1], times=[0, 1, 2], kind='velocity', baseline=False))
+	polytope.history({'block': block}, every=10)
+	polytope.excavate([gone], over=1000)
+	before = [type(one).__name__ for one in O.engines]
+	O.engines = polytope.engines(damping=0)
+	assert sorted(type(one).__name__ for one in O.engines) == sorted(before)
+	names = [type(one).__name__ for one in O.engines]
+	assert names[0] == 'BaseMotion' and names.index('QuietBoundary') < names.index('NewtonIntegrator')
+	assert names.count('PyRunner') == 2 and names.index('PyRunner') < names.index('NewtonIntegrator')

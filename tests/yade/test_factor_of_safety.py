@@ -258,3 +258,14 @@ def testPictureAndText(tmp_path):
 	path = pathlib.Path(tmp_path) / 'mode.png'
 	found.picture(path)
 	assert path.read_bytes()[:4] == b'\x89PNG'
+
+
+def testBodiesWithoutStrengthsToReduceAreRefused():
+	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=radians(35)))
+	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	with pytest.raises(ValueError, match='they are of FrictMat'):
+		polytope.factorOfSafety()
+	with pytest.raises(ValueError, match=f'body {floor} cannot move'):
+		polytope.factorOfSafety(bodies=[floor])

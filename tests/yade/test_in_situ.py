@@ -400,3 +400,39 @@ def testCommonFacesOfAMass():
 	assert len(faces) == 6 and all(face.area == pytest.approx(1) for face in faces)
 	assert sum((face.normal if face.id1 == 0 else -face.normal) * face.area for face in faces) == pytest.approx(0, abs=1e-12)
 	assert faces[0].second == pytest.approx((np.eye(3) - np.outer(faces[0].normal, faces[0].normal)) / 12)
+
+
+def testJointsHaveTheMaterialOfTheirFaces():
+	"""The joint is weaker and softer in shear than the rock: its friction, its stress and its factor of safety are those of its own material."""
+	O.materials.append(RockJointMat(label='rock', density=2600, normalStiffness=1e10, shearStiffness=1e10, frictionAngle=math.radians(50)))
+	O.materials.append(RockJointMat(label='bed', density=2600, normalStiffness=1e10, shearStiffness=5e9, frictionAngle=math.radians(25)))
+	box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+	dip = polytope.Joint(math.radians(20), math.radians(90), (0, 0, 0))
+	ids = polytope.jointedRock(box, [3, 3, 1, 1, 2, 2], [dip]).append(material='rock', jointMaterials=['bed'])
+	low, high = sorted(ids, key=lambda k: O.bodies[k].state.pos[2])
+	O.bodies[low].dynamic = False
+	walls = [((4, 0, 0), (1, 1, 2)), ((-4, 0, 0), (1, 1, 2)), ((0, 2, 0), (5, 1, 2)), ((0, -2, 0), (5, 1, 2)), ((0, 0, 3), (5, 3, 1))]
+	walls = O.bodies.append([polytope.cuboid(*wall, fixed=True, material='rock') for wall in walls])
+	O.engines = polytope.engines()
+	k = 2600 * 9.81 * np.diag((0.5, 0.5, 1))
+	polytope.inSitu(-4 * k, gradient=[0 * k, 0 * k, k])
+	joint = O.interactions[low, high].phys
+	assert joint.tangensOfFrictionAngle == pytest.approx(math.tan(math.radians(25)))
+	assert joint.shearStiffness == pytest.approx(5e9)
+	polytope.excavate(walls, over=3000)
+	O.run(3500, True)
+	polytope.settle()
+	assert polytope.factorOfSafety().factor == pytest.approx(math.tan(math.radians(25)) / math.tan(math.radians(20)), rel=0.012)
+
+
+def testJointsWhoseFacesAreTooWeakAreRefused():
+	O.materials.append(RockJointMat(label='rock', density=2600, normalStiffness=1e10, shearStiffness=1e10, frictionAngle=math.radians(60)))
+	O.materials.append(RockJointMat(label='weak', density=2600, normalStiffness=1e10, shearStiffness=1e10, frictionAngle=math.radians(20)))
+	box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+	dip = polytope.Joint(math.radians(30), math.radians(90), (0, 0, 0))
+	ids = polytope.jointedRock(box, [1, 1, 1, 1, 1, 1], [dip]).append(material='rock', jointMaterials=['weak'])
+	walls = [((2, 0, 0), (1, 1, 1)), ((-2, 0, 0), (1, 1, 1)), ((0, 2, 0), (3, 1, 1)), ((0, -2, 0), (3, 1, 1)), ((0, 0, 2), (3, 3, 1)), ((0, 0, -2), (3, 3, 1))]
+	O.bodies.append([polytope.cuboid(*wall, fixed=True, material='rock') for wall in walls])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	with pytest.raises(ValueError, match=r'needs 21.8° of friction and has 20.0°'):
+		polytope.inSitu(np.diag((-1e6, -1e6, -4e6)), bodies=ids)

@@ -370,3 +370,13 @@ def testWhatTheSceneMustHave():
 		polytope.water(level=1)
 	with pytest.raises(ValueError, match='^values: must be as many as points'):
 		PolytopeWater(points=[Vector3.Zero])
+
+
+def testAClumpOfPartsThatOverlapIsRefused():
+	O.materials.append(RockJointMat(density=1000, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6))
+	polytope.clump([polytope.cuboid((0, 0, 0), (1, 1, 0.5)), polytope.cuboid((0, 0, 0.5), (1, 1, 0.5))])
+	O.engines = polytope.engines()
+	engines = len(O.engines)
+	with pytest.raises(ValueError, match='8000 kg and the clump 6000 kg, so they overlap'):
+		polytope.water(level=20)
+	assert len(O.engines) == engines

@@ -12,26 +12,20 @@ from yade import O, Quaternion, _polytope
 from .._faces import rows
 from ..arguments import vectors
 from ..bodies import isotropyTolerance
-from .commonFaces import planesOf
+from .commonFaces import materialOf, planeOf, planesOf
 
 __all__ = ['closures', 'enlarge', 'restore']
-
-samePlane = 1e-4
-"""1 − cosine of the angle within which a plane of a body is that of its joint: that of *commonFaces.facing*."""
 
 
 def closures(faces, field):
 	"""How each body's planes move: id → {plane: (n, g) with the outward way [m] at the world's x being n + g·x}."""
 	found = {}
 	for face in faces:
-		for k, side in ((face.id1, 1), (face.id2, -1)):
-			body = O.bodies[k]
-			normals, offsets = planesOf(body)
-			away = np.abs(normals @ face.centroid - offsets)
-			away[1 - side * normals @ face.normal > samePlane] = np.inf  # of those that are parallel one has the face
-			plane = int(np.argmin(away))
-			if np.isfinite(away[plane]):
-				found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(body.material.normalStiffness))
+		for k in (face.id1, face.id2):
+			plane = planeOf(face, k)
+			if plane >= 0:
+				normals, _ = planesOf(O.bodies[k])
+				found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(materialOf(face, k).normalStiffness))
 	return found
 
 
@@ -75,7 +69,7 @@ def _enlargeOne(body, planes):
 	)
 	new = _polytope.body(made, body.material, None, Quaternion.Identity, False, isotropyTolerance, old.color)
 	shape, density = new.shape, state.mass / old.volume
-	shape.wire, shape.highlight = old.wire, old.highlight
+	shape.wire, shape.highlight, shape.faceMaterials = old.wire, old.highlight, old.faceMaterials
 	# it weighs what it weighed: the size without load is the same rock
 	state.inertia = density * old.volume / shape.volume * shape.inertia
 	shift, turned = state.ori * new.state.pos, new.state.ori

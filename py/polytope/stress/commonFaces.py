@@ -9,10 +9,12 @@ from yade import O, PolytopeBond, PolytopeBonds
 
 from .._faces import rows
 
-__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'planesOf']
+__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
 
 facing = 0.01
 """Largest angle between two faces that are one joint [rad], as in *polytope.bond*."""
+samePlane = 1e-4
+"""1 − cosine of the angle within which a plane of a body is that of its joint: that of *facing*."""
 
 
 @dataclasses.dataclass
@@ -68,3 +70,21 @@ def planesOf(body):
 	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
 	normals = rows(body.shape.normals) @ turn.T
 	return normals, np.array(body.shape.offsets, float) + normals @ np.array(body.state.pos, float)
+
+
+def planeOf(face, k):
+	"""Index of the plane of body k that has the face; −1 if none does."""
+	side = 1 if k == face.id1 else -1
+	normals, offsets = planesOf(O.bodies[k])
+	away = np.abs(normals @ face.centroid - offsets)
+	away[1 - side * normals @ face.normal > samePlane] = np.inf  # of those that are parallel one has the face
+	plane = int(np.argmin(away))
+	return plane if np.isfinite(away[plane]) else -1
+
+
+def materialOf(face, k):
+	"""Of body k's side of the joint: that of its face, if it has one of its own (*Polytope.faceMaterials*)."""
+	body = O.bodies[k]
+	own = getattr(body.shape, 'faceMaterials', [])
+	plane = planeOf(face, k) if len(own) else -1
+	return O.materials[own[plane]] if 0 <= plane < len(own) and own[plane] >= 0 else body.material

@@ -7,7 +7,7 @@ from yade import Collider, ForceResetter, InteractionLoop, O, RockJointMat, Vect
 from .._scene import interactionLoops, meanwhile
 from ..arguments import namedArguments
 from .closure import closures, enlarge, restore
-from .commonFaces import commonFaces, contactOf
+from .commonFaces import commonFaces, contactOf, materialOf
 from .field import StressField
 from .refusals import massOf, refuseField, refuseForces, refuseScene
 from .warnings import warnOfClosure, warnOfGravity
@@ -55,8 +55,8 @@ def inSitu(stress, gradient=None, bodies=None):
 
 def _makeContacts():
 	"""Joints with tensile strength get it when they have their force: their own bond takes it up as it is then."""
-	materials = {id(m): m for m in (body.material for body in O.bodies) if isinstance(m, RockJointMat) and m.tensileStrength > 0}
-	with meanwhile([(material, 'tensileStrength', 0) for material in materials.values()]):
+	materials = [one for one in O.materials if isinstance(one, RockJointMat) and one.tensileStrength > 0]
+	with meanwhile([(material, 'tensileStrength', 0) for material in materials]):
 		_act()
 
 
@@ -82,7 +82,7 @@ def _shear(field, faces):
 		if contact is None:
 			continue
 		_setShear(contact, face, field)
-		tensile = min(O.bodies[k].material.tensileStrength for k in (face.id1, face.id2))
+		tensile = min(materialOf(face, k).tensileStrength for k in (face.id1, face.id2))
 		if tensile > 0:
 			contact.phys.tensileStrength, contact.phys.intact = tensile, mayBeIntact
 		count += 1

@@ -13,7 +13,7 @@ from .._stages import refuseMatchMaker
 from ..bonding import madeBonds
 from ..heap import moverOf, namedBodies
 from ..rock.faces import areaOfFace
-from .commonFaces import contactOf, planesOf
+from .commonFaces import contactOf, materialOf, planesOf
 
 __all__ = ['accuracy', 'forcesBorne', 'massOf', 'refuseField', 'refuseForces', 'refuseScene']
 
@@ -75,7 +75,7 @@ def refuseScene(chosen):
 	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)} & chosen
 	if bonded:
 		raise ValueError(
-			f'bodies: body {min(bonded)} is bonded, and a bond has no force as bodies are when it is made; call inSitu first and bond after it'
+			f'bodies: body {min(bonded)} is bonded, and a bond has no force as bodies are when it is made; give joints cohesion and tensileStrength in place of bonds'
 		)
 
 
@@ -106,7 +106,7 @@ def _refuseStrength(field, faces, largest):
 		traction = field.at(face.centroid) @ face.normal
 		normal = -float(traction @ face.normal)
 		shear = float(np.linalg.norm(traction + normal * face.normal))
-		materials = [O.bodies[k].material for k in (face.id1, face.id2)]
+		materials = [materialOf(face, k) for k in (face.id1, face.id2)]
 		if not all(isinstance(material, RockJointMat) for material in materials):
 			raise ValueError(f'bodies: the joint between {face.id1} and {face.id2} is not between two RockJointMat')
 		cohesion = min(float(material.cohesion) for material in materials)
@@ -123,7 +123,7 @@ def _refuseStrength(field, faces, largest):
 
 def _refuseOverlap(faces, largest):
 	for face in faces:
-		stiffness = min(float(O.bodies[k].material.normalStiffness) for k in (face.id1, face.id2))
+		stiffness = min(float(materialOf(face, k).normalStiffness) for k in (face.id1, face.id2))
 		if face.overlap * stiffness > accuracy * largest:
 			raise ValueError(
 				f'bodies: {face.id1} and {face.id2} overlap by {face.overlap:.3g} m already; blocks must lie face on face, and a stress that they '

@@ -7,6 +7,7 @@ from yade import O
 from .._scene import canMove, integrators
 from ..arguments import warn
 from ..heap import moverOf
+from .commonFaces import materialOf
 from .refusals import accuracy, forcesBorne
 
 __all__ = ['warnOfClosure', 'warnOfGravity']
@@ -39,7 +40,7 @@ def warnOfClosure(field, faces, chosen):
 	for face in faces:
 		for k in {face.id1, face.id2} & chosen:
 			pressure = -float(face.normal @ field.at(face.centroid) @ face.normal)
-			closures[k] = max(closures.get(k, 0.0), pressure / float(O.bodies[k].material.normalStiffness))
+			closures[k] = max(closures.get(k, 0.0), pressure / float(materialOf(face, k).normalStiffness))
 	errors = {k: errorOfClosure * closure / (2 * float(O.bodies[k].shape.inscribedRadius)) for k, closure in closures.items()}
 	many = [k for k, error in errors.items() if error > accuracy]
 	if many:
