@@ -7,7 +7,7 @@ import pathlib
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from yade import O, RockJointMat, Vector3, polytope
+from yade import FrictMat, O, RockJointMat, Vector3, polytope
 
 gravity = 9.81
 
@@ -261,7 +261,7 @@ def testPictureAndText(tmp_path):
 
 
 def testBodiesWithoutStrengthsToReduceAreRefused():
-	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=radians(35)))
+	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=math.radians(35)))
 	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
 	O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
 	O.engines = polytope.engines()
