@@ -347,7 +347,7 @@ def testScenesThatCannotHaveAStress(what):
 		expected = '^O.engines: .*MatchMaker'
 	elif what == 'bonded':
 		polytope.bond()
-		expected = '^bodies: body 0 is bonded.*bond after it'
+		expected = '^bodies: body 0 is bonded.*in place of bonds'
 	elif what == 'friction':
 		O.bodies[0].material = utils.defaultMaterial()
 		expected = '^bodies: body 0 is of a FrictMat'

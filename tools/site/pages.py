@@ -31,7 +31,7 @@ def menu(index):
 
 def write(folder):
 	for path in (project / 'docs').iterdir():
-		if path.suffix in ('.md', '.png'):
+		if path.suffix in ('.md', '.png', '.gif'):
 			shutil.copyfile(path, folder / path.name)
 	index = (project / 'docs/index.md').read_text()
 	(folder / 'index.md').write_text(menu(index + onlyHere))
