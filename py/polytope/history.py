@@ -47,7 +47,7 @@ def history(points, every=100, stress=False):
 	there = {name for engine in histories() for name in re.findall(r"'(\w+)':", engine.command)} & set(followed)
 	if there:
 		raise ValueError(f'points: {sorted(there)} are recorded already; take other names')
-	engine = PyRunner(command=f'{module}({followed!r}, {bool(stress)})', iterPeriod=int(every))
+	engine = PyRunner(command=f'{module}({followed!r}, {bool(stress)})', iterPeriod=int(every), iterLast=O.iter)
 	O.engines = [*O.engines, engine]
 	record(followed, bool(stress))
 	return [f'{name}_{what}' for name in followed for what in _columns(bool(stress))]
