@@ -44,7 +44,7 @@ def testBothPackagesNeedTheSame():
 def testEveryModuleThatIsImportedHasItsPackage():
 	"""Of other projects, by the rule of Debian's names; trials of tests/yade/test_layers.py have the list of what may be imported."""
 	named = re.search(r"ofTheProduct = set\('([^']*)'", (project / 'tests/yade/test_layers.py').read_text())[1].split()
-	packages = {'vtkmodules': 'python3-vtk9', **{name: f'python3-{name}' for name in named if name not in ('vtkmodules', 'coacd')}}
+	packages = {name: f'python3-{name}' for name in named if name != 'coacd'} | {'vtkmodules': 'python3-vtk9', 'PIL': 'python3-pil'}
 	assert 'numpy' in packages and set(packages.values()) <= field(plain, 'Depends') | field(plain, 'Recommends')
 
 

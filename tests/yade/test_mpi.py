@@ -82,6 +82,8 @@ def farthest(one, other):
 
 agreement = 1e-9
 """Of a body's size. Forces of several ranks are added up in another order, and bodies of the heap still move, at some 1 m/s: what rounding changes grows."""
+sameForce = 1e-8
+"""Of the largest force. Where friction slips and turns at once, a few returns to its strength in 100 000 change the force by so much for a load that differs by rounding alone."""
 
 
 def same(one, several, bodies=24):
@@ -211,7 +213,7 @@ def testBodiesThatChangeRanksInARunKeepTheirContacts(found, name, ranks, least):
 	assert several['moved'] >= least
 	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys()
 	assert max(farthest(one['bodies'][k][:3], several['bodies'][k][:3]) for k in one['bodies']) < agreement * size
-	assert max(farthest(one['contacts'][k][3:13], several['contacts'][k][3:13]) for k in one['contacts']) < 1e-9 * 2000
+	assert max(farthest(one['contacts'][k][3:13], several['contacts'][k][3:13]) for k in one['contacts']) < sameForce * 2000
 
 
 def testBondsBetweenRanksActAndFailAsOnOne(found):
