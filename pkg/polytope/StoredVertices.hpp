@@ -26,7 +26,12 @@ public:
 		const bool        wide = std::any_of(
                         begin, end, [](int name) { return name >= noPressure && name != polytope::KeptVertices::noPressure; });
 		std::vector<Byte>& codes = codes_.make();
-		codes.resize(header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex);
+		const std::size_t  size  = header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex;
+		if (codes.capacity() < size) { // growing by itself, a vector takes twice what it had
+			std::vector<Byte>().swap(codes);
+			codes.reserve(size);
+		}
+		codes.resize(size);
 		codes[0] = kept.planes;
 		codes[1] = kept.vertices;
 		codes[2] = kept.exchanged;
