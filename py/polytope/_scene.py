@@ -13,6 +13,7 @@ from yade import (
 )
 
 __all__ = [
+	'EngineOfScene',
 	'canMove',
 	'colliders',
 	'geometryFunctors',
@@ -106,3 +107,27 @@ def meanwhile(settings):
 	finally:
 		for one, name, value in before:
 			setattr(one, name, value)
+
+
+class EngineOfScene:
+	"""The scene's one engine of a kind whose members hold bodies (bonds, bolts), known also after it has left O.engines.
+
+	:param kind: its class
+	:param str holding: attribute that counts the members that hold bodies of this scene
+	"""
+
+	def __init__(self, kind, holding):
+		self.kind, self.holding, self.last = kind, holding, None
+
+	def present(self):
+		"""None where there is none."""
+		found = next((engine for engine in O.engines if isinstance(engine, self.kind)), None)
+		if found is not None:
+			self.last = found
+			found._meetBodies()  # loaded members do not know their bodies yet; in another scene they would take what has the same ids
+		return found
+
+	def removed(self):
+		"""One that is no longer in O.engines and would hold bodies of this scene; None where there is none."""
+		lost = self.present() is None and self.last is not None and getattr(self.last, self.holding)
+		return self.last if lost else None

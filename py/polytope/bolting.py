@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from yade import O, PolytopeBolt, PolytopeBolts
 
-from ._scene import placeOfForces
+from ._scene import EngineOfScene, placeOfForces
 from .arguments import flag, namedArguments, number, vector
 
 __all__ = ['BoltArrays', 'Dowel', 'Grout', 'bolt', 'boltArrays', 'bolts', 'madeBolts', 'removedBolts']
 
-lastSeen = [None]
+ofScene = EngineOfScene(PolytopeBolts, 'actingInScene')
 """The last engine PolytopeBolts that was in O.engines: a list of engines that is set later may lack it."""
 
 
@@ -147,17 +147,13 @@ def bolt(
 	index = engine.make(pattern)
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
-		lastSeen[0] = engine
+		ofScene.last = engine
 	return engine.bolts[index]
 
 
 def bolts():
 	"""The scene's engine PolytopeBolts, None where there is none."""
-	found = next((engine for engine in O.engines if isinstance(engine, PolytopeBolts)), None)
-	if found is not None:
-		lastSeen[0] = found
-		found._meetBodies()
-	return found
+	return ofScene.present()
 
 
 def madeBolts():
@@ -168,9 +164,7 @@ def madeBolts():
 
 def removedBolts():
 	"""An engine PolytopeBolts that holds blocks of this scene and is no longer in O.engines; None where there is none."""
-	if bolts() is None and lastSeen[0] is not None and lastSeen[0].actingInScene:
-		return lastSeen[0]
-	return None
+	return ofScene.removed()
 
 
 def boltArrays():

@@ -6,7 +6,7 @@ import numbers
 
 from yade import Clump, O, Polytope, PolytopeBond, PolytopeBonds
 
-from ._scene import placeOfForces
+from ._scene import EngineOfScene, placeOfForces
 from .arguments import namedArguments, warn
 from .precision import isNumber, real
 
@@ -16,7 +16,7 @@ facing = 0.01
 """Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
 
 
-lastSeen = [None]
+ofScene = EngineOfScene(PolytopeBonds, 'intactInScene')
 """The last engine PolytopeBonds that was in O.engines: a list of engines that is set later may lack it."""
 
 
@@ -84,17 +84,13 @@ def bond(
 		warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}')
 	if new:
 		O.engines = O.engines[:place] + [engine] + O.engines[place:]
-		lastSeen[0] = engine
+		ofScene.last = engine
 	return made
 
 
 def bonds():
 	"""The scene's engine PolytopeBonds, None where there is none."""
-	found = next((engine for engine in O.engines if isinstance(engine, PolytopeBonds)), None)
-	if found is not None:
-		lastSeen[0] = found
-		found._meetBodies()  # loaded bonds do not know theirs yet; in another scene they would take what has the same ids
-	return found
+	return ofScene.present()
 
 
 def madeBonds():
@@ -105,9 +101,7 @@ def madeBonds():
 
 def removedBonds():
 	"""An engine PolytopeBonds with intact bonds between bodies of this scene that is no longer in O.engines; None where there is none."""
-	if bonds() is None and lastSeen[0] is not None and lastSeen[0].intactInScene:
-		return lastSeen[0]
-	return None
+	return ofScene.removed()
 
 
 def _value(given, name):

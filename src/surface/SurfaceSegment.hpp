@@ -30,7 +30,6 @@ public:
 		count_ = some ? 2 : 0;
 	}
 
-	bool                 hasPlainEdges() const { return false; } // a segment is found as soon as it is checked: nothing is kept
 	int                  count() const { return count_; }
 	POLYTOPE_INLINE void vertex(int t, R* u) const { u[0] = end_[t]; }
 	int                  tag(int t) const { return tag_[t]; }
