@@ -12,7 +12,7 @@ tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fie
 Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*; a film of its run: *animate*. The classes (Polytope,
 Ig2_Polytope_Polytope_PolytopeGeom, RockJointMat, …) are YADE's like any other.
 
-The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/Plugin.cpp).
+The C++ side is in the extension module yade._polytope, loaded with YADE itself (pkg/polytope/host/Plugin.cpp).
 """
 
 import builtins

@@ -70,7 +70,7 @@ def numbersOf(values, name):
 
 
 def vectors(rows, name, length):
-	"""Rows of *length* numbers, 2 or 3, as the functions of _polytope take them (pkg/polytope/Vectors.cpp)."""
+	"""Rows of *length* numbers, 2 or 3, as the functions of _polytope take them (pkg/polytope/host/Vectors.cpp)."""
 	if isinstance(rows, np.ndarray):
 		rows = rows.tolist()  # its rows and numbers are slow to iterate
 	return _polytope.vectors(rows, name, length, real)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints with tensile strength and stiffness per area: they hold over their whole area, however they are tilted (pkg/polytope/RockJointBond.cpp)."""
+"""Joints with tensile strength and stiffness per area: they hold over their whole area, however they are tilted (pkg/polytope/joint/RockJointBond.cpp)."""
 
 import math
 

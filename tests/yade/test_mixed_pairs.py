@@ -261,5 +261,5 @@ def testStrangeBoxesAndFacetsAreCountedNotFatal():
 def testStandInsAreMadeWhereNothingIsThrown():
 	"""Construction may also end with what no box or facet above brings about (no inscribed ball found, no memory): all is made within shapeOrNull,
 	which lets nothing out (tests/core/ShapeFactoryTest.cpp)."""
-	source = (pathlib.Path(__file__).resolve().parents[2] / 'pkg/polytope/MixedPairs.cpp').read_text()
+	source = (pathlib.Path(__file__).resolve().parents[2] / 'pkg/polytope/contact/MixedPairs.cpp').read_text()
 	assert re.findall(r'\bpartner\s*=\s*([\w:]+)', source) == ['polytope::shapeOrNull'] * 3

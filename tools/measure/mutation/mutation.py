@@ -24,7 +24,10 @@ from schemata import Schemata, project
 from sites import Mutant, sites
 
 core = ('src/centre', 'src/contact', 'src/program', 'src/numbers', 'src/shape', 'src/timestep')
-plugin = tuple(f'pkg/polytope/{name}' for name in ('RockJointLaw.cpp', 'RockJointPhysics.cpp', 'PolytopeGeom.cpp', 'ContactOptions.cpp', 'ContactCounters.cpp', 'RockJointShear.cpp'))
+plugin = tuple(
+        f'pkg/polytope/{name}.cpp'
+        for name in 'joint/RockJointLaw joint/RockJointPhysics joint/RockJointShear contact/PolytopeGeom contact/ContactOptions contact/ContactCounters'.split()
+)
 pluginTests = (
         'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_spring.py test_energy.py test_mechanical_energy.py'
 ).split()
@@ -55,7 +58,7 @@ def sourcesKey():
 	"""What results belong to: the sources that are mutated, not the tests, which may grow until nothing survives."""
 	digest = hashlib.sha256()
 	for folder in (*core, 'pkg/polytope'):
-		for path in sorted((project / folder).glob('*.[ch]pp')):
+		for path in sorted((project / folder).rglob('*.[ch]pp')):
 			digest.update(path.read_bytes())
 	digest.update((pathlib.Path(__file__).parent / 'sites.py').read_bytes())
 	return digest.hexdigest()[:16]

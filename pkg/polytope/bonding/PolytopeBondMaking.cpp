@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <lib/high-precision/Constants.hpp>
+#include <core/Clump.hpp>
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
+#include <src/bond/BondTolerances.hpp>
+#include <src/bond/CommonFace.hpp>
+
+#include "shape/Polytope.hpp"
+#include "bonding/PolytopeBonds.hpp"
+#include "joint/RockJoint.hpp"
+#include "material/RockJointMat.hpp"
+
+#include <limits>
+#include <tuple>
+
+/// Where bonds are made: pairs of neighbours, their common faces, values from the materials.
+namespace yade {
+namespace {
+
+	struct Bondable {
+		const Body*                  body;
+		const polytope::ConvexShape* shape;
+		Real                         radius;
+	};
+
+	bool movesByItself(const Body& body, const Scene& scene)
+	{
+		if (body.isClumpMember() && scene.bodies->exists(body.clumpId)) return (*scene.bodies)[body.clumpId]->isDynamic();
+		return body.isDynamic();
+	}
+
+	bool mayBeBonded(const Bondable& one, const Bondable& other)
+	{
+		if (one.shape->dimension() != other.shape->dimension()) return false;
+		return !one.body->isClumpMember() || one.body->clumpId != other.body->clumpId;
+	}
+
+	std::vector<Bondable> bondablesOf(const std::vector<int>& ids, const Scene& scene)
+	{
+		std::vector<Bondable> all;
+		const auto            add = [&](const Body& body) {
+                        const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
+                        if (shape && shape->convex()) all.push_back({ &body, shape->convex().get(), shape->convex()->boundingRadius() });
+		};
+		if (ids.empty()) {
+			for (const auto& body : *scene.bodies)
+				if (body) add(*body);
+		} else
+			for (int id : ids)
+				add(*(*scene.bodies)[id]);
+		return all;
+	}
+
+	/// Calls visit(i, j, shift by cells) for pairs whose balls are within the gap.
+	template <class Visit> void forNeighbours(std::vector<Bondable>& all, const Scene& scene, const Real& gap, const Visit& visit)
+	{
+		const auto low  = [&](const Bondable& one) { return one.body->state->pos[0] - one.radius; };
+		const auto near = [&](const Bondable& a, const Bondable& b, const Vector3r& shift) {
+			const Real reach = a.radius + b.radius + gap;
+			return (b.body->state->pos + shift - a.body->state->pos).squaredNorm() <= reach * reach;
+		};
+		std::sort(all.begin(), all.end(), [&](const Bondable& a, const Bondable& b) { return low(a) < low(b); });
+		for (std::size_t i = 0; i < all.size(); ++i)
+			for (std::size_t j = i + 1; j < all.size(); ++j) {
+				if (!scene.isPeriodic) {
+					if (low(all[j]) > low(all[i]) + 2 * all[i].radius + gap) break;
+					if (near(all[i], all[j], Vector3r::Zero())) visit(all[i], all[j], Vector3i(Vector3i::Zero()));
+					continue;
+				}
+				const Vector3r cells = scene.cell->hSize.inverse() * (all[i].body->state->pos - all[j].body->state->pos);
+				for (int n = 0; n < 27; ++n) {
+					const Vector3i by(int(math::round(cells[0])) + n % 3 - 1,
+					        int(math::round(cells[1])) + n / 3 % 3 - 1, int(math::round(cells[2])) + n / 9 - 1);
+					if (near(all[i], all[j], scene.cell->intrShiftPos(by))) visit(all[i], all[j], by);
+				}
+			}
+	}
+
+	[[noreturn]] void refuseBond(const std::string& message) { throw std::invalid_argument(message); }
+
+	Real inSeries(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
+
+	/// Those of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
+	void takeStrengths(PolytopeBond& bond, const RockJointMat* m1, const RockJointMat* m2)
+	{
+		Real tension = std::numeric_limits<Real>::infinity(), cohesion = tension;
+		if (m1 && m2) {
+			const Real t = math::min(m1->tensileStrength, m2->tensileStrength), c = math::min(m1->cohesion, m2->cohesion);
+			if (t > 0 || c > 0) std::tie(tension, cohesion) = std::make_pair(t, c);
+		}
+		if (bond.tensileStrength < 0) bond.tensileStrength = tension;
+		if (bond.cohesion < 0) bond.cohesion = cohesion;
+	}
+
+	/// Values that the pattern leaves to the materials.
+	void takeFromMaterials(PolytopeBond& bond, const Body& body1, const Body& body2)
+	{
+		const auto *m1  = dynamic_cast<const RockJointMat*>(body1.material.get()),
+		           *m2  = dynamic_cast<const RockJointMat*>(body2.material.get());
+		const auto take = [&](Real& value, const char* name, const auto& rule) {
+			if (value >= 0) return;
+			if (!m1 || !m2)
+				refuseBond(std::string(name) + ": must be given, bodies " + std::to_string(body1.id) + " and "
+				        + std::to_string(body2.id) + " are not both of a RockJointMat, whose value would be taken");
+			value = rule(*m1, *m2);
+		};
+		using Mat          = RockJointMat;
+		const auto smaller = [](Real a, Real b) { return math::min(a, b); };
+		take(bond.normalStiffness, "normalStiffness",
+		        [](const Mat& a, const Mat& b) { return inSeries(a.normalStiffness, b.normalStiffness); });
+		take(bond.shearStiffness, "shearStiffness",
+		        [](const Mat& a, const Mat& b) { return inSeries(a.shearStiffness, b.shearStiffness); });
+		take(bond.frictionAngle, "frictionAngle",
+		        [&](const Mat& a, const Mat& b) { return smaller(a.frictionAngle, b.frictionAngle); });
+		takeStrengths(bond, m1, m2);
+		if (bond.bendingStiffness < 0) bond.bendingStiffness = bond.normalStiffness;
+		if (bond.twistingStiffness < 0) bond.twistingStiffness = bond.shearStiffness;
+	}
+
+	void checkPattern(const PolytopeBond& pattern, const Real& angle)
+	{
+		const auto require = [](bool good, const char* name, Real value, const char* rule) {
+			if (good) return;
+			std::ostringstream message;
+			message << name << ": must be " << rule << ", got " << value;
+			refuseBond(message.str());
+		};
+		const auto                         unset  = [](Real value) { return value == -1; };
+		const auto                         finite = [](Real value) { return math::isfinite(value); };
+		const std::pair<const char*, Real> stiffnesses[]
+		        = { { "normalStiffness", pattern.normalStiffness }, { "shearStiffness", pattern.shearStiffness } };
+		for (const auto& [name, value] : stiffnesses)
+			require(unset(value) || (value > 0 && finite(value)), name, value, "positive and finite [Pa/m]");
+		const std::pair<const char*, Real> turning[]
+		        = { { "bendingStiffness", pattern.bendingStiffness }, { "twistingStiffness", pattern.twistingStiffness } };
+		for (const auto& [name, value] : turning)
+			require(unset(value) || (value >= 0 && finite(value)), name, value, "at least 0 and finite [Pa/m]");
+		require(unset(pattern.tensileStrength) || pattern.tensileStrength > 0, "tensileStrength", pattern.tensileStrength,
+		        "above 0 [Pa] (infinity: none)");
+		require(unset(pattern.cohesion) || pattern.cohesion > 0, "cohesion", pattern.cohesion,
+		        "above 0 [Pa] (infinity: no failure in shear)");
+		require(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < double(Mathr::HALF_PI)),
+		        "frictionAngle", pattern.frictionAngle, "an angle in radians, at least 0 and below pi/2 (use radians(degrees))");
+		require(pattern.bendingShare >= 0 && pattern.bendingShare <= 1, "bendingShare", pattern.bendingShare, "from 0 to 1");
+		require(angle >= 0 && angle < 0.5, "angle", angle, "an angle in radians, from 0 to below 0.5");
+	}
+
+	shared_ptr<PolytopeBond> bondAt(
+	        const polytope::CommonFace& face, const PolytopeBond& pattern, const Body& body1, const Body& body2, const Vector3r& shift)
+	{
+		auto              bond   = shared_ptr<PolytopeBond>(new PolytopeBond(pattern));
+		const State &     state1 = *body1.state, &state2 = *body2.state;
+		const Quaternionr frame(face.axes);
+		bond->id1           = body1.id;
+		bond->id2           = body2.id;
+		bond->point         = face.centroid;
+		bond->point1        = state1.ori.conjugate() * (face.centroid - state1.pos);
+		bond->point2        = state2.ori.conjugate() * (face.centroid - state2.pos - shift);
+		bond->frame1        = (state1.ori.conjugate() * frame).normalized();
+		bond->frame2        = (state2.ori.conjugate() * frame).normalized();
+		bond->area          = face.area;
+		bond->secondMoments = face.second;
+		bond->overlap       = math::max(-face.gap, Real(0));
+		for (const polytope::Vector2& x : face.corners)
+			bond->corners.push_back(Vector3r(0, x[0], x[1]));
+		takeFromMaterials(*bond, body1, body2);
+		return bond;
+	}
+
+} // namespace
+
+long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern)
+{
+	checkPattern(pattern, angle);
+	Scene& where = *Omega::instance().getScene();
+	endErased(where);
+	auto                                  all = bondablesOf(ids, where);
+	std::vector<shared_ptr<PolytopeBond>> found;
+	forNeighbours(all, where, math::max(gap, Real(0)), [&](const Bondable& a, const Bondable& b, const Vector3i& cells) {
+		// fixed bodies are moved by a script, if at all: they are bonded if it names them
+		if (ids.empty() && !movesByItself(*a.body, where) && !movesByItself(*b.body, where)) return;
+		if (!mayBeBonded(a, b) || joins(a.body->id, b.body->id)) return;
+		const bool      ordered = a.body->id < b.body->id;
+		const Bondable &one = ordered ? a : b, &two = ordered ? b : a;
+		const Vector3i  by     = ordered ? cells : Vector3i(-cells);
+		const Vector3r  shift  = where.isPeriodic ? where.cell->intrShiftPos(by) : Vector3r(Vector3r::Zero());
+		const Real      within = gap >= 0 ? gap : Real(polytope::tolerance::touchingFaces) * math::min(one.radius, two.radius);
+		const State &   state1 = *one.body->state, &state2 = *two.body->state;
+		for (const polytope::CommonFace& face : polytope::commonFaces({ *one.shape, state1.pos, state1.ori.toRotationMatrix() },
+		             { *two.shape, state2.pos + shift, state2.ori.toRotationMatrix() }, within, angle)) {
+			found.push_back(bondAt(face, pattern, *one.body, *two.body, shift));
+			found.back()->cellDist = by;
+		}
+	});
+	// nothing is changed before all could be made; in the order of the ids, whatever the places of the bodies
+	std::stable_sort(found.begin(), found.end(),
+	        [](const auto& a, const auto& b) { return std::make_pair(a->id1, a->id2) < std::make_pair(b->id1, b->id2); });
+	for (const auto& bond : found) {
+		bond->adoptBodies(*where.bodies);
+		bonds.push_back(bond);
+		enter(int(bonds.size()) - 1);
+		where.interactions->requestErase(bond->id1, bond->id2); // its contact
+	}
+	return long(found.size());
+}
+
+} // namespace yade

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/PolytopeGeom.hpp"
+
+#include <src/centre/IpoptCentre.hpp>
+#include <src/numbers/NumberText.hpp>
+
+/// The attributes of Ig2_Polytope_Polytope_PolytopeGeom that have a range, checked when they are set.
+namespace yade {
+
+namespace {
+
+	[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
+
+	/// What the attribute's name stands for. `names`: as the message lists them.
+	template <class Value>
+	Value meaning(const char* attribute, const std::string& name, const std::string& names,
+	        std::initializer_list<std::pair<const char*, Value>> all)
+	{
+		for (const auto& [one, value] : all)
+			if (name == one) return value;
+		refuse(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
+	}
+
+	void requireWithin(const char* attribute, Real value, Real least, Real most, const std::string& leastIs, const std::string& of)
+	{
+		if (value >= least && value <= most) return;
+		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and "
+		        + polytope::numberText(most) + " (a fraction of " + of + ")");
+	}
+
+} // namespace
+
+polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() const
+{
+	using namespace polytope;
+	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
+	ContactSettings result;
+	if (contactModel == "paper") refuse("contactModel: 'paper' is 'boon2012' now, with the normal and the depth that the paper has");
+	if (contactModel == "conservative") refuse("contactModel: 'conservative' is 'surface' now, the default, which conserves energy");
+	result.contactModel = meaning<ContactModel>("contactModel", contactModel, "'surface', 'foundation', 'spring' or 'boon2012'",
+	        { { "surface", ContactModel::Foundation }, { "foundation", ContactModel::Foundation }, { "spring", ContactModel::Spring },
+	                { "boon2012", ContactModel::Boon2012 } });
+	result.contactPoint = meaning<ContactPoint>("contactPoint", contactPoint, "'analyticCentre', 'chebyshevCentre' or 'centroid'",
+	        { { "analyticCentre", ContactPoint::AnalyticCentre }, { "chebyshevCentre", ContactPoint::ChebyshevCentre },
+	                { "centroid", ContactPoint::Centroid } });
+	result.solver       = meaning<CentreSolver>(
+                "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
+	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
+		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
+		       "-DPOLYTOPE_IPOPT=ON");
+	if (!(tolerance >= 0 && tolerance < 1))
+		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
+	requireWithin("newtonTolerance", newtonTolerance, limit::rounding, limit::coarsestNewton,
+	        " (the rounding of this precision's numbers)", "the overlap's own size");
+	result.tolerance       = tolerance;
+	result.newtonTolerance = newtonTolerance;
+	return result;
+}
+
+void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
+{
+	auto options = std::tie(contactModel, contactPoint, solver, tolerance, newtonTolerance);
+	try {
+		settings_    = checkedSettings();
+		byStiffness_ = contactModel == "surface";
+	} catch (...) {
+		options = goodOptions_;
+		throw;
+	}
+	goodOptions_ = options;
+}
+
+} // namespace yade

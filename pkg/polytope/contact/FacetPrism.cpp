@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/FacetPrism.hpp"
+
+#include "host/Partners.hpp"
+
+#include <lib/high-precision/Constants.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+namespace {
+
+	/// A thread's own; it grows to the most facets that a facet has had beside it.
+	template <class Other> std::vector<Other>& facetsBeside()
+	{
+		static thread_local std::vector<Other> facets;
+		facets.clear();
+		return facets;
+	}
+
+} // namespace
+
+FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& shift2, Scene& scene) : others_(facetsBeside<Other>())
+{
+	const auto& shape = static_cast<const Facet&>(*facet.shape);
+	size_             = 0;
+	for (int k = 0; k < 3; ++k) {
+		corner_[k] = &shape.vertices[k];
+		size_      = math::max(size_, (shape.vertices[(k + 1) % 3] - shape.vertices[k]).norm());
+	}
+	normal_          = (*corner_[1] - *corner_[0]).cross(*corner_[2] - *corner_[0]).normalized();
+	const Real near  = Real(pieces::sameCorner) * size_;
+	const auto toOwn = facet.state->ori.conjugate();
+	forPartners(body2, facet.id, scene, [&](const Body& partner, const Vector3r& shift) {
+		const auto* mesh = dynamic_cast<const Facet*>(partner.shape.get());
+		if (!mesh) return;
+		const Vector3r centre = partner.state->pos - facet.state->pos + (shift + shift2);
+		Other          other;
+		int            shared = 0;
+		for (int k = 0; k < 3; ++k) {
+			other.corner[k] = toOwn * Vector3r(centre + partner.state->ori * mesh->vertices[k]);
+			other.own[k]    = -1;
+			for (int own = 0; own < 3; ++own)
+				if ((other.corner[k] - *corner_[own]).squaredNorm() <= near * near) other.own[k] = own;
+			shared += other.own[k] >= 0;
+		}
+		if (shared == 0 || shared == 3) return;
+		others_.push_back(other);
+		if (shared == 2) addTilt(other);
+	});
+}
+
+/// In the facet's plane, normal to edge k and away from it.
+Vector3r FacetInMesh::outward(int k) const
+{
+	Vector3r out = (*corner_[(k + 1) % 3] - *corner_[k]).cross(normal_).normalized();
+	if (out.dot(*corner_[(k + 2) % 3] - *corner_[k]) > 0) out = -out;
+	return out;
+}
+
+void FacetInMesh::addTilt(const Other& other)
+{
+	const int      apex = other.own[0] < 0 ? 0 : other.own[1] < 0 ? 1 : 2;
+	const int      one = other.own[(apex + 1) % 3], two = other.own[(apex + 2) % 3];
+	const int      k  = (one + 1) % 3 == two ? one : two; // edge k runs from corner k to the next
+	const Vector3r to = other.corner[apex] - *corner_[k];
+	using std::atan2;
+	const Real tilt = atan2(normal_.dot(to), outward(k).dot(to));
+	lowest_[k]      = known_[k] ? math::min(lowest_[k], tilt) : tilt;
+	highest_[k]     = known_[k] ? math::max(highest_[k], tilt) : tilt;
+	known_[k]       = true;
+}
+
+int FacetInMesh::sideOf(const Vector3r& point) const
+{
+	int  farthest = -1;
+	Real beyond   = 0;
+	for (int k = 0; k < 3; ++k) {
+		const Real way = outward(k).dot(point - *corner_[k]);
+		if (way > beyond) {
+			beyond   = way;
+			farthest = k;
+		}
+	}
+	const Real above = normal_.dot(point - *corner_[0]);
+	if (farthest < 0 || !known_[farthest]) return above < 0 ? -1 : 1;
+	using std::atan2;
+	return atan2(above, beyond) < highest_[farthest] ? -1 : 1;
+}
+
+void FacetInMesh::Prism::add(const Vector3r& normal, const Vector3r& point) { planes[size_t(count++)] = { normal, normal.dot(point) }; }
+
+bool FacetInMesh::Prism::made(const polytope::ConvexShape& solid) const
+{
+	if (solid.planeCount() != count) return false;
+	const Real rest = Real(pieces::samePlane);
+	for (int i = 0; i < count; ++i) {
+		const Vector3r& normal = solid.planes().normals[size_t(i)];
+		const Real&     offset = solid.planes().offsets[size_t(i)];
+		const auto&     plane  = planes[size_t(i)];
+		if (normal == plane.normal && offset == plane.offset) continue;
+		if (i < 2) return false; // front and back follow from the facet's own corners alone
+		if ((normal - plane.normal).squaredNorm() > rest * rest) return false;
+		if (math::abs(offset - plane.offset) > rest * solid.boundingRadius()) return false;
+	}
+	return true;
+}
+
+FacetInMesh::Prism FacetInMesh::prism(int side, const Real& depth) const
+{
+	const Vector3r up = side * normal_;
+	Prism          prism;
+	prism.add(up, *corner_[0]);
+	prism.planes[1] = { -up, depth - up.dot(*corner_[0]) };
+	prism.count     = 2;
+	for (int k = 0; k < 3; ++k) {
+		const Vector3r out   = outward(k);
+		const Real     tilt  = !known_[k] ? Real(0) : side > 0 ? highest_[k] : Real(-lowest_[k]);
+		const Real     solid = tilt + Mathr::PI;
+		const bool     bent  = math::abs(tilt) > pieces::samePlane && solid > pieces::sharpestEdge && solid < pieces::widestEdge;
+		prism.add(bent ? Vector3r((math::cos(tilt / 2) * out + math::sin(tilt / 2) * up).normalized()) : out, *corner_[k]);
+	}
+	for (int corner = 0; corner < 3; ++corner)
+		addCutsAt(corner, up, prism);
+	return prism;
+}
+
+/// If all facets at the corner lie below each other's planes: half-way planes against those that share no edge there.
+void FacetInMesh::addCutsAt(int corner, const Vector3r& up, Prism& prism) const
+{
+	const Vector3r& tip  = *corner_[corner];
+	const Real      rest = Real(pieces::sameCorner) * size_;
+	const int       none = prism.count;
+	for (const Other& other : others_) {
+		const auto at = std::find(other.own.begin(), other.own.end(), corner);
+		if (at == other.own.end()) continue;
+		Vector3r normal = (other.corner[1] - other.corner[0]).cross(other.corner[2] - other.corner[0]).normalized();
+		Real     low = 0, high = 0, above = 0;
+		for (int k = 0; k < 3; ++k) {
+			const Real height = normal.dot(*corner_[k] - tip);
+			low               = math::min(low, height);
+			high              = math::max(high, height);
+			above             = math::max(above, up.dot(other.corner[k] - tip));
+		}
+		if (high > -low) {
+			normal = -normal;
+			std::swap(low, high);
+			high = -high;
+		}
+		if (math::abs(low) <= rest && normal.dot(up) < 0) normal = -normal;
+		if (above > rest || high > rest) { // hollow
+			prism.count = none;
+			return;
+		}
+		const Vector3r apart     = normal - up;
+		const bool     sharesAll = std::count(other.own.begin(), other.own.end(), -1) == 1; // an edge: its side is mitred
+		if (!sharesAll && apart.norm() > rest / size_ && prism.count < int(prism.planes.size())) prism.add(apart.normalized(), tip);
+	}
+}
+
+} // namespace yade

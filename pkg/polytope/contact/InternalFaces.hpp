@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/SupportPieces.hpp"
+
+/// Bodies that lie on several pieces of one rigid support, flush with each other: fixed plates, boxes, facets of a mesh, members of a clump.
+///
+/// A contact is computed from two bodies alone. Where body Y slides from piece B to its neighbour X, Y's overlap with X begins as a
+/// sliver, and X's side face, which B covers, would act as an obstacle. Such a face is *internal*: nothing can touch it there. A plane of X
+/// near the overlap is internal if Y slides on another face of X, with a face, an edge or a vertex, and another piece B, whose face continues that one,
+/// fills the place just outside of the plane, at the height of the contact point; so a step higher than the overlap is deep, an edge that is
+/// free, and a gap wider than the largest ball in the overlap are not affected.
+///
+/// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
+namespace yade {
+
+/// Whether one of two bodies is a piece of a rigid support, fixed or a member of a clump, that the other one moves on. Free pieces are bodies of
+/// their own: they may separate, and their joints carry the contact forces.
+bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene);
+
+/// Of the planes near the overlap those that are internal faces.
+polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);
+
+} // namespace yade

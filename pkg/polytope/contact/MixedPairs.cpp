@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/MixedPairs.hpp"
+
+#include "contact/FacetPrism.hpp"
+#include "contact/SphereOnPieces.hpp"
+#include "contact/StiffnessShare.hpp"
+
+#include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
+
+#include <src/shape/Block.hpp>
+#include <src/shape/ShapeOrNull.hpp>
+
+namespace yade {
+
+YADE_PLUGIN(
+        (Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
+
+namespace {
+
+	using Convex = std::shared_ptr<const polytope::ConvexShape>;
+
+	bool isBox(const polytope::ConvexShape& solid, const Box& box)
+	{
+		const auto& offsets = solid.planes().offsets; // as boxOf() has written them
+		return offsets[0] == box.extents[0] && offsets[2] == box.extents[1] && offsets[4] == box.extents[2];
+	}
+
+	Convex boxOf(const Box& box, const polytope::ConvexShape& other)
+	{
+		polytope::HalfSpaces planes;
+		for (int k = 0; k < 3; ++k)
+			for (int sign = -1; sign <= 1; sign += 2) {
+				planes.normals.push_back(sign * Vector3r::Unit(k));
+				planes.offsets.push_back(box.extents[k]);
+			}
+		return polytope::ConvexShape::shared(planes, math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
+	}
+
+	Convex facetOf(const FacetInMesh::Prism& prism, const polytope::ConvexShape& other)
+	{
+		polytope::HalfSpaces set;
+		for (int i = 0; i < prism.count; ++i) {
+			set.normals.push_back(prism.planes[size_t(i)].normal);
+			set.offsets.push_back(prism.planes[size_t(i)].offset);
+		}
+		const Convex solid = polytope::ConvexShape::shared(set, 0);
+		return solid->withCornerRadius(math::min(other.cornerRadius(), Real(solid->inscribedRadius() / 2)));
+	}
+
+} // namespace
+
+bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const auto& wall   = static_cast<const Wall&>(*shape1);
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	if (wall.axis >= convex->dimension()) return failed(c); // parallel to a polygon's plane: it has no edge there
+	StandIn& standIn = geometry(c).standIn.make();
+	if (!standIn.partner) {
+		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
+		standIn.partner = polytope::shapeOrNull([&] {
+			return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
+		});
+	}
+	if (!standIn.partner) return failed(c);
+	// the wall's point nearest to the polytope's centre
+	Body1Frame foot { state2.pos + shift2, Matrix3r::Identity() };
+	foot.origin[wall.axis] = state1.pos[wall.axis];
+	return query(*standIn.partner, foot, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	StandIn&    standIn = geometry(c).standIn.make();
+	const auto& box     = static_cast<const Box&>(*shape1);
+	// scripts may change the extents of a box in a run
+	if (!standIn.partner || !isBox(*standIn.partner, box)) standIn.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
+	if (!standIn.partner) return failed(c);
+	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>&, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	StandIn&          standIn = geometry(c).standIn.make();
+	const FacetInMesh mesh(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), shift2, *scene);
+	// the side is settled when the contact begins, and kept while it lasts
+	if (!standIn.partner || !c->isReal()) standIn.side = mesh.sideOf(state1.ori.conjugate() * (state2.pos + shift2 - state1.pos));
+	// nor need its corners be the same as in the step before
+	const FacetInMesh::Prism prism = mesh.prism(standIn.side, 2 * convex->boundingRadius());
+	if (!standIn.partner || !prism.made(*standIn.partner))
+		standIn.partner = polytope::shapeOrNull([&] { return facetOf(prism, *convex); });
+	if (!standIn.partner) return failed(c);
+	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const Real  radius = static_cast<const Sphere&>(*shape1).radius;
+	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex) return false;
+	const Vector3r centre2 = state2.pos + shift2 - state1.pos;
+	const bool     wasReal = c->isReal();
+	if (!wasReal && !force && centre2.norm() > radius + convex->boundingRadius()) return false;
+
+	NearestOfSphere         nearest = nearestOfSphere(*convex, centre2, state2.ori);
+	polytope::ContactResult result;
+	result.inContact     = radius - nearest.distance > tolerance * radius;
+	result.hasGeometry   = true;
+	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
+	const Real share     = result.inContact
+	            ? shareOfSphere(*Body::byId(c->getId1(), scene), radius, *Body::byId(c->getId2(), scene), centre2, *scene, nearest)
+	            : Real(1);
+	const Real depth     = radius - nearest.distance;
+	result.depth         = depth;
+	result.energy        = result.inContact ? depth * depth / 2 : Real(0); // a force along the gradient of a distance is conservative
+	result.infeasibility = -depth / 2; // the diameter of the largest ball between a sphere and a plane is the depth
+	result.normal        = -nearest.outward;
+	result.point         = (radius - depth / 2) * result.normal;
+	const Real cap       = math::max(Real(0), math::min(depth / 2, radius));
+	result.area          = share * Mathr::PI * cap * (2 * radius - cap);
+	if (result.inContact) {
+		PolytopeGeom& geom = geometry(c);
+		if (!wasReal && share < 1) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+		giveShare(share, geom, *c, result);
+	}
+	return apply(result, state1.pos, state1, state2, shift2, force, c);
+}
+
+} // namespace yade

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/PolytopeGeom.hpp"
+
+#include <src/numbers/Rotation.hpp>
+
+#include <core/Scene.hpp>
+#include <pkg/common/ElastMat.hpp>
+
+#include "contact/ContactSizes.hpp"
+#include "contact/InternalFaces.hpp"
+#include "host/Prefetch.hpp"
+#include "material/RockJointMat.hpp"
+#include "contact/StiffnessShare.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
+
+polytope::PairMemory PolytopeGeom::memory() const
+{
+	polytope::PairMemory memory;
+	std::copy(basis.begin(), basis.end(), memory.basis.begin());
+	memory.hasBasis                                    = hasBasis;
+	memory.hasPoint                                    = hasPoint;
+	(hasPoint ? memory.dualDirection : memory.weights) = direction;
+	memory.point                                       = { point1, point2 };
+	surface.get(memory.surface);
+	return memory;
+}
+
+void PolytopeGeom::remember(const polytope::PairMemory& memory)
+{
+	constexpr int most = std::numeric_limits<std::uint16_t>::max();
+	const bool    fits = std::all_of(memory.basis.begin(), memory.basis.end(), [](int code) { return code >= 0 && code <= most; });
+	hasBasis           = memory.hasBasis && fits;
+	hasPoint           = memory.hasPoint && fits;
+	if (fits) std::copy(memory.basis.begin(), memory.basis.end(), basis.begin());
+	point1    = memory.point[0];
+	point2    = memory.point[1];
+	direction = hasPoint ? memory.dualDirection : memory.weights;
+	surface.set(memory.surface);
+}
+
+boost::python::list PolytopeGeom::outlineCorners() const
+{
+	boost::python::list corners;
+	const Real          n[3] = { normal[0], normal[1], normal[2] };
+	const auto          axes = polytope::axesAround<Real, 3>(n);
+	for (int k = 0; k < outline.count(); ++k) {
+		Vector3r corner = contactPoint;
+		for (int i = 0; i < 3; ++i)
+			corner[i] += outline.corners()[k][0] * axes.m[0][i] + outline.corners()[k][1] * axes.m[1][i];
+		corners.append(corner);
+	}
+	return corners;
+}
+
+polytope::InternalPlanes PolytopeGeom::internalPlanes() const
+{
+	polytope::InternalPlanes planes;
+	if (!internalFaces.get()) return planes;
+	const std::vector<int>&  codes = *internalFaces.get();
+	const std::vector<Real>& ends  = *internalEnds.get();
+	for (std::size_t k = 0; k < codes.size(); ++k)
+		planes.add(codes[k] & 1, codes[k] >> 1, { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
+	return planes;
+}
+
+bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
+{
+	std::vector<int>  codes;
+	std::vector<Real> ends;
+	for (int body = 0; body < 2; ++body)
+		for (int k = 0; k < planes.count[body]; ++k) {
+			const polytope::Plane& end = planes.end[body][k];
+			codes.push_back(2 * planes.plane[body][k] + body);
+			ends.insert(ends.end(), { end.normal[0], end.normal[1], end.normal[2], end.offset });
+		}
+	// poses are rounded, and where a support ends with them
+	const auto        same = [](Real a, Real b) { return math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
+	const auto* const knownCodes = internalFaces.get();
+	const auto* const knownEnds  = internalEnds.get();
+	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())
+		return false;
+	internalFaces.clear();
+	internalEnds.clear();
+	if (!codes.empty()) {
+		internalFaces.make() = codes;
+		internalEnds.make()  = ends;
+	}
+	return true;
+}
+
+namespace {
+
+	/// A body's stiffness as it enters the weights of the normals.
+	Real stiffnessOf(const Body* body)
+	{
+		if (!body || !body->material) return 1;
+		if (const auto* joint = dynamic_cast<const RockJointMat*>(body->material.get())) return joint->normalStiffness;
+		if (const auto* elastic = dynamic_cast<const ElastMat*>(body->material.get())) return elastic->young;
+		return 1;
+	}
+
+	/// Index bound to the pair's memory: a body whose shape was exchanged must not be read beyond its planes.
+	template <class Codes> bool fit(const Codes& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
+	{
+		for (int code : codes)
+			if (code < 0 || (code >> 1) >= ((code & 1) ? convex2 : convex1).planeCount()) return false;
+		return true;
+	}
+
+} // namespace
+
+Real normalWeightOfFirst(const Body* body1, const Body* body2)
+{
+	const Real k1 = stiffnessOf(body1), k2 = stiffnessOf(body2);
+	return k1 > 0 && k2 > 0 && math::isfinite(k1 + k2) ? k1 / (k1 + k2) : Real(0.5);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const auto& convex1 = static_cast<const Polytope&>(*shape1).convex();
+	const auto& convex2 = static_cast<const Polytope&>(*shape2).convex();
+	if (!convex1 || !convex2) return false; // no planes: nothing to touch
+	const Body1Frame frame1 { state1.pos, state1.ori.toRotationMatrix() };
+	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
+}
+
+PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Interaction>& c)
+{
+	if (!c->geom) {
+		auto geom          = boost::make_shared<PolytopeGeom>(); // with its counts in one piece of memory
+		geom->normalWeight = normalWeightOfFirst(Body::byId(c->getId1(), scene).get(), Body::byId(c->getId2(), scene).get());
+		c->geom            = geom;
+	}
+	return static_cast<PolytopeGeom&>(*c->geom);
+}
+
+polytope::ContactModel Ig2_Polytope_Polytope_PolytopeGeom::modelFor(StiffnessRule rule) const
+{
+	return byStiffness_ && rule != StiffnessRule::PerArea ? polytope::ContactModel::Spring : settings_.contactModel;
+}
+
+polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule rule) const
+{
+	using polytope::FaceForce;
+	const polytope::ContactModel model = modelFor(rule);
+	return model == polytope::ContactModel::Spring ? FaceForce::Spring : hasSurface(model) ? FaceForce::Pressure : FaceForce::AtCentre;
+}
+
+polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
+{
+	polytope::ContactSettings settings = settings_;
+	settings.contactModel              = modelFor(rule);
+	settings.warmStart                 = warmStart;
+	settings.timed                     = timing;
+	settings.energy                    = computeEnergy || scene->trackEnergy;
+	return settings;
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
+        const polytope::ConvexShape& convex2, const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace,
+        const Interaction& c)
+{
+	polytope::PairMemory memory = candidates_.recall(c, scene->iter);
+	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = false;
+	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
+	settings.programAlone              = hasSurface(settings.contactModel);
+	polytope::ContactResult result;
+	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	candidates_.remember(c, scene->iter, memory);
+	if (result.inContact) return false;
+	count(result);
+	return true;
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
+        const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
+        const shared_ptr<Interaction>& c)
+{
+	prefetchAfter(*c, *scene, sizeof(PolytopeGeom), sizeof(Polytope));
+	const KnowsBonds* const bonds = bonds_.in(*scene);
+	if (bonds && bonds->joins(c->getId1(), c->getId2())) return false; // the bond acts in its place
+	// a thread's own buffers; they grow to the largest pair it has computed
+	static thread_local polytope::ContactWorkspace workspace;
+	const bool                                     wasReal = c->isReal();
+	if (convex1.dimension() != convex2.dimension()) return failed(c);
+	const Vector3r centre2   = state2.pos + shift2 - frame1.origin;
+	const Matrix3r rotation2 = state2.ori.toRotationMatrix();
+	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
+
+	auto& geom = geometry(c);
+	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
+	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
+	const bool                surface  = hasSurface(settings.contactModel);
+	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.outline                   = surface && (geom.needsArea || !wasReal);
+	geom.atOnePoint                    = !surface;
+	settings.normalWeight[0]           = geom.normalWeight;
+	settings.normalWeight[1]           = 1 - geom.normalWeight;
+	settings.geometryAcrossGap         = wasReal || force;
+
+	polytope::PairMemory memory = geom.memory();
+	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
+	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
+	// for a new contact, and for the others every few steps, not all in the same step
+	polytope::BoundingPlanes bounding;
+	polytope::InternalPlanes internal = geom.internalPlanes();
+	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
+	if (surface) {
+		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+		if (asPieces && (turn || !geom.internalKnown || !wasReal)) settings.bounding = &bounding;
+		settings.internal = internal.none() ? nullptr : &internal;
+	}
+	polytope::ContactResult result;
+	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	if (result.inContact && settings.bounding) {
+		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
+			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
+		if (findInternalFaces(pair, bounding, geom)) {
+			settings.bounding = nullptr;
+			internal          = geom.internalPlanes();
+			settings.internal = internal.none() ? nullptr : &internal;
+			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+		}
+	}
+	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
+	geom.remember(memory);
+	return apply(result, frame1.origin, state1, state2, shift2, force, c);
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
+        const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
+{
+	geom.internalKnown = true;
+	return geom.setInternalPlanes(internalPlanes(pair, bounding));
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	count(result);
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) {
+		known->statusCode    = std::int8_t(result.status);
+		known->infeasibility = result.infeasibility;
+	}
+
+	const bool wasReal = c->isReal();
+	if (!result.hasGeometry) return wasReal; // a failed query keeps a real contact's last geometry; it is counted
+	if (!result.inContact && !wasReal && !force) return false;
+
+	auto& geom         = geometry(c);
+	geom.statusCode    = std::int8_t(result.status);
+	geom.infeasibility = result.infeasibility;
+	geom.contactArea   = result.area;
+	geom.turningArm    = result.turningArm;
+	geom.outline.set(result.outline, result.outlineCount);
+	geom.faceForceCode      = std::int8_t(faceForce(StiffnessRule(geom.stiffnessRule)));
+	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
+	ContactSizes sizes { geom.refR1, geom.refR2 };
+	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+	geom.doIg2Work(origin1 + result.point, result.depth, sizes.first, sizes.second, state1, state2, scene, c, result.normal, shift2,
+	        !wasReal, /*avoidGranularRatcheting*/ false);
+	return true;
+}
+
+bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c)
+{
+	ContactCounters& count = counters();
+	++count.pairs;
+	++count.statuses[int(polytope::ContactStatus::Failed)];
+	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) known->statusCode = std::int8_t(polytope::ContactStatus::Failed);
+	return c->isReal();
+}
+
+} // namespace yade

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Body.hpp>
+#include <core/Scene.hpp>
+
+#include <src/contact/ContactQuery.hpp>
+#include <src/shape/PlacedShape.hpp>
+
+#include "host/Partners.hpp"
+
+#include <vector>
+
+/// The pieces of a rigid support, on several of which a body may lie, as half-spaces around a contact.
+///
+/// All of it follows from poses and shapes, not from other contacts' geometry, which other threads may be writing.
+namespace yade {
+
+/// One contact as both bodies stand: half-spaces of `convex` in axes `rotation` about `centre`, body 2 moved by its period.
+struct TouchingPair {
+	const Interaction*           contact;
+	Scene*                       scene;
+	const polytope::ConvexShape* convex[2];
+	Vector3r                     centre[2];
+	Matrix3r                     rotation[2];
+	Vector3r                     point; ///< in the overlap
+	Real                         ball;  ///< radius of the largest ball in the overlap
+};
+
+using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
+
+/// A body as others of its kind continue it.
+struct Solid {
+	Planes      planes;
+	std::size_t faces = 0; ///< the first so many; what follows are the upright sides of a facet, on which nothing can lie
+
+	void clear()
+	{
+		planes.clear();
+		faces = 0;
+	}
+};
+
+inline const Body& bodyOf(const TouchingPair& pair, int which)
+{
+	return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
+}
+
+/// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
+/// shapes without faces, and for bodies farther than `near` from the contact point.
+void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near);
+
+/// Whether a point lies in all half-spaces.
+bool contains(const Planes& planes, const Vector3r& point);
+
+/// Whether it does not move: a body that is not dynamic, or a member of a clump that is not.
+bool isFixed(const Body& body, Scene& scene);
+
+/// Whether two bodies move as one, or not at all: they never touch.
+bool rigidTogether(const Body& one, const Body& other, Scene& scene);
+
+/// Fixed, or a member of a clump: it may be a piece of a larger solid.
+inline bool isPiece(const Body& body) { return body.isClumpMember() || !body.isDynamic(); }
+
+/// How high a step between two faces is that count as one.
+Real flushStep(const TouchingPair& pair);
+
+/// Calls visit(neighbour, its centre from the contact point, its shift) for the other pieces of the rigid support that body `mover` of the pair may touch:
+/// they are in its list of pairs.
+template <class Visit> void forOtherPieces(const TouchingPair& pair, int mover, const Visit& visit)
+{
+	const Body&    body   = bodyOf(pair, mover);
+	const Body&    own    = bodyOf(pair, 1 - mover);
+	const Vector3r centre = pair.centre[mover] - pair.point;
+	forPartners(body, own.id, *pair.scene, [&](const Body& piece, const Vector3r& shift) {
+		if (!rigidTogether(piece, own, *pair.scene)) return;
+		const Vector3r way = piece.state->pos - body.state->pos + shift;
+		visit(piece, Vector3r(centre + way), shift);
+	});
+}
+
+} // namespace yade

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/RockJoint.hpp"
+
+#include "host/Prefetch.hpp"
+
+#include <core/Scene.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((RockJointPhys));
+
+static_assert(sizeof(RockJointPhys) <= prefetch::physicsBytes, "what is read in each step is prefetched");
+
+void RockJointPhys::setStiffnesses(Real share)
+{
+	if (normalStiffness > 0) kn = normalStiffness * contactArea;
+	else if (normalStiffnessPerContact != 0) kn = normalStiffnessPerContact * share;
+	if (shearStiffness > 0) ks = shearStiffness * contactArea;
+	else if (shearStiffnessPerContact != 0) ks = shearStiffnessPerContact * share;
+}
+
+void RockJointPhys::setKn(Real value)
+{
+	kn = value;
+	if (!(normalStiffness > 0)) normalStiffnessPerContact = value;
+}
+
+void RockJointPhys::setKs(Real value)
+{
+	ks = value;
+	if (!(shearStiffness > 0)) shearStiffnessPerContact = value;
+}
+
+void RockJointPhys::slide(const Vector3r& excess)
+{
+	if (ks > 0) slip -= excess / ks;
+}
+
+void RockJointPhys::fail()
+{
+	intact = false;
+	if (tangensOfResidualFrictionAngle >= 0) tangensOfFrictionAngle = tangensOfResidualFrictionAngle;
+}
+
+void RockJointPhys::losesTension()
+{
+	tensileStrength = residualTensileStrength;
+	if (!(tensileStrength > 0) && !(cohesion > residualCohesion)) fail();
+}
+
+Real RockJointPhys::yieldInTension(Real& normalForce)
+{
+	if (intact) losesTension();
+	const Real bears = residualTensileStrength * contactArea, beyond = (-normalForce - bears) / kn;
+	lastingOpening += beyond;
+	normalForce = -bears;
+	return bears * beyond;
+}
+
+bool RockJointPhys::bearsTension(Real force) const { return force <= presentTensileStrength() * contactArea; }
+
+Real RockJointPhys::shearStrength(Real normal) const
+{
+	const Real strength = normal * tangensOfFrictionAngle + presentCohesion() * contactArea;
+	return strength > 0 ? strength : Real(0);
+}
+
+Real RockJointPhys::shearEnergy() const
+{
+	const Vector3r force = shearForce - shearViscous;
+	const Real     twist = twistingMoment - twistingViscous;
+	Real           bed   = ks > 0 ? force.squaredNorm() / (2 * ks) : Real(0);
+	if (const LayersOfJoint* several = shearLayers.get()) { // their mean is the force's
+		const Real area = several->layers.area(), mean = several->layers.sum().squaredNorm() / (2 * area);
+		if (contactArea > 0) bed += ks / contactArea * (several->layers.energy() - mean);
+	}
+	return bed + (twistingStiffness > 0 ? twist * twist / (2 * twistingStiffness) : Real(0));
+}
+
+} // namespace yade

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/RockJointDampers.hpp"
+
+#include <lib/high-precision/Constants.hpp>
+#include <core/Clump.hpp>
+#include <lib/high-precision/Constants.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Sphere.hpp>
+
+#include "joint/RockJointStep.hpp"
+#include "joint/StiffnessSums.hpp"
+
+namespace yade {
+
+const Body& moverOf(const Body& body, const Scene& scene)
+{
+	return body.isClumpMember() && scene.bodies->exists(body.clumpId) ? *(*scene.bodies)[body.clumpId] : body;
+}
+
+namespace {
+
+	/// Area that the shape shows in this direction [m²].
+	Real projectedArea(const Shape& shape, const Vector3r& direction)
+	{
+		if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return Mathr::PI * sphere->radius * sphere->radius;
+		if (const auto* box = dynamic_cast<const Box*>(&shape)) {
+			const Vector3r& e = box->extents;
+			return 4 * Vector3r(e[1] * e[2], e[2] * e[0], e[0] * e[1]).dot(direction.cwiseAbs());
+		}
+		const auto* polytope = dynamic_cast<const Polytope*>(&shape);
+		if (!polytope || !polytope->convex()) return 0;
+		const auto& hull = polytope->convex()->polyhedron();
+		Real        four = 0;
+		for (const auto& face : hull.faces)
+			for (std::size_t k = 2; k < face.size(); ++k) {
+				const Vector3r &a = hull.vertices[std::size_t(face[0])], &b = hull.vertices[std::size_t(face[k - 1])],
+				               &c = hull.vertices[std::size_t(face[k])];
+				four += math::abs((b - a).cross(c - a).dot(direction));
+			}
+		return four / 4;
+	}
+
+	/// Of a clump; 1: of a body alone.
+	std::size_t countOfParts(const Body& mover) { return mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1; }
+
+	/// s of a contact that was in no sum.
+	Real partOfArea(const Body& body, const Body& mover, const Vector3r& normal, Real area)
+	{
+		const Real shown = projectedArea(*body.shape, body.state->ori.conjugate() * normal) * Real(countOfParts(mover));
+		return shown > area ? area / shown : Real(1);
+	}
+
+	/// The same with a stiffness per contact: as if the body came down at once on all that it may touch.
+	Real partOfCount(const Body& body, const Body& mover, Real share)
+	{
+		return math::min(share, 1 / Real(math::max(std::size_t(1), countOfParts(mover) * body.intrs.size())));
+	}
+
+	/// s of a contact that had this stiffness when the sum, along its normal, was made.
+	Real partOfSum(Real stiffness, Real sum) { return sum > stiffness ? stiffness / sum : Real(1); }
+
+	bool movesByForces(const Body& mover) { return mover.isDynamic() && mover.state->mass > 0; }
+
+	/// What a body of a contact is for the other one.
+	Across across(const Body& body, const Scene& scene)
+	{
+		return movesByForces(moverOf(body, scene)) ? Across::Mover : Across::Support;
+	}
+
+	/// uᵀ I⁻¹ u, as YADE's integrator turns bodies.
+	Real turning(const Body& mover, const Vector3r& u)
+	{
+		const State&    state   = *mover.state;
+		const bool      free    = (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
+		const Vector3r& inertia = state.inertia;
+		const Vector3r  v       = free && mover.isAspherical() ? Vector3r(state.ori.conjugate() * u) : u;
+		Real            sum     = 0;
+		for (int k = 0; k < 3; ++k)
+			if (inertia[k] > 0 && !(state.blockedDOFs & State::axisDOF(k, true))) sum += v[k] * v[k] / inertia[k];
+		return sum;
+	}
+
+	/// uᵀ M⁻¹ u.
+	Real translating(const Body& mover, const Vector3r& u)
+	{
+		Real sum = 0;
+		for (int k = 0; k < 3; ++k)
+			if (!(mover.state->blockedDOFs & State::axisDOF(k, false))) sum += u[k] * u[k];
+		return sum / mover.state->mass;
+	}
+
+} // namespace
+
+/// One of the two bodies of a contact, as a damper has it.
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
+	const Body& mover;
+	Real        part = 1; ///< s
+	Real        limit
+	        = 1; ///< part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows
+	Vector3r arm; ///< from the mover's centre to the contact point
+
+	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other,
+	        const Vector3r& shift)
+	        : mover(moverOf(body, *pair.scene)), arm(pair.geom.contactPoint - mover.state->pos - shift)
+	{
+		if (!moves()) return;
+		const Vector3r& normal = pair.geom.normal;
+		if (phys.dampedStiffness > 0 && sums.lastKnown()) {
+			const StiffnessSum sum = sums.last(mover.id);
+			part                   = partOfSum(phys.dampedStiffness, sum.along(across(other, *pair.scene), normal));
+			limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
+		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
+			part  = pair.geom.share;
+			limit = partOfCount(body, mover, pair.geom.share);
+		} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
+	}
+	bool moves() const { return movesByForces(mover); }
+};
+
+/// The damper of this fraction of the critical one: for a spring and motion along a direction or, for a moment, about an axis.
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::damper(
+        const Pair& pair, const RockJointPhys& phys, Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared) const
+{
+	const bool       rocks    = gyrationSquared >= 0;
+	const DampedBody bodies[] = { { pair, phys, stiffnessSums, *pair.body1, *pair.body2, Vector3r(Vector3r::Zero()) },
+		{ pair, phys, stiffnessSums, *pair.body2, *pair.body1, pair.shift2() } };
+	Real             inverse = 0, motion = 0;
+	for (const DampedBody& body : bodies) {
+		if (!body.moves()) continue;
+		inverse += 1 / (body.part * body.mover.state->mass);
+		motion += (rocks ? turning(body.mover, direction)
+		                 : translating(body.mover, direction) + turning(body.mover, body.arm.cross(direction)))
+		        / body.limit;
+	}
+	if (!(inverse > 0)) return 0;
+	const Real damper = 2 * fraction * math::sqrt(stiffness / inverse) * (rocks ? gyrationSquared : Real(1));
+	return damper * motion * pair.scene->dt > 1 ? 1 / (motion * pair.scene->dt) : damper;
+}
+
+/// The contact was part of what carries its bodies in this step.
+void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, RockJointPhys& phys)
+{
+	phys.dampedStiffness = math::isfinite(phys.kn) ? phys.kn : Real(0);
+	for (const Body* body : { pair.body1, pair.body2 }) {
+		const Body& mover = moverOf(*body, *pair.scene);
+		if (movesByForces(mover))
+			stiffnessSums.add(mover.id, across(body == pair.body1 ? *pair.body2 : *pair.body1, *pair.scene),
+			        phys.dampedStiffness, pair.geom.normal);
+	}
+}
+
+/// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const
+{
+	const Vector3r& normal       = pair.geom.normal;
+	const Real      viscous      = -damper(pair, phys, normalDamping, phys.kn, normal) * normal.dot(pair.velocity());
+	const bool      takesTension = phys.presentTensileStrength() > 0;
+	return takesTension ? viscous : math::max(viscous, -elastic);
+}
+
+/// Viscous shear force on body 2, at most to the strength.
+Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
+        const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
+{
+	const Vector3r velocity = pair.velocity(), along = velocity - pair.geom.normal.dot(velocity) * pair.geom.normal;
+	const Real     speed = along.norm();
+	if (!(speed > 0)) return Vector3r::Zero();
+	const Vector3r viscous = -damper(pair, phys, shearDamping, phys.ks, along / speed) * along;
+	return fractionWithin(phys.shearStrength(normal), shear, viscous) * viscous;
+}
+
+/// Moment on body 2 of dampers spread over the contact area, as far as a pressure that gives this normal force can balance it.
+Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const
+{
+	Real        gyrationSquared = phys.contactArea / 12;
+	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
+	if (polygon && polygon->dimension == 2) {
+		const auto* other = static_cast<const Polytope*>(pair.body2->shape.get()); // polygons meet polygons only
+		gyrationSquared   = math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
+	}
+	const Vector3r rocking = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
+	const Real     rate    = rocking.norm();
+	if (!(rate > 0)) return Vector3r::Zero();
+	const Vector3r moment = -damper(pair, phys, rockingDamping, phys.kn, rocking / rate, gyrationSquared) * rocking;
+	const Real     limit = math::sqrt(3 * gyrationSquared) * normal, size = moment.norm();
+	return size > limit ? Vector3r(limit / size * moment) : moment;
+}
+
+Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& normal, const RockJointPhys& phys, const StiffnessSums& sums,
+        const Scene& scene)
+{
+	Real inverse = 0;
+	for (const Body* body : { &body1, &body2 }) {
+		const Body& mover = moverOf(*body, scene);
+		if (!movesByForces(mover)) continue;
+		// of a contact that is in no sum, as after a law was exchanged, the largest that it can be
+		const Real part = phys.dampedStiffness > 0
+		        ? partOfSum(
+		                  phys.dampedStiffness, sums.newest(mover.id).along(across(body == &body1 ? body2 : body1, scene), normal))
+		        : Real(1);
+		inverse += 1 / (part * mover.state->mass);
+	}
+	return inverse;
+}
+
+} // namespace yade

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/RockJointShear.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
+
+namespace {
+
+	/// So far that a joint does not remember what it was.
+	bool isFarApart(const PolytopeGeom& geom) { return !(-geom.penetrationDepth < math::min(geom.refR1, geom.refR2)); }
+
+	/// Energy of the normal spring; the geometry of a contact surface has the energy whose gradient its force is.
+	Real normalEnergy(const PolytopeGeom& geom, const RockJointPhys& phys, Real elastic)
+	{
+		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0 && phys.restOverlap == 0)
+			return phys.kn * geom.energyPerStiffness;
+		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
+	}
+
+} // namespace
+
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, shared_ptr<IPhys>& iphys, Interaction* contact)
+{
+	auto&      geom = static_cast<PolytopeGeom&>(*igeom);
+	auto&      phys = static_cast<RockJointPhys&>(*iphys);
+	const Pair pair(*contact, geom, scene);
+	if (damps()) stiffnessSums.begin(*scene);
+
+	Vector3r elasticShear = phys.shearForce - phys.shearViscous;
+	turnWithContact(geom, elasticShear);
+	turnWithContact(geom, phys.slip);
+	const Last last(phys, geom.normal);
+	phys.followsBond = false;
+	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, elasticShear)) return true;
+	Shear shear(pair, phys, elasticShear);
+
+	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
+	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
+	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
+	phys.setStiffnesses(geom.share);
+	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
+	shear.adapt(phys);
+	shear.move(geom.shearIncrement());
+
+	StepWork work;
+	Real     elasticNormal = phys.normalSpring(geom.penetrationDepth);
+	if (elasticNormal < 0 && !(unbreakable && phys.intact) && !phys.bearsTension(-elasticNormal)) {
+		if (!(phys.residualTensileStrength > 0) || isFarApart(geom)) return open(pair, phys, last, shear);
+		work.fractured = phys.presentTensileStrength() > phys.residualTensileStrength;
+		work.plastic   = phys.yieldInTension(elasticNormal);
+	}
+	// what yields is not damped, as what slides is not
+	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
+	const Real normal  = elasticNormal + viscous;
+
+	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
+	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
+	if (normal <= 0 && shear.force().squaredNorm() < shown * shown) shear.vanish();
+	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, shear);
+	if (last.wasBond) phys.slip = Vector3r::Zero();
+	if (shearDamping > 0 && !phys.isSliding) {
+		const Vector3r along = shear.velocity();
+		const Real     speed = along.norm();
+		shear.damp(phys, normal, damper(pair, phys, shearDamping, phys.ks, speed > 0 ? Vector3r(along / speed) : along),
+		        damper(pair, phys, shearDamping, phys.ks, geom.normal, shear.gyrationSquared()));
+	}
+
+	phys.normalViscous = viscous * geom.normal;
+	phys.normalForce   = normal * geom.normal;
+	shear.keep(phys);
+	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
+		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
+	if (!apply(pair, phys)) return true;
+	if (damps()) takePart(pair, phys);
+
+	if (!scene->trackEnergy) phys.lastStep.clear();
+	else {
+		const Real lifting  = (last.elasticNormal + elasticNormal) / 2 * (phys.dilation - last.dilation);
+		work.fractured      = work.fractured || last.wasBond || last.actedAsBond;
+		work.plastic        = last.wasBond ? Real(0) : work.plastic + shear.loss() - lifting;
+		work.normalDamping  = -(last.normalViscous + viscous) / 2 * geom.normal.dot(pair.velocity()) * scene->dt;
+		work.rockingDamping = -(last.moment + phys.rockingMoment).dot(pair.spin()) / 2 * scene->dt;
+		work.shearDamping   = shear.dampingLoss(last.shearViscous, last.twistingViscous);
+		work.stored         = normalEnergy(geom, phys, elasticNormal) + shear.energy();
+		book(pair, phys, last, work);
+	}
+	return true;
+}
+
+/// Brings the trial shear force back to the strength; an intact joint fails there. False if that leaves it open.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::limitShear(RockJointPhys& phys, Real normal, Shear& shear) const
+{
+	phys.isSliding = false;
+	if (unbreakable) return true;
+	if (phys.intact) {
+		Shear asIntact(shear);
+		phys.isSliding = asIntact.limit(phys, normal);
+		if (!phys.isSliding) return true;
+		phys.fail();
+		if (normal < 0 && !(phys.residualTensileStrength > 0)) return false;
+	}
+	phys.isSliding = shear.limit(phys, normal);
+	if (phys.isSliding) phys.slide(shear.excess());
+	return true;
+}
+
+/// Applies forces and moments to the bodies; false if they are not finite: then the contact is left out of this step.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::apply(const Pair& pair, RockJointPhys& phys)
+{
+	const Vector3r force = phys.normalForce + phys.shearForce, moment = phys.rockingMoment + pair.momentOf(phys);
+	if (!math::isfinite(force.squaredNorm() + moment.squaredNorm())) {
+		phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = phys.slip
+		        = Vector3r::Zero();
+		phys.shearAt(pair.geom.contactPoint);
+		phys.dampedStiffness = 0;
+		++nonFinite_;
+		return false;
+	}
+	const Body::id_t id1 = pair.contact.getId1(), id2 = pair.contact.getId2();
+	// one sum for each body: with two contacts on it the total does not depend on the order, nor on the number of threads
+	addForce(id1, -force, scene);
+	addForce(id2, force, scene);
+	addTorque(id1, -(pair.arm1.cross(force) + moment), scene);
+	addTorque(id2, pair.arm2.cross(force) + moment, scene);
+	return true;
+}
+
+/// The joint is open: no force, and tangential motion counts as slip, as does the spring's elastic displacement. False ends the contact.
+bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear)
+{
+	StepWork work;
+	work.fractured = phys.intact || last.wasBond || last.actedAsBond || phys.residualTensileStrength > 0;
+	phys.slide(shear.trialForce());
+	shear.vanish();
+	if (phys.intact) phys.fail();
+	else if (!last.wasBond) work.plastic = shear.loss();
+	phys.normalForce = phys.shearForce = phys.normalViscous = phys.shearViscous = phys.rockingMoment = Vector3r::Zero();
+	phys.shearAt(pair.geom.contactPoint);
+	phys.isSliding       = false;
+	phys.dampedStiffness = 0;
+	if (scene->trackEnergy) book(pair, phys, last, work);
+	else phys.lastStep.clear();
+	return phys.hasHistory() && !isFarApart(pair.geom);
+}
+
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts() const
+{
+	long                     sliding = 0, all = 0;
+	const shared_ptr<Scene>& current = Omega::instance().getScene();
+	for (const auto& contact : *current->interactions) {
+		if (!contact->isReal()) continue;
+		const auto* phys = dynamic_cast<const RockJointPhys*>(contact->phys.get());
+		if (!phys) continue;
+		++all;
+		sliding += phys->isSliding;
+	}
+	return all > 0 ? Real(sliding) / all : Real(0);
+}
+
+void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&)
+{
+	const auto require = [&](const char* name, Real value) {
+		if (value >= 0 && math::isfinite(value)) return;
+		normalDamping  = good_[0];
+		shearDamping   = good_[1];
+		rockingDamping = good_[2];
+		std::ostringstream message;
+		message << name << ": must be a fraction of critical damping, at least 0 and finite, got " << value;
+		throw std::invalid_argument(message.str());
+	};
+	require("normalDamping", normalDamping);
+	require("shearDamping", shearDamping);
+	require("rockingDamping", rockingDamping);
+	good_ = { { normalDamping, shearDamping, rockingDamping } };
+}
+
+} // namespace yade

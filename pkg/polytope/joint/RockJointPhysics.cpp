@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/RockJointPhysics.hpp"
+
+#include <lib/high-precision/Constants.hpp>
+#include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
+
+#include "shape/Polytope.hpp"
+#include "contact/PolytopeGeom.hpp"
+
+#include <src/bond/BondTolerances.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Ip2_RockJointMat_RockJointMat_RockJointPhys));
+
+namespace {
+
+	/// Joint stiffness of two materials, each giving half of the compliance.
+	Real seriesStiffness(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
+
+	Real residualAngle(const RockJointMat& material)
+	{
+		return material.residualFrictionAngle < 0 ? material.frictionAngle : material.residualFrictionAngle;
+	}
+
+	/// The face of a body that lies closest to the plane of a contact.
+	struct FaceOfContact {
+		const RockJointMat* material = nullptr; ///< of that face; null where faces have no materials
+		Real                cosine   = -1;      ///< of the angle between its normal and that of the contact
+	};
+
+	/// \param normal of the contact, out of the body
+	FaceOfContact faceOf(const Body& body, const Vector3r& normal, const Scene& scene)
+	{
+		const auto*   shape = dynamic_cast<const Polytope*>(body.shape.get());
+		FaceOfContact found;
+		if (!shape || !shape->convex()) return found;
+		const auto&    normals = shape->convex()->planes().normals;
+		const Vector3r turned  = body.state->ori.conjugate() * normal;
+		std::size_t    best    = 0;
+		for (std::size_t k = 0; k < normals.size(); ++k)
+			if (const Real cosine = normals[k].dot(turned); cosine > found.cosine) {
+				found.cosine = cosine;
+				best         = k;
+			}
+		if (best >= shape->faceMaterials.size()) return found;
+		const int index = shape->faceMaterials[best];
+		if (index >= 0 && std::size_t(index) < scene.materials.size())
+			found.material = dynamic_cast<const RockJointMat*>(scene.materials[std::size_t(index)].get());
+		return found;
+	}
+
+	/// Joint materials of the two sides of a contact: those of the faces that it lies on, in place of the bodies' own.
+	void takeFaces(const RockJointMat*& m1, const RockJointMat*& m2, const Interaction& contact, const Scene& scene)
+	{
+		const auto* geom = dynamic_cast<const PolytopeGeom*>(contact.geom.get());
+		if (!geom || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2())) return;
+		const Body &body1 = *(*scene.bodies)[contact.getId1()], &body2 = *(*scene.bodies)[contact.getId2()];
+		const auto  facesOf = [](const Body& body) {
+                        const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
+                        return shape && !shape->faceMaterials.empty();
+		};
+		if (!facesOf(body1) && !facesOf(body2)) return;
+		const FaceOfContact face1 = faceOf(body1, geom->normal, scene), face2 = faceOf(body2, -geom->normal, scene);
+		const RockJointMat *own1 = face1.material ? face1.material : m1, *own2 = face2.material ? face2.material : m2;
+		const Real          flush = math::cos(Real(polytope::tolerance::facingOfJoints));
+		const bool          both  = face1.cosine > flush && face2.cosine > flush;
+		m1                        = both || face1.cosine >= face2.cosine ? own1 : own2;
+		m2                        = both || face2.cosine > face1.cosine ? own2 : own1;
+	}
+
+	/// Area of a contact that has no contact section.
+	Real nominalArea(const IGeom* geom)
+	{
+		const auto* spheres = dynamic_cast<const GenericSpheresContact*>(geom);
+		if (!spheres) return 1;
+		const Real r1 = spheres->refR1 > 0 ? spheres->refR1 : spheres->refR2,
+		           r2 = spheres->refR2 > 0 ? spheres->refR2 : spheres->refR1;
+		return Mathr::PI * math::pow(math::min(r1, r2), 2);
+	}
+
+	/// A joint that goes on where a bond has failed: without peak strength, without force at the overlap where the bond had none, and with the
+	/// bond's shear force, as far as its own strength goes (the law takes the rest away).
+	void takeOver(RockJointPhys& phys, const BondRemains& bond, const Interaction& contact, const Scene& scene)
+	{
+		phys.fail();
+		phys.restOverlap = bond.overlap;
+		if (!bond.inLastStep) return;
+		const Vector3r normal = static_cast<const PolytopeGeom&>(*contact.geom).normal;
+		phys.normalForce      = normal.dot(bond.force) * normal;
+		phys.shearForce       = bond.force - phys.normalForce;
+		phys.shearPoint       = bond.point;
+		phys.followsBond      = true;
+		if (!scene.trackEnergy) return;
+		LastStepOfJoint& last = phys.lastStep.make();
+		last.arm1             = bond.point - (*scene.bodies)[contact.getId1()]->state->pos;
+		last.arm2             = bond.point - (*scene.bodies)[contact.getId2()]->state->pos;
+		if (scene.isPeriodic) last.arm2 -= scene.cell->intrShiftPos(contact.cellDist);
+		last.stored = bond.energy;
+	}
+
+} // namespace
+
+StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const Material& material1, const Material& material2) const
+{
+	if (!dynamic_cast<const RockJointMat*>(&material1) || !dynamic_cast<const RockJointMat*>(&material2)) return StiffnessRule::Unknown;
+	return stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
+}
+
+void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
+        const shared_ptr<Material>& material1, const shared_ptr<Material>& material2, const shared_ptr<Interaction>& contact)
+{
+	if (contact->phys) return;
+	const auto *side1 = static_cast<const RockJointMat*>(material1.get()), *side2 = static_cast<const RockJointMat*>(material2.get());
+	takeFaces(side1, side2, *contact, *scene);
+	make(*side1, *side2, contact);
+}
+
+void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
+        const RockJointMat& m1, const RockJointMat& m2, const shared_ptr<Interaction>& contact)
+{
+	const auto of = [&](const shared_ptr<MatchMaker>& rule, Real v1, Real v2, Real otherwise) {
+		return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise;
+	};
+
+	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
+	const Real shear  = of(ks, m1.shearStiffness, m2.shearStiffness, seriesStiffness(m1.shearStiffness, m2.shearStiffness));
+
+	auto phys = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
+	phys->tangensOfFrictionAngle
+	        = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
+	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
+		phys->tangensOfResidualFrictionAngle = math::tan(math::min(residualAngle(m1), residualAngle(m2)));
+	phys->cohesion                = math::min(m1.cohesion, m2.cohesion);
+	phys->residualCohesion        = math::min(math::min(m1.residualCohesion, m2.residualCohesion), phys->cohesion);
+	phys->tensileStrength         = math::min(m1.tensileStrength, m2.tensileStrength);
+	phys->residualTensileStrength = math::min(math::min(m1.residualTensileStrength, m2.residualTensileStrength), phys->tensileStrength);
+	phys->tangensOfDilationAngle  = math::tan(math::min(m1.dilationAngle, m2.dilationAngle));
+	phys->dilationLimit           = math::min(m1.dilationLimit, m2.dilationLimit);
+	if (phys->hasPeak()) {
+		phys->intact = intactUntilStep < 0 || scene->iter <= intactUntilStep;
+		if (!phys->intact) phys->fail();
+	}
+
+	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
+		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
+		geom->needsArea     = true;              // shear acts over it
+		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
+		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
+		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
+		phys->setStiffnesses(geom->share);
+		const KnowsBonds* const bonds = bonds_.in(*scene);
+		BondRemains             remains;
+		if (bonds && bonds->left(contact->getId1(), contact->getId2(), remains)) takeOver(*phys, remains, *contact, *scene);
+	} else {
+		phys->contactArea = nominalArea(contact->geom.get());
+		phys->kn          = stiffnessPerArea ? normal * phys->contactArea : normal;
+		phys->ks          = stiffnessPerArea ? shear * phys->contactArea : shear;
+	}
+	contact->phys = phys;
+}
+
+} // namespace yade

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/RockJointShear.hpp"
+
+#include <src/numbers/Rotation.hpp>
+#include <src/shear/ShearReturn.hpp>
+
+namespace yade {
+
+using Shear = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear;
+
+Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turnedForce)
+        : pair_(pair), lastPoint_(phys.shearPoint), force_(turnedForce), lastForce_(turnedForce),
+          twist_(phys.twistingMoment - phys.twistingViscous), lastTwist_(twist_), stiffness_(phys.ks),
+          twistingStiffness_(phys.twistingStiffness), areaBefore_(phys.contactArea)
+{
+	const StoredOutline& outline = pair.geom.outline;
+	if (outline.count() >= 3) {
+		const Real n[3] = { pair.geom.normal[0], pair.geom.normal[1], pair.geom.normal[2] };
+		const auto axes = polytope::axesAround<Real, 3>(n);
+		for (int k = 0; k < 2; ++k)
+			axis_[k] = Vector3r(axes.m[k][0], axes.m[k][1], axes.m[k][2]);
+		moments_  = polytope::momentsOf(outline.corners(), outline.count());
+		gyration_ = moments_.gyrationSquared();
+		offset_   = inWorld(moments_.centroid);
+	} else axis_[0] = axis_[1] = Vector3r::Zero();
+
+	const Real twistEnergy = twistingStiffness_ > 0 ? twist_ * twist_ / (2 * twistingStiffness_) : Real(0);
+	if (phys.shearStiffness > 0 && stiffness_ > 0 && areaBefore_ > 0) {
+		perArea_ = stiffness_ / areaBefore_;
+		if (phys.shearLayers.get()) {
+			layers_ = phys.shearLayers.get()->layers;
+			layers_.turn([&](Vector3r& displacement) { turnWithContact(pair.geom, displacement); });
+		}
+		// the force is the master: a script may have set it
+		const Vector3r mean = -force_ / stiffness_;
+		if (!(math::abs(layers_.area() - areaBefore_) <= Real(polytope::tolerance::sameArea) * areaBefore_))
+			layers_ = polytope::ShearLayers(areaBefore_, mean);
+		else layers_.move(mean - layers_.sum() / layers_.area());
+		before_ = perArea_ * layers_.energy() + twistEnergy;
+	} else before_ = (stiffness_ > 0 ? force_.squaredNorm() / (2 * stiffness_) : Real(0)) + twistEnergy;
+}
+
+void Shear::adapt(const RockJointPhys& phys)
+{
+	const Real before = stiffness_;
+	if (perArea_ > 0) setArea(phys);
+	else if (phys.ks < before) force_ *= phys.ks / before;
+	if (phys.shearStiffness > 0 && perArea_ == 0 && phys.contactArea > 0) { // its first step
+		perArea_ = phys.shearStiffness;
+		layers_  = polytope::ShearLayers(phys.contactArea, phys.ks > 0 ? Vector3r(-force_ / phys.ks) : Vector3r(Vector3r::Zero()));
+	}
+	stiffness_          = phys.ks;
+	const Real twisting = phys.ks * gyration_;
+	if (twisting < twistingStiffness_) twist_ *= twisting / twistingStiffness_;
+	else if (twistingStiffness_ == 0) twist_ = 0;
+	twistingStiffness_ = twisting;
+}
+
+/// As adapt(), for a stiffness per area.
+void Shear::setArea(const RockJointPhys& phys)
+{
+	const Real present = phys.ks / phys.contactArea;
+	if (present != perArea_ && phys.contactArea > 0) { // set by a script: as if springs joined or left everywhere
+		if (math::abs(present - perArea_) > Real(polytope::tolerance::sameArea) * perArea_) {
+			const Real ratio = present < perArea_ ? Real(1) : perArea_ / present;
+			layers_.turn([&](Vector3r& displacement) { displacement *= ratio; });
+		}
+		perArea_ = present;
+	}
+	if (phys.contactArea != areaBefore_) layers_.setArea(phys.contactArea);
+	if (pair_.geom.atOnePoint && layers_.count() > 1) layers_ = polytope::ShearLayers(layers_.area(), layers_.sum() / layers_.area());
+	force_ = -perArea_ * layers_.sum();
+	if (gyration_ > 0 && phys.contactArea != areaBefore_) followCentroid(areaBefore_, phys.contactArea);
+}
+
+/// With springs that join or leave on one side the area's centroid moves through the bodies. What has joined carries nothing: the force stays in its
+/// line, and about the new centroid has a moment. What has left takes its part along: the others are strained as they were.
+///
+/// A rigid bed cannot tell which of its springs hold that moment, so its energy is counted in addition: in a block that tumbles on its edges, a few 1e-5 of
+/// what friction takes comes back.
+void Shear::followCentroid(Real areaBefore, Real areaNow)
+{
+	const State &  state1 = pair_.state1, &state2 = pair_.state2;
+	const Vector3r way = (state1.vel + state1.angVel.cross(lastPoint_ - state1.pos) + pair_.centreVelocity() + state1.vel
+	                             + state2.angVel.cross(lastPoint_ - pair_.centre2))
+	        * pair_.scene->dt / 2;
+	Vector3r moved = pair_.geom.contactPoint + offset_ - lastPoint_ - way;
+	moved -= pair_.geom.normal.dot(moved) * pair_.geom.normal;
+	// no farther than so much of the area can move it; a body that slides takes its area along
+	const Real share = math::abs(areaNow - areaBefore) / math::max(areaNow, areaBefore), most = 2 * share * math::sqrt(gyration_);
+	const Real far = moved.norm();
+	if (!(far > 0)) return;
+	if (far > most) moved *= most / far;
+	if (areaNow > areaBefore) twist_ -= pair_.geom.normal.dot(moved.cross(force_));
+	else if (twistingStiffness_ > 0) {
+		const Vector3r more = -twist_ / twistingStiffness_ * acrossNormal(moved); // displacement of body 2 there
+		layers_.move(more);
+		force_ = -perArea_ * layers_.sum();
+	}
+}
+
+void Shear::move(const Vector3r& increment)
+{
+	turn_   = hasOutline() ? pair_.geom.normal.dot(pair_.spin()) * pair_.scene->dt : Real(0);
+	motion_ = increment + turn_ * acrossNormal(offset_);
+	layers_.move(motion_);
+	force_ -= stiffness_ * motion_;
+	twist_ -= twistingStiffness_ * turn_;
+	trialForce_ = force_;
+}
+
+polytope::Vector3 Shear::loadAbout(const polytope::Vector2& centre, const Vector3r& force, Real twist) const
+{
+	const Real              f0 = force.dot(axis_[0]), f1 = force.dot(axis_[1]);
+	const polytope::Vector2 arm = moments_.centroid - centre;
+	return polytope::Vector3(f0, f1, twist + arm[0] * f1 - arm[1] * f0);
+}
+
+Real Shear::twistOf(const polytope::Vector3& load, const polytope::Vector2& centre) const
+{
+	const polytope::Vector2 arm = moments_.centroid - centre;
+	return load[2] - arm[0] * load[1] + arm[1] * load[0];
+}
+
+/// Friction acts where the pressure does, at the contact point, cohesion at the area's centroid.
+polytope::Vector2 Shear::centreOfStrength(const RockJointPhys& phys, Real strength) const
+{
+	return phys.presentCohesion() * phys.contactArea / strength * moments_.centroid;
+}
+
+bool Shear::limit(const RockJointPhys& phys, Real normal)
+{
+	const Real strength = phys.shearStrength(normal), square = force_.squaredNorm();
+	if (!(strength > 0)) {
+		const bool slips = square > 0 || twist_ != 0;
+		if (slips) vanish();
+		return slips;
+	}
+	if (!hasOutline()) {
+		if (!(square > strength * strength)) return false;
+		force_ *= strength / math::sqrt(square);
+		layers_.move((trialForce_ - force_) / stiffness_);
+		return true;
+	}
+	const polytope::Vector2       centre = centreOfStrength(phys, strength);
+	const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
+	polytope::Vector3             load = loadAbout(centre, force_, twist_);
+	if (spread.surelyHolds(load)) return false;
+	const auto bed = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
+	if (polytope::returnToStrength(spread, bed, load) == polytope::Vector3::Zero()) return false;
+	force_ = inWorld(polytope::Vector2(load[0], load[1]));
+	twist_ = twistOf(load, centre);
+	layers_.move((trialForce_ - force_) / stiffness_);
+	return true;
+}
+
+Vector3r Shear::velocity() const
+{
+	const Vector3r velocity = pair_.velocity() + pair_.spin().cross(offset_);
+	return velocity - pair_.geom.normal.dot(velocity) * pair_.geom.normal;
+}
+
+void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twistingDamper)
+{
+	viscous_      = -damper * velocity();
+	viscousTwist_ = -twistingDamper * pair_.geom.normal.dot(pair_.spin());
+	Real strength = phys.shearStrength(normal);
+	if (hasOutline() && strength > 0 && (twist_ != 0 || viscousTwist_ != 0)) {
+		// within the part of the limit surface that ShearStrength::surelyHolds() knows
+		const polytope::Vector2       centre = centreOfStrength(phys, strength);
+		const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
+		const Real                    before = math::abs(loadAbout(centre, force_, twist_)[2]),
+		           after                     = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
+		strength -= math::max(before, after) / spread.leastRadius();
+	}
+	const Real part = fractionWithin(strength, force_, viscous_);
+	viscous_ *= part;
+	viscousTwist_ *= part;
+}
+
+void Shear::vanish()
+{
+	force_ = Vector3r::Zero();
+	twist_ = 0;
+	layers_.turn([](Vector3r& displacement) { displacement = Vector3r::Zero(); });
+}
+
+Real Shear::energy() const
+{
+	const Real twisting = twistingStiffness_ > 0 ? twist_ * twist_ / (2 * twistingStiffness_) : Real(0);
+	if (perArea_ > 0) return perArea_ * layers_.energy() + twisting;
+	return (stiffness_ > 0 ? force_.squaredNorm() / (2 * stiffness_) : Real(0)) + twisting;
+}
+
+void Shear::keep(RockJointPhys& phys) const
+{
+	phys.shearViscous      = viscous_;
+	phys.shearForce        = force_ + viscous_;
+	phys.twistingViscous   = viscousTwist_;
+	phys.twistingMoment    = twist_ + viscousTwist_;
+	phys.twistingStiffness = twistingStiffness_;
+	phys.shearPoint        = pair_.geom.contactPoint + offset_;
+	if (layers_.count() > 1) phys.shearLayers.make().layers = layers_;
+	else phys.shearLayers.clear();
+}
+
+} // namespace yade

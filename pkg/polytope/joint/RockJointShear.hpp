@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <src/shear/ShearLayers.hpp>
+
+#include "joint/RockJointStep.hpp"
+
+/// Shear of a rock joint in one step: a bed of springs over the contact's outline, with the strength of each place (src/shear).
+///
+/// Faces are rigid, so the bed's state is a force and a moment about the normal. While nothing slips the force acts at the area's centroid and the
+/// faces' turning about the normal meets k_s ρ², ρ the outline's radius of gyration. Slip takes what friction and cohesion at each place allow. A contact
+/// without an outline (polygons, spheres, a failed query) is a point: it has no moment.
+namespace yade {
+
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear {
+public:
+	/// As at the end of the last step; `turnedForce`: its elastic shear force, turned to this step's normal.
+	Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turnedForce);
+
+	/// Springs join and leave with the area, and stiffnesses become the present ones, after phys.setStiffnesses().
+	void adapt(const RockJointPhys& phys);
+	/// The motion of this step strains all springs: `increment`, of body 2 along the joint at the contact point.
+	void move(const Vector3r& increment);
+	/// Slip, where force and moment are beyond the strength of the joint as it is. Returns whether there is any.
+	bool limit(const RockJointPhys& phys, Real normal);
+	/// Viscous force and moment of these dampers [N s/m], [N m s/rad], as far as the strength goes.
+	void damp(const RockJointPhys& phys, Real normal, Real damper, Real twistingDamper);
+	/// Along the joint, at the area's centroid [m/s].
+	Vector3r velocity() const;
+	Real     gyrationSquared() const { return gyration_; }
+	/// No force and no moment.
+	void vanish();
+	/// Leaves forces and memory for the next step.
+	void keep(RockJointPhys& phys) const;
+
+	const Vector3r& force() const { return force_; } ///< elastic, on body 2
+	Vector3r        excess() const { return trialForce_ - force_; }
+	const Vector3r& trialForce() const { return trialForce_; }
+	/// Energy of the springs now [J].
+	Real energy() const;
+	/// What the springs lost in this step by slip, and with springs that left or joined [J].
+	Real loss() const { return before_ - energy() - workOn(lastForce_ + force_, lastTwist_ + twist_); }
+	/// Of the dampers, as energy lost [J]; `lastForce`, `lastMoment`: viscous, at the end of the last step.
+	Real dampingLoss(const Vector3r& lastForce, Real lastMoment) const
+	{
+		return -workOn(lastForce + viscous_, lastMoment + viscousTwist_);
+	}
+
+private:
+	/// Work of half of these on body 2 in this step's motion.
+	Real     workOn(const Vector3r& force, Real moment) const { return (force.dot(motion_) + moment * turn_) / 2; }
+	bool     hasOutline() const { return moments_.area > 0 && gyration_ > 0; }
+	Vector3r inWorld(const polytope::Vector2& x) const { return x[0] * axis_[0] + x[1] * axis_[1]; }
+	Vector3r acrossNormal(const Vector3r& x) const { return pair_.geom.normal.cross(x); }
+	/// Force along the axes, and moment about a point of the outline.
+	polytope::Vector3 loadAbout(const polytope::Vector2& centre, const Vector3r& force, Real twist) const;
+	Real              twistOf(const polytope::Vector3& load, const polytope::Vector2& centre) const;
+	polytope::Vector2 centreOfStrength(const RockJointPhys& phys, Real strength) const;
+	void              setArea(const RockJointPhys& phys);
+	void              followCentroid(Real areaBefore, Real areaNow);
+
+	const Pair&              pair_;
+	Vector3r                 axis_[2];
+	polytope::OutlineMoments moments_;
+	Vector3r                 offset_ = Vector3r::Zero(); ///< from the contact point to the area's centroid
+	Vector3r                 lastPoint_;
+	Real                     gyration_ = 0; ///< ρ² [m²]
+	Vector3r                 force_, lastForce_, trialForce_ = Vector3r::Zero();
+	Real                     twist_, lastTwist_;
+	Real                     stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
+	Real                     areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
+	polytope::ShearLayers    layers_;                        ///< of a stiffness per area
+	Real                     before_       = 0;
+	Vector3r                 motion_       = Vector3r::Zero(); ///< at the area's centroid
+	Real                     turn_         = 0;                ///< about the normal
+	Vector3r                 viscous_      = Vector3r::Zero();
+	Real                     viscousTwist_ = 0;
+};
+
+} // namespace yade

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "pairs/BoxRoom.hpp"
+
+#include <pkg/common/Collider.hpp>
+
+#include <src/neighbours/BoxGrid.hpp>
+
+namespace yade {
+
+/// Gives an Interaction to each pair of bodies that may touch while they are in their boxes, and takes it from those that may not.
+///
+/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When it is made anew in a run, all pairs are put into the order of its cells:
+/// the InteractionLoop meets neighbours one after the other, whose bodies it has in the cache. The order is the same with any number of threads. When some bodies have got new boxes, only their pairs are
+/// searched for: they leave the grid of all for a smaller one, until they are so many that the first is made anew.
+///
+/// Of two polytopes whose boxes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
+/// Interaction, which costs memory, and time in each step. Pieces of a rigid support (fixed bodies, members of clumps) keep theirs: internal
+/// faces are searched for among them.
+class PairSearch {
+public:
+	explicit PairSearch(const BoxRoom& room) : room_(room) { }
+
+	/// Of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
+	/// last digits of sums.
+	void ofAll(Scene& scene, Collider& collider, bool judge, bool sort);
+	/// Of these, whose boxes are new.
+	void ofSome(Scene& scene, Collider& collider, const std::vector<Body::id_t>& ids);
+
+	/// Whether so many new boxes are better searched for with all others.
+	bool areMany(std::size_t newBoxes) const { return newBoxes * part > places_.size(); }
+
+	/// Bodies whose boxes, where they are now, overlap with this one.
+	std::vector<Body::id_t> overlapping(const Bound& bound, const Scene& scene) const;
+
+	/// For InteractionContainer: whether a pair without a contact need not be kept.
+	bool shouldBeErased(Body::id_t id1, Body::id_t id2, Scene* scene) const;
+
+private:
+	using Pairs = std::vector<std::pair<Body::id_t, Body::id_t>>;
+
+	/// One of so many bodies may be in the second grid: beyond, both grids are slower together than one that is made anew.
+	static constexpr std::size_t part = 4;
+
+	void makeGrid(const Scene& scene);
+	void sortPairs(Scene& scene) const;
+	void move(const Scene& scene, const std::vector<Body::id_t>& ids);
+	void erasePairsOf(Scene& scene, const std::vector<Body::id_t>& ids) const;
+	bool staysApart(const Body& one, const Body& other) const;
+	bool isNew(Scene& scene, Collider& collider, const Body& one, const Body& other) const;
+	/// Pairs that `find(k, add)` adds for k from 0 on, in parallel.
+	template <class Find> void insertFound(Scene& scene, long number, const Find& find) const;
+
+	const BoxRoom&             room_;
+	bool                       judge_ = false;
+	polytope::BoxGrid          grid_, moved_;
+	std::vector<std::uint32_t> places_;   ///< by body id, in grid_
+	std::vector<Body::id_t>    movedIds_; ///< ascending
+};
+
+} // namespace yade

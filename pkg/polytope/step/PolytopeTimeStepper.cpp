@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/PolytopeTimeStepper.hpp"
+
+#include <pkg/common/PeriodicEngines.hpp>
+
+#include "pairs/PolytopeCollider.hpp"
+#include "host/SpringsOfScene.hpp"
+
+#include <src/timestep/TimeStepTolerances.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PolytopeTimeStepper));
+
+namespace {
+
+	std::size_t springsMade(const Scene& scene)
+	{
+		std::size_t sum = 0;
+		for (const HasSprings* springs : springsOf(scene))
+			sum += springs->made();
+		return sum;
+	}
+
+	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper before these
+	/// move (PolytopeCollider); with another one the step stays as it is.
+	TimeStepLimit periodLimit(const Scene& scene)
+	{
+		TimeStepLimit limit;
+		for (const auto& body : *scene.bodies)
+			if (body && isMovedByForces(*body)) return limit;
+		bool calls = false;
+		for (const auto& engine : scene.engines) {
+			calls                = calls || (!engine->dead && dynamic_cast<const PolytopeCollider*>(engine.get()));
+			const auto* periodic = dynamic_cast<const PeriodicEngine*>(engine.get());
+			if (periodic && !engine->dead) limit.take(periodic->virtPeriod, Body::ID_NONE);
+		}
+		return calls ? limit : TimeStepLimit();
+	}
+
+} // namespace
+
+bool PolytopeTimeStepper::isActivated()
+{
+	if (!active) return false;
+	return !hasRun_ || bodies_ != scene->bodies->size() || springs_ != springsMade(*scene) || isErased(limitingBody, *scene)
+	        || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
+}
+
+void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
+{
+	if (!hasRun_ || bodies_ != ofScene->bodies->size() || isErased(material_.body, *ofScene)
+	        || ++updates_ >= polytope::tolerance::potentialUpdates) {
+		material_ = potential_.limit(*ofScene);
+		updates_  = 0;
+	}
+	hasRun_  = true;
+	bodies_  = ofScene->bodies->size();
+	springs_ = springsMade(*ofScene);
+
+	TimeStepLimit chosen;
+	limitedBy.clear();
+	const auto consider = [&](const TimeStepLimit& limit, Real fraction, const char* name) {
+		const Real step = fraction * limit.step;
+		if (!(step < chosen.step)) return;
+		chosen.step = step;
+		chosen.body = limit.body;
+		limitedBy   = name;
+	};
+	const ContactLimit contacts = contactLimit(*ofScene, material_.step);
+	consider(material_, timestepSafetyCoefficient, "material");
+	consider(contacts, timestepSafetyCoefficient, contacts.rocking ? "rocking" : "contacts");
+	consider(yade::motionLimit(*ofScene, motionLimit, math::min(chosen.step, maxDt), timeStepUpdateInterval), 1, "motion");
+	if (limitedBy.empty()) consider(periodLimit(*ofScene), polytope::tolerance::periodStep, "period");
+	if (!limitedBy.empty() || maxDt < std::numeric_limits<Real>::infinity()) {
+		TimeStepLimit most;
+		most.step = maxDt;
+		consider(most, 1, "maxDt");
+	}
+	limitingBody = chosen.body;
+	if (!limitedBy.empty()) ofScene->dt = chosen.step;
+}
+
+void PolytopeTimeStepper::setTimeStepUpdateInterval(long interval)
+{
+	if (interval < 1 || interval > std::numeric_limits<int>::max())
+		throw std::invalid_argument(
+		        "timeStepUpdateInterval: must be a number of steps, at least 1, got " + std::to_string(interval));
+	timeStepUpdateInterval = (unsigned int)interval;
+}
+
+void PolytopeTimeStepper::postLoad(PolytopeTimeStepper&)
+{
+	const auto require = [&](bool good, const char* name, Real value, const char* rule) {
+		if (good) return;
+		timestepSafetyCoefficient = good_[0];
+		motionLimit               = good_[1];
+		maxDt                     = good_[2];
+		std::ostringstream message;
+		message << name << ": must be " << rule << ", got " << value;
+		throw std::invalid_argument(message.str());
+	};
+	require(timestepSafetyCoefficient > 0 && timestepSafetyCoefficient <= 2, "timestepSafetyCoefficient", timestepSafetyCoefficient,
+	        "above 0 and at most 2, the limit of one body between fixed ones");
+	require(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit,
+	        "above 0 and finite (a fraction of a body's inscribed radius)");
+	require(maxDt > 0, "maxDt", maxDt, "above 0 [s] (infinity: no limit)");
+	if (timeStepUpdateInterval < 1) {
+		timeStepUpdateInterval = 1;
+		setTimeStepUpdateInterval(0);
+	}
+	good_ = { { timestepSafetyCoefficient, motionLimit, maxDt } };
+}
+
+} // namespace yade

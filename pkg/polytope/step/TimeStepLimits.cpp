@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "step/TimeStepLimits.hpp"
+
+#include <core/InteractionLoop.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/Sphere.hpp>
+
+#include <src/contact/OverlapFootprint.hpp>
+#include <src/timestep/RockingStiffness.hpp>
+#include <src/timestep/TimeStepTolerances.hpp>
+
+#include "contact/PolytopeGeom.hpp"
+#include "joint/RockJoint.hpp"
+#include "joint/RockJointDampers.hpp"
+#include "joint/RockJointLaw.hpp"
+#include "host/SpringsOfScene.hpp"
+
+namespace yade {
+
+polytope::Mobility mobilityOf(const Body& body)
+{
+	const State&       state = *body.state;
+	polytope::Mobility mobility;
+	if (!isMovedByForces(body)) return mobility;
+	const auto root = [](Real inertia) { return inertia > 0 ? 1 / math::sqrt(inertia) : Real(0); };
+	const bool free = (state.blockedDOFs & State::DOF_RXRYRZ) == State::DOF_NONE;
+	for (int k = 0; k < 3; ++k) {
+		if (!(state.blockedDOFs & State::axisDOF(k, false))) mobility.translation[k] = root(state.mass);
+		// as NewtonIntegrator: with a rotation blocked, moments of inertia are those about the world's axes
+		if (!(state.blockedDOFs & State::axisDOF(k, true))) mobility.rotation(k, k) = root(state.inertia[k]);
+	}
+	if (free && body.isAspherical()) mobility.rotation = Matrix3r(state.ori.toRotationMatrix() * mobility.rotation);
+	return mobility;
+}
+
+const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
+			for (const auto& functor : loop->lawDispatcher->functors)
+				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get()))
+					return law;
+	return nullptr;
+}
+
+Real boundingRadius(const Shape& shape)
+{
+	if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
+		if (polytope->convex()) return polytope->convex()->boundingRadius();
+	if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
+	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
+	Real farthest = 0;
+	if (const auto* facet = dynamic_cast<const Facet*>(&shape))
+		for (const Vector3r& vertex : facet->vertices)
+			farthest = math::max(farthest, vertex.norm());
+	return farthest;
+}
+
+namespace {
+
+	/// One contact as the scene has it.
+	struct Pair {
+		const Scene&                 scene;
+		const Body &                 body1, &body2;
+		const GenericSpheresContact& geom;
+		const NormShearPhys&         phys;
+		Vector3r                     shift2, shiftVelocity; ///< of body 2's period
+
+		const Body& mover(const Body& body) const { return moverOf(body, scene); }
+		/// Contacts are those of before the bodies' last move: the point goes along with them, or a body in a tray that moves fast would have a long arm.
+		Vector3r point() const
+		{
+			return geom.contactPoint + scene.dt / 2 * (mover(body1).state->vel + mover(body2).state->vel + shiftVelocity);
+		}
+		/// From the centre of what moves to the contact point.
+		Vector3r arm(const Body& body) const
+		{
+			return point() - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
+		}
+	};
+
+	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
+
+	const polytope::ConvexShape* shapeOf(const Body& body)
+	{
+		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
+		return shape ? shape->convex().get() : nullptr;
+	}
+
+	/// Moment per tilt of a pressure over the area seen along the normal, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
+	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
+	{
+		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, normal, reach, dimension);
+		if (!(seen.area > 0)) return Matrix3r::Zero();
+		Matrix3r turn;
+		turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
+		return kn / seen.area * turn * seen.second * turn.transpose();
+	}
+
+	/// Moment per tilt of the bodies.
+	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom)
+	{
+		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
+		const Real                   force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
+		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
+		const polytope::ConvexShape* shape2  = shapeOf(pair.body2);
+		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
+		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;
+		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
+		const Matrix3r rotation1 = wall ? Matrix3r(Matrix3r::Identity()) : Matrix3r(state1.ori.toRotationMatrix()),
+		               rotation2 = state2.ori.toRotationMatrix();
+		// from the contact point
+		const Vector3r              point = pair.point();
+		const polytope::PlacedShape body1 { *shape1, state1.pos - point, rotation1 },
+		        body2 { *shape2, state2.pos + pair.shift2 - point, rotation2 };
+		if (geom.faceForce() != polytope::FaceForce::AtCentre) {
+			std::vector<polytope::Plane> planes;
+			polytope::addPlanesOf(body1, planes);
+			polytope::addPlanesOf(body2, planes);
+			const Real kn
+			        = geom.faceForce() == polytope::FaceForce::Spring ? polytope::rockingOfSpring * pair.phys.kn : pair.phys.kn;
+			return rockingOfPressure(planes, geom.normal, 2 * shape2->boundingRadius(), shape2->dimension(), kn);
+		}
+		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
+	}
+
+	/// Of an intact joint that acts as a bond.
+	Matrix3r rotationStiffness(const PolytopeBond& bond, const Body& body1)
+	{
+		const Matrix3r axes    = (body1.state->ori * bond.frame1).toRotationMatrix();
+		const Vector3r angular = bond.angularStiffness();
+		return axes * angular.asDiagonal() * axes.transpose();
+	}
+
+	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
+	Real gyrationSquared(const Pair& pair, const RockJointPhys& phys)
+	{
+		const auto *polygon = dynamic_cast<const Polytope*>(pair.body1.shape.get()),
+		           *other   = dynamic_cast<const Polytope*>(pair.body2.shape.get());
+		if (!polygon || !other || polygon->dimension != 2) return phys.contactArea / 12;
+		return math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
+	}
+
+	void addDampers(const Pair& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
+	        polytope::ContactSprings& springs)
+	{
+		const Real inverse = inverseDampedMass(pair.body1, pair.body2, pair.geom.normal, phys, law.stiffnessSums, pair.scene);
+		if (!(inverse > 0)) return;
+		const Real normal    = 2 * math::sqrt(phys.kn / inverse);
+		springs.normalDamper = law.normalDamping * normal;
+		springs.shearDamper  = law.shearDamping * 2 * math::sqrt(phys.ks / inverse);
+		if (phys.ks > 0) springs.twistingDamper = springs.shearDamper * phys.twistingStiffness / phys.ks;
+		if (law.rockingDamping > 0)
+			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
+	}
+
+	using AllSprings = std::vector<const HasSprings*>;
+
+	bool hasContacts(const Body& body, const Scene& scene, const AllSprings& others)
+	{
+		bool has = false;
+		forParts(body, scene, [&](const Body& part) {
+			for (const HasSprings* other : others)
+				has = has || other->holds(part.id);
+			for (const auto& known : part.intrs)
+				has = has || known.second->isReal();
+		});
+		return has;
+	}
+
+	/// All bonds or bolts of a body, or a member of a clump, whose moving centre is there.
+	void addSprings(polytope::BodyStiffness& sum, const Body& part, const Vector3r& centre, const HasSprings& other)
+	{
+		other.forSpringsOf(part, [&](const SpringsAtPoint& at) {
+			polytope::ContactSprings springs;
+			springs.normal           = at.normal;
+			springs.normalStiffness  = at.normalStiffness;
+			springs.shearStiffness   = at.shearStiffness;
+			springs.rockingStiffness = at.rotationStiffness;
+			sum.add(springs, at.point - centre);
+		});
+	}
+
+	/// All contacts, bonds and bolts of a body (or of a clump's members).
+	polytope::BodyStiffness stiffnessOf(const Body& body, const polytope::Mobility& mobility, const Scene& scene,
+	        const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* law, const AllSprings& others)
+	{
+		polytope::BodyStiffness sum(mobility);
+		forParts(body, scene, [&](const Body& part) {
+			for (const HasSprings* other : others)
+				addSprings(sum, part, body.state->pos, *other);
+			for (const auto& known : part.intrs) {
+				const Interaction& contact = *known.second;
+				if (!contact.isReal() || !scene.bodies->exists(contact.getId1()) || !scene.bodies->exists(contact.getId2()))
+					continue;
+				const auto* geom = dynamic_cast<const GenericSpheresContact*>(contact.geom.get());
+				const auto* phys = dynamic_cast<const NormShearPhys*>(contact.phys.get());
+				if (!geom || !phys) continue;
+				Pair pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom, *phys,
+					Vector3r::Zero(), Vector3r::Zero() };
+				if (scene.isPeriodic) {
+					pair.shift2        = scene.cell->intrShiftPos(contact.cellDist);
+					pair.shiftVelocity = scene.cell->intrShiftVel(contact.cellDist);
+				}
+				polytope::ContactSprings springs;
+				springs.normal          = geom->normal;
+				springs.normalStiffness = phys->kn;
+				springs.shearStiffness  = phys->ks;
+				if (const auto* ours = dynamic_cast<const PolytopeGeom*>(geom)) {
+					const auto* joint        = dynamic_cast<const RockJointPhys*>(phys);
+					springs.rockingStiffness = joint && joint->bond ? rotationStiffness(*joint->bond, pair.body1)
+					                                                : rockingStiffness(pair, *ours);
+					if (joint && joint->twistingStiffness > 0) {
+						springs.twistingStiffness = joint->twistingStiffness;
+						springs.shearOffset       = joint->shearPoint - geom->contactPoint;
+					}
+					if (joint && law) addDampers(pair, *joint, *law, springs);
+				}
+				sum.add(springs, pair.arm(part));
+			}
+		});
+		return sum;
+	}
+
+} // namespace
+
+ContactLimit contactLimit(const Scene& scene, Real below)
+{
+	const auto*  law    = dampingLaw(scene);
+	const auto   others = springsOf(scene);
+	ContactLimit limit;
+	const long   count = long(scene.bodies->size());
+#pragma omp parallel
+	{
+		ContactLimit own;
+#pragma omp for schedule(static) nowait
+		for (long id = 0; id < count; ++id) {
+			const Body* body = (*scene.bodies)[Body::id_t(id)].get();
+			if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, others)) continue;
+			const auto mobility = mobilityOf(*body);
+			if (!mobility.moves()) continue;
+			const auto stiffness = stiffnessOf(*body, mobility, scene, law, others);
+			// most bodies are not the limiting one: bounds of the eigenvalues are cheap, and exclude them
+			if (polytope::safeTimeStep(stiffness.stiffnessAtMost(), stiffness.dampingAtMost()) > math::min(below, own.step))
+				continue;
+			const Real all  = stiffness.stiffness();
+			const Real step = polytope::safeTimeStep(all, stiffness.damping());
+			if (step > below) continue;
+			own.take(step, body->id);
+			if (own.body == body->id)
+				own.rocking = stiffness.stiffness(/*rocking*/ false) < (1 - polytope::tolerance::rockingShare) * all;
+		}
+#pragma omp critical(polytopeContactLimit)
+		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;
+	}
+	return limit;
+}
+
+} // namespace yade

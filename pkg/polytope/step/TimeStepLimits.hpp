@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "host/PartsOfBodies.hpp"
+
+#include <src/timestep/StableTimeStep.hpp>
+
+#include <limits>
+
+/// Limits of the time step of the present scene: its contacts (here), potential contacts (PotentialContacts.hpp), motion.
+/// The scene is not changed.
+namespace yade {
+
+class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb;
+
+/// Shortest time step of all bodies for one reason [s], and the body; infinite and none where nothing limits.
+struct TimeStepLimit {
+	Real       step = std::numeric_limits<Real>::infinity();
+	Body::id_t body = Body::ID_NONE;
+
+	/// Of equal steps that of the lower id, whatever the order. Not taken: what is not a number, or not above 0.
+	void take(Real other, Body::id_t id)
+	{
+		if (!(other > 0 && other < std::numeric_limits<Real>::infinity())) return;
+		if (other < step || (other == step && id < body)) {
+			step = other;
+			body = id;
+		}
+	}
+};
+
+/// Mobility (inverse mass and inertia) of the body, as YADE's integrator uses it.
+polytope::Mobility mobilityOf(const Body& body);
+
+/// Distance of a shape's farthest point from its centre [m]; 0 where it is not known.
+Real boundingRadius(const Shape& shape);
+
+/// The law whose dampers act on rock joints; null if the scene has none.
+const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene);
+
+/// τ of src/timestep/StableTimeStep.hpp from the springs and dampers of all present contacts.
+struct ContactLimit : TimeStepLimit {
+	bool rocking = false; ///< rocking of contacts makes up more than half of the limiting body's ω²
+};
+
+/// \param below limits longer than this need not be found
+ContactLimit contactLimit(const Scene& scene, Real below = std::numeric_limits<Real>::infinity());
+
+/// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
+/// (src/timestep/ApproachLimit.hpp). Where no other limit is known, in periodic cells and in a scene divided among processes, which each
+/// know a part of it: in which each body alone moves by that much of its own, or of the smallest one's where its motion is prescribed.
+/// \param below longer limits need not be found; infinite: none is known
+/// \param steps until the limits are computed anew
+TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps);
+
+} // namespace yade
