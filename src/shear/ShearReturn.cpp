@@ -5,55 +5,75 @@
 
 #include <Eigen/Cholesky>
 
+#include <limits>
+
 namespace polytope {
 namespace {
 
-	/// What is minimised, and its derivatives.
-	struct Work {
-		Real    value;
-		Vector3 resistance, gradient;
-		Matrix3 hessian;
+	/// A slip, the resistance to it, and how that changes with the slip. A slip that is longer meets the same resistance, which changes the less.
+	struct Motion {
+		Vector3 slip, resistance;
+		Matrix3 slope;
 
-		Work(const ShearStrength& strength, const Matrix3& stiffness, const Vector3& load, const Vector3& slip)
+		Motion(const ShearStrength& strength, const Vector3& slip_) : slip(slip_), resistance(strength.resistance(slip, &slope)) { }
+		/// Work that the strength takes (Euler).
+		Real taken() const { return slip.dot(resistance); }
+		void lengthen(Real by)
 		{
-			resistance = strength.resistance(slip, &hessian);
-			gradient   = resistance - load + stiffness * slip;
-			value      = slip.dot(resistance - load) + slip.dot(stiffness * slip) / 2; // D = slip·resistance (Euler)
-			hessian += stiffness;
+			slip *= by;
+			slope /= by;
 		}
 	};
 
-	/// A motion in which the load does more work than the strength takes; zero where there is none, so that the load is within the limit surface.
-	///
-	/// Of all motions in which the load does the same work it is the one that takes the least: a convex function of two variables. `all`: K⁻¹ load.
-	Vector3 motionBeyond(const ShearStrength& strength, const Matrix3& stiffness, const Vector3& load, const Vector3& all)
+	/// The normal of a limit surface that is an ellipsoid, where the load crosses it: near to the slip that the load brings about (Howe & Cutkosky 1996,
+	/// "Practical force-motion models for sliding manipulation", International Journal of Robotics Research 15:557-572).
+	Vector3 likelyMotion(const ShearStrength& strength, const Vector3& load)
 	{
+		const Real radius = strength.leastRadius();
+		return Vector3(load[0] * radius * radius, load[1] * radius * radius, load[2]);
+	}
+
+	/// Whether the load is a mean of a point of the limit surface and of one that ShearStrength::surelyHolds() knows to be within: the surface is convex.
+	bool holdsBeside(const ShearStrength& strength, const Vector3& onSurface, const Vector3& load)
+	{
+		const auto holds = [&](Real share) {
+			if (!(share > 0 && share < 1)) return false;
+			return strength.surelyHolds((load - share * onSurface) / (1 - share));
+		};
+		return holds(load.head<2>().dot(onSurface.head<2>()) / onSurface.head<2>().squaredNorm()) || holds(load[2] / onSurface[2]);
+	}
+
+	/// Looks for a motion in which the load does more work than the strength takes, and returns whether there is one; if not, the load is within the limit
+	/// surface.
+	///
+	/// Of all motions in which the load does the same work it is the one that takes the least: a convex function of two variables.
+	bool findMotionBeyond(const ShearStrength& strength, const Matrix3& stiffness, const Vector3& load, Motion& motion)
+	{
+		motion.lengthen(1 / load.dot(motion.slip)); // the load gives 1
+		if (motion.taken() < 1) return true;
 		// axes across the load that are orthogonal by the energy
 		const Eigen::LLT<Matrix3> root(stiffness);
-		const Vector3             across1 = Vector3(root.matrixL().solve(load)).unitOrthogonal(),
-		              across2             = Vector3(root.matrixL().solve(load)).normalized().cross(across1);
+		const Vector3             along = root.matrixL().solve(load), across1 = along.unitOrthogonal(), across2 = along.normalized().cross(across1);
 		Eigen::Matrix<Real, 3, 2> axes;
 		axes << Vector3(root.matrixU().solve(across1)), Vector3(root.matrixU().solve(across2));
 
-		Vector3 motion = all / load.dot(all);
 		for (int step = 0; step < tolerance::shearReturnSteps; ++step) {
-			Matrix3       slope;
-			const Vector3 resistance = strength.resistance(motion, &slope);
-			const Real    taken      = motion.dot(resistance); // the load gives 1
-			if (taken < 1) return motion;
-			const Eigen::Matrix<Real, 2, 2> hessian  = axes.transpose() * slope * axes;
-			const Vector2                   gradient = axes.transpose() * resistance, change = hessian.ldlt().solve(gradient);
+			const Real taken = motion.taken();
+			if (taken < 1) return true;
+			if (holdsBeside(strength, motion.resistance, load)) return false;
+			const Eigen::Matrix<Real, 2, 2> hessian  = axes.transpose() * motion.slope * axes;
+			const Vector2                   gradient = axes.transpose() * motion.resistance, change = hessian.ldlt().solve(gradient);
 			const Real                      fall = change.dot(gradient);
-			if (!(fall > Real(tolerance::shearMotion) * taken)) break;
-			Real    part = 1;
-			Vector3 next = motion;
+			if (!(fall > Real(tolerance::shearMotion) * taken)) return false;
+			Real   part = 1;
+			Motion next = motion;
 			for (int halved = 0; halved < tolerance::shearHalvings; ++halved, part /= 2) {
-				next = motion - part * axes * change;
-				if (next.dot(strength.resistance(next)) <= taken - part * fall / 4) break;
+				next = Motion(strength, motion.slip - part * axes * change);
+				if (next.taken() <= taken - part * fall / 4) break;
 			}
 			motion = next;
 		}
-		return Vector3::Zero();
+		return false;
 	}
 
 } // namespace
@@ -71,36 +91,48 @@ Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset
 Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load)
 {
 	if (strength.surelyHolds(load)) return Vector3::Zero();
-	const Vector3 all = stiffness.ldlt().solve(load);
-	if (!(all.dot(load) > 0)) return Vector3::Zero();
-	Vector3 slip = motionBeyond(strength, stiffness, load, all);
-	if (slip == Vector3::Zero()) return slip;
+	const Eigen::LDLT<Matrix3> compliance(stiffness);
+	const Real                 energy = load.dot(compliance.solve(load)); // twice what the bed stores
+	if (!(energy > 0)) return Vector3::Zero();
+	Motion motion(strength, likelyMotion(strength, load));
+	if (!findMotionBeyond(strength, stiffness, load, motion)) return Vector3::Zero();
+
 	const auto toBestLength = [&] {
-		const Real length = slip.dot(load - strength.resistance(slip)) / slip.dot(stiffness * slip);
-		if (length > 0) slip *= length;
+		const Real length = motion.slip.dot(load - motion.resistance) / motion.slip.dot(stiffness * motion.slip);
+		if (length > 0) motion.lengthen(length);
 	};
+	// D(x) − load·x + x·K x/2
+	const auto work = [&](const Motion& of) { return of.slip.dot(of.resistance - load) + of.slip.dot(stiffness * of.slip) / 2; };
 	toBestLength();
+	Real lastSlope = std::numeric_limits<Real>::infinity();
 	for (int step = 0; step < tolerance::shearReturnSteps; ++step) {
-		const Work    now(strength, stiffness, load, slip);
-		const Vector3 change = now.hessian.ldlt().solve(now.gradient);
-		const Real    slope = change.dot(now.gradient), square = slip.dot(stiffness * slip);
+		const Vector3 gradient = motion.resistance - load + stiffness * motion.slip;
+		const Vector3 change   = Matrix3(motion.slope + stiffness).ldlt().solve(gradient);
+		const Real    slope = change.dot(gradient), square = motion.slip.dot(stiffness * motion.slip);
 		if (!(slope > 0)) break;
-		// a step of Newton's method doubles the digits: after one from so near nothing is left to gain, and rounding decides what is less
-		const bool last = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square;
+		// so near that rounding decides what is less work, or that a whole step is right: each doubles the digits until nothing is left to gain
+		const Real room = Real(tolerance::sumsOfWork) * abs(motion.slip.dot(load));
+		const bool near = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square || slope <= 4 * room;
+		if (near && !(slope < lastSlope / 4)) break;
+		if (near) lastSlope = slope;
+		const Real now = work(motion);
 		Real       part = 1;
-		// near the minimum the work falls by less than it is rounded
-		const Real room = Real(tolerance::sumsOfWork) * abs(slip.dot(load));
-		for (int halved = 0; !last && halved < tolerance::shearHalvings; ++halved, part /= 2)
-			if (Work(strength, stiffness, load, slip - part * change).value <= now.value - part * slope / 4 + room) break;
-		slip -= part * change;
-		if (last) break;
-		toBestLength();
+		Motion     next(strength, motion.slip - change);
+		for (int halved = 0; !near && halved < tolerance::shearHalvings && !(work(next) <= now - part * slope / 4); ++halved) {
+			part /= 2;
+			next = Motion(strength, motion.slip - part * change);
+		}
+		motion = next;
+		if (near) {
+			const Vector3 off = motion.resistance - load + stiffness * motion.slip;
+			if (off.dot(compliance.solve(off)) <= Real(tolerance::shearOff * tolerance::shearOff) * energy) break;
+		} else toBestLength();
 	}
-	const Vector3 onSurface = strength.resistance(slip), left = load - stiffness * slip, off = left - onSurface;
+	const Vector3 left = load - stiffness * motion.slip, off = left - motion.resistance;
 	// both are the same; where a slip is small beside the strain, the latter has all digits
-	const bool same = off.dot(stiffness.ldlt().solve(off)) <= Real(tolerance::shearReturn * tolerance::shearReturn) * all.dot(load);
-	load            = same ? left : onSurface;
-	return slip;
+	const bool same = off.dot(compliance.solve(off)) <= Real(tolerance::shearReturn * tolerance::shearReturn) * energy;
+	load            = same ? left : motion.resistance;
+	return motion.slip;
 }
 
 } // namespace polytope

@@ -28,8 +28,12 @@ constexpr double shearNarrow = 12;
 /// square of distance over length.
 constexpr double shearShort = 8;
 
-/// Of the slip, by the energy: a last step of Newton's method from this near leaves what rounding leaves.
+/// Of the slip, by the energy: a step of Newton's method from this near leaves what rounding leaves, but where the centre of rotation lies on the outline.
 constexpr double shearReturn = 1e-9;
+
+/// Of the load, by the energy: what a step from that near may leave between the load that stays and the limit surface; more calls for another step. Some times
+/// what sums over edges round.
+constexpr double shearOff = 1e-13;
 
 /// Of the least work that the strength takes in a motion: whether the load gives more is known to this. A load that is beyond the limit surface by less
 /// is taken as within it.
