@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointDampers.hpp"
 
-#include <lib/high-precision/Constants.hpp>
 #include <core/Clump.hpp>
 #include <lib/high-precision/Constants.hpp>
 #include <pkg/common/Box.hpp>

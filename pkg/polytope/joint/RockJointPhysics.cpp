@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointPhysics.hpp"
 
-#include <lib/high-precision/Constants.hpp>
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
