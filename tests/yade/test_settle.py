@@ -4,7 +4,8 @@
 import math
 
 import pytest
-from yade import NewtonIntegrator, O, PolytopeBonds, Quaternion, RockJointMat, Vector3, polytope
+from yade import NewtonIntegrator, O, PolytopeBonds, QuietBoundary, Quaternion, RockJointMat, Vector3, polytope
+from yade.polytope._loads import permanentLoads
 
 dip, friction = math.radians(35), math.radians(30)
 halfLength, halfWidth, height = 5.0, 5.0, 5.0
@@ -141,3 +142,70 @@ def testNoMoreStepsThanAskedFor():
 	with pytest.raises(RuntimeError, match='not at rest after 7 '):
 		polytope.settle(steps=7)
 	assert O.iter == 7
+
+
+# ------------------------------------------------------------------------------------------------ density scaling
+
+
+def slopeWithSlivers(clumped=False):
+	"""Two blocks on a plane of 10°, on a plate of a fiftieth of their height, or a clump of two. Returns the ids of what can move."""
+	O.reset()
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=friction))
+	turn, height = Quaternion((0, 1, 0), math.radians(10)), 0.0
+	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -1), (20, 20, 1), orientation=turn, fixed=True))
+	for thick in (0.02, 1.0, 1.0):
+		middle = height + thick / 2
+		if clumped and thick == 0.02:
+			polytope.clump([polytope.cuboid(turn * Vector3(x, 0, middle), (0.5, 1, thick / 2), orientation=turn) for x in (-0.5, 0.5)])
+		else:
+			O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, middle), (1, 1, thick / 2), orientation=turn))
+		height += thick
+	O.engines = polytope.engines()
+	return [body.id for body in O.bodies if body.id > 0 and not body.isClumpMember]
+
+
+def rest(clumped, **options):
+	moving = slopeWithSlivers(clumped)
+	masses = [O.bodies[k].state.mass for k in moving]
+	inertias = [Vector3(O.bodies[k].state.inertia) for k in moving]
+	taken = polytope.settle(unbalanced=1e-6, **options)
+	assert [O.bodies[k].state.mass for k in moving] == masses
+	assert [O.bodies[k].state.inertia for k in moving] == inertias
+	assert not permanentLoads()
+	return taken, {k: Vector3(O.bodies[k].state.pos) for k in moving}
+
+
+@pytest.mark.parametrize('clumped', [False, True])
+def testDensityScalingComesToTheSameRestInFewerSteps(clumped):
+	plainly, expected = rest(clumped)
+	scaled, found = rest(clumped, densityScaling=True)
+	assert scaled < plainly / 4
+	settled = 2600 * 9.81 * 2.02 / 1e9
+	assert max((place - found[k]).norm() for k, place in expected.items()) < 1e-3 * settled
+	# it stays so with its own masses and time step
+	assert O.dt <= 0.4001 * polytope.stableTimeStep(1)
+	assert next(engine for engine in O.engines if isinstance(engine, NewtonIntegrator)).damping == 0.2
+	O.run(200, wait=True)
+	assert max((O.bodies[k].state.pos - place).norm() for k, place in found.items()) < 1e-3 * settled
+
+
+def testMassesAreTheirOwnWhereItDoesNotComeToRest():
+	moving = slopeWithSlivers()
+	masses = [O.bodies[k].state.mass for k in moving]
+	with pytest.raises(RuntimeError, match='^steps: not at rest'):
+		polytope.settle(steps=50, densityScaling=True)
+	assert [O.bodies[k].state.mass for k in moving] == masses
+	assert not permanentLoads()
+
+
+def testDensityScalingIsRefusedForMotion():
+	slopeWithSlivers()
+	O.bodies[0].state.vel = (0.1, 0, 0)
+	with pytest.raises(ValueError, match='^densityScaling: body 0 is moved'):
+		polytope.settle(densityScaling=True)
+	O.bodies[0].state.vel = (0, 0, 0)
+	O.engines = O.engines + [QuietBoundary()]
+	with pytest.raises(ValueError, match='^densityScaling: O.engines has QuietBoundary'):
+		polytope.settle(densityScaling=True)
+	with pytest.raises(ValueError, match='^densityScaling'):
+		polytope.settle(densityScaling='yes')

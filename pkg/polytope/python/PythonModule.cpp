@@ -5,13 +5,13 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
-#include "python/Arrays.hpp"
-#include "shape/Construction.hpp"
 #include "contact/PolytopeGeom.hpp"
-#include "step/PotentialContacts.hpp"
+#include "host/Vectors.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
-#include "host/Vectors.hpp"
+#include "python/Arrays.hpp"
+#include "shape/Construction.hpp"
+#include "step/PotentialContacts.hpp"
 #include "step/WorkerContacts.hpp"
 
 #include "BuildInfo.hpp"
@@ -202,6 +202,20 @@ py::dict timeStepLimits()
 	return result;
 }
 
+/// By id; None for bodies that nothing limits.
+py::list timeStepsOfBodies()
+{
+	const auto              scene = yade::Omega::instance().getScene();
+	yade::PotentialContacts potential;
+	const auto              contacts = yade::contactSteps(*scene), material = potential.steps(*scene);
+	py::list                steps;
+	for (std::size_t id = 0; id < contacts.size(); ++id) {
+		const yade::Real step = yade::math::min(contacts[id], material[id]);
+		steps.append(yade::math::isfinite(step) ? py::object(step) : py::object());
+	}
+	return steps;
+}
+
 } // namespace
 
 // The list of everything in the module, one statement per entry: long, but without a branch.
@@ -236,6 +250,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "
 	        "a dictionary; None where nothing limits.");
+	py::def("timeStepsOfBodies", &timeStepsOfBodies,
+	        "The smaller of both for each body [s], a list by id; None for one that nothing limits, and for members of clumps.");
 	yade::defineVectors();
 	yade::defineConstruction();
 	yade::defineJointedRock();

@@ -240,23 +240,25 @@ const PotentialContacts::Stiffness& PotentialContacts::stiffness(
 	return asked_[key] = answer<Stiffness>(scene, part.material, partners.material, contact);
 }
 
-TimeStepLimit PotentialContacts::limit(Scene& scene)
+template <class Visit> void PotentialContacts::forSteps(Scene& scene, const Visit& visit)
 {
 	collect(scene);
 	parts_.resize(scene.bodies->size());
-	const auto*   law     = dampingLaw(scene);
-	const Real    damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
-	TimeStepLimit limit;
-	const Body*   last = nullptr;
+	const auto* law     = dampingLaw(scene);
+	const Real  damping = law ? math::max(law->normalDamping, law->shearDamping) : Real(0);
+	const Body* last    = nullptr;
+	Real        ofLast  = 0;
 	for (const auto& body : *scene.bodies) {
 		if (!body || !isMovedByForces(*body) || body->state->blockedDOFs == State::DOF_ALL) continue;
 		forParts(*body, scene, [&](const Body& part) {
 			if (!part.material || !part.shape || part.isClump()) return;
 			const Part& places = partOf(part, *body);
 			if (&part == body.get()) { // members of a clump have different orientations
-				if (last && last->material == part.material && places.isOf(parts_[last->id])) return; // as before
+				if (last && last->material == part.material && places.isOf(parts_[last->id]))
+					return visit(ofLast, body->id);
 				last = &part;
 			}
+			Real step = std::numeric_limits<Real>::infinity();
 			for (Partners& partners : partners_) {
 				if (partners.one == part.id && partners.other < 0) continue; // no body but itself
 				const auto force = faceForce(scene, stiffnessRuleOfNew(scene, *part.material, *partners.material));
@@ -265,12 +267,28 @@ TimeStepLimit PotentialContacts::limit(Scene& scene)
 					const Stiffness& stiff  = stiffness(part, places.size, partners, place, scene);
 					const Real       k      = math::max(stiff.normal, stiff.shear);
 					const Real       damper = 2 * damping * math::sqrt(k * body->state->mass);
-					limit.take(polytope::safeTimeStep(k * place.unit, damper * place.unit), body->id);
+					const Real       own    = polytope::safeTimeStep(k * place.unit, damper * place.unit);
+					if (own > 0) step = math::min(step, own);
 				}
 			}
+			if (&part == body.get()) ofLast = step;
+			visit(step, body->id);
 		});
 	}
+}
+
+TimeStepLimit PotentialContacts::limit(Scene& scene)
+{
+	TimeStepLimit limit;
+	forSteps(scene, [&](Real step, Body::id_t id) { limit.take(step, id); });
 	return limit;
+}
+
+std::vector<Real> PotentialContacts::steps(Scene& scene)
+{
+	std::vector<Real> steps(scene.bodies->size(), std::numeric_limits<Real>::infinity());
+	forSteps(scene, [&](Real step, Body::id_t id) { steps[std::size_t(id)] = math::min(steps[std::size_t(id)], step); });
+	return steps;
 }
 
 } // namespace yade

@@ -20,6 +20,8 @@ namespace yade {
 class PotentialContacts {
 public:
 	TimeStepLimit limit(Scene& scene);
+	/// The same of each body, by id [s]; infinite where nothing limits it.
+	std::vector<Real> steps(Scene& scene);
 
 private:
 	/// What a contact at a place of a body would be.
@@ -58,9 +60,11 @@ private:
 	};
 	using Key = std::tuple<const Material*, const Material*, bool, Real, Real>;
 
-	void             collect(const Scene& scene);
-	const Part&      partOf(const Body& part, const Body& mover);
-	const Stiffness& stiffness(const Body& part, Real partOwnSize, Partners& partners, const Place& place, Scene& scene);
+	/// Calls visit(step, body id) for all bodies that can move, and members of clumps.
+	template <class Visit> void forSteps(Scene& scene, const Visit& visit);
+	void                        collect(const Scene& scene);
+	const Part&                 partOf(const Body& part, const Body& mover);
+	const Stiffness&            stiffness(const Body& part, Real partOwnSize, Partners& partners, const Place& place, Scene& scene);
 
 	std::vector<Part>        parts_; ///< by body id
 	std::vector<Partners>    partners_;

@@ -11,10 +11,10 @@
 #include <src/timestep/TimeStepTolerances.hpp>
 
 #include "contact/PolytopeGeom.hpp"
+#include "host/SpringsOfScene.hpp"
 #include "joint/RockJoint.hpp"
 #include "joint/RockJointDampers.hpp"
 #include "joint/RockJointLaw.hpp"
-#include "host/SpringsOfScene.hpp"
 
 namespace yade {
 
@@ -255,6 +255,24 @@ ContactLimit contactLimit(const Scene& scene, Real below)
 		if (own.step < limit.step || (own.step == limit.step && own.body < limit.body)) limit = own;
 	}
 	return limit;
+}
+
+std::vector<Real> contactSteps(const Scene& scene)
+{
+	const auto*       law    = dampingLaw(scene);
+	const auto        others = springsOf(scene);
+	std::vector<Real> steps(scene.bodies->size(), std::numeric_limits<Real>::infinity());
+	const long        count = long(steps.size());
+#pragma omp parallel for schedule(static)
+	for (long id = 0; id < count; ++id) {
+		const Body* body = (*scene.bodies)[Body::id_t(id)].get();
+		if (!body || !isMovedByForces(*body) || !hasContacts(*body, scene, others)) continue;
+		const auto mobility = mobilityOf(*body);
+		if (!mobility.moves()) continue;
+		const auto stiffness   = stiffnessOf(*body, mobility, scene, law, others);
+		steps[std::size_t(id)] = polytope::safeTimeStep(stiffness.stiffness(), stiffness.damping());
+	}
+	return steps;
 }
 
 } // namespace yade

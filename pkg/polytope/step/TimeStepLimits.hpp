@@ -6,6 +6,7 @@
 #include <src/timestep/StableTimeStep.hpp>
 
 #include <limits>
+#include <vector>
 
 /// Limits of the time step of the present scene: its contacts (here), potential contacts (PotentialContacts.hpp), motion.
 /// The scene is not changed.
@@ -45,6 +46,9 @@ struct ContactLimit : TimeStepLimit {
 
 /// \param below limits longer than this need not be found
 ContactLimit contactLimit(const Scene& scene, Real below = std::numeric_limits<Real>::infinity());
+
+/// The same of each body, by id [s]; infinite for those without contacts.
+std::vector<Real> contactSteps(const Scene& scene);
 
 /// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
 /// (src/timestep/ApproachLimit.hpp). Where no other limit is known, in periodic cells and in a scene divided among processes, which each
