@@ -12,10 +12,10 @@ from yade import _polytope
 __all__ = ['classes', 'plain', 'rewrite']
 
 classes = (
-	'BaseMotion Bo1_Polytope_Aabb Gl1_Polytope Ig2_Box_Polytope_PolytopeGeom Ig2_Facet_Polytope_PolytopeGeom Ig2_Polytope_Polytope_PolytopeGeom '
+	'BartonBandisStrength BaseMotion Bo1_Polytope_Aabb ContinuouslyYieldingStrength Gl1_Polytope HyperbolicClosure Ig2_Box_Polytope_PolytopeGeom Ig2_Facet_Polytope_PolytopeGeom Ig2_Polytope_Polytope_PolytopeGeom '
 	'Ig2_Sphere_Polytope_PolytopeGeom Ig2_Wall_Polytope_PolytopeGeom Ip2_RockJointMat_RockJointMat_RockJointPhys '
 	'Law2_PolytopeGeom_RockJointPhys_MohrCoulomb Polytope PolytopeBolt PolytopeBoltCrossing PolytopeBolts PolytopeBond PolytopeBonds PolytopeCheckpoint PolytopeCollider PolytopeGeom PolytopeTimeStepper '
-	'PolytopeVTKRecorder PolytopeWater QuietBoundary RockJointMat RockJointPhys VelocityHistory'
+	'PolytopeVTKRecorder PolytopeWater PowerClosure QuietBoundary RockJointMat RockJointPhys VelocityHistory'
 ).split()
 
 signs = {

@@ -53,7 +53,8 @@ def _stored(contact):
 	geom, phys = contact.geom, contact.phys
 	perStiffness = getattr(geom, 'energyPerStiffness', -1)
 	if perStiffness < 0:
-		perStiffness = max(geom.penetrationDepth, 0) ** 2 / 2
+		depth = max(geom.penetrationDepth, 0)
+		perStiffness = phys.energyPerStiffness(depth) if hasattr(phys, 'energyPerStiffness') else depth**2 / 2
 	sheared = getattr(phys, 'shearEnergy', None)
 	if sheared is None:
 		sheared = phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0

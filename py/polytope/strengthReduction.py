@@ -28,7 +28,8 @@ strengths = 'friction', 'cohesion', 'tension'
 def divideStrengths(factor, reduce=strengths):
 	"""Divides the strengths of all rock joints at once: of contacts that exist, through their materials of those to come, and of bonds.
 
-	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are.
+	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are. Of a shear law of its own
+	(RockJointMat.strength) tan φ at each stress and displacement is divided.
 
 	:param float factor: above 0; 2 halves them
 	:param reduce: which: of 'friction', 'cohesion' and 'tension', residual values with the peak's
@@ -53,11 +54,16 @@ def divideStrengths(factor, reduce=strengths):
 
 	for material in O.materials:
 		if isinstance(material, RockJointMat):
-			lower(material)
+			if material.strength is None:
+				lower(material)
+			elif 'friction' in reduce:
+				material.reduction *= factor
 			divide(material, pressures)
 	joints = [contact.phys for contact in O.interactions if contact.isReal and isinstance(contact.phys, RockJointPhys)]
 	for joint in joints:
-		divide(joint, tangents + pressures)
+		if joint.hasOwnStrength and 'friction' in reduce:
+			joint.reduction *= factor
+		divide(joint, pressures if joint.hasOwnStrength else tangents + pressures)
 	for bond in [*madeBonds(), *(joint.bond for joint in joints if joint.bond)]:
 		lower(bond)
 		divide(bond, pressures)

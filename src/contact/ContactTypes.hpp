@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/Status.hpp"
+#include "joint/ClosureLaw.hpp"
 #include "numbers/Tolerances.hpp"
 #include "shape/HalfSpaces.hpp"
 #include "surface/KeptVertices.hpp"
@@ -88,6 +89,8 @@ struct ContactSettings {
 	const InternalPlanes* internal = nullptr;
 	/// The same: where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
+	/// Models with a surface: of a joint that stiffens as it closes, or null.
+	const ClosureLaw* closure = nullptr;
 	/// Foundation: also the energy, which takes half as long again; else it is −1.
 	bool energy = true;
 	/// Measure the LP's and the centre's time.
@@ -124,8 +127,8 @@ struct ContactResult {
 	/// counter-clockwise.
 	const Vector2* outline      = nullptr;
 	int            outlineCount = 0;
-	Real           energy       = 0; ///< of the contact over its normal stiffness [m²]; foundation: U over K A; spring: U over k
-	Real           share
+	Real energy = 0; ///< of the contact over its normal stiffness, at this depth [m²]; foundation: U over K A; spring: U over k
+	Real share
 	        = 1; ///< spring, with internal faces: part of the stiffness that this piece has, by the pressure on it; foundation: it is in the area
 	Real turningArm    = 0; ///< foundation, spring: moment about the normal that a force at the point leaves out, over that force [m]
 	bool dismissed     = false; ///< separated by the first basis' bound, without evaluating the other planes

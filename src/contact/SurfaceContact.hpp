@@ -6,6 +6,7 @@
 #include "contact/PenetrationDepth.hpp"
 #include "contact/SurfaceOnPieces.hpp"
 #include "contact/WarmStart.hpp"
+#include "joint/ClosureLaw.hpp"
 
 /// The contacts whose force is the gradient of the volume of the linear program's feasible set (ContactSurface.hpp), as a geometry for laws that
 /// are linear in depth. With V = ∫ p dx and W = ∫ ½ p² dx over the overlap, p the least slack of both bodies,
@@ -16,6 +17,14 @@
 /// for a face on a face the volume is A h²/4 and W/V = h/6, so that both are K A h and k h. The normal is the force's direction, the area that of the
 /// contact surface seen along it, the depth F/(K A) or F/k, and the point lies on the line of action: a law with the force K A × depth or
 /// k × depth has the force, and the moment but for the part along the normal, which no single force has.
+///
+/// A joint that stiffens as it closes (joint/ClosureLaw.hpp), with u(h) the energy of a closure h over the initial stiffness:
+///
+///     per area:     U = 4 K V u(h)/h²,   h = 6 W/V,     which is A u(h) for a face on a face, and 2 K V for every pair if u is that of a linear spring,
+///     per contact:  U = k u(6 W/V).
+///
+/// The force is the gradient of that. The depth is the closure at which the law gives it: a law with the force K A σ(depth) has it. The
+/// energy is over the stiffness that the joint has at this depth.
 namespace polytope {
 
 /// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: of unit thickness where per area.
@@ -24,17 +33,34 @@ template <class R, int D> struct SurfaceLoad {
 	R moment[SurfaceSums<R, D>::turns];
 	R energy;
 
-	POLYTOPE_INLINE SurfaceLoad(ContactModel model, const SurfaceSums<R, D>& sums)
+	POLYTOPE_INLINE SurfaceLoad(const ContactSettings& settings, const SurfaceSums<R, D>& sums)
 	{
-		const bool spring = model == ContactModel::Spring;
+		const bool spring = settings.contactModel == ContactModel::Spring;
 		const R    mean   = sums.volume > 0 ? sums.level / sums.volume : R(0);
 		// weights of ∫ p n dS and ∫ ½ p² n dS
-		const R plain = spring ? -36 * mean * mean / sums.volume : R(2), deeper = spring ? 36 * mean / sums.volume : R(0);
+		R plain = spring ? -36 * mean * mean / sums.volume : R(2), deeper = spring ? 36 * mean / sums.volume : R(0);
 		energy = spring ? 18 * mean * mean : 2 * sums.volume;
+		if (settings.closure && mean > 0) close(*settings.closure, spring, 6 * mean, plain, deeper);
 		for (int k = 0; k < D; ++k)
 			force[k] = plain * sums.force[k] + deeper * sums.deeper[k];
 		for (int k = 0; k < SurfaceSums<R, D>::turns; ++k)
 			moment[k] = plain * sums.moment[k] + deeper * sums.deeperTurn[k];
+	}
+
+private:
+	/// From the energy of a linear spring to that of a joint which has closed by h.
+	POLYTOPE_APART void close(const ClosureLaw& law, bool spring, R h, R& plain, R& deeper)
+	{
+		// g = 2 u/h², and h g' from σ = h g + ½ h² g'
+		const R secant = R(law.pressure(Real(h))) / h, g = 2 * R(law.energy(Real(h))) / (h * h), rise = 2 * (secant - g);
+		energy *= g;
+		if (spring) {
+			plain *= secant;
+			deeper *= secant;
+		} else {
+			plain  = 2 * (g - rise);
+			deeper = 12 * rise / h;
+		}
 	}
 };
 
@@ -81,7 +107,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
         PairPlanes<R, D>& planes, ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, bool across, R grown, R* x, R* dual,
         PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
-	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring;
+	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
 	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
 	PairSurface<R, D>    surface;
 	SurfaceOnPiece<R, D> piece;
@@ -98,7 +124,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	const SurfaceSums<R, D>& sums    = surface.sums;
 	const R                  deepest = surface.deepest;
 	const bool               found   = surface.status == SurfaceStatus::Found;
-	const SurfaceLoad<R, D>  load(settings.contactModel, sums);
+	const SurfaceLoad<R, D>  load(settings, sums);
 	const R                  length = norm<R, D>(load.force);
 	// what a pressure everywhere along one direction would be: rounding of that is no force
 	const bool perArea = settings.contactModel == ContactModel::Foundation;
@@ -136,8 +162,13 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	R area = dot<R, D>(sums.areaVector, n);
 	area   = maxOf<R>(area, sums.pressure / deepest);
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
-	out.depth  = perArea ? length / area : length;
-	out.energy = !energy ? R(-1) : perArea ? load.energy / area : load.energy;
+	out.depth    = perArea ? length / area : length;
+	R stiffening = 1;
+	if (settings.closure) {
+		out.depth  = settings.closure->closure(out.depth);
+		stiffening = R(settings.closure->tangent(out.depth));
+	}
+	out.energy = !energy ? R(-1) : (perArea ? load.energy / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
 	out.share  = surface.share();
 	area *= out.share;
 	out.area = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;

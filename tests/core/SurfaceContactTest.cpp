@@ -11,10 +11,11 @@ using namespace polytope::samples;
 
 namespace {
 
-ContactSettings with(ContactModel model)
+ContactSettings with(ContactModel model, const ClosureLaw* closure = nullptr)
 {
 	ContactSettings settings;
 	settings.contactModel = model;
+	settings.closure      = closure;
 	return settings;
 }
 
@@ -23,12 +24,12 @@ struct Load {
 	Vector3 force, moment;
 	Real    energy;
 
-	Load(const ContactResult& result, ContactModel model)
+	Load(const ContactResult& result, ContactModel model, const ClosureLaw& law = ClosureLaw())
 	{
 		const Real stiffness = model == ContactModel::Foundation ? result.area : Real(1);
-		force                = stiffness * result.depth * result.normal;
+		force                = stiffness * law.pressure(result.depth) * result.normal;
 		moment               = result.point.cross(force) + result.turningArm * force;
-		energy               = stiffness * result.energy;
+		energy               = stiffness * result.energy * law.tangent(result.depth);
 	}
 };
 
@@ -100,6 +101,72 @@ TEST(SurfaceContact, WorkOfTheForceIsWhatTheEnergyFallsBy)
 			}
 			const Real work = here.force.dot(way) + here.moment.dot(axis) / 2;
 			EXPECT_NEAR((energy[0] - energy[1]) / (2 * step) / here.force.norm(), work / here.force.norm(), 1e-5);
+		}
+}
+
+/// The same for joints that stiffen as they close: nearly linear ones, some half closed, and some beyond the end of the curve, where it bends within a
+/// hundredth of the depth.
+TEST(SurfaceContact, WorkOfAClosingJointIsWhatTheEnergyFallsBy)
+{
+	std::mt19937_64 random(78);
+	const int       faces[] = { 4, 6, 8, 12, 20 };
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 100; ++trial) {
+			SCOPED_TRACE(trial);
+			const Pair pair = trial % 7 ? regularPair(faces[trial % 5], faces[trial / 5 % 5], decades(random, -4, -1), random)
+			                            : somePair<2>(trial, random, randomShapes(40, random, 2, -2));
+			const Real deepest = -infeasibility(pair);
+			if (!(deepest > 1e-4 * pair.size())) continue; // of thinner ones the differences are rounded
+			const Real    most = deepest * decades(random, -1, 2), step = Real(1e-5) * deepest;
+			const auto    law  = trial % 3 ? ClosureLaw::hyperbola(most) : ClosureLaw::power(0.4, most);
+			const Vector3 way  = trial % 7 ? randomDirection(random) : Vector3(Vector3::UnitX()),
+			              axis = trial % 7 ? randomDirection(random) : Vector3(Vector3::UnitZ());
+			const Load here(query(pair, with(model, &law)), model, law);
+			Real       energy[2];
+			for (int side = 0; side < 2; ++side) {
+				const Real by     = side == 0 ? -step : step;
+				const auto turn   = Eigen::AngleAxis<Real>(by / 2, axis).toRotationMatrix();
+				Pair       there  = pair;
+				there.centre2     = turn * pair.centre2 + by * way;
+				there.rotation[1] = turn * pair.rotation[1];
+				energy[side]      = Load(query(there, with(model, &law)), model, law).energy;
+			}
+			const Real work = here.force.dot(way) + here.moment.dot(axis) / 2;
+			EXPECT_NEAR((energy[0] - energy[1]) / (2 * step) / here.force.norm(), work / here.force.norm(), 1e-5);
+		}
+}
+
+/// A face on a face closes by the overlap, with the energy of the closed form; so does what tilts little.
+TEST(SurfaceContact, OfAClosingJointOnAFaceHasItsPressureAndEnergy)
+{
+	const Real       h   = 1e-4;
+	const ClosureLaw law = ClosureLaw::hyperbola(2e-4);
+	for (const bool flat : { false, true })
+		for (const ContactModel model : models) {
+			Pair pair;
+			pair.shape[0]              = ConvexShape::shared(flat ? rectangle(4, 1) : cuboid(4, 1, 4), Real(0.1));
+			pair.shape[1]              = ConvexShape::shared(flat ? rectangle(1, 1) : cuboid(1, 1, 1), Real(0.1));
+			pair.centre2               = Vector3(Real(0.5), 2 - h, 0);
+			const ContactResult result = query(pair, with(model, &law));
+			EXPECT_NEAR(result.depth / h, 1, 4 * h);
+			EXPECT_NEAR(result.energy * 4 / (4e-8 * (std::log(2.) - 0.5)), 1, 8 * h);
+			EXPECT_NEAR(result.area, flat ? 2 : 4, 8 * h);
+		}
+}
+
+/// A maximum closure far beyond the overlap leaves what there is without.
+TEST(SurfaceContact, OfAJointThatHardlyClosesIsTheLinearOne)
+{
+	std::mt19937_64 random(79);
+	const Shapes    shapes = randomShapes(40, random, 3, -2);
+	for (const ContactModel model : models)
+		for (int trial = 0; trial < 50; ++trial) {
+			const Pair pair = somePair<3>(trial, random, shapes);
+			if (!(infeasibility(pair) < -1e-9 * pair.size())) continue;
+			const ClosureLaw law = ClosureLaw::hyperbola(Real(1e12) * pair.size());
+			const Load       linear(query(pair, with(model)), model), joint(query(pair, with(model, &law)), model, law);
+			EXPECT_LE((linear.force - joint.force).norm(), 1e-9 * linear.force.norm()) << trial;
+			EXPECT_NEAR(joint.energy / linear.energy, 1, 1e-9) << trial;
 		}
 }
 

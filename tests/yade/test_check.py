@@ -12,6 +12,7 @@ import pytest
 import yade
 from scenes import runInBackground
 from yade import (
+	BartonBandisStrength,
 	Bo1_Box_Aabb,
 	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
@@ -20,6 +21,7 @@ from yade import (
 	ForceResetter,
 	FrictMat,
 	GlobalStiffnessTimeStepper,
+	HyperbolicClosure,
 	Ig2_Box_Polytope_PolytopeGeom,
 	Ig2_Box_Sphere_ScGeom,
 	Ig2_Facet_Polytope_PolytopeGeom,
@@ -440,6 +442,20 @@ def testStiffnessTooLowForTheSpeed():
 	assert not polytope.check(O)
 	O.bodies[1].state.vel = (0, 0, -10)
 	assert 'sinks in by' in onlyFinding('stiffness').seen
+
+
+def testJointLawsOfOneSideAlone():
+	law = {'strength': BartonBandisStrength(), 'closure': HyperbolicClosure()}
+	for name in law:
+
+		def other():
+			return [polytope.cuboid((5, 0, 2), (0.5, 0.5, 0.5), material=O.materials.append(rock(label='other', **{name: law[name]})))]  # noqa: B023
+
+		scene(other)
+		found = onlyFinding('joint laws')
+		assert type(law[name]).__name__ in found.seen and f'law in {name}' in found.advice
+		scene(other, material=rock(**{name: law[name]}))
+		assert not polytope.check(O)
 
 
 def testYoungThatNothingReads():

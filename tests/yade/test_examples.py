@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -87,6 +87,13 @@ def testBoltsAreAsTheirClosedFormsSay(runs, capsys):
 	runs('boltCurves')
 	differences = [float(found) for found in re.findall(r'([\d.]+) %', capsys.readouterr().out)]
 	assert len(differences) == 2 and max(differences) < 0.2 and isPicture('output/boltCurves.png')
+
+
+def testDirectShearByThreeLaws(runs, capsys):
+	runs('directShear', shorter={'< 4e-3': '< 2e-3'})
+	peaks = {name: float(angle) for name, angle in re.findall(r'(.*): peak ([\d.]+)°', capsys.readouterr().out)}
+	assert peaks['Mohr-Coulomb'] == pytest.approx(30, abs=0.1) and peaks['Barton-Bandis'] == pytest.approx(50, abs=0.1)
+	assert 40 < peaks['continuously yielding'] < 50 and isPicture('output/directShear.png')
 
 
 def testBoltsRaiseTheFactorOfARoofWedge(runs, capsys):

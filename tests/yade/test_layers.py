@@ -68,7 +68,7 @@ def testTheCoreKnowsNothingAboveIt():
 			assert not (project / 'pkg/polytope' / name).is_file() or name in own, f'{path.name} includes {name} of pkg'
 
 
-folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'surface', 'contact', 'timestep', 'bond', 'bolt', 'neighbours'
+folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'joint', 'surface', 'contact', 'timestep', 'bond', 'bolt', 'neighbours'
 """Of src, in this order."""
 
 

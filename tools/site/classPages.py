@@ -25,7 +25,7 @@ groups = {
 	),
 	'joints': (
 		'Rock joints: material, physics, law',
-		'RockJointMat RockJointPhys Ip2_RockJointMat_RockJointMat_RockJointPhys Law2_PolytopeGeom_RockJointPhys_MohrCoulomb'.split(),
+		'RockJointMat HyperbolicClosure PowerClosure BartonBandisStrength ContinuouslyYieldingStrength RockJointPhys Ip2_RockJointMat_RockJointMat_RockJointPhys Law2_PolytopeGeom_RockJointPhys_MohrCoulomb'.split(),
 	),
 	'bonds': ('Bonds', ['PolytopeBonds', 'PolytopeBond']),
 	'bolts': ('Rock bolts and cables', ['PolytopeBolts', 'PolytopeBolt', 'PolytopeBoltCrossing']),

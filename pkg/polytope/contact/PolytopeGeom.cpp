@@ -8,9 +8,9 @@
 
 #include "contact/ContactSizes.hpp"
 #include "contact/InternalFaces.hpp"
+#include "contact/StiffnessShare.hpp"
 #include "host/Prefetch.hpp"
 #include "material/RockJointMat.hpp"
-#include "contact/StiffnessShare.hpp"
 
 #include <boost/make_shared.hpp>
 
@@ -205,6 +205,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	settings.normalWeight[0]           = geom.normalWeight;
 	settings.normalWeight[1]           = 1 - geom.normalWeight;
 	settings.geometryAcrossGap         = wasReal || force;
+	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
 
 	polytope::PairMemory memory = geom.memory();
 	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "bond/BondsOfScene.hpp"
-#include "pairs/CandidateMemory.hpp"
 #include "contact/ContactCounters.hpp"
-#include "host/FlatArchive.hpp"
-#include "shape/Polytope.hpp"
-#include "host/Seldom.hpp"
-#include "material/StiffnessRules.hpp"
 #include "contact/StoredOutline.hpp"
 #include "contact/StoredVertices.hpp"
+#include "host/FlatArchive.hpp"
+#include "host/Seldom.hpp"
+#include "material/StiffnessRules.hpp"
+#include "pairs/CandidateMemory.hpp"
+#include "shape/Polytope.hpp"
 
 #include <core/Dispatching.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -33,6 +33,16 @@ struct StandIn {
 	int                                          side = 0;
 };
 
+/// Normal law of a joint that stiffens as it closes, by which its force and energy depend on the surface.
+struct ClosureOfJoint {
+	polytope::ClosureLaw law;
+
+	template <class Archive> void serialize(Archive& archive, unsigned int)
+	{
+		visitParts(law, [&](const char* name, auto& value) { archive& boost::serialization::make_nvp(name, value); });
+	}
+};
+
 /// There is one for each contact, so what few contacts have is apart (Seldom) and small numbers lie next to each other.
 class PolytopeGeom : public ScGeom {
 public:
@@ -44,6 +54,7 @@ public:
 	using PlaneCodes = Seldom<std::vector<int>>;
 	/// Four numbers for each plane.
 	using PlaneEnds = Seldom<std::vector<Real>>;
+	using Closure   = Seldom<ClosureOfJoint>;
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
@@ -77,7 +88,7 @@ public:
 		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; :yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
 		((Real, normalWeight, 0.5, Attr::readonly, "*boon2012*: weight of body 1's normal against body 2's (1 minus it), from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
-		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ [m²], *foundation*: while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; -1 where it is not known, and with *boon2012*, where it is half the square of the depth."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ at this depth [m²], *foundation*: while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; -1 where it is not known, and with *boon2012*, where it is half the square of the depth."))
 		((Real, turningArm, 0, Attr::readonly, "Contacts *foundation* and *spring*: moment about the normal that a force at the contact point leaves out, over that force [m]; positive: it turns body 2 about the normal."))
 		((Vector3r, direction, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program if the points are known, otherwise the weights of the basis' first planes"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
@@ -86,6 +97,7 @@ public:
 		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
 		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each the plane through which the support ends beyond it: normal and offset in the body's own axes"))
+		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
 		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and until the next step after loading a scene.")

@@ -7,6 +7,7 @@
 #include "bond/PolytopeBond.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/Seldom.hpp"
+#include "joint/LawsOfJoint.hpp"
 
 #include <src/shear/ShearLayers.hpp>
 
@@ -47,6 +48,7 @@ public:
 
 	using LastStep = Seldom<LastStepOfJoint>;
 	using Layers   = Seldom<LayersOfJoint>;
+	using Laws     = Seldom<LawsOfJoint>;
 
 	/// Sets the present kn and ks [N/m] from the joint's own stiffnesses: per area times the contact's area, per contact times the share that
 	/// the contact has of it (PolytopeGeom::share).
@@ -56,15 +58,28 @@ public:
 	/// At present [Pa].
 	Real presentCohesion() const { return intact ? cohesion : residualCohesion; }
 	/// Whether an open joint differs from one that is made anew when it closes.
-	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()); }
+	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()) || ownHistory(); }
 	/// At present [Pa].
 	Real presentTensileStrength() const { return intact ? tensileStrength : residualTensileStrength; }
 	/// Force of the normal spring at this overlap [N], negative in tension.
 	Real normalSpring(Real overlap) const
 	{
+		if (laws.get()) return ownSpring(overlap);
 		const Real force = kn * (overlap + dilation - restOverlap);
 		return force < 0 ? math::min(Real(0), Real(force + kn * lastingOpening)) : force;
 	}
+	/// The same of a joint with laws of its own (RockJointOwnLaws.cpp), while kn is that of its linear spring.
+	Real ownSpring(Real overlap) const;
+	/// Whether such a joint has slipped, or is worn.
+	bool ownHistory() const;
+	/// Energy over kn of a spring closed that far [m²].
+	Real energyPerStiffness(Real overlap) const;
+	bool hasOwnStrength() const;
+	/// All slip of a joint with a shear law of its own; the length of the slip of others [m].
+	Real slipLength() const;
+	/// What tan φ of a shear law of its own is divided by; of other joints 1.
+	Real getReduction() const;
+	void setReduction(Real value);
 	/// A force of the normal spring beyond the strength in tension: it keeps the residual one, and the rest becomes lasting opening; returns its work [J].
 	Real yieldInTension(Real& normalForce);
 	/// Slip by which the spring loses this part of its shear force [N], which is on body 2 and so against the slip.
@@ -134,10 +149,15 @@ public:
 		((Real, dampedStiffness, 0, (Attr::readonly | Attr::hidden), "Stiffness with which the contact was part of the last step's sums, for dampers (StiffnessSums); 0: it was not"))
 		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without residual friction, tensile strength and cohesion above the residual one have none and are never intact."))
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
+		((Laws, laws, , (Attr::readonly | Attr::hidden), "Closure and shear law of its own; none: linear spring and Mohr-Coulomb"))
 		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))
 		, /*ctor*/ createIndex();
 		, /*py*/
 		.add_property("kn", &RockJointPhys::getKn, &RockJointPhys::setKn, "Present normal stiffness [N/m].")
+		.add_property("hasOwnStrength", &RockJointPhys::hasOwnStrength, "Whether the joint has a shear law of its own (:yref:`RockJointMat.strength`): then :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is what it gives at the present stress and displacement.")
+		.add_property("slipLength", &RockJointPhys::slipLength, "Of a joint with a shear law of its own (:yref:`RockJointMat.strength`) the length of all its slip so far, back and forth [m]; of others that of :yref:`slip<RockJointPhys.slip>`.")
+		.add_property("reduction", &RockJointPhys::getReduction, &RockJointPhys::setReduction, "What tan φ of a shear law of its own is divided by [-]; 1 for Mohr-Coulomb, whose values are divided themselves (polytope.factorOfSafety).")
+		.def("energyPerStiffness", &RockJointPhys::energyPerStiffness, boost::python::arg("closure"), "Energy of the normal spring over :yref:`kn<NormPhys.kn>`, when it is closed that far [m²].")
 		.add_property("shearEnergy", &RockJointPhys::shearEnergy, "Elastic energy of the shear bed [J]; viscous forces are left out.")
 		.add_property("ks", &RockJointPhys::getKs, &RockJointPhys::setKs, "Present shear stiffness [N/m].")
 	);

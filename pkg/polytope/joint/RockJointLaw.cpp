@@ -15,6 +15,7 @@ namespace {
 	{
 		if (geom.energyPerStiffness >= 0 && geom.penetrationDepth > 0 && phys.dilation == 0 && phys.restOverlap == 0)
 			return phys.kn * geom.energyPerStiffness;
+		if (phys.laws.get()) return phys.kn * phys.energyPerStiffness(geom.penetrationDepth + phys.dilation - phys.restOverlap);
 		return phys.kn > 0 ? elastic * elastic / (2 * phys.kn) : Real(0);
 	}
 
@@ -35,9 +36,11 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (phys.mayActAsBond() && actsAsBond(*contact, geom, phys, last, elasticShear)) return true;
 	Shear shear(pair, phys, elasticShear);
 
-	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it
+	// an open joint keeps the area it had: a separated pair's is that of grown bodies; a joint made across a gap starts with it, and one whose strength
+	// depends on the stress has it while dilation holds it open: the last overlap of a tilted face was a part of it
 	const bool touches = geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
-	if (geom.contactArea > 0 && (touches || phys.contactArea == 0)) phys.contactArea = geom.contactArea;
+	if (geom.contactArea > 0 && (touches || phys.contactArea == 0 || phys.ownHistory())) phys.contactArea = geom.contactArea;
+	if (phys.laws.get()) beginOwnLaws(phys, geom);
 	phys.setStiffnesses(geom.share);
 	if (phys.tangensOfDilationAngle > 0) phys.dilation = math::min(phys.tangensOfDilationAngle * phys.slip.norm(), phys.dilationLimit);
 	shear.adapt(phys);
@@ -45,6 +48,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 
 	StepWork work;
 	Real     elasticNormal = phys.normalSpring(geom.penetrationDepth);
+	if (phys.laws.get()) followOwnLaws(phys, shear, geom.penetrationDepth, elasticNormal);
 	if (elasticNormal < 0 && !(unbreakable && phys.intact) && !phys.bearsTension(-elasticNormal)) {
 		if (!(phys.residualTensileStrength > 0) || isFarApart(geom)) return open(pair, phys, last, shear);
 		work.fractured = phys.presentTensileStrength() > phys.residualTensileStrength;
@@ -58,6 +62,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	const Real shown = Real(polytope::tolerance::rounding) * phys.ks * math::min(geom.refR1, geom.refR2);
 	if (normal <= 0 && shear.force().squaredNorm() < shown * shown) shear.vanish();
 	if (!limitShear(phys, normal, shear)) return open(pair, phys, last, shear);
+	if (phys.laws.get()) endOwnLaws(phys, shear, elasticNormal);
 	if (last.wasBond) phys.slip = Vector3r::Zero();
 	if (shearDamping > 0 && !phys.isSliding) {
 		const Vector3r along = shear.velocity();

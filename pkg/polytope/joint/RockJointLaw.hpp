@@ -25,6 +25,8 @@ public:
 	void postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&);
 	Real ratioSlidingContacts() const;
 	long nonFiniteForces() const { return nonFinite_; }
+	/// Whether a joint has stiffened so much since the last call that the time step must be computed anew (tolerance::stiffening).
+	bool hasStiffened() const { return stiffened_.exchange(false); }
 	FUNCTOR2D(PolytopeGeom, RockJointPhys);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, LawFunctor,
@@ -67,6 +69,9 @@ private:
 	void     takePart(const Pair& pair, RockJointPhys& phys);
 	bool     apply(const Pair& pair, RockJointPhys& phys);
 	bool     open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear);
+	void     beginOwnLaws(RockJointPhys& phys, const PolytopeGeom& geom) const;
+	void     followOwnLaws(RockJointPhys& phys, Shear& shear, Real overlap, Real normal) const;
+	void     endOwnLaws(RockJointPhys& phys, const Shear& shear, Real normal) const;
 	void     nameEnergies();
 	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work);
 
@@ -74,6 +79,7 @@ private:
 	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
 	std::atomic<bool>            energiesNamed_ { false };
 	std::atomic<long>            nonFinite_ { 0 };
+	mutable std::atomic<bool>    stiffened_ { false };
 	std::array<Real, 3>          good_ { { 0, 0, 0 } };
 };
 REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);

@@ -4,8 +4,8 @@
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
-#include "shape/Polytope.hpp"
 #include "contact/PolytopeGeom.hpp"
+#include "shape/Polytope.hpp"
 
 #include <src/bond/BondTolerances.hpp>
 
@@ -79,6 +79,30 @@ namespace {
 		return Mathr::PI * math::pow(math::min(r1, r2), 2);
 	}
 
+	/// Closure and shear law of the joint, where both sides have one of the same kind.
+	/// \param angle its friction angle [rad]
+	void takeLaws(RockJointPhys& phys, const RockJointMat& m1, const RockJointMat& m2, Real normal, Real shear, Real angle)
+	{
+		if (m1.closure && m2.closure) {
+			const auto law1 = m1.closure->law(normal), law2 = m2.closure->law(normal);
+			if (law1.isLike(law2)) phys.laws.make().closure = polytope::ClosureLaw::between(law1, law2);
+		}
+		const JointStrength *const s1 = m1.strength.get(), *const s2 = m2.strength.get();
+		const auto *const        rough1    = dynamic_cast<const BartonBandisStrength*>(s1),
+		                  *const rough2    = dynamic_cast<const BartonBandisStrength*>(s2);
+		const auto *const        yielding1 = dynamic_cast<const ContinuouslyYieldingStrength*>(s1),
+		                  *const yielding2 = dynamic_cast<const ContinuouslyYieldingStrength*>(s2);
+		if (rough1 && rough2) {
+			phys.laws.make().shear = int(ShearLaw::BartonBandis);
+			phys.laws.make().rough = polytope::BartonBandis::between(rough1->law(angle), rough2->law(angle));
+		} else if (yielding1 && yielding2) {
+			phys.laws.make().shear    = int(ShearLaw::ContinuouslyYielding);
+			phys.laws.make().yielding = polytope::ContinuouslyYielding::between(yielding1->law(angle), yielding2->law(angle));
+			phys.laws.make().shearStiffness = shear;
+		} else return;
+		phys.laws.make().reduction = math::max(m1.reduction, m2.reduction);
+	}
+
 	/// A joint that goes on where a bond has failed: without peak strength, without force at the overlap where the bond had none, and with the
 	/// bond's shear force, as far as its own strength goes (the law takes the rest away).
 	void takeOver(RockJointPhys& phys, const BondRemains& bond, const Interaction& contact, const Scene& scene)
@@ -126,9 +150,9 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
 	const Real shear  = of(ks, m1.shearStiffness, m2.shearStiffness, seriesStiffness(m1.shearStiffness, m2.shearStiffness));
 
-	auto phys = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
-	phys->tangensOfFrictionAngle
-	        = math::tan(of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle)));
+	auto       phys              = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
+	const Real angle             = of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle));
+	phys->tangensOfFrictionAngle = math::tan(angle);
 	if (m1.residualFrictionAngle >= 0 || m2.residualFrictionAngle >= 0)
 		phys->tangensOfResidualFrictionAngle = math::tan(math::min(residualAngle(m1), residualAngle(m2)));
 	phys->cohesion                = math::min(m1.cohesion, m2.cohesion);
@@ -142,7 +166,10 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 		if (!phys->intact) phys->fail();
 	}
 
+	if (m1.closure || m1.strength) takeLaws(*phys, m1, m2, normal, shear, angle);
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
+		if (phys->laws.get() && !phys->laws.get()->closure.isLinear()) geom->closure.make().law = phys->laws.get()->closure;
+		else geom->closure.clear();
 		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
 		geom->needsArea     = true;              // shear acts over it
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already

@@ -130,7 +130,8 @@ polytope::Vector2 Shear::centreOfStrength(const RockJointPhys& phys, Real streng
 
 bool Shear::limit(const RockJointPhys& phys, Real normal)
 {
-	const Real strength = phys.shearStrength(normal), square = force_.squaredNorm();
+	const Vector3r before   = force_;
+	const Real     strength = phys.shearStrength(normal), square = force_.squaredNorm();
 	if (!(strength > 0)) {
 		const bool slips = square > 0 || twist_ != 0;
 		if (slips) vanish();
@@ -139,7 +140,7 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	if (!hasOutline()) {
 		if (!(square > strength * strength)) return false;
 		force_ *= strength / math::sqrt(square);
-		layers_.move((trialForce_ - force_) / stiffness_);
+		layers_.move((before - force_) / stiffness_);
 		return true;
 	}
 	const polytope::Vector2       centre = centreOfStrength(phys, strength);
@@ -150,8 +151,14 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	if (polytope::returnToStrength(spread, bed, load) == polytope::Vector3::Zero()) return false;
 	force_ = inWorld(polytope::Vector2(load[0], load[1]));
 	twist_ = twistOf(load, centre);
-	layers_.move((trialForce_ - force_) / stiffness_);
+	layers_.move((before - force_) / stiffness_);
 	return true;
+}
+
+void Shear::yield(const Vector3r& slip)
+{
+	force_ += stiffness_ * slip;
+	layers_.move(-slip);
 }
 
 Vector3r Shear::velocity() const

@@ -21,6 +21,12 @@ public:
 	void adapt(const RockJointPhys& phys);
 	/// The motion of this step strains all springs: `increment`, of body 2 along the joint at the contact point.
 	void move(const Vector3r& increment);
+	/// Slip by this, without turning, whatever the strength: of a joint that yields before it.
+	void yield(const Vector3r& slip);
+	/// Of body 2 along the joint at the area's centroid, in this step.
+	const Vector3r& motion() const { return motion_; }
+	/// The force before the motion of this step.
+	Vector3r forceBefore() const { return trialForce_ + stiffness_ * motion_; }
 	/// Slip, where force and moment are beyond the strength of the joint as it is. Returns whether there is any.
 	bool limit(const RockJointPhys& phys, Real normal);
 	/// Viscous force and moment of these dampers [N s/m], [N m s/rad], as far as the strength goes.

@@ -3,6 +3,8 @@
 
 #include <pkg/common/ElastMat.hpp>
 
+#include "material/JointLaws.hpp"
+
 #include <array>
 
 namespace yade {
@@ -34,6 +36,9 @@ public:
 		((Real, residualFrictionAngle, -1, Attr::triggerPostLoad, "Friction angle after the joint has failed (first slip, or tension) [rad], from 0 to below $\\pi/2$; -1: the same as :yref:`frictionAngle<RockJointMat.frictionAngle>`."))
 		((Real, dilationAngle, 0, Attr::triggerPostLoad, "Dilation angle $\\psi$ [rad], from 0 to below $\\pi/2$: a joint that has slipped by $u$ in total is wider by $u\\tan\\psi$. Not above the friction angle in any real joint."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest widening by dilation [m], at least 0 (infinity: none); the height of the joint's asperities."))
+		((shared_ptr<JointClosure>, closure, , Attr::triggerPostLoad, "Normal law of a joint that stiffens as it closes: :yref:`HyperbolicClosure` or :yref:`PowerClosure`; None: a linear spring. Needs *tensileStrength* 0."))
+		((shared_ptr<JointStrength>, strength, , Attr::triggerPostLoad, "Shear law in place of Mohr-Coulomb with dilation: :yref:`BartonBandisStrength` or :yref:`ContinuouslyYieldingStrength`, whose residual friction is :yref:`frictionAngle<RockJointMat.frictionAngle>`; None: Mohr-Coulomb. Cohesion, tensile strength, dilation and residual values belong to Mohr-Coulomb and are refused beside it."))
+		((Real, reduction, 1, Attr::triggerPostLoad, "What $\\tan\\phi$ of :yref:`strength<RockJointMat.strength>` is divided by [-], above 0, at each stress and displacement: *polytope.factorOfSafety* sets it. Of Mohr-Coulomb the values themselves are divided."))
 		, /*ctor*/ createIndex();
 		, /*py*/
 		.add_property("frictionAngle", &RockJointMat::getFrictionAngle, &RockJointMat::setFrictionAngle, "Friction angle $\\phi$ of the joint [rad], from 0 to below $\\pi/2$ (in scripts: *radians(degrees)*). Contacts take it when they are made; afterwards change :yref:`FrictPhys.tangensOfFrictionAngle` of their physics.")
@@ -42,10 +47,15 @@ public:
 	REGISTER_CLASS_INDEX(RockJointMat, FrictMat);
 
 private:
-	using Values = std::array<Real, 10>;
+	using Values = std::array<Real, 11>;
 	Values values() const;
 	void   setValues(const Values& values);
-	Values good_ = values();
+	/// Refuses what does not belong to the laws that the material has.
+	void refuseForLaws() const;
+
+	Values                    good_ = values();
+	shared_ptr<JointClosure>  goodClosure_;
+	shared_ptr<JointStrength> goodStrength_;
 };
 REGISTER_SERIALIZABLE(RockJointMat);
 

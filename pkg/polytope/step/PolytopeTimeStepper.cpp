@@ -3,8 +3,9 @@
 
 #include <pkg/common/PeriodicEngines.hpp>
 
-#include "pairs/PolytopeCollider.hpp"
 #include "host/SpringsOfScene.hpp"
+#include "joint/RockJointLaw.hpp"
+#include "pairs/PolytopeCollider.hpp"
 
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -43,8 +44,10 @@ namespace {
 bool PolytopeTimeStepper::isActivated()
 {
 	if (!active) return false;
-	return !hasRun_ || bodies_ != scene->bodies->size() || springs_ != springsMade(*scene) || isErased(limitingBody, *scene)
-	        || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
+	const auto* const law       = dampingLaw(*scene);
+	const bool        stiffened = law && law->hasStiffened();
+	return stiffened || !hasRun_ || bodies_ != scene->bodies->size() || springs_ != springsMade(*scene)
+	        || isErased(limitingBody, *scene) || scene->iter % long(math::max(timeStepUpdateInterval, 1u)) == 0;
 }
 
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)

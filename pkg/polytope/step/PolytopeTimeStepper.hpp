@@ -10,7 +10,7 @@ namespace yade {
 
 class PolytopeTimeStepper : public TimeStepper, public FindsTimeStep {
 public:
-	/// Active in steps that are multiples of the interval, in its first step, when bodies, bonds or bolts were added, and when the one that limits the time step
+	/// Active in steps that are multiples of the interval, where a joint has stiffened (JointClosure), in its first step, when bodies, bonds or bolts were added, and when the one that limits the time step
 	/// was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;

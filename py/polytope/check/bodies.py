@@ -22,7 +22,7 @@ seldom by 100."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, flatBoxes, frictionAngle, tension, elasticConstants):
+	for one in (density, mass, size, flatBoxes, frictionAngle, tension, jointLaws, elasticConstants):
 		yield from one(scene)
 
 
@@ -107,6 +107,25 @@ def tension(scene):
 		if material.tensileStrength > 0:
 			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint with a stiffness per contact pulls at one point and does not resist bending'
 			yield 'tension', seen, 'stiffnessPerArea=True, or polytope.bond() after O.engines is set: faces then hold over their whole area'
+
+
+def jointLaws(scene):
+	"""Both materials of a joint must have a law for it to hold."""
+	all = {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values()
+	for name in ('closure', 'strength'):
+		# what is smooth is meant to be
+		materials = [material for material in all if name == 'closure' or material.frictionAngle > 0]
+		kinds = {type(getattr(material, name)).__name__ for material in materials}
+		if len(kinds) > 1:
+			without = next((material for material in materials if getattr(material, name) is None), None)
+			seen = f'RockJointMats have different laws in {name}: {", ".join(sorted(kinds - {"NoneType"}))}'
+			seen += f', and {without.label!r} has none' if without else ''
+			usual = 'a linear spring' if name == 'closure' else 'Mohr-Coulomb with the smaller frictionAngle'
+			yield (
+				'joint laws',
+				f'{seen}; a joint between two of them has {usual}',
+				f'give both the same kind of law in {name}, if joints between them should have it',
+			)
 
 
 def _jointMakers(scene):

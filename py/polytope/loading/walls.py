@@ -90,8 +90,8 @@ class WalledSample(Sample):
 
 
 def smooth(material, frictionAngle=0):
-	"""A material like this one, of another friction angle."""
-	attributes = {key: value for key, value in material.dict().items() if key not in ('id', 'label')}
+	"""A material like this one, of another friction angle, and without a shear law of its own."""
+	attributes = {key: value for key, value in material.dict().items() if key not in ('id', 'label', 'strength', 'reduction')}
 	return type(material)(**{**attributes, 'frictionAngle': frictionAngle})
 
 

@@ -109,6 +109,11 @@ def _refuseStrength(field, faces, largest):
 		materials = [materialOf(face, k) for k in (face.id1, face.id2)]
 		if not all(isinstance(material, RockJointMat) for material in materials):
 			raise ValueError(f'bodies: the joint between {face.id1} and {face.id2} is not between two RockJointMat')
+		if any(material.closure for material in materials):
+			raise ValueError(
+				f'bodies: the joint between {face.id1} and {face.id2} has a closure of its own; a stress is given by linear springs '
+				'(RockJointMat.closure=None)'
+			)
 		cohesion = min(float(material.cohesion) for material in materials)
 		friction = min(float(material.frictionAngle) for material in materials)
 		if shear > cohesion + normal * math.tan(friction) + rounding * largest:

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Thresholds of joint laws, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
+namespace polytope::tolerance {
+
+/// Of the maximum closure: from there on a closing joint goes on with the stiffness that it has there, 10 000 times the initial one. Its pressure is 99 times
+/// initial stiffness × maximum closure there, more than rock bears; without an end a single step could leave it beyond the pole.
+constexpr double closureEnd = 0.99;
+
+/// Of the maximum closure: the energy's closed form loses digits with the square of closures below this; a series takes its place, whose terms fall
+/// by this factor.
+constexpr double smallClosure = 0.05;
+
+/// Growth of a closing joint's stiffness from which on the time step is computed anew: with the default safety coefficient of 0.4 the step is then still
+/// below 0.6 of what is stable.
+constexpr double stiffening = 2;
+
+/// Largest friction angle of Barton's equation, dilation included [degrees]: Barton & Choubey (1977) advise not to go beyond 70°, where stresses are
+/// so low that the logarithm has no meaning.
+constexpr double steepestBarton = 70;
+
+/// Largest τ/τₘ that a continuously-yielding joint remembers of where its motion turned back, as in UDEC: F would have no bound near 1.
+constexpr double mostAtReversal = 0.75;
+
+/// Least shear stiffness of a continuously-yielding joint, over that at the reference stress: one without any has no shear force that could be turned
+/// into a displacement.
+constexpr double softestShear = 0.01;
+
+} // namespace polytope::tolerance
