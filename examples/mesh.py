@@ -6,11 +6,11 @@
 import os
 from math import radians
 
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
+from yade import O, RockJointMat, polytope
 from yade.polytope.pictures import picture
 
 pebble = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pebble.obj')  # in centimetres
-O.materials.append(RockJointMat(density=2600, normalStiffness=1e6, shearStiffness=7e5, frictionAngle=radians(30)))
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e6, shearStiffness=7e5, stiffnessPerArea=False, frictionAngle=radians(30)))
 
 tray = [((0, 0, -0.01), (0.16, 0.16, 0.01)), ((-0.15, 0, 0.06), (0.01, 0.16, 0.06)), ((0.15, 0, 0.06), (0.01, 0.16, 0.06))]
 tray += [((0, -0.15, 0.06), (0.14, 0.01, 0.06)), ((0, 0.15, 0.06), (0.14, 0.01, 0.06))]
@@ -19,7 +19,7 @@ for k in range(20):
 	place = (0.12 * (k % 2) - 0.06, 0.12 * (k // 2 % 2) - 0.06, 0.05 + 0.07 * (k // 4))
 	O.bodies.append(polytope.fromMesh(pebble, scale=0.007 + 0.0002 * k, center=place, color=(0.80, 0.70 - 0.015 * k, 0.55 - 0.02 * k)))
 
-O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+O.engines = polytope.engines()
 while O.time < 1.5:
 	O.run(1000, wait=True)
 print('volume of the smallest pebble:', O.bodies[5].shape.volume, 'm³, with', len(O.bodies[5].shape.normals), 'planes')

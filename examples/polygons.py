@@ -6,10 +6,10 @@
 from math import cos, pi, radians, sin
 from random import Random
 
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
+from yade import O, RockJointMat, polytope
 from yade.polytope.pictures import picture
 
-O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, frictionAngle=radians(25)))
+O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, stiffnessPerArea=False, frictionAngle=radians(25)))
 
 # convex bodies only: the hopper is two slabs, the floor a third
 slabs = [[(-3, 2.2), (-0.5, 0.6), (-0.5, 0.4), (-3, 2)], [(3, 2.2), (0.5, 0.6), (0.5, 0.4), (3, 2)]]
@@ -21,7 +21,7 @@ for k in range(72):
 	angles = [2 * pi * (i + random.uniform(0, 0.4)) / corners for i in range(corners)]
 	O.bodies.append(polytope.polygon([(x + 0.12 * cos(a), y + 0.12 * sin(a)) for a in angles]))
 
-O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+O.engines = polytope.engines()
 while O.time < 2:
 	O.run(1000, wait=True)
 picture('output/polygons.png', colorBy='speed', legend='speed [m/s]')

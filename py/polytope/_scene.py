@@ -7,9 +7,11 @@ from yade import (
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	NewtonIntegrator,
 	O,
+	RockJointMat,
 )
 
 __all__ = [
@@ -19,6 +21,8 @@ __all__ = [
 	'geometryFunctors',
 	'integrators',
 	'interactionLoops',
+	'isPerArea',
+	'jointMakers',
 	'laws',
 	'meanwhile',
 	'placeOfForces',
@@ -55,10 +59,21 @@ def laws():
 	return [functor for functor in functors if isinstance(functor, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb)]
 
 
+def jointMakers(loops):
+	"""The functors of these loops that make rock joints."""
+	return [one for loop in loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
+
+
+def isPerArea(material, makers):
+	"""Whether the stiffnesses of a RockJointMat are taken per area."""
+	return material.stiffnessPerArea and all(one.stiffnessPerArea for one in makers)
+
+
 def stiffnessesPerArea(loops):
-	"""Whether these loops make joints whose stiffness is per area."""
-	makers = (functor for loop in loops for functor in loop.physDispatcher.functors)
-	return any(getattr(functor, 'stiffnessPerArea', False) for functor in makers)
+	"""Whether these loops make joints whose stiffness is per area, of one of the scene's materials at least."""
+	makers = jointMakers(loops)
+	joints = [material for material in O.materials if isinstance(material, RockJointMat)]
+	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
 
 
 def canMove(body):

@@ -110,6 +110,7 @@ class FallingPolyhedra:
 		                density=self.density,
 		                normalStiffness=self.normalStiffness,
 		                shearStiffness=self.stiffnessRatio * self.normalStiffness,
+		                stiffnessPerArea=False,
 		                frictionAngle=self.frictionAngle
 		        )
 		)
@@ -118,7 +119,7 @@ class FallingPolyhedra:
 		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom()
 		self.interactionLoop = InteractionLoop(
 		        [self.geometryFunctor],
-		        [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
+		        [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
 		        [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 		)
 		O.engines = [

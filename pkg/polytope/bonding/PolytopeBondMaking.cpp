@@ -108,10 +108,15 @@ namespace {
 		};
 		using Mat          = RockJointMat;
 		const auto smaller = [](Real a, Real b) { return math::min(a, b); };
-		take(bond.normalStiffness, "normalStiffness",
-		        [](const Mat& a, const Mat& b) { return inSeries(a.normalStiffness, b.normalStiffness); });
-		take(bond.shearStiffness, "shearStiffness",
-		        [](const Mat& a, const Mat& b) { return inSeries(a.shearStiffness, b.shearStiffness); });
+		const auto stiffness = [&](Real& value, const char* name, Real Mat::*of) {
+			take(value, name, [&](const Mat& a, const Mat& b) {
+				if (!a.stiffnessPerArea || !b.stiffnessPerArea)
+					refuseBond(std::string(name) + ": must be given per area [Pa/m], that of the RockJointMat is per contact [N/m]");
+				return inSeries(a.*of, b.*of);
+			});
+		};
+		stiffness(bond.normalStiffness, "normalStiffness", &Mat::normalStiffness);
+		stiffness(bond.shearStiffness, "shearStiffness", &Mat::shearStiffness);
 		take(bond.frictionAngle, "frictionAngle",
 		        [&](const Mat& a, const Mat& b) { return smaller(a.frictionAngle, b.frictionAngle); });
 		takeStrengths(bond, m1, m2);

@@ -127,8 +127,9 @@ namespace {
 
 StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const Material& material1, const Material& material2) const
 {
-	if (!dynamic_cast<const RockJointMat*>(&material1) || !dynamic_cast<const RockJointMat*>(&material2)) return StiffnessRule::Unknown;
-	return stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
+	const auto *joint1 = dynamic_cast<const RockJointMat*>(&material1), *joint2 = dynamic_cast<const RockJointMat*>(&material2);
+	if (!joint1 || !joint2) return StiffnessRule::Unknown;
+	return stiffnessPerArea && joint1->stiffnessPerArea && joint2->stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
 }
 
 void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
@@ -147,8 +148,13 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 		return rule ? (*rule)(m1.id, m2.id, v1, v2) : otherwise;
 	};
 
-	const Real normal = of(kn, m1.normalStiffness, m2.normalStiffness, seriesStiffness(m1.normalStiffness, m2.normalStiffness));
-	const Real shear  = of(ks, m1.shearStiffness, m2.shearStiffness, seriesStiffness(m1.shearStiffness, m2.shearStiffness));
+	const StiffnessRule rule    = stiffnessRule(m1, m2);
+	const bool          perArea = rule == StiffnessRule::PerArea;
+	// in different units, that of a contact alone
+	const bool          differ = stiffnessPerArea && m1.stiffnessPerArea != m2.stiffnessPerArea;
+	const RockJointMat &side1 = differ && m1.stiffnessPerArea ? m2 : m1, &side2 = differ && m2.stiffnessPerArea ? m1 : m2;
+	const Real normal = of(kn, side1.normalStiffness, side2.normalStiffness, seriesStiffness(side1.normalStiffness, side2.normalStiffness));
+	const Real shear  = of(ks, side1.shearStiffness, side2.shearStiffness, seriesStiffness(side1.shearStiffness, side2.shearStiffness));
 
 	auto       phys              = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
 	const Real angle             = of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle));
@@ -170,19 +176,19 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 	if (auto* geom = dynamic_cast<PolytopeGeom*>(contact->geom.get())) {
 		if (phys->laws.get() && !phys->laws.get()->closure.isLinear()) geom->closure.make().law = phys->laws.get()->closure;
 		else geom->closure.clear();
-		geom->stiffnessRule = std::int8_t(stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact);
+		geom->stiffnessRule = std::int8_t(rule);
 		geom->needsArea     = true;              // shear acts over it
 		phys->contactArea   = geom->contactArea; // a new contact's geometry has it already
-		(stiffnessPerArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
-		(stiffnessPerArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
+		(perArea ? phys->normalStiffness : phys->normalStiffnessPerContact) = normal;
+		(perArea ? phys->shearStiffness : phys->shearStiffnessPerContact)   = shear;
 		phys->setStiffnesses(geom->share);
 		const KnowsBonds* const bonds = bonds_.in(*scene);
 		BondRemains             remains;
 		if (bonds && bonds->left(contact->getId1(), contact->getId2(), remains)) takeOver(*phys, remains, *contact, *scene);
 	} else {
 		phys->contactArea = nominalArea(contact->geom.get());
-		phys->kn          = stiffnessPerArea ? normal * phys->contactArea : normal;
-		phys->ks          = stiffnessPerArea ? shear * phys->contactArea : shear;
+		phys->kn          = perArea ? normal * phys->contactArea : normal;
+		phys->ks          = perArea ? shear * phys->contactArea : shear;
 	}
 	contact->phys = phys;
 }

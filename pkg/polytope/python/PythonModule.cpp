@@ -133,15 +133,16 @@ struct Contact {
 	std::string status() const { return polytope::statusName(result.status); }
 };
 
-/// Of a contact of two bodies in the scene; without engines that say so, rock joints have a stiffness per area.
+/// Of a contact of two bodies in the scene; without engines that say so, by the materials.
 yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 {
 	const auto &material1 = body1.material, &material2 = body2.material;
 	if (!material1 || !material2) return yade::StiffnessRule::Unknown;
 	const auto rule = yade::stiffnessRuleOfNew(*yade::Omega::instance().getScene(), *material1, *material2);
 	if (rule != yade::StiffnessRule::Unknown) return rule;
-	const auto isJoint = [](const yade::Material& material) { return dynamic_cast<const yade::RockJointMat*>(&material) != nullptr; };
-	return isJoint(*material1) && isJoint(*material2) ? yade::StiffnessRule::PerArea : yade::StiffnessRule::Unknown;
+	const auto *joint1 = dynamic_cast<const yade::RockJointMat*>(material1.get()), *joint2 = dynamic_cast<const yade::RockJointMat*>(material2.get());
+	if (!joint1 || !joint2) return yade::StiffnessRule::Unknown;
+	return joint1->stiffnessPerArea && joint2->stiffnessPerArea ? yade::StiffnessRule::PerArea : yade::StiffnessRule::PerContact;
 }
 
 Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,

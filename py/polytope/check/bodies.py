@@ -6,6 +6,7 @@ import math
 import numpy as np
 from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
+from .._scene import isPerArea, jointMakers
 from ..bonding import bonds
 
 __all__ = ['bodyFindings']
@@ -22,7 +23,7 @@ seldom by 100."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, flatBoxes, frictionAngle, tension, jointLaws, elasticConstants):
+	for one in (density, mass, size, flatBoxes, frictionAngle, tension, units, jointLaws, elasticConstants):
 		yield from one(scene)
 
 
@@ -101,12 +102,24 @@ def frictionAngle(scene):
 
 def tension(scene):
 	"""With a stiffness per area such a joint is a bond of its faces."""
-	if (bonds() and bonds().bonds) or all(makers.stiffnessPerArea for makers in _jointMakers(scene)):
+	if bonds() and bonds().bonds:
 		return
+	makers = jointMakers(scene.loops)
 	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
-		if material.tensileStrength > 0:
+		if material.tensileStrength > 0 and not isPerArea(material, makers):
 			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint with a stiffness per contact pulls at one point and does not resist bending'
 			yield 'tension', seen, 'stiffnessPerArea=True, or polytope.bond() after O.engines is set: faces then hold over their whole area'
+
+
+def units(scene):
+	"""Joints of two materials whose stiffnesses are in different units."""
+	used = {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values()
+	makers = jointMakers(scene.loops)
+	perArea = [material for material in used if isPerArea(material, makers)]
+	perContact = [material for material in used if not isPerArea(material, makers)]
+	if perArea and perContact:
+		seen = f'stiffnesses of RockJointMat {perArea[0].label!r} are per area [Pa/m], of {perContact[0].label!r} per contact [N/m]'
+		yield 'units', seen, 'a joint of both has the stiffness of the latter alone; give both in one unit (RockJointMat.stiffnessPerArea)'
 
 
 def jointLaws(scene):
@@ -126,10 +139,6 @@ def jointLaws(scene):
 				f'{seen}; a joint between two of them has {usual}',
 				f'give both the same kind of law in {name}, if joints between them should have it',
 			)
-
-
-def _jointMakers(scene):
-	return [one for loop in scene.loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
 
 
 def elasticConstants(scene):

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import Box, Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall, _polytope
+from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
+from .._scene import isPerArea, jointMakers
 from ..arrays import arrays
 from ..bonding import madeBonds
 
@@ -233,25 +234,23 @@ def _width(shape):
 
 def stiffness(scene):
 	"""A body on one of its faces, of the mean size of those of its volume, against another one of its material."""
-	makers = [
-		one for loop in scene.loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)
-	]
+	makers = jointMakers(scene.loops)
 	if not makers or makers[0].kn:  # a MatchMaker: its values are not known here
 		return
 	deepest, worst, gravity = 0.0, None, scene.gravity()
 	for body in scene.bodies:
 		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and body.dynamic and not body.isClumpMember:
-			share = _overlap(body, makers[0].stiffnessPerArea, gravity)
+			share = _overlap(body, isPerArea(body.material, makers), gravity)
 			if share > deepest:
 				deepest, worst = share, body
 	if deepest <= softest:
 		return
-	perArea = makers[0].stiffnessPerArea
+	perArea = isPerArea(worst.material, makers)
 	unit, other = ('Pa/m', 'N/m') if perArea else ('N/m', 'Pa/m')
 	value = f'normalStiffness {float(worst.material.normalStiffness):.3g} {unit}'
 	seen = f'{value}: body {worst.id} sinks in by {deepest:.2g} of its inscribed radius, by its weight or speed'
 	advice = (
-		f'a higher normalStiffness; if it is meant in {other}: Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea={not perArea})'
+		f'a higher normalStiffness; if it is meant in {other}: RockJointMat(stiffnessPerArea={not perArea})'
 	)
 	yield 'stiffness', seen, advice
 

@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import Box, Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall, _polytope
+from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
 from .._faces import worldVertices
+from .._scene import isPerArea, jointMakers
 
 __all__ = ['softJoints', 'stableTilt']
 
@@ -63,12 +64,10 @@ def softJoints(scene):
 	"""Blocks that stand on a face; those that slide before they topple lose nothing."""
 	gravity = max((np.array([float(g) for g in engine.gravity]) for engine in scene.integrators), key=np.linalg.norm, default=np.zeros(3))
 	size = float(np.linalg.norm(gravity))
-	makers = [
-		one for loop in scene.loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)
-	]
-	if not size > 0 or not makers or not makers[0].stiffnessPerArea or makers[0].kn:  # a MatchMaker: its values are not known here
+	makers = jointMakers(scene.loops)
+	if not size > 0 or not makers or makers[0].kn:  # a MatchMaker: its values are not known here
 		return
-	bodies = [body for body in scene.bodies if _mayTopple(body)]
+	bodies = [body for body in scene.bodies if _mayTopple(body) and isPerArea(body.material, makers)]
 	bases = [base for body in bodies[:: max(1, len(bodies) // most)] for base in _bases(body, gravity / size)]
 	if not bases:
 		return

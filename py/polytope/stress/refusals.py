@@ -8,7 +8,7 @@ from yade import O, Polytope, RockJointMat
 
 from .._faces import worldVertices
 from .._ranks import refuseDivided
-from .._scene import canMove, geometryFunctors, interactionLoops, laws
+from .._scene import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, laws
 from .._stages import refuseMatchMaker
 from ..bonding import madeBonds
 from ..heap import moverOf, namedBodies
@@ -47,16 +47,12 @@ def refuseScene(chosen):
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
 	if O.periodic:
 		raise ValueError('O.periodic: blocks get their stress between fixed blocks; in a periodic cell strain the cell instead')
-	perArea = [
-		functor.stiffnessPerArea
-		for loop in interactionLoops()
-		for functor in loop.physDispatcher.functors
-		if hasattr(functor, 'stiffnessPerArea')
-	]
-	if not laws() or not perArea:
+	makers = jointMakers(interactionLoops())
+	if not laws() or not makers:
 		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
 	models = {functor.contactModel for functor in geometryFunctors()}
-	if not all(perArea) or not models <= {'surface', 'foundation'}:
+	joints = [material for material in O.materials if isinstance(material, RockJointMat)]
+	if not all(isPerArea(material, makers) for material in joints) or not models <= {'surface', 'foundation'}:
 		raise ValueError(
 			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
 		)
