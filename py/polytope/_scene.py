@@ -23,6 +23,7 @@ __all__ = [
 	'interactionLoops',
 	'isPerArea',
 	'jointMakers',
+	'jointMaterials',
 	'laws',
 	'meanwhile',
 	'placeOfForces',
@@ -64,6 +65,12 @@ def jointMakers(loops):
 	return [one for loop in loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
 
 
+def jointMaterials():
+	"""RockJointMats of the scene's bodies. O.materials is not asked: reading it ends the process where a material was added twice."""
+	used = [body.material for body in O.bodies]
+	return list({id(material): material for material in used if isinstance(material, RockJointMat)}.values())
+
+
 def isPerArea(material, makers):
 	"""Whether the stiffnesses of a RockJointMat are taken per area."""
 	return material.stiffnessPerArea and all(one.stiffnessPerArea for one in makers)
@@ -72,7 +79,7 @@ def isPerArea(material, makers):
 def stiffnessesPerArea(loops):
 	"""Whether these loops make joints whose stiffness is per area, of one of the scene's materials at least."""
 	makers = jointMakers(loops)
-	joints = [material for material in O.materials if isinstance(material, RockJointMat)]
+	joints = jointMaterials()
 	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
 
 

@@ -14,7 +14,7 @@ def rock(**attributes):
 
 def blockOnFloor(floor, block, physics=None, gap=-1e-4):
 	"""A cube of 2 m on a slab; materials by the order in which they are given."""
-	O.materials.append([floor, block])
+	O.materials.append([floor, block] if block is not floor else floor)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (4, 4, 1), fixed=True, material=floor))
 	O.bodies.append(polytope.cuboid((0, 0, 1 + gap), (1, 1, 1), material=block))
 	O.engines = polytope.engines(physics=physics or Ip2_RockJointMat_RockJointMat_RockJointPhys(), gravity=(0, 0, -9.81), damping=0.2)
@@ -66,13 +66,13 @@ def testAContactWithoutAScene():
 		O.reset()
 		O.materials.append(rock(stiffnessPerArea=isPerArea))
 		lower = polytope.cuboid((0, 0, -1), (1, 1, 1))
-		upper = polytope.cuboid((0.1, 0.2, 0.99), (1, 1, 1))
+		upper = polytope.cuboid((1.95, 1.9, 0.8), (1, 1, 1))
 		depths[isPerArea] = float(polytope.contact(lower, upper).depth)
 		O.bodies.append([lower, upper])
 		O.engines = polytope.engines(gravity=(0, 0, 0))
 		O.step()
 		assert float(O.interactions[0, 1].geom.penetrationDepth) == pytest.approx(depths[isPerArea], rel=1e-9)
-	assert depths[True] != pytest.approx(depths[False], rel=1e-4)
+	assert depths[True] != pytest.approx(depths[False], rel=1e-2)
 
 
 def testABondIsPerArea():

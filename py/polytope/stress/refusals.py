@@ -8,7 +8,7 @@ from yade import O, Polytope, RockJointMat
 
 from .._faces import worldVertices
 from .._ranks import refuseDivided
-from .._scene import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, laws
+from .._scene import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
 from .._stages import refuseMatchMaker
 from ..bonding import madeBonds
 from ..heap import moverOf, namedBodies
@@ -51,8 +51,7 @@ def refuseScene(chosen):
 	if not laws() or not makers:
 		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
 	models = {functor.contactModel for functor in geometryFunctors()}
-	joints = [material for material in O.materials if isinstance(material, RockJointMat)]
-	if not all(isPerArea(material, makers) for material in joints) or not models <= {'surface', 'foundation'}:
+	if not all(isPerArea(material, makers) for material in jointMaterials()) or not models <= {'surface', 'foundation'}:
 		raise ValueError(
 			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
 		)
