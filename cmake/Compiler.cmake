@@ -4,7 +4,7 @@
 
 # Release is what users and tests run. The level of optimisation is chosen per layer (see polytope_optimise): the core's
 # loops gain from -O3, YADE's class macros only take longer to compile.
-if(NOT CMAKE_BUILD_TYPE)
+if(NOT CMAKE_BUILD_TYPE AND PROJECT_IS_TOP_LEVEL)
 	set(CMAKE_BUILD_TYPE Release CACHE STRING "Release or Debug" FORCE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-DNDEBUG")
@@ -23,7 +23,7 @@ endif()
 add_library(polytope_options INTERFACE)
 target_compile_options(polytope_options INTERFACE -Wall -Wextra)
 # Warnings are errors with the compiler we develop with; what another one finds must not stop a user's build.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\.")
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^14\\.")
 	# false warnings of g++ 14 where it inlines Eigen's expressions
 	target_compile_options(polytope_options INTERFACE -Werror -Wno-error=maybe-uninitialized)
 endif()
@@ -48,12 +48,12 @@ endif()
 # the one-definition rule is broken. Loops that want SIMD work on plain arrays.
 target_compile_definitions(polytope_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_ALIGN EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
 
-# polytope_optimise(<target> <flags for a release build>…)
+# polytope_optimise(<target> <flags unless it is a debug build>…)
 function(polytope_optimise target)
 	if(POLYTOPE_SANITIZE)
 		return() # with checks, optimisation takes long and gains nothing
 	endif()
 	foreach(flag IN LISTS ARGN)
-		target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${flag}>)
+		target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:${flag}>)
 	endforeach()
 endfunction()

@@ -52,9 +52,9 @@ foreach(library IN LISTS YADE_PLUGIN_LIBRARIES)
 	list(APPEND yade_libraries "${YADE_LIBRARY_DIR}/${library}")
 endforeach()
 
-# YADE's Real for a target without YADE's classes: all that includes src/numbers/Real.hpp.
+# YADE's Real, which polytope/config.hpp names, for a target without YADE's classes.
 function(polytope_use_yade_real target)
-	target_compile_definitions(${target} PUBLIC ${YADE_DEFINITIONS} "POLYTOPE_REAL=yade::Real" "POLYTOPE_REAL_HEADER=<lib/high-precision/Real.hpp>")
+	target_compile_definitions(${target} PUBLIC ${YADE_DEFINITIONS})
 	target_include_directories(${target} SYSTEM PUBLIC "${YADE_SOURCE_DIR}")
 	target_link_libraries(${target} PUBLIC Boost::headers Python3::Module $<$<EQUAL:${YADE_REAL_BIT},128>:quadmath>)
 	# YADE's own; float128's literals are no standard C++

@@ -69,7 +69,7 @@ namespace {
 
 	// The kernel is compiled once per instruction set through function attributes, not per-file flags: inline functions
 	// of libraries that the linker merges across files stay baseline code.
-#if defined(__x86_64__) && !defined(POLYTOPE_REAL)
+#if defined(__x86_64__) && POLYTOPE_REAL_IS_DOUBLE
 #define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
 	template <int D, bool Surface>                                                                                                     \
 	__attribute__((target(TARGET))) void NAME(                                                                                         \
@@ -110,11 +110,25 @@ namespace {
 
 	const Kernels kernels = chooseKernels();
 
+	/// Whether both bodies have these planes: a body whose shape was exchanged must not be read beyond its own.
+	bool fits(const std::array<int, 4>& basis, const ConvexShape& shape1, const ConvexShape& shape2)
+	{
+		const int count[2] = { shape1.planeCount(), shape2.planeCount() }, least = 2 * std::min(count[0], count[1]) - 1;
+		int       beyond = 0; // negative where one of them is, or where the body of fewer planes might not have it
+		for (int code : basis)
+			beyond |= code | (int(unsigned(least) - unsigned(code)));
+		if (beyond >= 0) return true;
+		for (int code : basis)
+			if (code < 0 || (code >> 1) >= count[code & 1]) return false;
+		return true;
+	}
+
 } // namespace
 
 void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
         const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
+	if (memory.hasBasis && !fits(memory.basis, shape1, shape2)) memory.hasBasis = memory.hasPoint = false;
 	const bool   surface = hasSurface(settings.contactModel);
 	const Kernel kernel  = (shape1.dimension() == 2 ? kernels.flat : kernels.solid)[surface];
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair

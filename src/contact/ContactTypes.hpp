@@ -97,15 +97,15 @@ struct ContactSettings {
 	bool timed = false;
 };
 
-/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction.
+/// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction. Any value is safe, also of another pair.
 struct PairMemory {
 	bool               hasBasis = false;         ///< `basis` is known, and, without a point, `weights`
 	bool               hasPoint = false;         ///< `point` and `dualDirection` are known
 	std::array<int, 4> basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
-	/// LP dual λ of the basis' first planes (the last one's is the rest). Any value is safe.
+	/// LP dual λ of the basis' first planes (the last one's is the rest).
 	Vector3                weights { Vector3::Zero() };
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
-	/// Last n_λ, world axes. Any value is safe.
+	/// Last n_λ, world axes.
 	Vector3 dualDirection { Vector3::Zero() };
 	/// Of the models with a surface.
 	KeptVertices surface;
@@ -144,7 +144,7 @@ struct ContactResult {
 };
 
 /// Buffers of one thread; grow to the largest pair seen, and keep that size.
-class ContactWorkspace {
+class POLYTOPE_API ContactWorkspace {
 public:
 	Real* rows(int rowCount, int length);
 	Real* polygons(int length);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Export.hpp"
+
 namespace polytope {
 
 /// How one contact query ended. answered() says which of these are the answer that was asked for; the names are what scripts read.
@@ -43,6 +45,6 @@ constexpr bool answered(ContactStatus status)
 }
 
 /// The name scripts see, e.g. "contact".
-const char* statusName(ContactStatus status);
+POLYTOPE_API const char* statusName(ContactStatus status);
 
 } // namespace polytope

@@ -141,6 +141,18 @@ constexpr int  ipoptRounds = 20;
 /// bodies of ten thousand faces has some hundred where they touch; one with more is taken as a contact at one point.
 constexpr int overlapFaces = 512;
 
+/// × reach of the pair: distances below this are rounding of the vertices' places, and the bodies touch; and steps of the distance's iterations that gain
+/// less than this end them (PairDistance.hpp). Places of vertices are rounded by 4 × rounding.
+constexpr Real distance = 16 * rounding;
+
+/// Steps of those iterations, at the most, per vertex and at least. A step that gains enters a vertex that no earlier set of vertices had, so that they end by
+/// themselves; they have taken less than one per vertex.
+constexpr int distanceSteps = 4, distanceStepsAtLeast = 64;
+
+/// Rotation matrices of a query: how far products of their columns may be from those of unit vectors (Preconditions.hpp). Orientations that an integrator turns
+/// and normalises stay within some roundings; a matrix that is farther off is a mistake.
+constexpr double orthogonal = 1e-6;
+
 /// Planes up to which sorting by insertion is faster than std::sort.
 constexpr int fewPlanes = 64;
 

@@ -14,6 +14,6 @@ struct ClosestPoint {
 
 /// Outside: the nearest point of the faces whose plane the query point is beyond (Ericson 2005, Real-Time Collision
 /// Detection, section 5.1.5, with polygons for triangles). Inside: the nearest face's plane. Exact up to rounding.
-ClosestPoint closestPoint(const ConvexShape& shape, const Vector3& query);
+POLYTOPE_API ClosestPoint closestPoint(const ConvexShape& shape, const Vector3& query);
 
 } // namespace polytope

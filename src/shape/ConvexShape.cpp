@@ -73,6 +73,15 @@ std::shared_ptr<const ConvexShape> ConvexShape::halfSpace(const Vector3& unitNor
 	return wall;
 }
 
+const Vector3& ConvexShape::support(const Vector3& direction) const
+{
+	const auto& vertices = polyhedron_.vertices;
+	std::size_t farthest = 0;
+	for (std::size_t k = 1; k < vertices.size(); ++k)
+		if (vertices[k].dot(direction) > vertices[farthest].dot(direction)) farthest = k;
+	return vertices[farthest];
+}
+
 Real ConvexShape::widthAlong(const Vector3& direction) const
 {
 	if (polyhedron_.vertices.empty()) return std::numeric_limits<Real>::infinity();

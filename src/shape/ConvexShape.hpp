@@ -13,7 +13,7 @@ namespace polytope {
 
 /// A validated convex particle in its body frame, immutable: what the contact path reads (padded plane arrays, inscribed
 /// ball) and what everything else reads (vertices, faces, mass properties). Bodies of equal planes share one.
-class ConvexShape {
+class POLYTOPE_API ConvexShape {
 public:
 	/// Refuses (std::invalid_argument naming `normals`, `offsets`, `dimension`, `thickness` or `cornerRadius`) everything
 	/// normalised() and polyhedron() refuse, and a cornerRadius that is negative, not finite, or not smaller than
@@ -60,6 +60,9 @@ public:
 
 	/// Radius of the smallest ball about the body's origin that holds it.
 	Real boundingRadius() const { return boundingRadius_; }
+
+	/// The vertex that is farthest along a direction of the body's axes (any length). Not of a half-space, which has none.
+	const Vector3& support(const Vector3& direction) const;
 
 	/// Extent along a unit vector of the body's axes; infinite for a half-space.
 	Real widthAlong(const Vector3& direction) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Export.hpp"
 #include "numbers/Real.hpp"
 
 #include <vector>
@@ -26,13 +27,13 @@ struct HalfSpaces {
 /// The same set with unit normals. Refuses (std::invalid_argument, naming `normals`, `offsets` or `dimension` and the
 /// remedy): lengths that differ, NaN or infinite values, a zero normal, fewer than dimension + 1 planes, in 2-D a
 /// normal that leaves the xy plane, a dimension other than 2 or 3.
-HalfSpaces normalised(const HalfSpaces& input);
+POLYTOPE_API HalfSpaces normalised(const HalfSpaces& input);
 
 /// Without planes that repeat another one (same normal and offset to rounding; of parallel planes that differ in offset
 /// both are kept: the looser is redundant, not duplicate). Order of first appearance kept.
-HalfSpaces withoutDuplicates(const HalfSpaces& unit);
+POLYTOPE_API HalfSpaces withoutDuplicates(const HalfSpaces& unit);
 
 /// The set moved by the rigid motion x ↦ rotation·x + translation.
-HalfSpaces moved(const HalfSpaces& set, const Matrix3& rotation, const Vector3& translation);
+POLYTOPE_API HalfSpaces moved(const HalfSpaces& set, const Matrix3& rotation, const Vector3& translation);
 
 } // namespace polytope

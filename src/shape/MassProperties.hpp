@@ -16,7 +16,7 @@ struct MassProperties {
 /// from the origin loses no digits; a thin shape is turned to its own directions first). Refuses (naming `shape`) a shape
 /// without positive volume. What no tensor in other than its principal axes can hold is a needle's small moment, once it is
 /// below rounding of the large ones: turn the planes to the principal axes and compute again.
-MassProperties massProperties(const Polyhedron& shape);
+POLYTOPE_API MassProperties massProperties(const Polyhedron& shape);
 
 /// Principal axes: rotation whose columns are the axes (det = +1), moments ascending unless the tensor is already
 /// diagonal to rounding: then identity, so a user's own aligned axes are kept. For dimension 2 the third axis stays z.
@@ -24,6 +24,6 @@ struct PrincipalAxes {
 	Matrix3 rotation = Matrix3::Identity();
 	Vector3 moments  = Vector3::Zero();
 };
-PrincipalAxes principalAxes(const Matrix3& inertia, int dimension = 3);
+POLYTOPE_API PrincipalAxes principalAxes(const Matrix3& inertia, int dimension = 3);
 
 } // namespace polytope

@@ -21,7 +21,7 @@ struct Polyhedron {
 /// Vertices and faces of a 3-D set, or (dimension 2) of the right prism of the given thickness, z ∈ [−thickness/2, thickness/2].
 /// Planes must be unit (see normalised). A redundant plane owns no face. Refuses (std::invalid_argument, naming the
 /// argument): empty set, flat set (no interior), unbounded set, non-positive or non-finite thickness.
-Polyhedron polyhedron(const HalfSpaces& unit, Real thickness = 1);
+POLYTOPE_API Polyhedron polyhedron(const HalfSpaces& unit, Real thickness = 1);
 
 /// A polyhedron about an inner point, where its numbers are small wherever it is: vertices · unit + centre are the caller's.
 struct LocalPolyhedron {
@@ -38,7 +38,7 @@ LocalPolyhedron localPolyhedron(const HalfSpaces& unit, const Real& thickness);
 void placeVertices(const HalfSpaces& unit, const Real& thickness, Polyhedron& shape);
 
 /// The planes that own a face in `polyhedron(unit)`: the set without redundant planes.
-HalfSpaces withoutRedundant(const HalfSpaces& unit);
+POLYTOPE_API HalfSpaces withoutRedundant(const HalfSpaces& unit);
 
 /// Convex hull of points as half-spaces, coplanar facets merged into one plane, so a cube has 6. Facets count as coplanar
 /// when their corners miss a common plane by at most `coplanar` × extent, wherever the body is, or by the rounding of points in
@@ -46,6 +46,6 @@ HalfSpaces withoutRedundant(const HalfSpaces& unit);
 /// of a merged facet is cut off.
 /// dimension 2: points in the xy plane. Refuses (naming `points`): too few, NaN, all in a plane (on a line in 2-D);
 /// (naming `coplanar`) a fraction that is negative, not finite or above 0.1.
-HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension = 3, Real coplanar = 0);
+POLYTOPE_API HalfSpaces hullOf(const std::vector<Vector3>& points, int dimension = 3, Real coplanar = 0);
 
 } // namespace polytope

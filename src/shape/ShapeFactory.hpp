@@ -28,9 +28,9 @@ struct CentralShape {
 
 /// Refuses what normalised(), polyhedron() and ConvexShape refuse. A centroid that differs from the origin by rounding is the
 /// origin, and axes that are principal to rounding stay: such planes are taken over unchanged. Thread-safe.
-CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options);
+POLYTOPE_API CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options);
 
 /// Of the convex hull of points, as hullOf(). Refuses what that refuses, besides.
-CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
+POLYTOPE_API CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
 
 } // namespace polytope

@@ -88,7 +88,7 @@ TEST(InstructionSets, ScalarsGiveTheSame)
 	expectSameFrom(kernels);
 }
 
-#if defined(__x86_64__) && !defined(POLYTOPE_REAL)
+#if defined(__x86_64__) && POLYTOPE_REAL_IS_DOUBLE
 
 TEST(InstructionSets, TwoLanesGiveTheSame)
 {

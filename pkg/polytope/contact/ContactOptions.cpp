@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/PolytopeGeom.hpp"
 
-#include <src/centre/IpoptCentre.hpp>
-#include <src/numbers/NumberText.hpp>
+#include <src/contact/Preconditions.hpp>
 
 /// The attributes of Ig2_Polytope_Polytope_PolytopeGeom that have a range, checked when they are set.
 namespace yade {
@@ -21,19 +20,11 @@ namespace {
 		refuse(std::string(attribute) + ": must be " + names + ", not '" + name + "'");
 	}
 
-	void requireWithin(const char* attribute, Real value, Real least, Real most, const std::string& leastIs, const std::string& of)
-	{
-		if (value >= least && value <= most) return;
-		refuse(std::string(attribute) + ": must lie between " + polytope::numberText(least) + leastIs + " and "
-		        + polytope::numberText(most) + " (a fraction of " + of + ")");
-	}
-
 } // namespace
 
 polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() const
 {
 	using namespace polytope;
-	namespace limit = polytope::tolerance; // `tolerance` is an attribute here
 	ContactSettings result;
 	if (contactModel == "paper") refuse("contactModel: 'paper' is 'boon2012' now, with the normal and the depth that the paper has");
 	if (contactModel == "conservative") refuse("contactModel: 'conservative' is 'surface' now, the default, which conserves energy");
@@ -45,15 +36,10 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 	                { "centroid", ContactPoint::Centroid } });
 	result.solver       = meaning<CentreSolver>(
                 "solver", solver, "'newton' or 'ipopt'", { { "newton", CentreSolver::Newton }, { "ipopt", CentreSolver::Ipopt } });
-	if (result.solver == CentreSolver::Ipopt && !ipoptVersion())
-		refuse("solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
-		       "-DPOLYTOPE_IPOPT=ON");
-	if (!(tolerance >= 0 && tolerance < 1))
-		refuse("tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)");
-	requireWithin("newtonTolerance", newtonTolerance, limit::rounding, limit::coarsestNewton,
-	        " (the rounding of this precision's numbers)", "the overlap's own size");
-	result.tolerance       = tolerance;
-	result.newtonTolerance = newtonTolerance;
+	result.tolerance        = tolerance;
+	result.newtonTolerance  = newtonTolerance;
+	const std::string fault = faultOf(result);
+	if (!fault.empty()) refuse(fault);
 	return result;
 }
 

@@ -106,8 +106,8 @@ namespace {
 		return 1;
 	}
 
-	/// Index bound to the pair's memory: a body whose shape was exchanged must not be read beyond its planes.
-	template <class Codes> bool fit(const Codes& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
+	/// Of internal faces: a body whose shape was exchanged must not be read beyond its planes.
+	bool fit(const std::vector<int>& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
 	{
 		for (int code : codes)
 			if (code < 0 || (code >> 1) >= ((code & 1) ? convex2 : convex1).planeCount()) return false;
@@ -168,8 +168,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& co
         const polytope::ConvexShape& convex2, const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace,
         const Interaction& c)
 {
-	polytope::PairMemory memory = candidates_.recall(c, scene->iter);
-	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = false;
+	polytope::PairMemory      memory   = candidates_.recall(c, scene->iter);
 	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
 	settings.programAlone              = hasSurface(settings.contactModel);
 	polytope::ContactResult result;
@@ -208,7 +207,6 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (const ClosureOfJoint* const closure = geom.closure.get()) settings.closure = &closure->law;
 
 	polytope::PairMemory memory = geom.memory();
-	if (memory.hasBasis && !fit(memory.basis, convex1, convex2)) memory.hasBasis = memory.hasPoint = false;
 	if (geom.internalFaces.get() && !fit(*geom.internalFaces.get(), convex1, convex2)) geom.setInternalPlanes({});
 	// for a new contact, and for the others every few steps, not all in the same step
 	polytope::BoundingPlanes bounding;

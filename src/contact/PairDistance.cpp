@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/PairDistance.hpp"
+
+#include "numbers/Tolerances.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+
+namespace polytope {
+
+namespace {
+
+	/// A body where it is, by its vertices.
+	class Placed {
+	public:
+		Placed(const ConvexShape& shape, const Matrix3& rotation, const Vector3& centre)
+		        : shape_(shape), rotation_(rotation), centre_(centre)
+		{
+			if (shape.dimension() == 3) return;
+			flatten(centre_);
+			rotation_.row(2).setZero();
+		}
+
+		/// The vertex farthest along a direction of the world.
+		Vector3 support(const Vector3& direction) const
+		{
+			return centre_ + rotation_ * shape_.support(rotation_.transpose() * direction);
+		}
+
+		const Matrix3& rotation() const { return rotation_; }
+		const Vector3& centre() const { return centre_; }
+
+	private:
+		const ConvexShape& shape_;
+		Matrix3            rotation_;
+		Vector3            centre_;
+
+		static void flatten(Vector3& v) { v[2] = 0; }
+	};
+
+	/// Vertices of the difference of both bodies, affinely independent, with the weights of the point that is nearest to the origin.
+	class Corral {
+	public:
+		Corral(const Vector3& one, const Vector3& other) { add(one, other); }
+
+		int     size() const { return size_; }
+		Vector3 nearest() const
+		{
+			return sum([&](int k) { return difference(k); });
+		}
+		Vector3 point(int body) const
+		{
+			return sum([&](int k) { return vertex_[body][k]; });
+		}
+
+		bool has(const Vector3& one, const Vector3& other) const
+		{
+			for (int k = 0; k < size_; ++k)
+				if (vertex_[0][k] == one && vertex_[1][k] == other) return true;
+			return false;
+		}
+
+		void add(const Vector3& one, const Vector3& other)
+		{
+			vertex_[0][size_] = one;
+			vertex_[1][size_] = other;
+			weight_[size_]    = size_ == 0 ? 1 : 0;
+			++size_;
+		}
+
+		/// To the point of their hull that is nearest to the origin; vertices that are not needed for it leave.
+		void settle()
+		{
+			for (;;) {
+				Real weight[4];
+				ofPlane(weight);
+				Real along   = 1;
+				int  leaving = -1;
+				for (int k = 0; k < size_; ++k) {
+					if (weight[k] > 0) continue;
+					const Real until = weight_[k] / (weight_[k] - weight[k]);
+					if (leaving >= 0 && !(until < along)) continue;
+					along   = std::min(Real(1), std::max(Real(0), until));
+					leaving = k;
+				}
+				for (int k = 0; k < size_; ++k)
+					weight_[k] += along * (weight[k] - weight_[k]);
+				if (leaving < 0) return;
+				remove(leaving);
+			}
+		}
+
+	private:
+		Vector3 vertex_[2][4];
+		Real    weight_[4];
+		int     size_ = 0;
+
+		Vector3 difference(int k) const { return vertex_[0][k] - vertex_[1][k]; }
+
+		template <class Value> Vector3 sum(const Value& value) const
+		{
+			Vector3 all = Vector3::Zero();
+			for (int k = 0; k < size_; ++k)
+				all += weight_[k] * value(k);
+			return all;
+		}
+
+		/// Of the nearest point of the line, plane or space through all of them.
+		void ofPlane(Real* weight) const
+		{
+			using Edges = Eigen::Matrix<Real, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+			weight[0]   = 1;
+			if (size_ == 1) return;
+			Edges edges(3, size_ - 1);
+			for (int k = 1; k < size_; ++k)
+				edges.col(k - 1) = difference(k) - difference(0);
+			const Eigen::Matrix<Real, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1> rest
+			        = Eigen::ColPivHouseholderQR<Edges>(edges).solve(-difference(0));
+			for (int k = 1; k < size_; ++k) {
+				weight[k] = rest[k - 1];
+				weight[0] -= weight[k];
+			}
+		}
+
+		void remove(int leaving)
+		{
+			--size_;
+			for (auto& vertex : vertex_)
+				vertex[leaving] = vertex[size_];
+			weight_[leaving] = weight_[size_];
+		}
+	};
+
+	PairDistance apart(const Vector3& one, const Vector3& other, Real distance, const Vector3& normal)
+	{
+		PairDistance result;
+		result.distance = distance;
+		result.normal   = normal;
+		result.point[0] = one;
+		result.point[1] = other;
+		return result;
+	}
+
+	/// Of a half-space and a body; `sign`: 1 where the half-space is body 1.
+	PairDistance fromWall(const ConvexShape& wall, const Placed& place, const Placed& body, int sign)
+	{
+		const Vector3 normal   = place.rotation() * wall.planes().normals.front();
+		const Vector3 nearest  = body.support(-normal);
+		const Real    distance = normal.dot(nearest - place.centre()) - wall.planes().offsets.front();
+		const Vector3 foot     = nearest - distance * normal;
+		if (!(distance > 0)) return {};
+		return sign > 0 ? apart(foot, nearest, distance, normal) : apart(nearest, foot, distance, -normal);
+	}
+
+} // namespace
+
+PairDistance pairDistance(
+        const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2)
+{
+	const Placed body1(shape1, rotation1, Vector3::Zero()), body2(shape2, rotation2, centre2);
+	const auto & vertices1 = shape1.polyhedron().vertices, &vertices2 = shape2.polyhedron().vertices;
+	if (vertices1.empty()) return vertices2.empty() ? PairDistance() : fromWall(shape1, body1, body2, 1);
+	if (vertices2.empty()) return fromWall(shape2, body2, body1, -1);
+
+	const Real reach = shape1.boundingRadius() + shape2.boundingRadius() + body2.centre().norm(),
+	           least = Real(tolerance::distance) * reach;
+	Corral    corral(body1.support(body2.centre()), body2.support(-body2.centre()));
+	const int most    = tolerance::distanceStepsAtLeast + tolerance::distanceSteps * int(vertices1.size() + vertices2.size());
+	Vector3   nearest = corral.nearest();
+	for (int step = 0; step < most; ++step) {
+		const Real distance = nearest.norm();
+		if (!(distance > least)) return {};
+		const Vector3 one = body1.support(-nearest), other = body2.support(nearest);
+		const Real    gain = nearest.dot(nearest - (one - other)) / distance;
+		if (!(gain > least / 4) || corral.size() == 4 || corral.has(one, other)) break;
+		corral.add(one, other);
+		corral.settle();
+		const Vector3 next = corral.nearest();
+		if (!(next.squaredNorm() < nearest.squaredNorm())) break; // rounding
+		nearest = next;
+	}
+	nearest             = corral.nearest();
+	const Real distance = nearest.norm();
+	if (!(distance > least)) return {};
+	return apart(corral.point(0), corral.point(1), distance, -nearest / distance);
+}
+
+} // namespace polytope

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/Preconditions.hpp"
+
+#include "centre/IpoptCentre.hpp"
+#include "numbers/NumberText.hpp"
+
+namespace polytope {
+
+namespace {
+
+	bool isRotation(const Matrix3& matrix, int dimension)
+	{
+		const Matrix3 rest = matrix.transpose() * matrix - Matrix3::Identity();
+		if (!(rest.cwiseAbs().maxCoeff() <= Real(tolerance::orthogonal)) || !(matrix.determinant() > 0))
+			return false; // also what is no number
+		return dimension == 3 || abs(matrix(2, 2) - 1) <= Real(tolerance::orthogonal);
+	}
+
+	std::string faultOf(const InternalPlanes& planes, const ConvexShape& shape1, const ConvexShape& shape2)
+	{
+		for (int body = 0; body < 2; ++body) {
+			if (planes.count[body] < 0 || planes.count[body] > BoundingPlanes::most)
+				return "settings.internal: a body has room for " + std::to_string(BoundingPlanes::most)
+				        + " internal planes";
+			for (int k = 0; k < planes.count[body]; ++k) {
+				const int plane = planes.plane[body][k];
+				if (plane < 0 || plane >= (body ? shape2 : shape1).planeCount())
+					return "settings.internal: shape" + std::to_string(body + 1) + " has no plane "
+					        + std::to_string(plane);
+			}
+		}
+		return "";
+	}
+
+} // namespace
+
+std::string faultOf(const ContactSettings& settings)
+{
+	if (settings.solver == CentreSolver::Ipopt && !ipoptVersion())
+		return "solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
+		       "-DPOLYTOPE_IPOPT=ON";
+	if (!(settings.tolerance >= 0 && settings.tolerance < 1))
+		return "tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)";
+	const Real least = tolerance::rounding, most = tolerance::coarsestNewton;
+	if (!(settings.newtonTolerance >= least && settings.newtonTolerance <= most))
+		return "newtonTolerance: must lie between " + numberText(least) + " (the rounding of this precision's numbers) and "
+		        + numberText(most) + " (a fraction of the overlap's own size)";
+	const Real sum = settings.normalWeight[0] + settings.normalWeight[1];
+	if (!(settings.normalWeight[0] >= 0 && settings.normalWeight[1] >= 0 && sum > 0 && isfinite(sum)))
+		return "normalWeight: must be two finite numbers of at least 0, not both 0";
+	return "";
+}
+
+std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
+        const Vector3& centre2, const ContactSettings& settings)
+{
+	std::string fault = faultOf(settings);
+	if (!fault.empty()) return fault;
+	const int dimension = shape1.dimension();
+	if (dimension != shape2.dimension()) return "shape2: a polygon and a polyhedron cannot touch; both must have the same dimension";
+	if (!isfinite(shape1.boundingRadius()) && !isfinite(shape2.boundingRadius()))
+		return "shape2: two half-spaces cannot touch; one of both must be bounded";
+	const char* const what = dimension == 3 ? ": must be a rotation matrix" : ": must be the matrix of a rotation about z";
+	if (!isRotation(rotation1, dimension)) return std::string("rotation1") + what;
+	if (!isRotation(rotation2, dimension)) return std::string("rotation2") + what;
+	for (int k = 0; k < dimension; ++k)
+		if (!isfinite(centre2[k])) return "centre2: must be finite";
+	return settings.internal ? faultOf(*settings.internal, shape1, shape2) : "";
+}
+
+} // namespace polytope

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/ContactTypes.hpp"
+#include "shape/ConvexShape.hpp"
+
+#include <string>
+
+/// What contactQuery() needs of its arguments. It does not look itself: with others its answer means nothing, and planes beyond a body's own in
+/// ContactSettings::internal are read. For code under development, and for input from outside; not for each query of a loop.
+namespace polytope {
+
+/// A sentence that names the setting that is out of range, or nothing.
+POLYTOPE_API std::string faultOf(const ContactSettings& settings);
+
+/// A sentence that names the first argument of a query that is not as it must be, or nothing: the settings as above and internal planes that the bodies have; both
+/// shapes of one dimension, not both half-spaces; rotations that are rotations (tolerance::orthogonal), in 2-D about z; a finite position.
+/// The memory may be any.
+POLYTOPE_API std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
+        const Vector3& centre2, const ContactSettings& settings);
+
+} // namespace polytope
