@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# Makes the folder OVERLAY/yade-<precision> anew: links to all of YADE_LIBRARY_DIR, and to the plug-in where an installation
-# would have it. PROGRAMS gets links to the programs of this precision. Called by the target `overlay`.
+# Makes the links of the folder OVERLAY/yade-<precision> anew: to all of YADE_LIBRARY_DIR, and to the plug-in where an installation
+# would have it. What is no link stays: it is not ours. PROGRAMS gets links to the programs of this precision. Called by the target `overlay`.
 include("${CMAKE_CURRENT_LIST_DIR}/yadeLinks.cmake")
 get_filename_component(name "${YADE_LIBRARY_DIR}" NAME)
 set(folder "${OVERLAY}/${name}")
 
-file(REMOVE_RECURSE "${folder}")
+file(GLOB entries LIST_DIRECTORIES true "${folder}/*" "${folder}/polytope-py/*")
+foreach(entry IN LISTS entries)
+	if(IS_SYMLINK "${entry}")
+		file(REMOVE "${entry}")
+	endif()
+endforeach()
 file(MAKE_DIRECTORY "${folder}/polytope-py")
 yade_links("${YADE_LIBRARY_DIR}" "${folder}" "${PROGRAMS}") # without an installed plug-in: this one takes its place
 

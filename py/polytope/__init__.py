@@ -34,6 +34,7 @@ from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
 from .energy import mechanicalEnergy
 from .engines import engines
+from .extensions import extensions, load
 from .factorOfSafety import FactorOfSafety, factorOfSafety
 from .films import Film, animate
 from .grainBreakage import breakGrains
@@ -110,6 +111,7 @@ __all__ = [
 	'cuboid',
 	'engines',
 	'excavate',
+	'extensions',
 	'factorOfSafety',
 	'forceHistogram',
 	'fromHalfSpaces',
@@ -122,6 +124,7 @@ __all__ = [
 	'jointedRock',
 	'mechanicalEnergy',
 	'keyBlocks',
+	'load',
 	'meshRegion',
 	'oedometer',
 	'pack',

@@ -27,6 +27,7 @@ topics = {
 		'bodyStress contactFabric particleFabric porosity coordinationNumber sizeDistribution aabbExtrema mechanicalEnergy '
 		'contactRose particleRose forceHistogram',
 	),
+	'extensions': ('Classes of others', 'load extensions'),
 	'costs': ('Accuracy and cost', 'tradeoff requirements'),
 }
 """Page, title, names. tests/yade/test_site.py sees to it that each public name is in one of them."""
@@ -38,6 +39,7 @@ returned = {
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
 	),
+	'extensions': ('extensions.Extension',),
 	'costs': ('tradeoff.table.TradeoffTable', 'requirements.Requirements', 'requirements.Finding'),
 }
 """Classes of what functions of a topic return, which have no public name."""

@@ -9,7 +9,8 @@
 //   1. compares version, precision, features and Boost of the running YADE with those compiled against,
 //   2. loads YADE's own libraries first (the order in which YADE finds its libraries is the file system's), then
 //      _polytope.so, whose classes register themselves, and has it compare the layout of classes (LayoutCheck.hpp),
-//   3. adds the folder polytope-py to yade.__path__: `from yade import polytope` finds the package there, and
+//   3. loads the extensions that others have written (Extensions.hpp), then
+//   4. adds the folder polytope-py to yade.__path__: `from yade import polytope` finds the package there, and
 //      `from yade import _polytope` the extension module in the same library (PythonModule.cpp).
 //
 // If 1 or 2 fails, YADE runs on without the plug-in: a warning says why, and so does the ImportError that
@@ -18,8 +19,15 @@
 
 #include "BuildInfo.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <dlfcn.h>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace {
 
@@ -96,6 +104,29 @@ std::string loadClasses(const std::string& folder)
 	return "";
 }
 
+/// The extensions (docs/extending.md) of the folder yade-polytope/<precision> beside YADE's library folder, in the order of their names, and of the paths in
+/// YADE_POLYTOPE_EXTENSIONS. YADE itself looks into none of them. One that does not fit is left out, with a warning.
+void loadExtensions(const std::string& folder)
+{
+	namespace files = std::filesystem;
+	std::vector<std::string> paths;
+	std::error_code          none;
+	for (const auto& entry : files::directory_iterator(folder + "/../yade-polytope/" + polytope::buildInfo::precision, none))
+		if (entry.path().extension() == ".so") paths.push_back(files::weakly_canonical(entry.path(), none).string());
+	std::sort(paths.begin(), paths.end());
+	const char* const  given = std::getenv("YADE_POLYTOPE_EXTENSIONS");
+	std::istringstream list(given ? given : "");
+	for (std::string path; std::getline(list, path, ':');)
+		if (!path.empty()) paths.push_back(files::weakly_canonical(path, none).string());
+
+	void* const classes = dlopen((folder + "/polytope-py/_polytope.so").c_str(), RTLD_NOW | RTLD_NOLOAD);
+	const auto  load    = reinterpret_cast<const char* (*)(const char*)>(classes ? dlsym(classes, "polytopeLoadExtension") : nullptr);
+	for (const std::string& path : paths) {
+		const std::string fault = load ? load(path.c_str()) : "the plug-in cannot load it";
+		if (!fault.empty()) std::cerr << "WARNING: the extension " << path << " is not loaded: " << fault << ".\n";
+	}
+}
+
 void extendYadePath(const std::string& folder)
 {
 	const Reference yade(PyImport_ImportModule("yade"));
@@ -132,8 +163,10 @@ __attribute__((constructor)) void loadPlugin()
 	const std::string      folder = ownFolder();
 	std::string            fault  = differenceFromBuild();
 	if (fault.empty()) fault = loadClasses(folder);
-	if (fault.empty()) extendYadePath(folder + "/polytope-py");
-	else refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault + ".\n" + polytope::buildInfo::remedy);
+	if (fault.empty()) {
+		loadExtensions(folder);
+		extendYadePath(folder + "/polytope-py");
+	} else refuse("the plug-in yade-polytope in " + folder + " is not loaded: " + fault + ".\n" + polytope::buildInfo::remedy);
 	PyGILState_Release(gil);
 }
 

@@ -4,6 +4,8 @@
 #include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 
+#include <optional>
+
 /// What a contact's stiffness is multiplied with. The geometry functor asks for it: a new contact has no physics yet that could say so.
 namespace yade {
 
@@ -14,10 +16,23 @@ enum class StiffnessRule : int {
 	PerContact,  ///< depth, shared by pieces of one support
 };
 
+/// Of a contact [N/m].
+struct ContactStiffness {
+	Real normal = 0, shear = 0;
+};
+
 /// A functor that makes the physics of joints.
 class GivesJointStiffness {
 public:
 	virtual ~GivesJointStiffness() = default;
+	/// The largest stiffnesses that a contact of these materials can have: of this area [m²], between bodies of these sizes [m] (PolytopeGeom's refR1, refR2).
+	/// PolytopeTimeStepper takes its step before the first contact from them. None: they are not known; then it takes elastic bodies of the materials' young,
+	/// and polytope.check() says so of functors that are not the plug-in's own or YADE's.
+	virtual std::optional<ContactStiffness> stiffnesses(
+	        const Material& /*material1*/, const Material& /*material2*/, Real /*area*/, Real /*size1*/, Real /*size2*/) const
+	{
+		return std::nullopt;
+	}
 	/// At present; Unknown for materials that it is not for.
 	virtual StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const = 0;
 };

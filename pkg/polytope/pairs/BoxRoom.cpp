@@ -39,7 +39,8 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	Reference&         reference = references_[id];
 	const Shape* const shape     = body ? body->shape.get() : nullptr;
 	const auto* const  polytope  = dynamic_cast<const Polytope*>(shape);
-	if (!polytope || !polytope->convex()) {
+	const auto         margin    = polytope ? polytope->margin() : std::nullopt;
+	if (!polytope || !polytope->convex() || !margin) {
 		reference  = Reference();
 		rooms_[id] = 0;
 		if (!shape || dynamic_cast<const Sphere*>(shape)) return;
@@ -56,6 +57,7 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	                                    : body->state->angVel.norm() * polytope->convex()->boundingRadius() * scene.dt;
 	if (reference.convex != polytope->convex()) reference.convex = polytope->convex();
 	reference.radius      = polytope->convex()->boundingRadius();
+	reference.margin      = *margin;
 	reference.orientation = body->state->ori;
 	const Real wanted     = way * steps(limits.targetInterv);
 	rooms_[id]            = !mayTurn(body)            ? Real(0)

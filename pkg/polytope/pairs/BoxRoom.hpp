@@ -14,7 +14,7 @@ namespace yade {
 ///
 /// A box is made for the pose that its body has then, with room for both its ways: a sweep length along each axis for its centre, and for
 /// a polytope the displacement of its farthest vertex by rotation. As YADE's BoundDispatcher finds the first, so the second: from the motion since the
-/// box was made before, enough for `targetInterv` steps. Other shapes than balls and polytopes have no room to turn.
+/// box was made before, enough for `targetInterv` steps. Other shapes than balls and polytopes, and classes derived from Polytope that do not say their margin, have no room to turn.
 class BoxRoom {
 public:
 	/// Of one body: what its box was made for.
@@ -24,7 +24,8 @@ public:
 		Quaternionr       orientation = Quaternionr::Identity();
 		Real              sweep       = 0; ///< along each axis
 		Real              radius      = 0; ///< of the ball about the centre in which it turns; zero: a turn needs no room
-		/// Its own: the body's shape may be exchanged.
+		Real              margin      = 0; ///< Polytope::margin()
+		/// Its own: the body's shape may be exchanged. None where its planes do not say where the surface is.
 		std::shared_ptr<const polytope::ConvexShape> convex;
 	};
 

@@ -126,7 +126,7 @@ bool PairSearch::staysApart(const Body& one, const Body& other) const
 		if (body->isClumpMember() || !body->isDynamic()) return false;
 	// along each axis a body moves by less than its sweep length
 	const Real sweep = math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep),
-	           way   = sweep + math::max(room_.rooms()[one.id], room_.rooms()[other.id]);
+	           way   = sweep + math::max(room_.rooms()[one.id], room_.rooms()[other.id]) + reference1.margin + reference2.margin;
 	static thread_local polytope::ContactWorkspace workspace;
 	return polytope::staysApart(*reference1.convex, reference1.orientation.toRotationMatrix(), *reference2.convex,
 	        reference2.orientation.toRotationMatrix(), reference2.position - reference1.position, way, workspace);

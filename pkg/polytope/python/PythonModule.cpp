@@ -6,9 +6,11 @@
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
 #include "contact/PolytopeGeom.hpp"
+#include "host/Extensions.hpp"
 #include "host/Vectors.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
+#include "material/StiffnessRules.hpp"
 #include "python/Arrays.hpp"
 #include "shape/Construction.hpp"
 #include "step/PotentialContacts.hpp"
@@ -17,6 +19,7 @@
 #include "BuildInfo.hpp"
 
 #include <core/Body.hpp>
+#include <core/Functor.hpp>
 
 #include <src/centre/IpoptCentre.hpp>
 
@@ -96,6 +99,33 @@ py::tuple packedFaces(const yade::Polytope& shape)
 py::object planesOfFaces(const yade::Polytope& shape)
 {
 	return bytesOf(shape.convex() ? shape.convex()->polyhedron().planeOfFace : std::vector<int>());
+}
+
+/// (path, name, names of classes)
+py::tuple described(const yade::Extension& extension)
+{
+	py::list classes;
+	for (const std::string& name : extension.classes)
+		classes.append(name);
+	return py::make_tuple(extension.path, extension.name, py::tuple(classes));
+}
+
+py::list extensions()
+{
+	py::list all;
+	for (const yade::Extension& one : yade::extensions())
+		all.append(described(one));
+	return all;
+}
+
+py::tuple loadExtension(const std::string& path) { return described(yade::loadExtension(path)); }
+
+/// Whether the time step before the first contact is that of the functor's own stiffnesses (GivesJointStiffness).
+bool givesStiffnesses(const boost::shared_ptr<yade::Functor>& functor, const boost::shared_ptr<yade::Material>& material1,
+        const boost::shared_ptr<yade::Material>& material2)
+{
+	const auto* const giver = dynamic_cast<const yade::GivesJointStiffness*>(functor.get());
+	return giver && material1 && material2 && giver->stiffnesses(*material1, *material2, 1, 1, 1);
 }
 
 /// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
@@ -247,6 +277,12 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "int32, and the corners of all faces one after another, int32.");
 	py::def("planesOfFaces", &planesOfFaces, py::arg("shape"),
 	        "Of a Polytope, as bytes of a NumPy array: index of the half-space of each face, int32; -1 for both caps of a polygon.");
+	py::def("extensions", &extensions, "Extensions that are loaded: (path, name, names of classes) of each.");
+	py::def("loadExtension", &loadExtension, py::arg("path"),
+	        "Loads one, see polytope.load; RuntimeError with the reason where it does not fit.");
+	py::def("givesStiffnesses", &givesStiffnesses, (py::arg("functor"), py::arg("material1"), py::arg("material2")),
+	        "Whether an Ip2 functor of an extension says how stiff contacts of two materials can be "
+	        "(GivesJointStiffness::stiffnesses).");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "

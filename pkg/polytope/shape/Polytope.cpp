@@ -9,6 +9,8 @@
 
 #include <sstream>
 
+#include "host/ExactClass.hpp"
+
 namespace yade {
 
 YADE_PLUGIN((Polytope)(Bo1_Polytope_Aabb));
@@ -129,6 +131,8 @@ Real Polytope::volume() const { return convex_ ? convex_->mass().volume : Real(0
 
 Vector3r Polytope::inertia() const { return convex_ ? Vector3r(convex_->mass().inertia.diagonal()) : Vector3r::Zero(); }
 
+std::optional<Real> Polytope::margin() const { return exactly<Polytope>(this) ? std::optional<Real>(Real(0)) : std::nullopt; }
+
 vector<Vector3r> Polytope::vertices() const { return convex_ ? convex_->polyhedron().vertices : vector<Vector3r>(); }
 
 Real Polytope::inscribedRadius() const { return convex_ ? convex_->inscribedRadius() : Real(0); }
@@ -183,6 +187,11 @@ void Bo1_Polytope_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bo
 		high[k] = room < any ? math::min(ball, Real(high[k] + room * stretch)) : ball;
 		low[k]  = room < any ? math::max(-ball, Real(low[k] - room * stretch)) : -ball;
 	}
+	if (const std::optional<Real> margin = static_cast<const Polytope&>(*shape).margin(); margin && *margin > 0)
+		for (int k = 0; k < 3; ++k) { // of a ball in the cell's coordinates
+			low[k] -= *margin * unshear.row(k).norm();
+			high[k] += *margin * unshear.row(k).norm();
+		}
 	bound->min = centre + low;
 	bound->max = centre + high;
 }

@@ -9,6 +9,8 @@
 
 #include <src/shape/ConvexShape.hpp>
 
+#include <optional>
+
 namespace yade {
 
 class Polytope : public Shape {
@@ -36,6 +38,12 @@ public:
 
 	/// Null until planes are given.
 	const std::shared_ptr<const polytope::ConvexShape>& convex() const { return convex_; }
+
+	/// How far the surface lies outside of the planes, everywhere [m]: 0 for this class; a class derived from it that is its planes and a ball, as rounded
+	/// polyhedra are, returns the ball's radius. Boxes, sizes and PolytopeCollider, which leaves out pairs by their planes, add it. Without a value: the surface
+	/// is not known by the planes, as that of a derived class that does not say; then no pair is left out by them, and the class has a bound functor of its
+	/// own.
+	virtual std::optional<Real> margin() const;
 
 	vector<Vector3r>    unitNormals() const;
 	vector<Real>        planeOffsets() const;

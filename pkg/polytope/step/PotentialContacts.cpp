@@ -120,6 +120,13 @@ namespace {
 			bool       swap    = false;
 			const auto functor = loop->physDispatcher->getFunctor2D(material1, material2, swap);
 			if (!functor) continue;
+			if (const auto* giver = dynamic_cast<const GivesJointStiffness*>(functor.get())) {
+				const auto* const geom  = dynamic_cast<const PolytopeGeom*>(contact->geom.get());
+				const auto&       size  = static_cast<const ScGeom&>(*contact->geom);
+				const auto        known = giver->stiffnesses(
+                                        *material1, *material2, geom ? geom->contactArea : Real(0), size.refR1, size.refR2);
+				if (known) return { known->normal, known->shear };
+			}
 			auto* joints = dynamic_cast<Ip2_RockJointMat_RockJointMat_RockJointPhys*>(functor.get());
 			if (joints || dynamic_cast<Ip2_FrictMat_FrictMat_FrictPhys*>(functor.get())) {
 				functor->scene = &scene;

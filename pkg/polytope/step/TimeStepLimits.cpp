@@ -47,7 +47,7 @@ const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene
 Real boundingRadius(const Shape& shape)
 {
 	if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
-		if (polytope->convex()) return polytope->convex()->boundingRadius();
+		if (polytope->convex()) return polytope->convex()->boundingRadius() + polytope->margin().value_or(0);
 	if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
 	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
 	Real farthest = 0;

@@ -6,7 +6,7 @@ The dispatchers themselves are asked, with a body of each kind.
 """
 
 import yade
-from yade import PolytopeGeom
+from yade import PolytopeGeom, _polytope
 
 __all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
@@ -48,9 +48,9 @@ def bounds(scene):
 
 def _contacts(scene):
 	for one, other in scene.meetings():
-		polytopes = [kind for kind in (one, other) if kind.shape == 'Polytope']
+		polytopes = [kind for kind in (one, other) if kind.shape == 'Polytope' or _isDerived(kind)]
 		found = None
-		if polytopes:
+		if polytopes and not _hasItsOwn(scene, one, other):
 			found = geometry(one, other) or (flat(one, other) if any(kind.variant == 2 for kind in polytopes) else None)
 		if found:
 			yield found
@@ -70,6 +70,21 @@ def _contacts(scene):
 				)
 			continue
 		yield from (finding for loop, functor in loops[:1] for finding in forces(scene, loop, functor, one, other))
+
+
+def _isDerived(kind):
+	"""Whether it is a class derived from Polytope, as extensions have them."""
+	taken = getattr(yade, kind.shape, None)
+	return bool(taken) and taken is not yade.Polytope and issubclass(taken, yade.Polytope)
+
+
+def _hasItsOwn(scene, one, other):
+	"""Whether a contact functor in the loop is made for just these classes, one of which is of an extension."""
+	if not any(kind.shape not in exactly for kind in (one, other)):
+		return False
+	shapes = [scene.examples[kind].shape for kind in (one, other)]
+	functors = [_functor(loop.geomDispatcher, *shapes) for loop in scene.loops]
+	return any(functor and sorted(functor.bases) == sorted([one.shape, other.shape]) for functor in functors)
 
 
 def _functor(dispatcher, *arguments):
@@ -93,6 +108,9 @@ def _candidates(one, other):
 def geometry(one, other):
 	"""Shapes that no contact with a polytope is computed for."""
 	for kind in (one, other):
+		if _isDerived(kind):
+			seen = f'there is no functor for {one.shape} and {other.shape}: {kind.shape} is taken for the Polytope of its planes'
+			return 'contact functors', seen, 'add the functor that its extension has for them to the InteractionLoop (docs/extending.md)'
 		if kind.shape not in exactly:
 			taken = getattr(yade, kind.shape, None)
 			like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''
@@ -120,6 +138,19 @@ def flat(one, other):
 	return None
 
 
+def _unknownStiffness(scene, maker, one, other):
+	"""Physics of an extension that do not tell the time step how stiff they can be."""
+	name = type(maker).__name__
+	if not any(name in classes for _, _, classes in _polytope.extensions()):
+		return
+	if not _polytope.givesStiffnesses(maker, *(scene.examples[kind].material for kind in (one, other))):
+		yield (
+			'time step',
+			f'{name} does not say how stiff its contacts can be: before the first contact the step is that of elastic bodies of the materials\' young',
+			'give it the function stiffnesses (docs/extending.md), or set O.dt until bodies touch',
+		)
+
+
 def forces(scene, loop, functor, one, other):
 	"""Physics and law of a pair whose geometry this functor makes."""
 	geom = _made(type(functor).__name__)
@@ -134,6 +165,7 @@ def forces(scene, loop, functor, one, other):
 	phys = _made(type(maker).__name__)
 	if geom is None or phys is None:
 		return
+	yield from _unknownStiffness(scene, maker, one, other)
 	law = _functor(loop.lawDispatcher, geom, phys)
 	names = f'{type(geom).__name__} and {type(phys).__name__} ({one.shape} and {other.shape})'
 	if law is None:
