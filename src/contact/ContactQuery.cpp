@@ -114,9 +114,9 @@ namespace {
 	bool fits(const std::array<int, 4>& basis, const ConvexShape& shape1, const ConvexShape& shape2)
 	{
 		const int count[2] = { shape1.planeCount(), shape2.planeCount() }, least = 2 * std::min(count[0], count[1]) - 1;
-		int       beyond = 0; // negative where one of them is, or where the body of fewer planes might not have it
+		int       beyond = 0; // negative where a code is, or where the body of fewer planes might not have that plane
 		for (int code : basis)
-			beyond |= code | (int(unsigned(least) - unsigned(code)));
+			beyond |= code | int(unsigned(least) - unsigned(code));
 		if (beyond >= 0) return true;
 		for (int code : basis)
 			if (code < 0 || (code >> 1) >= count[code & 1]) return false;
