@@ -26,6 +26,7 @@ set(POLYTOPE_CORE_HEADERS
 	numbers/Lanes.hpp # LpBasis
 	numbers/Tolerances.hpp # defaults of ContactSettings
 	program/LpBasis.hpp # ConvexShape keeps that of its inscribed ball
+	joint/ClosureLaw.hpp # ContactSettings may have one
 	surface/KeptVertices.hpp # PairMemory keeps them
 	surface/SurfaceTolerances.hpp # KeptVertices has room for as many
 )

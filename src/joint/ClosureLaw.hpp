@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "numbers/Export.hpp"
 #include "numbers/Real.hpp"
 
 /// Normal laws of joints that stiffen as they close. All is over the joint's stiffness k [Pa/m]: σ/k is a length, that of the linear spring with the same
@@ -15,7 +16,7 @@
 ///     dσ/dδ = k (σ/σ₀)ᵉ,         so σ = σ₀ ((1 − e) δ k/σ₀)^(1/(1 − e)).
 namespace polytope {
 
-class ClosureLaw {
+class POLYTOPE_API ClosureLaw {
 public:
 	/// Linear.
 	ClosureLaw() = default;
