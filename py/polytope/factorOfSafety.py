@@ -18,7 +18,7 @@ from .heap import namedBodies
 from .history import histories
 from .pictures import picture
 from .relaxing import relaxing
-from .settling import unbalancedForce
+from .unrest import Unrest
 from .strengthReduction import divideStrengths, strengths
 
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
@@ -31,6 +31,8 @@ damping = 0.4
 """Of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
 growth = 1.5
 """Of the factor from one trial to the next, until one fails."""
+gently = 1.02
+"""Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
 partOfMode = 0.1
 """Of the largest displacement: bodies that move more are part of the mode."""
 before, standing = 'factorOfSafety', 'factorOfSafety.standing'
@@ -49,6 +51,8 @@ class Trial:
 	"""Force at the end [-]."""
 	displacement: float
 	"""Of the body that has moved farthest for its size [m]."""
+	trembling: list = dataclasses.field(default_factory=list)
+	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 
 
 @dataclasses.dataclass
@@ -147,11 +151,6 @@ def _refuseBodies(watched):
 	if not madeBonds() and not any(isinstance(part.material, RockJointMat) for part in parts):
 		kinds = ', '.join(sorted({type(part.material).__name__ for part in parts}))
 		raise ValueError(f'bodies: they are of {kinds}, and what is reduced are strengths of RockJointMat and of bonds')
-	if any(float(bolt.pretension) == 0 for bolt in madeBolts()):
-		warn(
-			'bolts without pretension: a trial takes strength away at once, and what moves until such a bolt bears overshoots, so that the factor may be far too low; '
-			'give bolts a pretension, or take polytope.strengthReduction.StrengthReduction, which goes in small steps'
-		)
 
 
 def _refuseScene():
@@ -173,6 +172,9 @@ class _Search:
 		self.watched, self.reduce, self.steps, self.loads = watched, tuple(reduce), steps, loads
 		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
+		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts())
+		self.reached = 1.0
+		"""Factor of the state from which trials begin."""
 
 	def run(self, tolerance, most):
 		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
@@ -187,27 +189,45 @@ class _Search:
 			self.origin = self._places()
 			stable, failed = self._enclose(most)
 			while failed / stable - 1 > tolerance:
-				middle = (stable + failed) / 2
-				if self._trialFromRest(middle).outcome == 'stable':
-					stable = middle
+				trial = self._trialFromRest((stable + failed) / 2)
+				if trial.outcome == 'stable':
+					stable = trial.factor
 				else:
-					failed = middle
+					stable, failed = max(stable, self.reached), trial.factor
+		self._tellTrembling()
 		return FactorOfSafety(stable, failed, *self.mode, self.trials)
+
+	def _tellTrembling(self):
+		ones = sorted({k for trial in self.trials for k in trial.trembling})
+		if ones:
+			warn(
+				f'bodies: {", ".join(map(str, ones[:3]))}{" …" if len(ones) > 3 else ""} tremble in place by more than {atRest:g} of what they bear; their trials count as stable'
+			)
 
 	def _enclose(self, most):
 		stable = 1.0
 		while stable < most:
-			factor = min(stable * growth, most)
-			if self._trialFromRest(factor).outcome != 'stable':
-				return stable, factor
-			stable = factor
+			trial = self._trialFromRest(min(stable * growth, most))
+			if trial.outcome != 'stable':
+				return max(stable, self.reached), trial.factor
+			stable = trial.factor
 		raise RuntimeError(
 			f'stable with strengths divided by {stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
 		)
 
 	def _trialFromRest(self, factor):
 		_load(standing, self.loads)
-		divideStrengths(factor, self.reduce)
+		if self.gently:
+			while self.reached * gently < factor:
+				trial = self._weaken(self.reached * gently)
+				if trial.outcome != 'stable':
+					return trial
+				self.reached, self.origin = trial.factor, self._places()
+				O.saveTmp(standing, quiet=True)
+		return self._weaken(factor)
+
+	def _weaken(self, factor):
+		divideStrengths(factor / self.reached, self.reduce)
 		trial = self._trial(factor)
 		if trial.outcome != 'stable':
 			self.mode = self._motion()
@@ -218,18 +238,19 @@ class _Search:
 			integrator.damping = damping
 		for engine in [*histories(), *filmEngines()]:
 			engine.dead = True  # what happens in a trial is none of the scene's history
-		trial, quiet = Trial(factor, 'creeping', 0, 0.0, 0.0), 0
+		trial, quiet, unrest = Trial(factor, 'creeping', 0, 0.0, 0.0), 0, Unrest(atRest, self.watched)
 		self.trials.append(trial)
 		while trial.steps < self.steps:
 			for _ in range(between):
 				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			trial.steps += between
-			trial.unbalanced, trial.displacement = unbalancedForce(self.watched), self._show(factor)
+			trial.unbalanced, trial.displacement = unrest.look(between), self._show(factor)
 			if not trial.displacement <= 1:  # not a number counts as failed
 				trial.outcome = 'failed'
 				break
 			quiet = quiet + 1 if trial.unbalanced < atRest else 0
-			if quiet == looks:
+			trial.trembling = [] if quiet == looks else _trembling(unrest)
+			if quiet == looks or trial.trembling:
 				trial.outcome = 'stable'
 				break
 		farthest = int(np.argmax(self._ways() / self.limits))
@@ -255,6 +276,12 @@ class _Search:
 		moved = (self._places()[0] - self.origin[0])[order]
 		turned = [_rotation(self.origin[1][k].conjugate(), O.bodies[self.watched[k]].state.ori) for k in order]
 		return [self.watched[k] for k in order], moved, np.array(turned)
+
+
+def _trembling(unrest):
+	"""Ids of the bodies that are not at rest, if all of them tremble in place for good."""
+	lost = unrest.hopeless()
+	return [one.id for one in lost] if all(one.kind == 'trembles' for one in lost) else []
 
 
 def _rotation(back, now):

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene brought to rest under its loads, before its joints have to bear them."""
 
-import numpy as np
 from tqdm import tqdm
-from yade import O, Vector3
+from yade import O
 
 from ._scaledMasses import scaledMasses
 from ._scene import integrators, laws, meanwhile
 from .arguments import flag, namedArguments, number
-from .bolting import bolts, madeBolts
-from .bonding import bonds, madeBonds
+from .bolting import bolts
+from .bonding import bonds
 from .relaxing import relaxing
+from .unrest import NotAtRest, Unrest, remedy, told
 
-__all__ = ['settle', 'unbalancedForce']
+__all__ = ['settle']
 
 between = 50
 """Steps between two looks at the unbalanced force."""
@@ -44,7 +44,8 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 	:returns: the number of steps taken
 	:raises ValueError: if an argument is out of range, if O.engines has no NewtonIntegrator, or naming *densityScaling* in a scene in motion: with BaseMotion, QuietBoundary
 	    or bodies of prescribed velocity, or with weights that are not NewtonIntegrator.gravity
-	:raises RuntimeError: if the bodies are not at rest after so many steps; strengths and damping are the scene's own again
+	:raises NotAtRest: a RuntimeError that names the bodies which do not come to rest, with their unbalanced force and why, as soon as that is clear: they fall with nothing below, slide away, or
+	    tremble in place; or all that move after so many steps. Strengths and damping are the scene's own again
 	"""
 	unbalanced, damping, steps = number(unbalanced, 'unbalanced'), number(damping, 'damping'), number(steps, 'steps')
 	if not unbalanced > 0:
@@ -69,57 +70,24 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 
 
 def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
-	quiet, taken = 0, 0
+	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
 		while taken < steps:
 			now = min(between, steps - taken)
-			O.run(now, wait=True)
+			for _ in range(now):
+				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			taken += now
+			force, fading = unrest.look(now), bool(relaxing())
 			adapt()
-			force = unbalancedForce(masses=masses)
 			bar.set_postfix_str(f'unbalanced force {force:.2g} for {unbalanced:g}', refresh=False)
 			bar.update(now)
-			quiet = quiet + 1 if force < unbalanced and not relaxing() else 0
+			quiet = quiet + 1 if force < unbalanced and not fading else 0
 			if quiet == looks:
 				return taken
-	raise RuntimeError(
-		f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}); more steps, a larger *unbalanced*, or a support for bodies that fall'
-	)
-
-
-def unbalancedForce(watched=None, masses=None):
-	"""Of the body that is least at rest: resultant over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
-
-	:param watched: ids, of clumps their own; None: all that can move
-	:param masses: true masses by id, where those of the scene are scaled [kg]
-	"""
-	last = len(O.bodies)
-	owner, borne = np.arange(last), np.zeros(last)  # a clump moves as one
-	moving = []
-	for body in O.bodies:
-		if body.isClumpMember:
-			owner[body.id] = body.clumpId
-		elif body.dynamic and (watched is None or body.id in watched):
-			moving.append(body)
-	forces = [(contact, (contact.phys.normalForce + contact.phys.shearForce).norm()) for contact in O.interactions if contact.isReal]
-	forces += [(bond, bond.force.norm()) for bond in madeBonds() if bond.intact]
-	forces += [(crossing, abs(crossing.tension) + crossing.shearForce.norm()) for one in madeBolts() for crossing in one.crossings if not crossing.failure]
-	for link, force in forces:
-		for key in (link.id1, link.id2):
-			borne[owner[key]] += float(force) / 2
-	gravity = integrators()[0].gravity
-	worst = 0.0
-	for body in moving:
-		own = (masses or {}).get(body.id, body.state.mass) * gravity
-		# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
-		weight = own if body.isClump else body.state.mass * gravity
-		scale = max(float(own.norm()), borne[body.id])
-		if scale > 0:
-			worst = max(worst, float((_force(body) + weight).norm()) / scale)
-	return worst
-
-
-def _force(body):
-	if not body.isClump:
-		return O.forces.f(body.id)
-	return sum((O.forces.f(member) for member in body.shape.members), Vector3.Zero)
+			if fading:
+				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves
+			lost = unrest.hopeless()
+			if lost:
+				raise NotAtRest(f'bodies: {told(lost)}; {remedy(lost)}', lost)
+	left = unrest.moving()
+	raise NotAtRest(f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}): {told(left)}; more steps, or {remedy(left)}', left)

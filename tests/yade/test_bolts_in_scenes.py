@@ -242,3 +242,14 @@ def testOtherEnginesKeepTheBolts():
 	found = [(finding.what, finding.seen) for finding in polytope.check(O)]
 	assert any(what == 'bolts' and 'erased before they act' in seen for what, seen in found)
 	assert any(what == 'time step' and 'does not know bolts' in seen for what, seen in found)
+
+
+@pytest.mark.parametrize('flat', [False, True])
+@pytest.mark.parametrize('ruptureStrain', [inf, 2.1e-5])
+def testABoltWithoutPretensionIsLoadedGentlyByTheFactorOfSafety(flat, ruptureStrain):
+	"""Of the yield strain 2e-5: one that were loaded at once would swing beyond it and break at 1.23."""
+	block, factor = boltedBlock(flat, 2e3, dict(yieldForce=2e3, ruptureStrain=ruptureStrain))
+	polytope.settle(elastic=False)
+	found = polytope.factorOfSafety()
+	assert found.factor == pytest.approx(factor, rel=0.01) and found.failed / found.stable < 1.01
+	assert found.bodies == [block] and all(later.factor / earlier.factor <= 1.021 for earlier, later in zip(found.trials, found.trials[1:], strict=False))

@@ -7,7 +7,7 @@ import pathlib
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from yade import FrictMat, O, RockJointMat, Vector3, polytope
+from yade import FrictMat, O, PyRunner, RockJointMat, Vector3, polytope
 
 gravity = 9.81
 
@@ -59,6 +59,18 @@ def testPlaneFailure(flat, reduce, theory):
 	assert found.factor == pytest.approx(theory, rel=0.01) and found.failed / found.stable <= 1.0101
 	assert found.bodies == [block] and found.directions[0] == pytest.approx((1, 0, 0), abs=1e-3)
 	assert 0.02 * 0.46 < np.linalg.norm(found.displacements[0]) < 0.1 and np.abs(found.rotations).max() < 1e-2
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testABlockThatTremblesInPlaceStands():
+	"""A force that changes its sign every 20 steps, larger than what counts as rest; it is named."""
+	block = onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
+	push = PyRunner(command=f'O.forces.addF({block}, Vector3(0, 10 * (-1) ** (O.iter // 20), 0))', iterPeriod=1)
+	O.engines = O.engines[:3] + [push] + O.engines[3:]
+	with pytest.warns(UserWarning, match=f'bodies: {block} tremble in place by more than 0.0001 of what they bear'):
+		found = polytope.factorOfSafety(tolerance=0.05)
+	assert found.stable < (across * math.tan(friction) + 6e3) / along < found.failed
+	assert [trial.trembling for trial in found.trials if trial.outcome == 'stable'][-1] == [block]
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')

@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 from yade import Box, Ip2_RockJointMat_RockJointMat_RockJointPhys, MatchMaker, O, RockJointMat, Vector3, polytope, utils
-from yade.polytope.settling import unbalancedForce
 from yade.polytope.stress.commonFaces import commonFaces
 from yade.polytope.stress.field import StressField
+from yade.polytope.unbalanced import unbalancedForce
 
 weight = 2600 * 9.81
 general = -1e6 * np.array([[4, 1, 0.5], [1, 5, 0.3], [0.5, 0.3, 6]])
@@ -158,6 +158,38 @@ def testBlocksAtTheRegionsBoundaryMayBeTheFixedOnes():
 	polytope.inSitu(general)
 	assert len(polytope.bodyStress()) > 4 and error(StressField(general)) < 0.001
 	assert polytope.settle(elastic=False) <= 500 and error(StressField(general)) < 0.001
+
+
+def testFlushPiecesOfASupportStayFlush():
+	"""A piece that blocks meet along an edge alone moves with its neighbours' faces: a step as high as the contact is deep would come and go, and thin blocks beside it would never rest."""
+	material()
+	for x in (0, 1):
+		cuboid((x, 0, 0), (x + 1, 1, 1), fixed=x == 1)
+		cuboid((x, 0, -1), (x + 1, 1, 0), fixed=True)
+	around((0, 0, 0), (1, 1, 1), without=(0, 5))
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	polytope.inSitu(general)
+	tops = [float(O.bodies[k].state.pos[2]) + max(float(vertex[2]) for vertex in O.bodies[k].shape.vertices) for k in (1, 3)]
+	assert tops[0] == pytest.approx(tops[1], abs=1e-12) and tops[0] == pytest.approx(6e6 / 4e10, rel=1e-6)
+	assert staysAtRest(StressField(general), 0.002)
+
+
+def testThinBlocksBesideFixedOnesComeToRest():
+	"""Joints at random distances, blocks at the boundary are the fixed ones, the top is free."""
+	material(frictionAngle=math.radians(40))
+	random = np.random.default_rng(1)
+	joints = [
+		polytope.JointSet(
+			math.radians(dip + random.uniform(-10, 10)), math.radians(direction + random.uniform(-30, 30)), spacing, exponential=True
+		)
+		for dip, direction, spacing in [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
+	]
+	mass = polytope.jointedRock(sides, [5, 0, 5, 0, 0, 5], joints, seed=1, smallest=0.02)
+	for k, (normals, _), made in zip(mass.append(), mass.blocks, mass.faces, strict=True):
+		O.bodies[k].dynamic = not any(joint < 0 and normal[2] < 0.99 for joint, normal in zip(made, normals, strict=True))
+	O.engines = polytope.engines()
+	polytope.inSitu(np.zeros((3, 3)), upwards)
+	assert polytope.settle(elastic=False) <= 300
 
 
 def testShearThatChangesInSpaceTurnsFacesAboutTheirNormals():

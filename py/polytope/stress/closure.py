@@ -13,19 +13,23 @@ from .._faces import rows
 from ..arguments import vectors
 from ..bodies import isotropyTolerance
 from .commonFaces import materialOf, planeOf, planesOf
+from .supports import inLine
 
 __all__ = ['closures', 'enlarge', 'restore']
 
 
 def closures(faces, field):
 	"""How each body's planes move: id → {plane: (n, g) with the outward way [m] at the world's x being n + g·x}."""
-	found = {}
+	moved = {}
 	for face in faces:
 		for k in (face.id1, face.id2):
 			plane = planeOf(face, k)
 			if plane >= 0:
-				normals, _ = planesOf(O.bodies[k])
-				found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(materialOf(face, k).normalStiffness))
+				moved[k, plane] = materialOf(face, k)
+	found = {}
+	for (k, plane), material in inLine(moved).items():
+		normals, _ = planesOf(O.bodies[k])
+		found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(material.normalStiffness))
 	return found
 
 
