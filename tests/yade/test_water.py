@@ -78,6 +78,21 @@ def testAClumpFloatsAsTheBlockThatItMakes():
 	assert one.vel.norm() > 1e-3 and abs(one.angVel[1]) > 1e-3
 
 
+def testTheLoadOfAClumpIsThatOfItsMembersTogether():
+	rock()
+	clump, members = O.bodies.appendClumped([polytope.cuboid((x, 0.2 * x, 0.5 * x), (0.5, 0.5, 0.5)) for x in (0, 1)])
+	O.engines = polytope.engines()
+	water = polytope.water(level=0.25)
+	force, torque = water.load(clump)
+	loads = [water.load(k) for k in members]
+	arms = [O.bodies[k].state.pos - O.bodies[clump].state.pos for k in members]
+	assert force[2] == pytest.approx(1000 * 9.81 * (0.75 + 0.25), rel=1e-12)
+	assert (force - loads[0][0] - loads[1][0]).norm() < 1e-9
+	assert (torque - sum((t + arm.cross(f) for arm, (f, t) in zip(arms, loads, strict=True)), Vector3.Zero)).norm() < 1e-9 < torque.norm()
+	water.dead = True
+	assert water.load(clump)[0] == Vector3.Zero and water.load(members[0])[0] == Vector3.Zero
+
+
 @pytest.mark.parametrize('flat', [False, True])
 def testAFloatingBlockHasItsDraftAndRightingMoment(flat):
 	"""Archimedes: draft h ρ_b/ρ_w; of a box turned by θ without a dry bottom the moment ρ g L sin θ (b³/12 (1 + tan² θ/2) − A (h − T)/2)."""

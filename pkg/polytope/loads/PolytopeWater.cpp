@@ -5,6 +5,7 @@
 #include <core/Scene.hpp>
 #include <core/State.hpp>
 
+#include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 
 #include <algorithm>
@@ -108,9 +109,16 @@ boost::python::tuple PolytopeWater::load(int id) const
 	const Scene& where = *Omega::instance().getScene();
 	if (id < 0 || !where.bodies->exists(Body::id_t(id))) throw std::invalid_argument("id: there is no body " + std::to_string(id));
 	const Body& body = *(*where.bodies)[Body::id_t(id)];
-	if (!convexShapeOf(body)) throw std::invalid_argument("id: body " + std::to_string(id) + " has no Polytope shape");
-	polytope::ClippedFace     memory;
-	const polytope::WaterLoad found = loadOn(body, memory);
+	if (!body.isClump() && !convexShapeOf(body))
+		throw std::invalid_argument("id: body " + std::to_string(id) + " has no Polytope shape");
+	polytope::ClippedFace memory;
+	polytope::WaterLoad   found;
+	if (dead) return boost::python::make_tuple(Vector3r(found.force), Vector3r(found.torque));
+	forParts(body, where, [&](const Body& part) {
+		const polytope::WaterLoad one = loadOn(part, memory);
+		found.force += one.force;
+		found.torque += one.torque + (part.state->pos - body.state->pos).cross(one.force);
+	});
 	return boost::python::make_tuple(Vector3r(found.force), Vector3r(found.torque));
 }
 

@@ -31,7 +31,7 @@ public:
 		((vector<int>, wetPlanes, , Attr::readonly, "Of each such face: the index of its half-space in :yref:`Polytope.normals`."))
 		, /*ctor*/
 		, /*py*/
-		.def("load", &PolytopeWater::load, boost::python::arg("id"), "Force [N] of the water on a body as it is now, and its moment about the body's position [N m], as a tuple. Of a clump: ask its members.")
+		.def("load", &PolytopeWater::load, boost::python::arg("id"), "Force [N] of the water on a body as it is now, and its moment about the body's position [N m], as a tuple; of a clump that of its members together. Zero while the engine is dead.")
 	);
 	// clang-format on
 
