@@ -396,6 +396,48 @@ def testMeshInMillimetres(tmp_path):
 	assert '10 m across' in onlyFinding('size').seen, 'grains of 2 cm beside one of 10 m'
 
 
+@pytest.mark.parametrize('flat', [False, True])
+def testALargeBlockOfALargeSlopeIsInMetres(flat):
+	"""A wedge of 89 m; on a base of the size of a brick it is in other units."""
+	for half, found in ((45, False), (2, True)):
+		O.reset()
+		O.materials.append(rock(normalStiffness=1e10, shearStiffness=1e10))
+		if flat:
+			O.bodies.append(polytope.polygon([(-half, -1), (half, -1), (half, 0), (-half, 0)], fixed=True))
+			O.bodies.append(polytope.polygon([(-44.5, 0), (44.5, 0), (0, 40)]))
+		else:
+			O.bodies.append(polytope.cuboid((0, 0, -1), (half, half, 1), fixed=True))
+			O.bodies.append(polytope.cuboid((0, 0, 20), (44.5, 20, 20)))
+		O.engines = polytope.engines(gravity=(0, -9.81 * flat, -9.81 * (not flat)))
+		assert any(one.what == 'size' for one in polytope.check(O)) == found
+
+
+def onFaces(**joint):
+	"""A block on a floor, in touch; the faces that meet have a material of their own."""
+	O.materials.append(rock(label='joint', **joint))
+	O.bodies.erase(1)
+	number = O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.4, 0.5), material=0))
+	for shape, way in ((O.bodies[0].shape, 1), (O.bodies[number].shape, -1)):
+		shape.faceMaterials = [1 if way * normal[2] > 0.9 else -1 for normal in shape.normals]
+	return number
+
+
+def testMaterialsOfFacesAreLookedAt():
+	scene()
+	number = onFaces(cohesion=1e4)
+	assert 'joints with cohesion' in polytope.check(O)['gravity at once'].seen
+	scene()
+	onFaces(normalStiffness=1e4, shearStiffness=1e4)
+	assert 'normalStiffness 1e+04 ' in polytope.check(O)['stiffness'].seen
+	scene()
+	onFaces(young=2e9)
+	assert "young of RockJointMat 'joint' is set" in polytope.check(O)['elastic constants'].seen
+	scene()
+	onFaces(normalStiffness=3e6, shearStiffness=3e6)
+	O.bodies[number].state.pos += (0, 0, 1e-4)
+	assert 'normalStiffness of 3e+06 Pa/m' in polytope.check(O)['soft joint'].seen
+
+
 @pytest.mark.parametrize('length, mass, time', [(1e3, 1e-3, 1), (1e3, 1e3, 1e3), (1e3, 1, 1e3), (1e2, 1e3, 1), (1e6, 1, 1), (1, 1e-3, 1), (3.28084, 2.20462, 1)])
 def testUnitsThatAgreeWithEachOther(length, mass, time):
 	"""mm-t-s, mm-g-ms, mm-kg-ms, cm-g-s, µm-kg-s, m-t-s, ft-lb-s: the scene of 1 m is as sound as in metres."""

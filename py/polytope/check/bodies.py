@@ -4,10 +4,12 @@
 import math
 
 import numpy as np
-from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
+from .._faces import worldVertices
 from .._scene import isPerArea, jointMakers
 from ..bonding import bonds
+from ..rock.faceMaterials import materialsOf
 
 __all__ = ['bodyFindings']
 
@@ -25,6 +27,12 @@ seldom by 100."""
 def bodyFindings(scene):
 	for one in (density, mass, size, flatBoxes, frictionAngle, tension, units, jointLaws, elasticConstants):
 		yield from one(scene)
+
+
+def _materials(scene, kind):
+	"""Those of this class, of bodies and of their faces."""
+	found = {id(material): material for body in scene.bodies for material in materialsOf(body)}
+	return [material for material in found.values() if isinstance(material, kind)]
 
 
 def _number(several):
@@ -63,7 +71,9 @@ def size(scene):
 	widths = {body.id: 2 * float(body.shape.circumscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
 	if not widths:
 		return
-	usual, limit = float(np.median(list(widths.values()))), largest if _inMetres(scene) else math.inf
+	usual = float(np.median(list(widths.values())))
+	# one that is no larger than what is fixed belongs to a scene of that size, as a wedge in a slope does
+	limit = max(largest, _extentOfSupports(scene)) if _inMetres(scene) else math.inf
 	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and _extent(scene.O.bodies[key]) > limit)]
 	if large:
 		extent, mass = _extent(large[0]), float(large[0].state.mass)
@@ -77,6 +87,20 @@ def _inMetres(scene):
 	gravity = scene.gravity()
 	dense = all(least <= float(body.material.density) <= most for body in scene.bodies if body.material and scene.moves(body))
 	return dense and (gravity == 0 or gravities[0] <= gravity <= gravities[1])
+
+
+def _extentOfSupports(scene):
+	"""Largest edge of the box around all that cannot move [m]; walls are endless and tell nothing."""
+	held = [body for body in scene.bodies if not scene.moves(body)]
+	corners = [worldVertices(body) for body in held if isinstance(body.shape, Polytope)]
+	for body in held:
+		if isinstance(body.shape, Box):
+			reach = np.array(body.shape.extents, float)
+			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+			corners.append(np.array(body.state.pos, float) + np.abs(turn) @ reach * np.array([[-1.0], [1.0]]))
+		if isinstance(body.shape, Facet):
+			corners.append(np.array([list(body.state.pos + body.state.ori * corner) for corner in body.shape.vertices], float))
+	return float(np.ptp(np.concatenate(corners), axis=0).max()) if corners else 0.0
 
 
 def flatBoxes(scene):
@@ -93,7 +117,7 @@ def _extent(body):
 
 def frictionAngle(scene):
 	"""RockJointMat refuses it itself."""
-	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, FrictMat)}.values():
+	for material in _materials(scene, FrictMat):
 		angle = float(material.frictionAngle)
 		if not angle < math.pi / 2:
 			seen = f'frictionAngle of {type(material).__name__} {material.label!r} is {angle:g} rad, above π/2'
@@ -105,7 +129,7 @@ def tension(scene):
 	if bonds() and bonds().bonds:
 		return
 	makers = jointMakers(scene.loops)
-	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
+	for material in _materials(scene, RockJointMat):
 		if material.tensileStrength > 0 and not isPerArea(material, makers):
 			seen = f'tensileStrength {float(material.tensileStrength):.3g} Pa of RockJointMat {material.label!r}: a joint with a stiffness per contact pulls at one point and does not resist bending'
 			yield 'tension', seen, 'stiffnessPerArea=True, or polytope.bond() after O.engines is set: faces then hold over their whole area'
@@ -149,7 +173,7 @@ def elasticConstants(scene):
 	if others:
 		return
 	usual = RockJointMat()
-	for material in {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values():
+	for material in _materials(scene, RockJointMat):
 		given = [name for name in ('young', 'poisson') if getattr(material, name) != getattr(usual, name)]
 		if given:
 			seen = f'{" and ".join(given)} of RockJointMat {material.label!r} is set, and nothing reads it'

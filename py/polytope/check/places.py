@@ -11,6 +11,7 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 from .._scene import isPerArea, jointMakers
 from ..arrays import arrays
 from ..bonding import madeBonds
+from ..rock.faceMaterials import materialsOf
 
 __all__ = ['notNumbers', 'placeFindings']
 
@@ -119,9 +120,9 @@ def suddenGravity(scene):
 	"""Joints with a strength that they can lose, between bodies in touch, and gravity that begins with the first step."""
 	if scene.O.iter > 0 or not scene.gravity() > 0:
 		return
-	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body.material)]
+	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body)]
 	bonded = any(bond.intact and math.isfinite(bond.tensileStrength) for bond in madeBonds())
-	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body.material)]
+	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body)]
 	if not bonded and not _anyTouch(scene, strong) and not _anyRests(scene, strong, supports):
 		return
 	what = 'bonds' if bonded else 'joints with cohesion or tensile strength'
@@ -129,9 +130,12 @@ def suddenGravity(scene):
 	yield 'gravity at once', seen, 'polytope.settle() before the run: at rest first, then the true strengths'
 
 
-def _canLoseStrength(material):
-	return isinstance(material, RockJointMat) and (
-		material.cohesion > material.residualCohesion or material.tensileStrength > material.residualTensileStrength
+def _canLoseStrength(body):
+	"""A joint on one of its faces."""
+	return any(
+		isinstance(material, RockJointMat)
+		and (material.cohesion > material.residualCohesion or material.tensileStrength > material.residualTensileStrength)
+		for material in materialsOf(body)
 	)
 
 
@@ -247,7 +251,7 @@ def stiffness(scene):
 		return
 	perArea = isPerArea(worst.material, makers)
 	unit, other = ('Pa/m', 'N/m') if perArea else ('N/m', 'Pa/m')
-	value = f'normalStiffness {float(worst.material.normalStiffness):.3g} {unit}'
+	value = f'normalStiffness {_softest(worst):.3g} {unit}'
 	seen = f'{value}: body {worst.id} sinks in by {deepest:.2g} of its inscribed radius, by its weight or speed'
 	advice = (
 		f'a higher normalStiffness; if it is meant in {other}: RockJointMat(stiffnessPerArea={not perArea})'
@@ -259,9 +263,14 @@ def _overlap(body, perArea, gravity):
 	"""Over its inscribed radius."""
 	shape, weight = body.shape, float(body.state.mass)
 	face = float(shape.volume) ** (2 / 3) if shape.dimension == 3 else math.sqrt(float(shape.volume * shape.thickness))
-	k = float(body.material.normalStiffness) * (face if perArea else 1)
+	k = _softest(body) * (face if perArea else 1)
 	return (
 		max(weight * gravity / k, float(body.state.vel.norm()) * math.sqrt(weight / k)) / float(shape.inscribedRadius)
 		if weight > 0
 		else 0.0
 	)
+
+
+def _softest(body):
+	"""normalStiffness of the softest joint that it can have."""
+	return min(float(material.normalStiffness) for material in materialsOf(body) if isinstance(material, RockJointMat))

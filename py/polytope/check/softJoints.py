@@ -18,6 +18,7 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
 from .._faces import worldVertices
 from .._scene import isPerArea, jointMakers
+from ..rock.faceMaterials import materialOfPlane, materialsOf
 
 __all__ = ['softJoints', 'stableTilt']
 
@@ -71,10 +72,10 @@ def softJoints(scene):
 	bases = [base for body in bodies[:: max(1, len(bodies) // most)] for base in _bases(body, gravity / size)]
 	if not bases:
 		return
-	stiffness = np.array([float(base.body.material.normalStiffness) for base in bases])
+	stiffness = np.array([float(base.material.normalStiffness) for base in bases])
 	width, height, breadth = np.array([(base.width, base.height, base.breadth) for base in bases]).T
 	softness = np.array([float(base.body.state.mass) for base in bases]) * size / breadth / (stiffness * width**2)
-	slides = np.array([math.pi / 2 if base.body.material.cohesion > 0 else float(base.body.material.frictionAngle) for base in bases])
+	slides = np.array([math.pi / 2 if base.material.cohesion > 0 else float(base.material.frictionAngle) for base in bases])
 	elastic, rigid = (np.minimum(angles, slides) for angles in stableTilt(width / height, softness))
 	for k in np.argsort(elastic - rigid)[:looks]:
 		if rigid[k] - elastic[k] > lost and _standsFree(scene, bases[k]):
@@ -102,7 +103,7 @@ def _mayTopple(body):
 		and isinstance(body.material, RockJointMat)
 		and body.dynamic
 		and not body.isClumpMember
-		and not body.material.tensileStrength > 0
+		and not any(material.tensileStrength > 0 for material in materialsOf(body))
 		and float(body.state.mass) > 0
 	)
 
@@ -111,6 +112,8 @@ class Base(NamedTuple):
 	"""Face on which a body stands."""
 
 	body: object
+	material: object
+	"""Of this face."""
 	normal: np.ndarray
 	"""Outward, world axes."""
 	corners: np.ndarray
@@ -142,7 +145,7 @@ def _bases(body, down):
 	width = float(widths.min())
 	if shape.dimension == 2:  # the prism's cap may be the shorter side
 		width = hull.volume / float(shape.thickness)
-	yield Base(body, normal, flat, width, 2 * offset, hull.volume / width)
+	yield Base(body, materialOfPlane(body, lowest), normal, flat, width, 2 * offset, hull.volume / width)
 
 
 def _standsFree(scene, base):

@@ -8,7 +8,7 @@ from yade import O, RockJointMat
 
 from ..arguments import materialOf
 
-__all__ = ['faceMaterials', 'materialsOfFaces']
+__all__ = ['faceMaterials', 'materialOfPlane', 'materialsOf', 'materialsOfFaces']
 
 
 def materialsOfFaces(given, entries, own):
@@ -56,3 +56,16 @@ def faceMaterials(body, normals, joints, sets, chosen):
 	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)
 	nearest = joints[np.argmax(own @ (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T, axis=1)]
 	return [int(chosen[sets[joint]]) if joint >= 0 else -1 for joint in nearest]
+
+
+def materialOfPlane(body, plane):
+	"""Of the body's plane of this index, if it has one of its own (*Polytope.faceMaterials*); else, and of −1, the body's."""
+	own = getattr(body.shape, 'faceMaterials', [])
+	return O.materials[own[plane]] if 0 <= plane < len(own) and own[plane] >= 0 else body.material
+
+
+def materialsOf(body):
+	"""All that contacts of the body may have, each once: the body's own, where a face has none, and those of faces."""
+	own = list(getattr(body.shape, 'faceMaterials', []))
+	named = [O.materials[k] for k in dict.fromkeys(own) if k >= 0]
+	return named if own and min(own) >= 0 else [body.material, *named]

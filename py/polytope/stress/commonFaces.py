@@ -8,8 +8,9 @@ import numpy as np
 from yade import O, PolytopeBond, PolytopeBonds
 
 from .._faces import rows
+from ..rock.faceMaterials import materialOfPlane
 
-__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'materialOfPlane', 'planeOf', 'planesOf']
+__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
 
 facing = 0.01
 """Largest angle between two faces that are one joint [rad], as in *polytope.bond*."""
@@ -84,11 +85,5 @@ def planeOf(face, k):
 
 def materialOf(face, k):
 	"""Of body k's side of the joint: that of its face, if it has one of its own (*Polytope.faceMaterials*)."""
-	return materialOfPlane(k, planeOf(face, k) if len(getattr(O.bodies[k].shape, 'faceMaterials', [])) else -1)
-
-
-def materialOfPlane(k, plane):
-	"""The same of the plane of this index, −1: of none."""
 	body = O.bodies[k]
-	own = getattr(body.shape, 'faceMaterials', [])
-	return O.materials[own[plane]] if 0 <= plane < len(own) and own[plane] >= 0 else body.material
+	return materialOfPlane(body, planeOf(face, k) if len(getattr(body.shape, 'faceMaterials', [])) else -1)

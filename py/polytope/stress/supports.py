@@ -12,7 +12,8 @@ from yade import O, Polytope
 
 from .._faces import worldVertices
 from .._scene import canMove
-from .commonFaces import materialOfPlane, planesOf
+from ..rock.faceMaterials import materialOfPlane
+from .commonFaces import planesOf
 
 __all__ = ['inLine']
 
@@ -63,5 +64,5 @@ def _follow(pieces, found):
 			key = pieces[beside], plane
 			apart = np.maximum(low[beside] - high[row], low[row] - high[beside]).max()
 			if key not in found and apart <= flush * size:
-				found[key] = materialOfPlane(*key)
+				found[key] = materialOfPlane(O.bodies[key[0]], plane)
 				waiting.append(other)
