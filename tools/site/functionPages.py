@@ -18,7 +18,7 @@ topics = {
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'support': ('Rock bolts and cables', 'bolt Grout Dowel bolts boltArrays'),
-	'scene': ('Scenes', 'engines check settle water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
+	'scene': ('Scenes', 'engines check settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
@@ -34,7 +34,7 @@ topics = {
 
 returned = {
 	'support': ('bolting.BoltArrays',),
-	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check'),
+	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check', 'unrest.Restless'),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
