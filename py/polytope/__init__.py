@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle*. Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -64,6 +64,7 @@ from .stress.excavation import excavate
 from .stress.inSitu import inSitu
 from .timeStep import stableTimeStep
 from .tradeoff import tradeoff
+from .unrest import NotAtRest
 from .voronoi import VoronoiCells, voronoi
 from .water import water
 
@@ -85,6 +86,7 @@ __all__ = [
 	'JointSet',
 	'JointedRock',
 	'KeyBlock',
+	'NotAtRest',
 	'RockReport',
 	'VoronoiCells',
 	'aabbExtrema',

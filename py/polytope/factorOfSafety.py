@@ -95,12 +95,7 @@ class FactorOfSafety:
 		)
 
 	def __str__(self):
-		modes = '; '.join(
-			f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
-			for k, way in list(zip(self.bodies, self.displacements, strict=True))[:3]
-		)
-		more = f' and {len(self.bodies) - 3} more' if len(self.bodies) > 3 else ''
-		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {modes}{more}'
+		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {_told(self.bodies, self.displacements)}'
 
 
 @namedArguments
@@ -182,8 +177,8 @@ class _Search:
 			first = self._trial(1.0)
 			if first.outcome != 'stable':
 				raise RuntimeError(
-					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps, '
-					f'{first.displacement:.2g} m; polytope.settle() first, more strength, or a support'
+					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps; '
+					f'{_told(*self._motion()[:2])}; polytope.settle() first, more strength, or a support'
 				)
 			O.saveTmp(standing, quiet=True)
 			self.origin = self._places()
@@ -276,6 +271,15 @@ class _Search:
 		moved = (self._places()[0] - self.origin[0])[order]
 		turned = [_rotation(self.origin[1][k].conjugate(), O.bodies[self.watched[k]].state.ori) for k in order]
 		return [self.watched[k] for k in order], moved, np.array(turned)
+
+
+def _told(bodies, displacements):
+	"""The first ones, for a message."""
+	modes = '; '.join(
+		f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
+		for k, way in list(zip(bodies, displacements, strict=True))[:3]
+	)
+	return modes + (f' and {len(bodies) - 3} more' if len(bodies) > 3 else '')
 
 
 def _trembling(unrest):

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[2] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -124,6 +124,16 @@ def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
 	with pytest.raises(SystemExit) as end:
 		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
 	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
+
+
+def testASlopeFromAFileOfJointsFailsAlongItsBedding(runs, capsys):
+	"""Five metres high: joints read, blocks cut, at rest, factor of safety, picture and film."""
+	found = runs('slopeFromJoints', '--height', '5', '--width', '3', '--frames', '3', '--tolerance', '0.04')['found']
+	assert 'sliding on bedding: 1.198' in capsys.readouterr().out
+	assert found.stable < 1.03 * 1.198 and found.failed > 0.97 * 1.198 and found.failed / found.stable <= 1.0401
+	assert all(way @ (-0.82, 0, -0.57) > 0.95 for way in found.directions)  # down the bedding
+	assert isPicture('output/slopeFromJoints.png') and pathlib.Path('output/slopeFromJoints.gif').read_bytes().startswith(b'GIF')
+	assert len(polytope.readJoints('output/slopeFromJoints.csv')) > 10 and noFailures()
 
 
 def testJointNetworkCutsWhatWasAskedFor(runs, capsys):

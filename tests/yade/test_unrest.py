@@ -6,7 +6,7 @@ import math
 import pytest
 from scenes import joint
 from yade import O, PyRunner, Quaternion, Vector3, polytope
-from yade.polytope.unrest import NotAtRest, patience
+from yade.polytope.unrest import patience
 
 
 def floor(half=2.0, dip=0.0, flat=False):
@@ -32,7 +32,7 @@ def engines(flat=False):
 
 
 def settleFails(**arguments):
-	with pytest.raises(NotAtRest) as told:
+	with pytest.raises(polytope.NotAtRest) as told:
 		polytope.settle(**arguments)
 	return told.value
 
