@@ -7,7 +7,7 @@ import re
 import numpy as np
 from yade import O, Polytope, PyRunner, Vector3
 
-from .arguments import flag, namedArguments, vector
+from .arguments import flag, namedArguments, vector, warn
 from .heap import moverOf
 from .measures import bodyStress
 
@@ -28,7 +28,7 @@ def history(points, every=100, stress=False):
 	Adds an engine to O.engines that adds a row to *plot.data* at once and then every so many steps: *i* (O.iter), *t* (O.time) and for each name
 	*crown_x*, *crown_y*, *crown_z*, its displacement since this call [m]. A point moves with the body that it lies in. With *stress* also *crown_xx*, *crown_yy*, *crown_zz*, *crown_xy*,
 	*crown_yz* and *crown_zx*, bodyStress of this body [Pa]. ``plot.plot()``, ``plot.saveDataTxt(…)`` and numpy.array(plot.data['crown_z']) show them. The
-	engine is saved with the scene and goes on when that is loaded, the rows are not. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*.
+	engine is saved with the scene and goes on when that is loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*.
 
 	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]
 	:param int every: steps from one row to the next
@@ -47,10 +47,21 @@ def history(points, every=100, stress=False):
 	there = {name for engine in histories() for name in re.findall(r"'(\w+)':", engine.command)} & set(followed)
 	if there:
 		raise ValueError(f'points: {sorted(there)} are recorded already; take other names')
+	_forgetFormerScene()
 	engine = PyRunner(command=f'{module}({followed!r}, {bool(stress)})', iterPeriod=int(every), iterLast=O.iter)
 	O.engines = [*O.engines, engine]
 	record(followed, bool(stress))
 	return [f'{name}_{what}' for name in followed for what in _columns(bool(stress))]
+
+
+def _forgetFormerScene():
+	"""O.reset() leaves yade.plot its data, and rows of this scene would follow them."""
+	from yade import plot
+
+	last = max((step for step in plot.data.get('i', []) if step == step), default=0)  # a column of others has no number there
+	if last > O.iter:
+		plot.resetData()
+		warn(f'plot.data: rows of a former scene, up to step {last:g}, are removed; plot.saveDataTxt(…) before O.reset() keeps them')
 
 
 def histories():

@@ -216,6 +216,7 @@ def testALoadedSceneGoesOnMoving(archive, tmp_path):
 		(dict(record=[1, 2], times=1, kind='displacement'), '^kind'),
 		(dict(record=[1, 2], times=1, unit=0), '^unit'),
 		(dict(record=[1, 2], times=1, direction=(0, 0, 0)), '^direction'),
+		(dict(record=[[1, 2, 3], [4, 5, 6]], times=1, direction=(1, 0, 0)), '^direction: the record has three columns'),
 		(dict(record=[1, 2], times=1, baseline='yes'), '^baseline'),
 		(dict(record='nowhere.txt', times=1), '^times: the file has them'),
 	],
@@ -230,7 +231,14 @@ def testArgumentsOfARecordThatCannotBeAreNamed(arguments, message):
 	[
 		('0 1\n1 2\n1 3\n', 'times must increase'),
 		('0 1 2\n1 2 3\n', 'has 3 columns'),
-		('0 a\n1 2\n', 'columns of numbers'),
+		('0 a\n1 2\n', "line 1: must have numbers, got '0 a'; put # before"),
+		('PEER NGA\nNPTS= 4\n .1E-3 .2\n', "line 1: must have numbers, got 'PEER NGA'"),
+		('0;1\n1;2\n', 'line 1: must have numbers'),
+		('0 1\n0.1 2;5\n', 'line 2: .*decimals begin with a point'),
+		('0 1\n1 2 3\n', 'line 2: has 3 columns, the lines before have 2'),
+		('', 'has no numbers'),
+		('# time\n\n', 'has no numbers'),
+		('0.1\n0.2\n', r'has 1 columns; .*velocityHistory\(numpy.array'),
 		('0 1\n1 nan\n', 'must be finite'),
 	],
 )
@@ -238,6 +246,19 @@ def testFilesThatAreNoRecordAreNamed(text, message, tmp_path):
 	(tmp_path / 'record.txt').write_text(text)
 	with pytest.raises(ValueError, match='^record: .*' + message):
 		polytope.velocityHistory(str(tmp_path / 'record.txt'))
+
+
+def testAFileThatIsNoTextIsNamed(tmp_path):
+	(tmp_path / 'record.txt').write_bytes(bytes(range(128, 256)))
+	with pytest.raises(ValueError, match='^record: .*is no text'):
+		polytope.velocityHistory(tmp_path / 'record.txt')
+
+
+def testFilesOfOtherSystems(tmp_path):
+	"""A mark of the byte order, line ends of DOS, comments behind values."""
+	(tmp_path / 'record.csv').write_bytes('\ufefftime'.encode('utf-8')[:3] + b'0,1\r\n0.5,2 # peak\r\n1,3\r\n')
+	made = polytope.velocityHistory(tmp_path / 'record.csv', kind='velocity', baseline=False)
+	assert list(made.times) == [0, 0.5, 1] and [v[0] for v in made.velocities] == [1, 2, 3]
 
 
 def testAFileThatIsNotThere(tmp_path):

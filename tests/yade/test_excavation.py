@@ -257,6 +257,17 @@ def testBadArgumentsAreNamedAndNothingIsTaken(name, arguments):
 	assert len(list(O.bodies)) == 4 and not any(isinstance(engine, PyRunner) for engine in O.engines)
 
 
+def testBeforeTheFirstStepThereAreNoForcesThatCouldFade():
+	material()
+	for k in range(3):
+		O.bodies.append(polytope.cuboid((0, 0, k), (0.5, 0.5, 0.5), fixed=k == 0))
+	O.engines = polytope.engines()
+	with pytest.raises(ValueError, match=r'^over: no contact bears a force yet .*polytope\.settle\(\) or polytope\.inSitu'):
+		polytope.excavate([2], over=100)
+	assert len(O.bodies) == 3 and not relaxing()
+	assert polytope.excavate([2]) == [2]
+
+
 def testWithoutAnIntegratorForcesCannotFade():
 	material()
 	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))

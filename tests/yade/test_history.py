@@ -100,6 +100,21 @@ def testBadArgumentsAreNamed(name, arguments):
 	assert not any(isinstance(engine, PyRunner) for engine in O.engines) and not plot.data
 
 
+def testRowsOfAFormerSceneAreRemoved():
+	column()
+	polytope.history({'top': 3}, every=5)
+	O.run(20, wait=True)
+	assert plot.data['i'] == [0, 5, 10, 15]
+	O.reset()
+	column()
+	with pytest.warns(UserWarning, match='^plot.data: rows of a former scene, up to step 15, are removed'):
+		polytope.history({'low': 1}, every=5)
+	O.run(10, wait=True)
+	assert plot.data['i'] == [0, 5] and set(plot.data) == {'i', 't', 'low_x', 'low_y', 'low_z'}
+	polytope.history({'top': 3}, every=5)
+	assert len(plot.data['low_z']) == 3  # those of this scene stay
+
+
 def testANameTwiceIsRefused():
 	column()
 	polytope.history({'top': 3})

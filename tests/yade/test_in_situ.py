@@ -355,6 +355,27 @@ def testAContactThatIsMissingIsRefusedAndTheSceneIsAsItWas():
 	assert error(StressField(general)) < 0.002
 
 
+@pytest.mark.filterwarnings('error:gradient')
+def testWaterIsPartOfTheBalance():
+	"""The stress between blocks under water has the gradient of the weight less the buoyancy."""
+	material()
+	masonry(2, without=(4,))
+	O.engines[3].gravity = (0, 0, -9.81)
+	water = polytope.water(level=3)
+	lighter = np.zeros((3, 3, 3))
+	lighter[2] = (2600 - 1000) * 9.81 * np.diag((0.6, 0.8, 1))
+	polytope.inSitu(-2 * lighter[2], lighter)
+	assert polytope.settle(elastic=False) <= 500 and error(StressField(-2 * lighter[2], lighter)) < 0.005
+	O.reset()
+	material()
+	masonry(2, without=(4,))
+	O.engines[3].gravity = (0, 0, -9.81)
+	polytope.water(level=3)
+	with pytest.raises(UserWarning, match='stress and gravity and water do not balance.*less the buoyancy'):
+		polytope.inSitu(-2 * upwards[2], upwards)
+	assert water
+
+
 def testAStressThatDoesNotBalanceGravityIsWarnedOf():
 	material()
 	masonry(2)

@@ -238,3 +238,20 @@ def testListsOfOtherLengthsAreRefused():
 	engine.normalDashpots = []
 	with pytest.raises(Exception, match='a value for each of ids'):
 		O.step()
+
+
+def testABodyIsEitherMovedOrFree():
+	row(ends=(0.5, 1))
+	history = polytope.velocityHistory([0, 1e-3, 0], times=0.1, kind='velocity')
+	for body in (O.bodies[0], O.bodies[count - 1]):
+		body.state.blockedDOFs = 'xyzXYZ'
+	polytope.baseMotion(0, history)
+	engines = len(O.engines)
+	with pytest.raises(ValueError, match='^ids: body 0 is moved by a BaseMotion.*history='):
+		polytope.quietBoundary(0, (-1, 0, 0), pWave, sWave)
+	polytope.quietBoundary(count - 1, (1, 0, 0), pWave, sWave)
+	O.bodies[count - 1].state.blockedDOFs = 'xyzXYZ'
+	with pytest.raises(ValueError, match='^ids: some of them are a quiet boundary'):
+		polytope.baseMotion(count - 1, history)
+	assert len(O.engines) == engines + 1
+	O.step()

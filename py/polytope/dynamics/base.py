@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Fixed bodies that move as a record tells: `polytope.baseMotion(…)`."""
 
-from yade import BaseMotion, O
+from yade import BaseMotion, O, QuietBoundary
 
 from ..arguments import namedArguments
 from ._bodies import bodiesOf, historyOf, integrator
@@ -34,6 +34,8 @@ def baseMotion(ids, history):
 			raise ValueError(f"ids: body {k} is not fixed; make it with fixed=True, or set its state.blockedDOFs = 'xyzXYZ'")
 	if any(set(one.ids) & set(ids) for one in O.engines if isinstance(one, BaseMotion)):
 		raise ValueError('ids: O.engines has a BaseMotion for some of them; remove it first')
+	if any(set(one.ids) & set(ids) for one in O.engines if isinstance(one, QuietBoundary)):
+		raise ValueError('ids: some of them are a quiet boundary, which moves freely; give the record to quietBoundary (history=)')
 	damping = float(integrator().damping)
 	if damping != 0:
 		raise ValueError(

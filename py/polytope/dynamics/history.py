@@ -16,7 +16,7 @@ kinds = ('velocity', 'acceleration')
 
 
 @namedArguments
-def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction=(1, 0, 0), baseline=True, start=None):
+def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction=None, baseline=True, start=None):
 	"""The velocity over time that a record tells, for *baseMotion* and *quietBoundary*::
 
 		quake = polytope.velocityHistory('record.txt', unit=9.81)                                     # time [s], acceleration [g]
@@ -30,7 +30,7 @@ def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction
 	:param times: n instants [s], or the interval between them; not for a file
 	:param str kind: 'acceleration' or 'velocity'
 	:param float unit: of the values, in m/s² or m/s: 9.81 for a record in g, 0.01 for one in cm
-	:param direction: of a record with one component; of any length but zero
+	:param direction: of a record with one component, of any length but zero; default along x
 	:param bool baseline: whether the baseline is corrected
 	:param float start: O.time [s] at which the record begins; default: now
 	:returns: *VelocityHistory*, with *times* [s] from *start* on, and *velocities* [m/s]; before it the velocity is zero, after it the last one goes on
@@ -59,14 +59,36 @@ def _fromFile(name, times):
 		raise ValueError('times: the file has them in its first column')
 	if not os.path.isfile(name):
 		raise FileNotFoundError(f'record: there is no file {os.fspath(name)!r}; its place is relative to {os.getcwd()!r}')
-	try:
-		with open(name) as lines:
-			table = np.loadtxt((line.replace(',', ' ') for line in lines), ndmin=2)
-	except ValueError as error:
-		raise ValueError(f'record: {os.fspath(name)!r} must have columns of numbers, time and one or three values: {error}') from None
-	if table.shape[1] not in (2, 4):
-		raise ValueError(f'record: {os.fspath(name)!r} has {table.shape[1]} columns; must be time and one value, or time and three')
+	table = _table(os.fspath(name))
 	return _checked(table[:, 0], table[:, 1:], 'record')
+
+
+def _table(name):
+	"""Rows of two or four numbers."""
+	try:
+		with open(name, encoding='utf-8-sig') as file:
+			lines = [(number, line.split('#')[0].replace(',', ' ').split()) for number, line in enumerate(file, 1)]
+	except UnicodeDecodeError:
+		raise ValueError(f'record: {name!r} is no text; must have columns of numbers, time and one or three values') from None
+	rows = [(number, words) for number, words in lines if words]
+	if not rows:
+		raise ValueError(f'record: {name!r} has no numbers')
+	columns = len(rows[0][1])
+	values = []
+	for number, words in rows:
+		try:
+			values.append([float(word) for word in words])
+		except ValueError:
+			hint = 'put # before lines of words' if not values else 'columns are separated by blanks or commas, and decimals begin with a point'
+			raise ValueError(f'record: {name!r}, line {number}: must have numbers, got {' '.join(words)[:60]!r}; {hint}') from None
+		if len(words) != columns:
+			raise ValueError(f'record: {name!r}, line {number}: has {len(words)} columns, the lines before have {columns}')
+	if columns not in (2, 4):
+		raise ValueError(
+			f'record: {name!r} has {columns} columns; must be time and one value, or time and three. Values without times, several in a line, are read by '
+			f'velocityHistory(numpy.array(open(…).read().split(), float), times=interval), without the lines at its head'
+		)
+	return np.array(values)
 
 
 def _fromValues(record, times):
@@ -107,7 +129,10 @@ def _checked(times, values, name):
 
 def _components(values, direction):
 	if values.shape[1] == 3:
+		if direction is not None:
+			raise ValueError('direction: the record has three columns, the components along x, y and z; leave it out')
 		return values
+	direction = (1, 0, 0) if direction is None else direction
 	along = np.array([float(x) for x in vector(direction, 'direction')])
 	if not np.linalg.norm(along) > 0:
 		raise ValueError('direction: must not be zero')

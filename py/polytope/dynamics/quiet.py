@@ -2,7 +2,7 @@
 """Boundaries that let waves out: `polytope.quietBoundary(…)`."""
 
 import numpy as np
-from yade import NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
+from yade import BaseMotion, NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
 
 from .._faces import localVertices
 from .._loads import permanentLoads
@@ -35,7 +35,7 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free surface of the same
 	    rock; None: none does
 	:returns: the engine *QuietBoundary*, which stands before NewtonIntegrator in O.engines and is saved with the scene
-	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal; a history that has begun
+	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal, or moved by *baseMotion*; a history that has begun
 	    already; no NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), None if history is None else historyOf(history)
@@ -50,6 +50,11 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 	for one in O.engines:
 		if isinstance(one, QuietBoundary) and set(one.ids) & set(ids) and np.dot(list(map(float, one.normal)), normal) > outward:
 			raise ValueError('ids: O.engines has a QuietBoundary of this normal for some of them; remove it first')
+	driven = sorted({k for one in O.engines if isinstance(one, BaseMotion) for k in one.ids} & set(ids))
+	if driven:
+		raise ValueError(
+			f'ids: body {driven[0]} is moved by a BaseMotion, and a quiet boundary must be free to move; give the record to the boundary (history=), or remove the BaseMotion first'
+		)
 	gravity = integrator().gravity
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
 	borne = _contactForces(ids)

@@ -9,6 +9,8 @@ from yade import O, Polytope
 from .._ranks import refuseDivided
 from .._scene import canMove, integrators
 from ..arguments import namedArguments, numbersOf, rows
+from ..bolting import madeBolts
+from ..bonding import madeBonds
 from ..heap import moverOf, namedBodies
 from ..relaxing import startRelaxing
 from .removedForces import removedForces
@@ -46,6 +48,10 @@ def excavate(bodies=None, normals=None, offsets=None, over=0):
 		raise ValueError('bodies: there is none' if bodies is not None else 'normals: no body that can move has its centre in the region')
 	if over and not integrators():
 		raise ValueError('over: O.engines has no NewtonIntegrator, before which the forces act; set O.engines first')
+	if over and not (madeBonds() or madeBolts() or any(contact.isReal for contact in O.interactions)):
+		raise ValueError(
+			'over: no contact bears a force yet that could fade; polytope.settle() or polytope.inSitu(…) first, or over=0, which takes the blocks away before the first step'
+		)
 	parts = {part for k in chosen for part in (O.bodies[k].shape.members if O.bodies[k].isClump else (k,))}
 	loads = removedForces(parts) if over else {}
 	for k in chosen:

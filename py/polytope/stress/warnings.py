@@ -2,7 +2,7 @@
 """What an initial stress is warned of: the scene takes it, but moves, or has it less exactly."""
 
 import numpy as np
-from yade import O
+from yade import O, PolytopeWater
 
 from .._scene import canMove, integrators
 from ..arguments import warn
@@ -17,20 +17,23 @@ errorOfClosure = 3
 
 
 def warnOfGravity(field, faces, chosen):
-	"""Where the divergence of the stress is not the weight."""
+	"""Where the divergence of the stress, which is that between the blocks (effective), is not weight and water."""
+	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater) and not engine.dead]
 	gravity = np.array(integrators()[0].gravity, float) if integrators() else np.zeros(3)
 	bears, forces = forcesBorne(field, faces), {}
 	for k in chosen:
 		body = O.bodies[k]
 		if canMove(body):
 			left = float(body.shape.volume) * (field.divergence + float(body.material.density) * gravity)
+			left += sum(np.array(water.load(k)[0], float) for water in waters)
 			forces[moverOf(k)] = forces.get(moverOf(k), np.zeros(3)) + left
 	parts = {k: float(np.linalg.norm(left)) / bears[k] for k, left in forces.items() if bears.get(k, 0) > 0}
 	worst = max(parts, key=parts.get, default=None)
 	if worst is not None and parts[worst] > accuracy:
+		loads, water = ('gravity and water', ' less the buoyancy ρ_w g of what is under water: it is the stress between the blocks') if waters else ('gravity', '')
 		warn(
-			f'gradient: stress and gravity do not balance, by {parts[worst]:.2g} of what body {worst} bears; the mass will move until they do. '
-			'The divergence of the stress must be -ρg: with z upwards and gravity along -z the derivative of σ_zz along z is ρg'
+			f'gradient: stress and {loads} do not balance, by {parts[worst]:.2g} of what body {worst} bears; the mass will move until they do. '
+			f'The divergence of the stress must be -ρg: with z upwards and gravity along -z the derivative of σ_zz along z is ρg{water}'
 		)
 
 
