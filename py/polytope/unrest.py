@@ -16,7 +16,7 @@ from .unbalanced import unbalancedForces
 __all__ = ['NotAtRest', 'Restless', 'Unrest', 'remedy', 'told']
 
 firstSpan = 1250
-"""Steps after which it is looked for the first time what falls; then whenever their number has doubled."""
+"""Steps after which it is looked for the first time what falls, which it has by more than its size; then whenever their number has doubled."""
 patience = 10000
 """Steps before what neither falls nor slides away is given up: some swings of the largest bodies of a mass whose time step is set by the smallest ones."""
 asBefore = 0.7
@@ -92,8 +92,9 @@ class Unrest:
 
 	def moving(self):
 		"""All that are not at rest, and what they do."""
-		ways = _ways(self.origin, _places())
-		found = [Restless(int(k), float(self.mean[k]), *self._kind(int(k), ways[k])) for k in np.flatnonzero(self.mean > self.bound)]
+		ways, span = _ways(self.origin, _places()), self.span if self.looks else self.spanBefore
+		there = [int(k) for k in np.flatnonzero(self.mean > self.bound) if k < len(O.bodies) and O.bodies[int(k)] is not None]
+		found = [Restless(k, float(self.mean[k]), *self._kind(k, float(ways[k]), float(span[k]))) for k in there]
 		return sorted(found, key=lambda one: -one.unbalanced)
 
 	def _isLost(self, one):
@@ -101,15 +102,18 @@ class Unrest:
 			return self.steps >= patience and self.mean[one.id] >= asBefore * _ofLength(self.before, len(self.mean))[one.id]
 		return one.kind in ('falls', 'slides')
 
-	def _kind(self, k, way):
+	def _kind(self, k, way, span):
+		"""Of body k, which has moved by *way* since the start and by *span* since the span began."""
 		size, touched = sizeOf(k), _touched(k)
 		if not touched and not _held(k):
-			return ('moves', 'is in the air') if _anythingBelow(k) else ('falls', 'touches nothing, and nothing is below it')
+			if way > size and not _anythingBelow(k):  # what floats or hangs by a given force stays
+				return 'falls', 'touches nothing, and nothing is below it'
+			return 'moves', f'touches nothing, has moved by {way:.2g} m'
 		before = float(_ofLength(self.spanBefore, len(self.span))[k])
-		if self.span[k] <= min(inPlace * size, max(drift * before, still * size)):
+		if span <= min(inPlace * size, max(drift * before, still * size)):
 			return 'trembles', 'trembles in place' + (', is thin' if _isThin(k) else '')
 		sliding = sorted(other for other, slides in touched.items() if slides)
-		if sliding and way > away * size and self.span[k] > before:
+		if sliding and way > away * size and span > before:
 			return 'slides', f'slides on body {sliding[0]}, by {way:.2g} m up to now'
 		return 'moves', f'has moved by {way:.2g} m'
 

@@ -117,3 +117,26 @@ def testClumpsAreToldByTheirOwnId():
 	clump, _ = O.bodies.appendClumped([polytope.cuboid((3 + x, 0, 0.25), (0.25, 0.25, 0.25)) for x in (0, 0.5)])
 	engines()
 	assert [one.id for one in settleFails().bodies] == [clump]
+
+
+def testWhatFloatsIsWaitedFor():
+	"""It touches nothing, nothing is below, and it heaves for long."""
+	joint(normalStiffness=1e8, shearStiffness=1e8)
+	O.materials[0].density = 600
+	raft = O.bodies.append(polytope.cuboid((0, 0, 0.2), (1, 1, 0.5)))
+	O.bodies[raft].state.blockedDOFs = 'XYZ'
+	O.engines = polytope.engines(timeStepper=False)
+	O.dt = 1e-4
+	polytope.water(level=0)
+	assert polytope.settle(unbalanced=1e-4, damping=0.1) > 1250
+	assert O.bodies[raft].state.pos[2] == pytest.approx(0.5 - 0.6, abs=1e-3)
+
+
+def testABodyThatIsGoneIsNotTold():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	turn = floor()
+	block(turn, 0)
+	gone = block(turn, 3)
+	engines()
+	O.engines += [PyRunner(command=f'O.bodies.erase({gone}) if O.bodies[{gone}] else None', iterPeriod=1200)]
+	assert polytope.settle() > 0

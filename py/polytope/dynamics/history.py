@@ -34,7 +34,7 @@ def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction
 	:param bool baseline: whether the baseline is corrected
 	:param float start: O.time [s] at which the record begins; default: now
 	:returns: *VelocityHistory*, with *times* [s] from *start* on, and *velocities* [m/s]; before it the velocity is zero, after it the last one goes on
-	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns
+	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns, a direction for three of them; of a file with the line
 	:raises FileNotFoundError: if there is no such file
 	"""
 	if kind not in kinds:
