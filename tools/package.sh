@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash disable=SC2154
 #
-# `./run package`: a Debian package for the YADE that is installed here, into output/package. Part of inside.sh. debian/ has the rules.
+# `./run package`: Debian packages for the YADE that is installed here, the plug-in and its documentation, into output/package. Part of inside.sh. debian/ has the rules.
 
 # Of the sources: debian/changelog's, and unless this is the tagged release, before it, by time and commit. Then the YADE it is for.
 packageVersion() {
@@ -24,7 +24,7 @@ buildPackage() {
 	# Debian's tools write into the tree and beside it
 	rm -rf "$folder"
 	mkdir -p "$tree" "$output"
-	tar -C "$project" -c --exclude=__pycache__ CMakeLists.txt CHANGELOG.md CITATION.cff LICENSE README.md cmake debian docs examples pkg py src | tar -C "$tree" -x
+	tar -C "$project" -c --exclude=__pycache__ CMakeLists.txt CHANGELOG.md CITATION.cff LICENSE README.md cmake debian docs examples pkg py src tools/site | tar -C "$tree" -x
 	sed -i "1s/([^)]*)/($version)/" "$tree/debian/changelog"
 	# without symbols for a debugger: with them YADE's headers take three times the memory
 	(
@@ -34,8 +34,8 @@ buildPackage() {
 		step "building the package $name" "Debian's rules are in debian/." dpkg-buildpackage --build=binary --no-sign "${profile[@]}"
 	)
 	step "checking it with lintian" "lintian-explain-tags TAG explains an error." lintian --allow-root --fail-on error "$folder"/*.changes
-	rm -f "$output/$name"_*.deb
-	mv "$folder/$name"_*.deb "$output"
+	rm -f "$output/$name"_*.deb "$output/$name"-doc_*.deb
+	mv "$folder"/*.deb "$output"
 	rm -rf "$folder"
 	echo "  Install it, on a Debian with YADE $(dpkg-query -W -f '${Version}' libyade): sudo apt install $(compgen -G "$output/$name"_*.deb)"
 }

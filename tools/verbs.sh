@@ -14,7 +14,7 @@ purposesOf() { # VERB ARGUMENTS…
 		fuzz) echo base fuzz ;;
 		sanitize) echo base test fuzz ;;
 		format) echo base style ;;
-		package) echo base package revision ;;
+		package) echo base docs package revision ;;
 		build) if [ $# -gt 1 ] && [ "${*:2}" != overlay ]; then echo base test; else echo base; fi ;;
 		*) echo base ;;
 	esac
