@@ -8,7 +8,7 @@ import os
 from math import cos, pi, radians, sin
 
 import trimesh
-from yade import O, RockJointMat, polytope, ymport
+from yade import O, RockJointMat, polytope
 
 # the funnel, as a program for drawing would write it: rings of points, and two triangles between neighbours
 profile = [(0.08, 0.32), (0.08, 0.22), (0.02, 0.12), (0.02, 0.09)]  # radius and height [m]
@@ -23,7 +23,7 @@ os.makedirs('output', exist_ok=True)
 trimesh.Trimesh(points, [three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))]).export('output/funnel.stl')
 
 O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=5e7, frictionAngle=radians(25)))
-O.bodies.append(ymport.stl('output/funnel.stl', color=(0.6, 0.65, 0.7)))
+O.bodies.append(polytope.facets('output/funnel.stl', color=(0.6, 0.65, 0.7)))
 O.bodies.append(polytope.cuboid((0, 0, -0.01), (0.12, 0.12, 0.01), fixed=True, color=(0.82, 0.82, 0.8)))
 curve = [(0.007, 0), (0.01, 0.5), (0.013, 1)]  # opening of the sieve [m], part that passes
 grains = polytope.grains(curve, mass=0.25, elongation=(0.7, 1), flatness=(0.6, 1), vertices=12, seed=2)

@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a rock mass cut by joints:
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
@@ -47,7 +47,7 @@ from .loading.shearBox import shearBox
 from .loading.simpleShear import simpleShear
 from .loading.triaxial import triaxial
 from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
-from .meshes import fromMesh
+from .meshes import facets, fromMesh
 from .packing import pack, sample
 from .pictures import picture
 from .requirements import requirements
@@ -114,6 +114,7 @@ __all__ = [
 	'engines',
 	'excavate',
 	'extensions',
+	'facets',
 	'factorOfSafety',
 	'forceHistogram',
 	'fromHalfSpaces',

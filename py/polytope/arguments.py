@@ -3,6 +3,7 @@
 
 import functools
 import inspect
+import numbers
 import os
 import sys
 import warnings
@@ -12,7 +13,7 @@ from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
+__all__ = ['flag', 'maskOf', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
 
 infinite = float('inf')
 package = os.path.dirname(os.path.abspath(__file__)) + os.sep
@@ -50,6 +51,12 @@ def flag(value, name):
 	if not isinstance(value, (bool, np.bool_)):
 		raise ValueError(f'{name}: must be True or False, got {value!r}')
 	return bool(value)
+
+
+def maskOf(value):
+	if isinstance(value, bool) or not isinstance(value, numbers.Integral) or not abs(value) < 2**31:
+		raise ValueError(f'mask: must be a whole number of 32 bits, got {value!r}')
+	return int(value)
 
 
 def randomOf(seed):

@@ -27,7 +27,7 @@ import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
 from ._sharedArguments import withShared
-from .arguments import flag, materialOf, number, numbersOf, rotation, rows, vector, vectors
+from .arguments import flag, maskOf, materialOf, number, numbersOf, rotation, rows, vector, vectors
 
 __all__ = ['fromHalfSpaces', 'fromVertices', 'regular', 'cuboid', 'polygon']
 
@@ -191,8 +191,7 @@ def bodyOf(
 ):
 	"""The body of the shape that shape(cornerRadius, default's fraction) makes."""
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)
-	if isinstance(mask, bool) or not isinstance(mask, numbers.Integral) or not abs(mask) < 2**31:
-		raise ValueError(f'mask: must be a whole number of 32 bits, got {mask!r}')
+	mask = maskOf(mask)
 	given = None if color is None else vector(color, 'color')
 	if given is None or tuple(given) == randomColor:
 		given = randomColour()
@@ -202,7 +201,7 @@ def bodyOf(
 	if flag(highlight, 'highlight'):
 		body.shape.highlight = True
 	if mask != 1:
-		body.mask = int(mask)
+		body.mask = mask
 	if velocity is not still:
 		body.state.vel = given = vector(velocity, 'velocity')
 		if flat and given[2] != 0:

@@ -1,10 +1,33 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# inRoot.sh otherYade|remove PACKAGE: what `./run package --test` tries in a clean root beside debian/tests/first-scene.
+# inRoot.sh documentation|otherYade|remove PACKAGE: what `./run package --test` tries in a clean root beside debian/tests/first-scene.
 set -euo pipefail
 
 fault() { echo "FAULT: $*" >&2 && exit 1; }
+
+# The site, where doc-base says it is: no link leads nowhere, formulas have what shows them; once the package is gone no file of it is left.
+documentation() {
+	local index html
+	index=$(sed -n 's/^Index: //p' "/usr/share/doc-base/$1.yade-polytope")
+	[ -s "$index" ] || fault "doc-base names '$index', where nothing is"
+	html=$(dirname "$index")
+	[ -z "$(find "$html" -xtype l)" ] || fault "links to nothing: $(find "$html" -xtype l)"
+	[ -s "$html/_static/mathjax/MathJax.js" ] || fault "no MathJax"
+	grep -q fromMesh "$html/searchindex.js" || fault "the search knows no function"
+	python3 - "$html" <<'END' || fault "the site has broken links"
+import sys
+
+sys.path.insert(0, '/root/try')
+import links
+
+found = links.broken(sys.argv[1])
+print(*found, sep='\n')
+sys.exit(bool(found))
+END
+	apt-get purge -y "$1"
+	[ ! -e "/usr/share/doc/$1" ] && [ ! -e "/usr/share/doc-base/$1.yade-polytope" ] || fault "$1 left files"
+}
 
 # YADE of another version, by what it says of itself: it goes on without the plug-in, and says why and what to do.
 otherYade() {

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scenes import gravity, joint, loop, stepper
 from yade import O, Quaternion, Vector3, polytope
+from yade.polytope.meshes import convexParts
 
 density = 2000
 
@@ -16,6 +17,7 @@ density = 2000
 @pytest.fixture(autouse=True)
 def material():
 	joint(density=density)
+	convexParts.cutMeshes.clear()
 
 
 def box(lower, upper, **body):
@@ -240,14 +242,20 @@ def testCoacdsPartsMakeAClump(mesh, monkeypatch):
 	def run(given, **settings):
 		asked.update(settings, volume=given)
 		blocks = ((0, 3), (0, 1)), ((0, 1), (1, 2))
-		return [(np.array([(x, y, z) for x in xs for y in ys for z in (0, 1)]), None) for xs, ys in blocks]
+		return [(100 * np.array([(x, y, z) for x in xs for y in ys for z in (0, 1)]), None) for xs, ys in blocks]
 
 	stand = types.SimpleNamespace(Mesh=lambda points, triangles: len(triangles), run_coacd=run, set_log_level=lambda level: None)
 	monkeypatch.setitem(sys.modules, 'coacd', stand)
 	number, _ = polytope.clump(polytope.fromMesh(mesh, scale=0.01, parts=7))
 	assert asked == {'threshold': 0.05, 'max_convex_hull': 7, 'seed': 0, 'volume': 20}
 	assertEqual(properties(number), sums([(1, (0, 0, 0), (3, 1, 1)), (1, (0, 1, 0), (1, 2, 1))]), 3)
-	stand.run_coacd = lambda given, **settings: [(np.array(corners, float), None)]
+	asked.clear()
+	stones = [polytope.fromMesh(mesh, scale=size, parts=7, orientation=Quaternion((0, 0, 1), size)) for size in (0.01, 0.03)]
+	assert not asked, 'the same mesh was cut again'
+	volumes = [[float(part.shape.volume) for part in stone] for stone in stones]
+	assert volumes[1] == pytest.approx([27 * volume for volume in volumes[0]], rel=1e-12)
+	assert (stones[1][0].state.ori.conjugate() * stones[0][0].state.ori).toAxisAngle()[1] == pytest.approx(0.02, rel=1e-6)
+	stand.run_coacd = lambda given, **settings: [(100 * np.array(corners, float), None)]
 	with pytest.warns(UserWarning, match=r"has 4 m³, its 1 convex parts 5 m³; give more parts"):
 		polytope.fromMesh(mesh, scale=0.01, parts=1)
 
@@ -275,6 +283,7 @@ def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):
 	assert asked == [(len(corners), len(faces), threshold) for threshold in (0.05, 0.02)] and len(made) == 3
 	asked.clear()
 	lengths[0.02] = lengths[0.05]
+	convexParts.cutMeshes.clear()
 	with pytest.warns(UserWarning):
 		made = polytope.fromMesh(tmp_path / 'l.stl', parts=4)
 	assert [threshold for *_, threshold in asked] == [0.05, 0.02, 0.01] and len(made) == 2

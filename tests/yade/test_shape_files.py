@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Shapes from and to text files: what is written is read, Neper's and Rockable's as they say; malformed files are refused by line."""
 
+import math
 import pathlib
+import sys
+import types
 import warnings
 
 import numpy as np
 import pytest
 from scenes import joint
-from yade import O, Vector3, polytope
+from yade import O, Polytope, Sphere, Vector3, polytope
+from yade.polytope.meshes import convexParts
 
+ballRadius = 0.08
 files = pathlib.Path(__file__).parent / 'shapes'
 
 
 @pytest.fixture(autouse=True)
 def material():
 	joint()
+	convexParts.cutMeshes.clear()
 
 
 def corners(body):
@@ -102,10 +108,92 @@ def testShapesOfRockableHaveTheirFacesWhereRockableHasThem():
 	cube, plate = polytope.readShapes(files / 'library.shp', names=['Cube', 'Plate'], scale=2)
 	assert abs(corners(cube)).max() == pytest.approx(1, rel=1e-12) and cube.shape.volume == pytest.approx(8, rel=1e-12)
 	assert np.ptp(corners(plate), axis=0) == pytest.approx([8.2, 0.2, 2.2], rel=1e-12) and len(plate.shape.normals) == 6
-	with pytest.raises(ValueError, match=r"line 63: 'Ball' is a sphere or a rod, no polyhedron; leave it out: names"):
-		polytope.readShapes(files / 'library.shp')
 	with pytest.raises(ValueError, match="^names: .*has no shape 'Brick'; it has Cube, Plate, Ball"):
 		polytope.readShapes(files / 'library.shp', names='Brick')
+
+
+def rockable(name, radius, points, faces=(), more=''):
+	"""A shape as Rockable's libraries have it."""
+	rows = [f'<\nname {name}\nradius {radius}\n{more}nv {len(points)}', *(' '.join(map(str, point)) for point in points), f'nf {len(faces)}']
+	return '\n'.join([*rows, *(f'{len(face)} ' + ' '.join(map(str, face)) for face in faces), '>\n'])
+
+
+def testABallIsASphereOfYades():
+	"""Beside the polyhedra of its file; it falls on one of them and rests there."""
+	cube, plate, ball = polytope.readShapes(files / 'library.shp', scale=2, shift=(0, 0, 5), material=0, color=(0.1, 0.2, 0.3), fixed=False)
+	assert isinstance(ball.shape, Sphere) and isinstance(cube.shape, Polytope) and isinstance(plate.shape, Polytope)
+	assert ball.shape.radius == pytest.approx(2 * ballRadius, rel=1e-12) and ball.state.pos == Vector3(0, 0, 5)
+	assert ball.state.mass == pytest.approx(O.materials[0].density * 4 / 3 * math.pi * (2 * ballRadius) ** 3, rel=1e-9)
+	assert tuple(ball.shape.color) == pytest.approx((0.1, 0.2, 0.3)) and ball.dynamic
+	(held,) = polytope.readShapes(files / 'library.shp', names='Ball', fixed=True, velocity=(0, 0, 1))
+	assert held.state.blockedDOFs == 'xyzXYZ' and tuple(held.state.vel) == (0, 0, 1)
+	floor = polytope.cuboid((0, 0, 0), (2, 2, 1), fixed=True)
+	ball.state.pos = Vector3(0, 0, 1 + 2 * ballRadius)
+	O.bodies.append([floor, ball])
+	O.engines = polytope.engines()
+	while O.time < 1:
+		O.run(200, wait=True)
+	weight = 9.81 * float(ball.state.mass)
+	assert O.interactions[0, 1].phys.normalForce.norm() == pytest.approx(weight, rel=1e-3)
+
+
+def testWhatIsNoBodyIsLeftOutByName(tmp_path):
+	path = tmp_path / 'some.shp'
+	tetrahedron = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+	rods = rockable('Rod', 0.1, [(0, 0, 0), (1, 0, 0)]) + rockable('Rice', 0.1, [(0, -1, 0), (0, 0, 0), (0, 1, 0)]) + rockable('Dot', 0, [(0, 0, 0)])
+	path.write_text(rods + rockable('Four', 0, tetrahedron))
+	with pytest.warns(UserWarning, match="left out of .*some.shp': 'Rod' is a rod; 'Rice' is a rod; 'Dot' is a point$") as said:
+		(body,) = polytope.readShapes(path)
+	assert len(said) == 1 and body.shape.volume == pytest.approx(1 / 6)
+	with pytest.raises(ValueError, match="^path: .*line 1: 'Rod' is a rod; leave it out: names"):
+		polytope.readShapes(path, names=['Four', 'Rod'])
+	path.write_text(rods)
+	with pytest.raises(ValueError, match="^path: .*line 1: there is no shape that is a body: 'Rod' is a rod; 'Rice'"):
+		polytope.readShapes(path)
+
+
+def testASurfaceIsPlatesOfItsFaces(tmp_path):
+	"""A square cup 2 wide and 1 high, open above: a block rests in it on the floor, as it does on none if the cup is solid."""
+	ring = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+	faces = [(0, 1, 2, 3), *((k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4))]
+	path = tmp_path / 'cup.shp'
+	path.write_text(rockable('Cup', 0.05, [(*corner, z) for z in (0, 1) for corner in ring], faces, 'isSurface\n'))
+	(plates,) = polytope.readShapes(path, fixed=True)
+	assert len(plates) == 5 and all(not plate.dynamic for plate in plates)
+	assert [float(plate.shape.volume) for plate in plates] == pytest.approx([2.1 * 2.1 * 0.1] + 4 * [2.1 * 1.1 * 0.1], rel=1e-12)
+	O.bodies.append(plates)
+	block = O.bodies[O.bodies.append(polytope.cuboid((0.1, 0, 0.46), (0.4, 0.4, 0.4)))]
+	O.engines = polytope.engines()
+	while O.time < 1:
+		O.run(200, wait=True)
+	assert block.state.pos[2] == pytest.approx(0.45, abs=1e-3)
+
+
+def testPartsOfAShapeThatIsNotConvex(tmp_path, monkeypatch):
+	"""An L of two blocks and a cube, with a stand-in for CoACD: parts are where the shape is, their faces moved out by the radius."""
+	outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]
+	points = [(x, y, z) for z in (0, 1) for x, y in outline]
+	faces = [(3, 2, 1, 0), (5, 4, 3, 0), (6, 7, 8, 9), (6, 9, 10, 11), *((k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k) for k in range(6))]
+	path = tmp_path / 'l.shp'
+	path.write_text(rockable('L', 0.1, points, faces) + (files / 'library.shp').read_text())
+	asked = []
+
+	def run(given, **settings):
+		asked.append((*given, settings['max_convex_hull']))
+		blocks = ((0, 3), (0, 1)), ((0, 1), (1, 2))
+		return [(np.array([(x, y, z) for x in xs for y in ys for z in (0, 1)]), None) for xs, ys in blocks]
+
+	stand = types.SimpleNamespace(Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None)
+	monkeypatch.setitem(sys.modules, 'coacd', stand)
+	parts, *others = polytope.readShapes(path, parts=4)
+	assert asked == [(12, 20, 4)] and len(others) == 3
+	assert [float(part.shape.volume) for part in parts] == pytest.approx([3.2 * 1.2 * 1.2, 1.2**3])
+	number, _ = polytope.clump(parts)
+	assert O.bodies[number].state.mass / O.materials[0].density == pytest.approx(1.2 * (3.2 * 1.2 + 1.2 * 1.0), rel=1e-9)
+	polytope.readShapes(path, parts=4)
+	assert len(asked) == 1, 'the same shape was cut again'
+	with pytest.warns(UserWarning, match="'L' .line 1 .* is not convex; the body is its convex hull; parts=… cuts it"):
+		polytope.readShapes(path)
 
 
 def testWhatIsNotConvexIsSaid(tmp_path):
@@ -184,6 +272,9 @@ def testArgumentsAreChecked(tmp_path):
 		({'path': 3}, 'path: must be the path'),
 		({'path': files / 'twoCells.tess', 'scale': 0}, 'scale: must be positive'),
 		({'path': files / 'twoCells.tess', 'names': ['a']}, 'names: only shapes of a Rockable'),
+		({'path': files / 'twoCells.tess', 'parts': 3}, 'parts: only shapes of a Rockable'),
+		({'path': files / 'library.shp', 'parts': 0}, 'parts: must be a number of parts above 0'),
+		({'path': files / 'library.shp', 'names': 'Ball', 'mask': 'all'}, 'mask: must be a whole number'),
 	):
 		with pytest.raises(ValueError, match=f'^{words}'):
 			polytope.readShapes(**arguments)

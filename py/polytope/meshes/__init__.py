@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies from mesh files: the convex hull of all that a file has, or a list of convex parts: `polytope.fromMesh(…)`."""
+"""Bodies from mesh files: the convex hull of all that a file has, or a list of convex parts: `polytope.fromMesh(…)`; facets."""
 
 import numbers
 
@@ -10,12 +10,13 @@ from ..arguments import rotation, vector, vectors, warn
 from ..bodies import bodyOf, builder
 from ..clumps import union
 from ..precision import isNumber
-from .convexParts import decomposed
+from .convexParts import cut
 from .digits import remedy, warnOfRounding
+from .facets import facets
 from .files import readMesh
 from .pieces import piecesOf
 
-__all__ = ['fromMesh']
+__all__ = ['facets', 'fromMesh']
 
 notConvex = 1e-3
 """Part of the hull's volume that a mesh may lack and still count as convex: curved surfaces of flat triangles lack some."""
@@ -29,6 +30,7 @@ farOut = 1000.0
 """Distance from the origin over the extent from which on a body that is none may be one whose file has too few digits."""
 enough = 0.01
 """Relative difference of the volumes of the mesh and of its parts above which there is a warning: such parts are another body."""
+asFacets = 'a container (funnel, cup, drum) is read by polytope.facets(…)'
 named = 3
 """How many of several objects a warning names."""
 
@@ -38,7 +40,8 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices, as a body at its centroid; or with *parts* a list of convex bodies.
 
 	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). Of a mesh of volumes the surface is
-	taken. Warned of: a mesh that is not closed, not convex, or several bodies; a file whose numbers have too few digits where the mesh is.
+	taken. Warned of: a mesh that is not closed, not convex, or several bodies; a file whose numbers have too few digits where the mesh is. A container
+	(funnel, cup, drum) is read by *facets*.
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
@@ -46,7 +49,8 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 	    each of these the pieces that are closed by themselves, which may share corners, edges and faces. Of one that is not convex or
 	    not closed the hull is taken, with a warning; a single one is refused.
 	    Or the number of convex parts at most, into which CoACD cuts the mesh, approximately: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``.
-	    CoACD is optional: ``pip install coacd``. *center* and *orientation* are of the whole.
+	    CoACD is optional: ``pip install coacd``. *center* and *orientation* are of the whole. A mesh is cut once: further calls, also
+	    with another *scale*, make copies of the same parts.
 	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive; *parts*
@@ -58,13 +62,14 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 		raise ValueError(f"parts: must be a number of parts above 0, or 'objects', got {parts!r}")
 	mesh = readMesh(path, 'path')
 	error = warnOfRounding(path, 'path', mesh.points, _extent(mesh.points), 'its extent') * scale
+	cuts = cut(mesh, int(parts)) if cutting else None
 	mesh.points = mesh.points * scale
 	if parts is None:
 		made = _hull(path, mesh.points, error, body)
 		_tellWhatTheHullHides(path, mesh, float(made.shape.volume), _lacking(mesh.points, error))
 		return made
 	center, orientation = body.pop('center', None), body.pop('orientation', None)
-	made = _decomposed(path, mesh, int(parts), body) if cutting else _objects(path, mesh, error, body)
+	made = _decomposed(path, cuts, scale, body) if cutting else _objects(path, mesh, error, body)
 	if center is not None or orientation is not None:
 		_place(made, Vector3(*union(made)[1]), center, orientation)
 	return made
@@ -109,10 +114,10 @@ def _tellWhatTheHullHides(path, mesh, hull, lacking):
 		seen = f"path: '{path}' has {len(pieces)} bodies; the body is the convex hull of all of them, {hull:.3g} m³"
 		warn(f"{seen}; polytope.fromMesh(…, parts='objects') makes a list of all, for O.bodies.append or polytope.clump")
 	elif len(pieces) != 1 or not pieces[0].closed:
-		warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices")
+		warn(f"path: '{path}' is not closed; the body is the convex hull of its vertices; {asFacets}")
 	elif pieces[0].volume < (1 - lacking) * hull:
 		seen = f"path: '{path}' is not convex: it has {pieces[0].volume:.3g} m³, its hull, which the body is, {hull:.3g} m³"
-		warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts')
+		warn(f'{seen}; polytope.clump(polytope.fromMesh(…, parts=…)) makes a body of convex parts; {asFacets}')
 
 
 def _objects(path, mesh, error, body):
@@ -126,7 +131,7 @@ def _objects(path, mesh, error, body):
 		elif piece.volume < (1 - _lacking(points, error)) * piece.hull:
 			odd[number] = f'is not convex ({piece.volume:.3g} m³, its hull {piece.hull:.3g} m³)'
 		if odd and len(pieces) == 1:
-			remedy = 'close it, or cut it into convex ones, or give a number of parts for CoACD'
+			remedy = f'close it, or cut it into convex ones, or give a number of parts for CoACD; {asFacets}'
 			raise ValueError(f"path: object 1 of '{path}' {odd[1]}, and there is no other; {remedy}")
 		if piece.hull == 0:
 			odd[number] = 'is flat and is left out'
@@ -141,14 +146,12 @@ def _objects(path, mesh, error, body):
 	return made
 
 
-def _decomposed(path, mesh, most, body):
-	"""Bodies of the parts into which CoACD cuts a mesh."""
-	pieces = piecesOf(mesh)
-	closed = bool(pieces) and all(piece.closed for piece in pieces)
-	volume = sum(piece.volume for piece in pieces) if closed else None
-	made = [_hull(path, part, 0, body) for part in decomposed(mesh.points, mesh.triangles, most, volume)]
+def _decomposed(path, cuts, scale, body):
+	"""Bodies of the parts into which CoACD cut a mesh."""
+	made = [_hull(path, part * scale, 0, body) for part in cuts.parts]
 	found = union(made)[0] / float(made[0].material.density)
-	if closed and abs(found / volume - 1) > enough:
+	volume = cuts.volume and cuts.volume * scale**3
+	if volume and abs(found / volume - 1) > enough:
 		seen = f"path: '{path}' has {volume:.3g} m³, its {len(made)} convex parts {found:.3g} m³"
 		warn(f"{seen}; give more parts, or cut the mesh with another program and take parts='objects'")
 	return made

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A mesh that is not convex as convex parts, by CoACD (Wei et al. 2022, ACM Transactions on Graphics 41:42)."""
 
-import numpy as np
+import dataclasses
+import hashlib
 
-__all__ = ['decomposed']
+import numpy as np
+from tqdm import tqdm
+
+from .pieces import piecesOf
+
+__all__ = ['Cuts', 'cut']
 
 enough = 0.01
 """Relative difference of the volumes of the mesh and of its parts up to which it is asked for no finer ones."""
@@ -12,6 +18,41 @@ concavities = 0.05, 0.02, 0.01
 
 far = 1000.0
 """Distance from the origin over the extent from which on a mesh is cut about its middle: volumes are sums of products with that distance."""
+
+kept = 100
+"""Meshes whose parts stay in memory: many stones are copies of a few, and cutting takes seconds."""
+cutMeshes = {}
+"""Parts, by the content of the mesh and the number of parts."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Cuts:
+	parts: list
+	"""points (k, 3) of each, in the mesh's units"""
+	volume: float | None
+	"""of the mesh; None if it is not closed"""
+
+
+def cut(mesh, most):
+	"""Parts of a mesh, at most so many. The same mesh is cut once.
+
+	:returns: *Cuts*, which others have, too
+	:raises ImportError: if CoACD is not installed
+	"""
+	content = hashlib.sha256(mesh.points.tobytes())
+	content.update(mesh.triangles.tobytes())
+	content.update(mesh.objects.tobytes())
+	key = content.digest(), most
+	if key not in cutMeshes:
+		pieces = piecesOf(mesh)
+		closed = bool(pieces) and all(piece.closed for piece in pieces)
+		volume = float(sum(piece.volume for piece in pieces)) if closed else None
+		with tqdm(desc=f'cutting {len(mesh.triangles)} triangles into convex parts', bar_format='{desc} …', disable=None, leave=False):
+			parts = decomposed(mesh.points, mesh.triangles, most, volume)
+		if len(cutMeshes) >= kept:
+			del cutMeshes[next(iter(cutMeshes))]
+		cutMeshes[key] = Cuts(parts, volume)
+	return cutMeshes[key]
 
 
 def decomposed(points, triangles, most, volume):

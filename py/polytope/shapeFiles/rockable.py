@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Libraries of shapes of Rockable (https://github.com/richefeu/rockable), files .shp: sphero-polyhedra, each between ``<`` and ``>``.
 
-A sphero-polyhedron is the sum of a polyhedron and a ball; its faces are those of the polyhedron moved out by the ball's radius.
+A sphero-polyhedron is the sum of a polyhedron and a ball; its faces are those of the polyhedron moved out by the ball's radius. That of a point is a
+sphere, that of an edge a rod.
 """
 
 import dataclasses
 
 import numpy as np
 
+from ..arguments import warn
 from ..bodies import fromHalfSpaces, fromVertices
-from .words import Words, warnIfNotConvex
+from ..meshes.convexParts import cut
+from ..meshes.files import Mesh
+from ..yadeShapes import sphereOf
+from .words import Words, notConvex, warnIfNotConvex
 
 __all__ = ['bodies']
 
@@ -18,19 +23,25 @@ flat = 1e-9
 """Thickness of a shape's vertices over their extent below which it is a plate."""
 
 
+class NoBody(ValueError):
+	"""Of a shape, why it is none."""
+
+
 @dataclasses.dataclass
 class Shape:
 	line: int
 	name: str = ''
 	radius: float = 0
+	surface: bool = False
 	vertices: list = dataclasses.field(default_factory=list)
 	faces: list = dataclasses.field(default_factory=list)
 
 
-def bodies(path, place, names=None, **body):
-	"""Of all shapes, or of those with these names.
+def bodies(path, place, names=None, parts=None, **body):
+	"""Of all shapes that are bodies, or of those with these names.
 
 	:param place: from coordinates of the file to a point [m]
+	:param parts: of shapes that are not convex, at most; None: their hulls
 	"""
 	words, shapes = Words(path, remedy), {}
 	while words.present:
@@ -41,7 +52,19 @@ def bodies(path, place, names=None, **body):
 	for name in names or ():
 		if name not in shapes:
 			raise ValueError(f"names: '{path}' has no shape {name!r}; it has {', '.join(shapes)}")
-	return [_body(words, shapes[name], place, body) for name in names or shapes]
+	made, without = [], []
+	for name in names or shapes:
+		try:
+			made.append(_body(path, shapes[name], place, parts, body))
+		except NoBody as reason:
+			if names:
+				raise words.wrong(f'{reason}; leave it out: names=[…]', shapes[name].line) from None
+			without.append(str(reason))
+	if not made:
+		raise words.wrong(f'there is no shape that is a body: {"; ".join(without)}', shapes[next(iter(shapes))].line)
+	if without:
+		warn(f"path: left out of '{path}': {'; '.join(without)}")
+	return made
 
 
 def _shape(words):
@@ -55,6 +78,8 @@ def _shape(words):
 			line, shape.radius = words.line, words.real('the radius')
 			if shape.radius < 0:
 				raise words.wrong(f'the radius must be at least 0, got {shape.radius}', line)
+		elif keyword == 'isSurface':
+			shape.surface = True
 		elif keyword == 'nv':
 			shape.vertices = [words.point('a vertex') for _ in range(words.whole('the number of vertices', least=1))]
 		elif keyword == 'nf':
@@ -72,26 +97,55 @@ def _face(words, vertices):
 	return [words.whole('the number of a vertex', least=0, most=vertices - 1) for _ in range(corners)]
 
 
-def _body(words, shape, place, body):
-	points = np.array([place(vertex) for vertex in shape.vertices], float)
+def _body(path, shape, place, parts, body):
+	points = np.array([place(vertex) for vertex in shape.vertices], float).reshape(-1, 3)
 	# a length of the file in metres
 	radius = shape.radius * float((place((1, 0, 0)) - place((0, 0, 0))).norm())
+	if len(points) == 1 and radius > 0:
+		return sphereOf(points[0].tolist(), radius, **body)
 	if len(points) < 3:
-		raise words.wrong(f"'{shape.name}' is a sphere or a rod, no polyhedron; leave it out: names=[…]", shape.line)
-	extents, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[1:]
-	thin = extents[-1] <= flat * extents[0]
-	across = axes[-1] * (radius if thin else 0)
+		raise NoBody(f"'{shape.name}' is a {'point' if len(points) == 1 else 'rod' if len(points) == 2 else 'shape without vertices'}")
+	extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+	if extents[1] <= flat * extents[0]:
+		raise NoBody(f"'{shape.name}' is a rod")
+	if extents[-1] <= flat * extents[0]:
+		return _plate(shape, points, radius, body)
+	if shape.surface:
+		return [_plate(shape, points[face], radius, body) for face in shape.faces]
+	core = _hull(shape, points, body)
+	where = f"'{shape.name}' (line {shape.line} of '{path}')"
+	if parts and notConvex(core, points, shape.faces):
+		triangles = np.array([(face[0], *face[k : k + 2]) for face in shape.faces for k in range(1, len(face) - 1)])
+		pieces = cut(Mesh(points, triangles, np.zeros(len(triangles), int)), parts).parts
+		return [_inflated(shape, piece, radius, body) for piece in pieces]
+	warnIfNotConvex(where, core, points, shape.faces, '; parts=… cuts it into convex parts')
+	return _inflated(shape, points, radius, body)
+
+
+def _plate(shape, points, radius, body):
+	"""Of points in a plane; twice the radius thick."""
+	across = np.linalg.svd(points - points.mean(axis=0))[2][-1]
+	return _inflated(shape, [*(points + radius * across), *(points - radius * across)], radius, body, across)
+
+
+def _hull(shape, points, body):
 	try:
-		core = fromVertices([*(points + across), *(points - across)] if thin else points, **body)
+		return fromVertices(points, **body)
 	except ValueError as error:
 		if not str(error).startswith('points'):
 			raise
-		raise words.wrong(f"'{shape.name}' is no polyhedron ({error}); leave it out: names=[…]", shape.line) from None
-	if not thin:
-		warnIfNotConvex(f"'{shape.name}' (line {shape.line} of '{words.path}')", core, points, shape.faces)
+		raise NoBody(f"'{shape.name}' is no polyhedron ({error})") from None
+
+
+def _inflated(shape, points, radius, body, across=None):
+	"""The hull of the points with its faces moved out by the radius.
+
+	:param across: the normal of the two faces of a plate that are where they should be
+	"""
+	core = _hull(shape, points, body)
 	if radius == 0:
 		return core
 	normals = np.array([core.state.ori * normal for normal in core.shape.normals], float)
 	offsets = np.array(core.shape.offsets, float) + normals @ np.array(core.state.pos, float)
-	faces = thin & (abs(normals @ axes[-1]) > 0.5)  # a plate's two faces are where they should be
-	return fromHalfSpaces(normals, offsets + np.where(faces, 0, radius), **body)
+	right = 0 if across is None else abs(normals @ across) > 0.5
+	return fromHalfSpaces(normals, offsets + np.where(right, 0, radius), **body)

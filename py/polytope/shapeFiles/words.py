@@ -7,7 +7,7 @@ from yade import Vector3
 
 from ..arguments import warn
 
-__all__ = ['Words', 'warnIfNotConvex']
+__all__ = ['Words', 'notConvex', 'warnIfNotConvex']
 
 onHull = 1e-6
 """Distance of a face's corners from a plane of the hull, over the size, up to which it is a part of it: files have six digits and more."""
@@ -82,8 +82,14 @@ class Words:
 			self.place += 1
 
 
-def warnIfNotConvex(name, body, points, faces):
-	"""Warns where a face is not on the surface of the body, the hull of the points.
+def warnIfNotConvex(name, body, points, faces, remedy=''):
+	"""Warns where notConvex()."""
+	if notConvex(body, points, faces):
+		warn(f'path: {name} is not convex; the body is its convex hull{remedy}')
+
+
+def notConvex(body, points, faces):
+	"""Whether a face is not on the surface of the body, the hull of the points.
 
 	:param points: in world coordinates
 	:param faces: numbers of points, for each face
@@ -92,7 +98,4 @@ def warnIfNotConvex(name, body, points, faces):
 	planes = [(state.ori * normal, offset) for normal, offset in zip(shape.normals, shape.offsets, strict=True)]
 	arms = [Vector3(*point) - state.pos for point in points]
 	near = onHull * max(arm.norm() for arm in arms)
-	for face in faces:
-		if not any(all(normal.dot(arms[k]) > offset - near for k in face) for normal, offset in planes):
-			warn(f'path: {name} is not convex; the body is its convex hull')
-			return
+	return not all(any(all(normal.dot(arms[k]) > offset - near for k in face) for normal, offset in planes) for face in faces)

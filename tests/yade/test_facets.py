@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Containers from mesh files as facets: `polytope.facets(…)`, and what fromMesh says of such a mesh."""
+
+import numpy as np
+import pytest
+import trimesh
+from scenes import joint
+from yade import Facet, Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, polytope
+
+width, height = 2000, 1000  # [mm]
+
+
+@pytest.fixture(autouse=True)
+def material():
+	joint()
+
+
+@pytest.fixture
+def cup(tmp_path):
+	"""A box without a lid, of triangles: an STL file in millimetres."""
+	box = trimesh.creation.box((width, width, height))
+	box.update_faces(box.face_normals[:, 2] < 0.5)
+	box.export(tmp_path / 'cup.stl')
+	return tmp_path / 'cup.stl'
+
+
+def testAMeshThatIsAContainerIsToldHowItIsRead(cup, tmp_path):
+	with pytest.warns(UserWarning, match=r'is not closed; the body is the convex hull .*container .funnel, cup, drum. is read by polytope.facets'):
+		polytope.fromMesh(cup, scale=1e-3)
+	with pytest.raises(ValueError, match=r'is not closed, and there is no other; close it.*; a container .* is read by polytope.facets'):
+		polytope.fromMesh(cup, scale=1e-3, parts='objects')
+	trimesh.creation.annulus(0.8, 1, 1).export(tmp_path / 'ring.stl')
+	with pytest.warns(UserWarning, match=r'is not convex: .* is read by polytope.facets'):
+		polytope.fromMesh(tmp_path / 'ring.stl')
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+def testABlockRestsInACupOfFacets(cup, perArea):
+	ids = O.bodies.append(polytope.facets(cup, scale=1e-3, shift=(0, 0, 3), color=(0.1, 0.2, 0.3)))
+	assert len(ids) == 10 and all(isinstance(O.bodies[k].shape, Facet) and not O.bodies[k].dynamic for k in ids)
+	assert tuple(O.bodies[0].shape.color) == pytest.approx((0.1, 0.2, 0.3)) and not O.bodies[0].shape.wire
+	corners = np.array([O.bodies[k].state.pos + O.bodies[k].state.ori * corner for k in ids for corner in O.bodies[k].shape.vertices], float)
+	assert corners.min(axis=0) == pytest.approx([-1, -1, 2.5]) and corners.max(axis=0) == pytest.approx([1, 1, 3.5])
+	block = O.bodies[O.bodies.append(polytope.cuboid((0.3, 0.1, 2.81), (0.3, 0.3, 0.3), orientation=Quaternion((0, 0, 1), 0.4), velocity=(1, 0, 0)))]
+	O.engines = polytope.engines(physics=physics(perArea))
+	while O.time < 1.5:
+		O.run(200, wait=True)
+	assert block.state.pos[2] == pytest.approx(2.8, abs=2e-3) and block.state.vel.norm() < 1e-3
+	assert abs(block.state.pos[0]) < 0.71 and O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
+
+
+def physics(perArea):
+	return Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)
+
+
+def testTrianglesWithoutAnAreaAreLeftOut(tmp_path):
+	path = tmp_path / 'a.obj'
+	path.write_text('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n')
+	with pytest.warns(UserWarning, match='^path: 1 of the 2 triangles of .*a.obj. have no area and are left out'):
+		(one,) = polytope.facets(path)
+	assert float(one.shape.area) == pytest.approx(0.5)
+	path.write_text('v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n')
+	with pytest.raises(ValueError, match='^path: .* has no triangle with an area'):
+		polytope.facets(path)
+
+
+def testBadArguments(cup, tmp_path):
+	with pytest.raises(FileNotFoundError, match='^path: there is no file'):
+		polytope.facets(tmp_path / 'none.stl')
+	for arguments, words in (({'scale': 0}, 'scale: must be positive'), ({'shift': 1}, 'shift: '), ({'mask': 'a'}, 'mask: must be a whole')):
+		with pytest.raises(ValueError, match=f'^{words}'):
+			polytope.facets(cup, **arguments)
+	with pytest.raises(TypeError, match="facets: there is no argument 'center'; it takes path, scale, shift, and as all bodies material"):
+		polytope.facets(cup, center=(0, 0, 0))
+	assert len(O.bodies) == 0
