@@ -5,18 +5,15 @@ import math
 import numbers
 
 import numpy as np
-import scipy  # loads its packages at their first use: half a second
 from tqdm import tqdm
-from yade import Body, Polytope, Quaternion, Vector3, _polytope
+from yade import Body, Polytope, Vector3, _polytope
 
-from ._faces import localVertices
 from .arguments import materialOf, number, randomOf, vector
 from .bodies import builder, fromVertices
+from .grainShapes import cornersOf, partsOfLoose, pointsOnAnEllipsoid, shapesOf, turnOf
 
-__all__ = ['cloud', 'grains', 'partsOfLoose', 'randomGrain']
+__all__ = ['cloud', 'grains', 'randomGrain']
 
-candidates = 10
-"""Of each vertex: the one farthest from those that there are is taken (Mitchell's best candidate), so that vertices are spread."""
 curveError = 0.01
 """Deviation from the sieve curve, over the whole mass, above which a sample is refused."""
 mostGrains = 10_000_000
@@ -41,14 +38,14 @@ def randomGrain(size, elongation=1, flatness=1, vertices=14, seed=None, **body):
 	if not 0 < size < math.inf:
 		raise ValueError(f'size: must be positive and finite, got {size!r}')
 	random = randomOf(seed)
-	points = _points(
+	points = pointsOnAnEllipsoid(
 		random, _vertices(vertices), *(_share(value, name) for value, name in ((elongation, 'elongation'), (flatness, 'flatness')))
 	)
 	return fromVertices((float(size) * points).tolist(), **body)
 
 
 @builder(lacks=('center', 'orientation'))
-def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, **body):
+def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, shapes=None, **body):
 	"""Random grains after a sieve curve, in random orientations at the origin: ``O.bodies.append(polytope.cloud(lower, upper, grains))``.
 
 	Between two sieves passing mass grows with the logarithm of the size: a straight line in the usual diagram. The sample meets the curve
@@ -59,7 +56,10 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, **body
 	:param elongation, flatness: as of randomGrain; or (least, largest), between which they are uniform
 	:param int vertices: of each grain
 	:param int seed: of the random numbers
-	:returns: list of bodies
+	:param shapes: list of bodies whose shapes the grains have, larger or smaller, one or the other at random, in place of *elongation*, *flatness* and
+	    *vertices*: ``[polytope.fromMesh(path) for path in …]``. Their size is the intermediate extent along the principal axes. A list of parts
+	    (``fromMesh(path, parts=8)``) in place of a body is one that is not convex
+	:returns: list of bodies; of a shape in parts a list of these in a body's place, as *cloud* and *pack* take it
 	:raises ValueError: naming the argument; *mass* where so few grains cannot meet the curve
 	"""
 	sizes, passing = _curve(curve)
@@ -72,18 +72,20 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, **body
 		raise ValueError('material: needs a density above 0')
 	_notTooMany(sizes, passing, float(mass), density)
 	random, made, owed, masses = randomOf(seed), [], 0.0, np.zeros(len(sizes))
+	shape = shapesOf(shapes, random, lambda: pointsOnAnEllipsoid(random, count, *(random.uniform(*one) for one in ranges)))
 	for k, (least, largest) in enumerate(zip(sizes, sizes[1:], strict=False)):
 		owed += float(mass) * (passing[k + 1] - passing[k])
-		shapes, diameters = _fraction(
-			random, least, largest, owed / density, lambda: _points(random, count, *(random.uniform(*one) for one in ranges))
-		)
-		for points, diameter in zip(shapes, diameters, strict=True):
-			made.append(fromVertices((diameter * points).tolist(), orientation=_turn(random), center=(0, 0, 0), **body))
-			masses[k + 1] += float(made[-1].state.mass)
+		drawn, diameters = _fraction(random, least, largest, owed / density, shape)
+		each = tqdm(zip(drawn, diameters, strict=True), desc='grains', total=len(drawn), unit=' grains', disable=None, leave=False)
+		for one, diameter in each:
+			parts = one.bodies(diameter, turnOf(random), body)
+			made.append(parts[0] if len(parts) == 1 else parts)
+			masses[k + 1] += density * one.volume * diameter**3
 		owed -= masses[k + 1]
 	off = np.abs(masses.cumsum() - float(mass) * np.array(passing)).max() / float(mass)
 	if off > curveError:
-		raise ValueError(f'mass: {float(mass):.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %); take more')
+		heavy = f'a grain of {sizes[-1]:.3g} m has about {density * sizes[-1] ** 3 / 2:.2g} kg'
+		raise ValueError(f'mass: {float(mass):.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %): {heavy}; take more')
 	return made
 
 
@@ -116,7 +118,7 @@ def cloud(lower, upper, bodies, seed=None):
 	middles = [sum((part.state.pos for part in parts), Vector3.Zero) / len(parts) for parts in groups]
 	offsets = [[part.state.pos - middle for part in parts] for parts, middle in zip(groups, middles, strict=True)]
 	corners = [
-		np.concatenate([_corners(part) + np.array(offset, float) for part, offset in zip(parts, aside, strict=True)])
+		np.concatenate([cornersOf(part) + np.array(offset, float) for part, offset in zip(parts, aside, strict=True)])
 		for parts, aside in zip(groups, offsets, strict=True)
 	]
 	radii = [float(np.linalg.norm(points, axis=1).max()) for points in corners]
@@ -137,11 +139,6 @@ def cloud(lower, upper, bodies, seed=None):
 	for body in (part for parts in groups for part in parts):
 		body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
 	return bodies
-
-
-def partsOfLoose(one):
-	"""Bodies of an entry of such a list: parts of a clump, or the body itself."""
-	return list(one) if isinstance(one, (list, tuple)) and one else [one]
 
 
 class _Placed:
@@ -179,38 +176,18 @@ def _touch(place, radius, parts, other):
 	return near and any(_polytope.contact(part, neighbour).inContact for part in parts for neighbour in neighbours)
 
 
-def _corners(body):
-	"""Of the body, relative to its centre, in world axes."""
-	return localVertices(body.shape) @ np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3).T
-
-
-def _points(random, vertices, elongation, flatness):
-	"""Vertices of a grain of size 1."""
-	fresh = random.normal(size=(vertices, candidates, 3))
-	fresh /= np.sqrt(np.einsum('ijk,ijk->ij', fresh, fresh))[:, :, None]
-	found = fresh[:, 0].copy()
-	for k in range(1, vertices):
-		found[k] = fresh[k, (fresh[k] @ found[:k].T).max(axis=1).argmin()]
-	low, high = found.min(axis=0), found.max(axis=0)
-	return (found - (low + high) / 2) / (high - low) * (1 / elongation, 1, flatness)
-
-
-def _turn(random):
-	"""Uniform over all rotations."""
-	w, x, y, z = random.normal(size=4).tolist()
-	return Quaternion(w, x, y, z).normalized()
-
-
 def _fraction(random, least, largest, volume, shape):
 	"""(shapes of size 1, sizes) between two sieves, together of this volume as nearly as there are grains."""
 	# where mass is uniform over the logarithm of the size, numbers fall with its cube
 	steep = least**-3 - largest**-3
 	meanCube = 3 * math.log(largest / least) / steep
 	shapes, volumes, total = [], [], 0.0  # not summed anew for each grain: there may be 100 000
-	while total * meanCube < volume:
-		shapes.append(shape())
-		volumes.append(scipy.spatial.ConvexHull(shapes[-1]).volume)
-		total += volumes[-1]
+	with tqdm(desc='shapes of grains', unit=' shapes', disable=None, leave=False) as progress:
+		while total * meanCube < volume:
+			shapes.append(shape())
+			volumes.append(shapes[-1].volume)
+			total += volumes[-1]
+			progress.update()
 	if shapes and total * meanCube - volume > volumes[-1] * meanCube / 2:  # one less is nearer
 		shapes.pop(), volumes.pop()
 	if not shapes:

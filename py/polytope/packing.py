@@ -12,7 +12,8 @@ from ._scene import geometryFunctors
 from .arguments import namedArguments, number, vector, warn
 from .engines import engines
 from .clumps import clump
-from .grains import cloud, partsOfLoose
+from .grainShapes import partsOfLoose
+from .grains import cloud
 from .heap import namedBodies, partsOf
 from .loading.cell import PeriodicSample
 from .loading.sample import between, deepest, fastestStrain, idsOfSample, tooDeep

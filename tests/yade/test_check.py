@@ -367,7 +367,7 @@ def testMassZero():
 	scene()
 	O.bodies[1].state.mass = 0
 	assert 'body 1 can move and has mass 0' in onlyFinding('mass').seen
-	O.bodies[1].dynamic = False
+	O.bodies[1].dynamic, O.dt = False, 1e-4
 	assert not polytope.check(O), 'one that is held needs none'
 
 
@@ -449,6 +449,44 @@ def testUnitsThatAgreeWithEachOther(length, mass, time):
 	with warnings.catch_warnings():
 		warnings.simplefilter('error')
 		O.engines = polytope.engines(gravity=(0, 0, -9.81 * length / time**2))
+	assert not polytope.check(O)
+
+
+@pytest.mark.parametrize('density, words', [(2.6, 'in t and m, stiffnesses in kN'), (2.6e-9, 'with lengths in mm, gravity is 9810'), (0.2, 'rock has 2600')])
+def testDensitiesInOtherUnits(density, words):
+	scene(material=rock(density=density))
+	found = onlyFinding('density')
+	assert f'is {density:g}, less than that of any rock' in found.seen and words in found.advice
+	with pytest.warns(UserWarning, match='density: '):
+		polytope.engines()
+	scene(material=rock(density=density * 1000))
+	assert density < 1 or not polytope.check(O), 'a block of that in kg/m³'
+
+
+def testItTellsOfSizesAndMasses():
+	"""A stone of 40 m, of dimensions in millimetres, may be meant: it is to be seen."""
+	scene()
+	assert repr(polytope.check(O)) == 'nothing was found that is wrong\n1 body can move, 1 m across, 2.08e+03 kg'
+	O.reset()
+	O.materials.append(rock())
+	O.bodies.append(polytope.cuboid((0, 0, 21), (20, 20, 20)))
+	O.engines = polytope.engines()
+	assert repr(polytope.check(O)).endswith('1 body can move, 40 m across, 1.66e+08 kg')
+	polytope.clump([polytope.cuboid((100, 0, 0), (1, 1, 1)), polytope.cuboid((102, 0, 0), (1, 1, 1))])
+	assert repr(polytope.check(O)).endswith('2 bodies can move, 2 to 40 m across, 4.16e+04 to 1.66e+08 kg')
+
+
+def testNothingThatCanMove():
+	scene()
+	O.bodies[1].dynamic = False
+	O.dt = 1e-8
+	assert 'no body can move, and O.dt is 1e-08 s' in onlyFinding('time step').seen
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		polytope.engines()  # bodies may follow
+	O.engines = [*O.engines, yade.RotationEngine(ids=[1], angularVelocity=1)]
+	assert not polytope.check(O) and repr(polytope.check(O)).endswith('no body can move')
+	O.engines, O.dt = O.engines[:-1], 1e-4
 	assert not polytope.check(O)
 
 
@@ -759,13 +797,14 @@ def testSmallBodiesNeedNoCloserLook(monkeypatch):
 	"""A scene of a million bodies is checked, too: their corners are looked at where a ball round the body does not do."""
 	looks = []
 	for module, name in ('bodies', '_extent'), ('places', '_planes'):
-		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, looks.append)
+		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, lambda body: looks.append(body) or 1.0)
 	O.materials.append(rock())
 	O.periodic = True
 	O.cell.setBox(9, 9, 9)
 	O.bodies.append([polytope.cuboid((2 * k + 1, 1, 1), (0.5, 0.4, 0.5)) for k in range(3)])
 	O.engines = polytope.engines(gravity=(0, 0, 0))
-	assert not polytope.check(O) and not looks
+	assert not looks
+	assert not polytope.check(O) and len(looks) == 2, 'it tells of the smallest and the largest'
 
 
 def testAllFaultsOfALoneBodyAreListed():

@@ -8,9 +8,9 @@ import types
 
 import numpy as np
 import pytest
-from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, RockJointMat, polytope
+from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, polytope
 
-grainsModule = sys.modules['yade.polytope.grains']  # the package has a function of this name
+shapesModule = sys.modules['yade.polytope.grainShapes']
 
 
 @pytest.fixture(autouse=True)
@@ -47,9 +47,9 @@ curve = [(0.002, 0), (0.004, 0.15), (0.008, 0.5), (0.016, 1)]
 
 def sieved(monkeypatch, *arguments, **named):
 	"""(sizes that grains were made with, masses): extents along y when a grain is made, before it is turned."""
-	sizes, make = [], grainsModule.fromVertices
+	sizes, make = [], shapesModule.fromVertices
 	monkeypatch.setattr(
-		grainsModule, 'fromVertices', lambda points, **body: sizes.append(np.ptp(points, axis=0)[1]) or make(points, **body)
+		shapesModule, 'fromVertices', lambda points, **body: sizes.append(np.ptp(points, axis=0)[1]) or make(points, **body)
 	)
 	sample = polytope.grains(*arguments, **named)
 	return np.array(sizes), np.array([float(body.state.mass) for body in sample]), sample
@@ -82,8 +82,47 @@ def testNumbersFollowTheMasses():
 
 
 def testTooFewGrainsForTheCurveAreRefused():
-	with pytest.raises(ValueError, match='mass: .* too few grains'):
+	with pytest.raises(ValueError, match=r'^mass: .* too few grains .*: a grain of 0.016 m has about 0.0053 kg; take more'):
 		polytope.grains(curve, 0.001, seed=1)
+	with pytest.raises(ValueError, match=r'a grain of 16 m has about 5.3e\+06 kg'):  # a curve in millimetres
+		polytope.grains([(1000 * size, passing) for size, passing in curve], 0.5, seed=1)
+
+
+def brick(length, width, height, place):
+	return polytope.cuboid(place, (length / 2, width / 2, height / 2), orientation=Quaternion((1, 2, 3), 0.7))
+
+
+def testGrainsOfGivenShapes():
+	"""Bricks of two forms, given in metres, at some place and turned: their intermediate extent is the size, and the sample meets the curve."""
+	sample = polytope.grains(curve, 0.3, seed=1, shapes=[brick(3, 2, 1, (5, 5, 5)), brick(1, 1.5, 4, (0, 0, 9))], color=(1, 0, 0))
+	sizes, forms = [], set()
+	for body in sample:
+		extents = np.sort(np.ptp(np.array(body.shape.vertices, float), axis=0))  # along the principal axes
+		sizes.append(extents[1])
+		forms.add(tuple(np.round(extents / extents[1], 6)))
+		assert body.state.pos.norm() < 1e-12 and tuple(body.shape.color) == (1, 0, 0)
+	assert forms == {(0.5, 1, 1.5), (round(1 / 1.5, 6), 1, round(4 / 1.5, 6))}
+	sizes, masses = np.array(sizes), np.array([float(body.state.mass) for body in sample])
+	assert masses.sum() == pytest.approx(0.3, rel=0.01)
+	for opening, passing in curve:
+		assert masses[sizes <= opening * (1 + 1e-9)].sum() / 0.3 == pytest.approx(passing, abs=0.01)
+	longest = [np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)[:, np.argmax(np.ptp(body.shape.vertices, axis=0))] ** 2 for body in sample]
+	assert np.mean(longest, axis=0) == pytest.approx([1 / 3] * 3, abs=0.08), 'turned at random'
+
+
+def testGrainsOfPartsMakeClumps():
+	"""An L of two boxes that overlap: it counts as their union, its parts lie to each other as they were given, and a cloud of clumps has them apart."""
+	parts = [polytope.cuboid((10, 0, 0), (3, 1, 1)), polytope.cuboid((8, 1, 0), (1, 2, 1))]  # 24 + 16 - 8 m³, 6 m × 4 m × 2 m
+	sample = polytope.grains([(0.01, 0), (0.02, 1)], 0.2, seed=3, shapes=[parts])
+	assert len(sample) > 20 and all(len(one) == 2 for one in sample)
+	for one, other in sample:
+		assert float(one.shape.volume / other.shape.volume) == pytest.approx(24 / 16)
+		scale = float(one.shape.volume / 24) ** (1 / 3)
+		assert float((one.state.pos - other.state.pos).norm()) == pytest.approx(scale * 5**0.5)
+		assert scale * 3 < 0.02, 'the intermediate extent along principal axes, which are not those of the boxes'
+	polytope.cloud((0, 0, 0), (0.15, 0.15, 0.15), sample, seed=1)
+	numbers = [polytope.clump(one)[0] for one in sample]
+	assert sum(float(O.bodies[number].state.mass) for number in numbers) == pytest.approx(0.2, rel=0.01)
 
 
 def testMoreGrainsThanAnyMemoryHoldsAreRefused():
@@ -115,12 +154,11 @@ def testHundredThousandGrainsAMinute():
 	assert (time.process_time() - began) / len(sample) < 60 / 1e5
 
 
-def testTimeGrowsWithTheNumberOfGrainsAlone(monkeypatch):
+def testTimeGrowsWithTheNumberOfGrainsAlone():
 	"""The choice of 30 000 grains' sizes, their volumes being given: it grew with the square."""
 	grains = sys.modules['yade.polytope.grains']
-	monkeypatch.setattr(grains.scipy.spatial, 'ConvexHull', lambda points: types.SimpleNamespace(volume=0.5))
 	began = time.process_time()
-	shapes, sizes = grains._fraction(np.random.default_rng(1), 1, 1.1, 0.5 * 1.15 * 30000, lambda: 0)
+	shapes, sizes = grains._fraction(np.random.default_rng(1), 1, 1.1, 0.5 * 1.15 * 30000, lambda: types.SimpleNamespace(volume=0.5))
 	assert len(shapes) == len(sizes) > 25000
 	assert time.process_time() - began < 0.8
 
@@ -176,6 +214,9 @@ def testCloudFallsAndComesToRest():
 		(lambda: polytope.grains(7, 1), 'curve'),
 		(lambda: polytope.grains(curve, -1), 'mass'),
 		(lambda: polytope.grains(curve, 1, elongation=(1, 0.5)), 'elongation'),
+		(lambda: polytope.grains(curve, 1, shapes=[]), 'shapes'),
+		(lambda: polytope.grains(curve, 1, shapes=['a.stl']), 'shapes'),
+		(lambda: polytope.grains(curve, 1, shapes=[[polytope.polygon([(0, 0), (1, 0), (0, 1)])]]), 'shapes'),
 		(lambda: polytope.cloud((0, 0, 0), (1, 1, 1), [1]), 'bodies'),
 		(lambda: polytope.cloud((0, 0, 0), (1, 1), []), 'upper'),
 	],

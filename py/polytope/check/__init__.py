@@ -2,7 +2,7 @@
 """What is wrong with a scene before its first step, each with the remedy: `polytope.check(O)`."""
 
 from ..requirements import Finding
-from .bodies import bodyFindings
+from .bodies import bodyFindings, movingBodies
 from .engines import engineFindings
 from .pairs import pairFindings
 from .places import notNumbers, placeFindings
@@ -14,7 +14,14 @@ __all__ = ['Check', 'check', 'checkOf']
 
 
 class Check(list):
-	"""What polytope.check() returns: a list of findings (`what`, `seen`, `advice`), empty where nothing is wrong. Printing it shows all."""
+	"""What polytope.check() returns: a list of findings (`what`, `seen`, `advice`), empty where nothing is wrong. Printing it shows all.
+
+	:param str about: of the bodies, their sizes and masses: printed where nothing is wrong
+	"""
+
+	def __init__(self, findings=(), about=''):
+		super().__init__(findings)
+		self.about = about
 
 	def __getitem__(self, what):
 		"""The finding of that name, or of that place in the list."""
@@ -27,7 +34,7 @@ class Check(list):
 
 	def __repr__(self):
 		if not self:
-			return 'nothing was found that is wrong'
+			return '\n'.join(filter(None, ('nothing was found that is wrong', self.about)))
 		return '\n'.join(f'{finding.what}: {finding.seen}\n\t{finding.advice}' for finding in self)
 
 
@@ -42,7 +49,8 @@ def check(O):
 	reads, the time step and its time steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's
 	collider does not notice.
 
-	It lists all that it finds, not the first only. Where a position or velocity is not a number, what rests on it (overlaps, time step) is not looked at.
+	It lists all that it finds, not the first only. Where it finds nothing it says how many bodies can move, their sizes in m and masses in kg: a stone of 40 m
+	is no mistake that it can know of. Where a position or velocity is not a number, what rests on it (overlaps, time step) is not looked at.
 
 	It reads, and changes nothing. What a scene in motion needs, and what it pays for without using it, tells polytope.requirements(O). That
 	nothing was found does not mean that the scene is what you meant. What PyRunner does is not seen.
@@ -64,4 +72,5 @@ def checkOf(O, engines):
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to
 			places += softJoints(scene)
 		found += [*places, *stepFindings(scene)]
-	return Check(Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same
+	findings = (Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same
+	return Check(findings, '' if engines else movingBodies(scene))

@@ -10,8 +10,9 @@ from .._faces import worldVertices
 from .._scene import isPerArea, jointMakers
 from ..bonding import bonds
 from ..rock.faceMaterials import materialsOf
+from .places import overlapShare
 
-__all__ = ['bodyFindings']
+__all__ = ['bodyFindings', 'movingBodies']
 
 largest = 50.0
 """Extent [m] above which a body that can move is taken for one in other units: a boulder of 50 m weighs 3e8 kg."""
@@ -19,6 +20,13 @@ densities = 50.0, 3e4
 """Of what can be a body [kg/m³], from foam to heavy metals. In t and mm, g and cm, t and m … the same bodies have 1e-12 to 1e-3 of it."""
 gravities = 1.0, 30.0
 """On Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
+earth = 9.7, 9.9
+"""Gravity at its surface [m/s²]: lengths are in m, times in s, whatever the unit of mass."""
+tonnes = 0.3, 30.0
+"""Of what can be a body [t/m³]; less than that is no body's density in m and kg, g, lb or t."""
+tooStiff = 1e-6
+"""Overlap over the inscribed radius under a body's own weight below which its density is taken for one in other units than its stiffness: one of some
+t/m³ beside N and m makes it a thousandth of what was meant."""
 unitsApart = 300.0
 """Extent over the median of the bodies that can move, above which units differ: millimetres and metres differ by 1000, grains
 seldom by 100."""
@@ -44,6 +52,44 @@ def density(scene):
 		if not float(material.density) > 0:
 			seen = f'density of {type(material).__name__} {material.label!r} is {float(material.density):g} kg/m³'
 			yield 'density', seen, 'give the material a density above 0 before bodies are made of it: their mass follows from it'
+		elif earth[0] <= scene.gravity() <= earth[1] and float(material.density) < tonnes[1]:
+			yield from _densityInOtherUnits(scene, material)
+
+
+def _densityInOtherUnits(scene, material):
+	"""Of a scene in m and s."""
+	density, gravity = float(material.density), scene.gravity()
+	seen = f'density of {type(material).__name__} {material.label!r} is {density:g}, less than that of any rock in kg/m³'
+	if density < tonnes[0]:
+		yield 'density', f'{seen}, t/m³ or g/m³, with gravity {gravity:g}', 'density in kg/m³: rock has 2600; with lengths in mm, gravity is 9810'
+		return
+	bodies = [body for body in scene.bodies if body.material is material and isinstance(material, RockJointMat) and isinstance(body.shape, Polytope) and scene.moves(body)]
+	makers = jointMakers(scene.loops)
+	share = max((overlapShare(body, isPerArea(material, makers), gravity) for body in bodies if makers), default=1)
+	if share < tooStiff:
+		sinks = f'under their weight bodies of it sink in by {share:.1g} of their radius'
+		yield 'density', f'{seen}; {sinks}', 'density in kg/m³: rock has 2600; or, in t and m, stiffnesses in kN/m³, a thousandth of those in Pa/m'
+
+
+def movingBodies(scene):
+	"""How many can move, how large and heavy they are; nothing for a scene without bodies."""
+	if not scene.bodies:
+		return ''
+	whole = [body for body in scene.O.bodies if body is not None and body.dynamic and not body.isClumpMember and (body.shape is not None or body.isClump)]
+	if not whole:
+		return 'no body can move'
+	shapes = [body for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)]
+	said = [f'{len(whole)} bod{"y" if len(whole) == 1 else "ies"} can move']
+	if shapes:
+		ends = [choose(shapes, key=lambda body: float(body.shape.circumscribedRadius)) for choose in (min, max)]
+		said.append(f'{_span([_extent(body) for body in ends])} m across')
+	said.append(f'{_span([float(body.state.mass) for body in whole])} kg')
+	return ', '.join(said)
+
+
+def _span(values):
+	least, most = (f'{value:.3g}' for value in (min(values), max(values)))
+	return least if least == most else f'{least} to {most}'
 
 
 def mass(scene):

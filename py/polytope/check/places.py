@@ -13,7 +13,7 @@ from ..arrays import arrays
 from ..bonding import madeBonds
 from ..rock.faceMaterials import materialsOf
 
-__all__ = ['notNumbers', 'placeFindings']
+__all__ = ['notNumbers', 'overlapShare', 'placeFindings']
 
 softest = 0.1
 """Overlap over the inscribed radius, under a body's own weight or in its impact on one face, above which the contact gives way: overlaps of
@@ -244,7 +244,7 @@ def stiffness(scene):
 	deepest, worst, gravity = 0.0, None, scene.gravity()
 	for body in scene.bodies:
 		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and body.dynamic and not body.isClumpMember:
-			share = _overlap(body, isPerArea(body.material, makers), gravity)
+			share = overlapShare(body, isPerArea(body.material, makers), gravity)
 			if share > deepest:
 				deepest, worst = share, body
 	if deepest <= softest:
@@ -259,8 +259,8 @@ def stiffness(scene):
 	yield 'stiffness', seen, advice
 
 
-def _overlap(body, perArea, gravity):
-	"""Over its inscribed radius."""
+def overlapShare(body, perArea, gravity):
+	"""Overlap under its weight or in its impact over its inscribed radius; of a body of RockJointMat."""
 	shape, weight = body.shape, float(body.state.mass)
 	face = float(shape.volume) ** (2 / 3) if shape.dimension == 3 else math.sqrt(float(shape.volume * shape.thickness))
 	k = _softest(body) * (face if perArea else 1)

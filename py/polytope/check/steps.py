@@ -4,7 +4,9 @@
 import math
 
 from yade import (
+	BaseMotion,
 	GlobalStiffnessTimeStepper,
+	KinematicEngine,
 	Polytope,
 	PolytopeBolts,
 	PolytopeBonds,
@@ -26,7 +28,7 @@ yadesDt = 1e-8
 
 
 def stepFindings(scene):
-	for one in (steppers, timeStep, emptyAtFirst, farInAStep, turningUnnoticed):
+	for one in (steppers, timeStep, emptyAtFirst, nothingMoves, farInAStep, turningUnnoticed):
 		yield from one(scene)
 
 
@@ -76,6 +78,16 @@ def emptyAtFirst(scene):
 		return
 	seen = f'nothing can move yet, and O.dt is {float(scene.O.dt):.1g} s until something can: a PyRunner that waits for a time waits for ever'
 	yield 'time step', seen, 'PolytopeCollider and a PyRunner with virtPeriod, which then sets the step, or set O.dt'
+
+
+def nothingMoves(scene):
+	"""Nothing sets the step then, and a loop that runs up to a time does so for ever. Looked at for the scene's own engines: bodies may follow later."""
+	if not scene.ownEngines or not scene.bodies or scene.those(PyRunner, KinematicEngine, BaseMotion) or float(scene.O.dt) > yadesDt:
+		return
+	if any(scene.moves(body) or float(body.state.vel.norm() + body.state.angVel.norm()) > 0 for body in scene.bodies):
+		return
+	seen = f'no body can move, and O.dt is {float(scene.O.dt):.1g} s: a run up to a time takes for ever'
+	yield 'time step', seen, 'append bodies that can move (fixed=False, a density above 0), or set O.dt'
 
 
 def farInAStep(scene):
