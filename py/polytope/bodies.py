@@ -173,6 +173,12 @@ def randomColour():
 	return Vector3(colours.random(), colours.random(), colours.random())
 
 
+def ofOneColour(body):
+	"""Arguments of all bodies, for pieces of one thing: one random colour where none is given."""
+	given = body.get('color')
+	return body if given is not None and tuple(vector(given, 'color')) != randomColor else {**body, 'color': randomColour()}
+
+
 def bodyOf(
         shape,
         flat=False,

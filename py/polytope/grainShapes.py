@@ -8,7 +8,7 @@ import scipy  # loads its packages at their first use: half a second
 from yade import Body, Polytope, Quaternion
 
 from ._faces import localVertices
-from .bodies import fromVertices
+from .bodies import fromVertices, ofOneColour
 from .clumps import union
 
 __all__ = ['GrainShape', 'cornersOf', 'partsOfLoose', 'pointsOnAnEllipsoid', 'shapesOf', 'turnOf']
@@ -32,7 +32,8 @@ class GrainShape:
 		if len(self.parts) == 1:
 			return [fromVertices((size * self.parts[0]).tolist(), orientation=turn, center=(0, 0, 0), **body)]
 		matrix = np.array(turn.toRotationMatrix(), float).reshape(3, 3)
-		return [fromVertices((size * points @ matrix.T).tolist(), **body) for points in self.parts]
+		pieces = ofOneColour(body)
+		return [fromVertices((size * points @ matrix.T).tolist(), **pieces) for points in self.parts]
 
 
 def pointsOnAnEllipsoid(random, vertices, elongation, flatness):

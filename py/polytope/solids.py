@@ -12,7 +12,7 @@ import numpy as np
 from yade import Quaternion, Vector3, _polytope
 
 from .arguments import number, rotation, rows, vector, vectors
-from .bodies import builder, cuboid, defaultCornerFraction, fromVertices, refuseInside
+from .bodies import builder, cuboid, defaultCornerFraction, fromVertices, ofOneColour, refuseInside
 from .meshes.digits import warnOfRounding
 from .meshes.files import readMesh
 
@@ -80,7 +80,7 @@ def plates(lower, upper, thickness=None, without=(), **body):
 	if not set(left) <= set(sides):
 		raise ValueError(f'without: must be of {", ".join(sides)}, got {without!r}')
 	thick = thicknessFraction * float((high - low).min()) if thickness is None else _positive(thickness, 'thickness')
-	made = []
+	made, pieces = [], ofOneColour({'fixed': True, **body})
 	for k, side in enumerate(sides):
 		axis, upward = divmod(k, 2)
 		bottom, top = low.copy(), high.copy()
@@ -88,7 +88,7 @@ def plates(lower, upper, thickness=None, without=(), **body):
 		top[:axis] += thick
 		bottom[axis], top[axis] = (high[axis], high[axis] + thick) if upward else (low[axis] - thick, low[axis])
 		if side not in left:
-			made.append(cuboid(tuple((bottom + top) / 2), tuple((top - bottom) / 2), **{'fixed': True, **body}))
+			made.append(cuboid(tuple((bottom + top) / 2), tuple((top - bottom) / 2), **pieces))
 	return made
 
 
@@ -113,11 +113,11 @@ def tube(radius, height, number=24, thickness=None, center=(0, 0, 0), orientatio
 	corners = [
 		[r / math.cos(math.pi / number) * np.array([math.cos(a), math.sin(a)]) for r in (radius, radius + thick)] for a in _angles(number)
 	]
-	made = []
+	made, pieces = [], ofOneColour({'fixed': True, **body})
 	for k in range(number):
 		outline = corners[k] + corners[(k + 1) % number]
 		points = [middle + turn * Vector3(x, y, z) for x, y in outline for z in (-height / 2, height / 2)]
-		made.append(fromVertices(points, **{'fixed': True, **body}))
+		made.append(fromVertices(points, **pieces))
 	return made
 
 
@@ -143,13 +143,13 @@ def terrain(heights, spacing=None, depth=None, origin=(0, 0), **body):
 		points, triangles = _ofHeights(heights, _positive(spacing, 'spacing'), rows([origin], 'origin', 2)[0])
 	extent = float(np.ptp(points[:, :2], axis=0).max())
 	base = points[:, 2].min() - (thicknessFraction * extent if depth is None else _positive(depth, 'depth'))
-	made = []
+	made, pieces = [], ofOneColour({'fixed': True, **body})
 	for corners in points[triangles]:
 		edges = corners - np.roll(corners, 1, axis=0)
 		area = abs(edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]) / 2
 		if area > flat * (edges**2).sum(axis=1).max():
 			below = np.column_stack([corners[:, :2], np.full(3, base)])
-			made.append(fromVertices(np.vstack([corners, below]).tolist(), **{'fixed': True, **body}))
+			made.append(fromVertices(np.vstack([corners, below]).tolist(), **pieces))
 	if not made:
 		raise ValueError('heights: the mesh has no triangle that is not vertical')
 	return made

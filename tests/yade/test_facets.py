@@ -73,3 +73,19 @@ def testBadArguments(cup, tmp_path):
 	with pytest.raises(TypeError, match="facets: there is no argument 'center'; it takes path, scale, shift, and as all bodies material"):
 		polytope.facets(cup, center=(0, 0, 0))
 	assert len(O.bodies) == 0
+
+
+def testPiecesOfOneThingHaveOneColour(cup):
+	"""A random one, another for the next thing; or the one that is given."""
+
+	def things(**body):
+		yield polytope.plates((0, 0, 0), (1, 1, 1), **body)
+		yield polytope.tube(1, 1, **body)
+		yield polytope.terrain([[0, 0, 0], [0, 1, 0], [0, 0, 0]], spacing=1, **body)
+		yield polytope.facets(cup, **body)
+
+	seen = [{tuple(piece.shape.color) for piece in pieces} for pieces in [*things(), *things()]]
+	assert all(len(colours) == 1 for colours in seen) and len(set.union(*seen)) == len(seen)
+	assert all({tuple(piece.shape.color) for piece in pieces} == {(1, 0, 0)} for pieces in things(color=(1, 0, 0)))
+	with pytest.raises(ValueError, match='^color: '):
+		polytope.plates((0, 0, 0), (1, 1, 1), color='red')

@@ -7,7 +7,7 @@ import numpy as np
 from yade import Vector3, _polytope
 
 from ..arguments import rotation, vector, vectors, warn
-from ..bodies import bodyOf, builder
+from ..bodies import bodyOf, builder, ofOneColour
 from ..clumps import union
 from ..precision import isNumber
 from .convexParts import cut
@@ -148,7 +148,8 @@ def _objects(path, mesh, error, body):
 
 def _decomposed(path, cuts, scale, body):
 	"""Bodies of the parts into which CoACD cut a mesh."""
-	made = [_hull(path, part * scale, 0, body) for part in cuts.parts]
+	pieces = ofOneColour(body)
+	made = [_hull(path, part * scale, 0, pieces) for part in cuts.parts]
 	found = union(made)[0] / float(made[0].material.density)
 	volume = cuts.volume and cuts.volume * scale**3
 	if volume and abs(found / volume - 1) > enough:

@@ -7,7 +7,7 @@ import numpy as np
 from yade import Vector3
 
 from ..arguments import number, vector, warn
-from ..bodies import builder
+from ..bodies import builder, ofOneColour
 from ..yadeShapes import facetOf
 from .digits import warnOfRounding
 from .files import readMesh
@@ -46,4 +46,5 @@ def facets(path, scale=1.0, shift=(0, 0, 0), **body):
 		warn(f"path: {(~solid).sum()} of the {len(solid)} triangles of '{path}' have no area and are left out")
 	warnOfRounding(path, 'path', mesh.points, float(np.median(lengths[solid])), 'the usual length of an edge')
 	places = [float(scale) * Vector3(*point) + moved for point in mesh.points.tolist()]
-	return [facetOf([places[k] for k in three], **body) for three in mesh.triangles[solid].tolist()]
+	pieces = ofOneColour(body)
+	return [facetOf([places[k] for k in three], **pieces) for three in mesh.triangles[solid].tolist()]

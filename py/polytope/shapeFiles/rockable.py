@@ -10,7 +10,7 @@ import dataclasses
 import numpy as np
 
 from ..arguments import warn
-from ..bodies import fromHalfSpaces, fromVertices
+from ..bodies import fromHalfSpaces, fromVertices, ofOneColour
 from ..meshes.convexParts import cut
 from ..meshes.files import Mesh
 from ..yadeShapes import sphereOf
@@ -111,13 +111,15 @@ def _body(path, shape, place, parts, body):
 	if extents[-1] <= flat * extents[0]:
 		return _plate(shape, points, radius, body)
 	if shape.surface:
-		return [_plate(shape, points[face], radius, body) for face in shape.faces]
+		pieces = ofOneColour(body)
+		return [_plate(shape, points[face], radius, pieces) for face in shape.faces]
 	core = _hull(shape, points, body)
 	where = f"'{shape.name}' (line {shape.line} of '{path}')"
 	if parts and notConvex(core, points, shape.faces):
 		triangles = np.array([(face[0], *face[k : k + 2]) for face in shape.faces for k in range(1, len(face) - 1)])
 		pieces = cut(Mesh(points, triangles, np.zeros(len(triangles), int)), parts).parts
-		return [_inflated(shape, piece, radius, body) for piece in pieces]
+		look = ofOneColour(body)
+		return [_inflated(shape, piece, radius, look) for piece in pieces]
 	warnIfNotConvex(where, core, points, shape.faces, '; parts=… cuts it into convex parts')
 	return _inflated(shape, points, radius, body)
 
