@@ -18,7 +18,7 @@ def field(paragraph, name):
 	return {part.split()[0] for part in found.split(',') if part.strip()}
 
 
-source, plain, withIpopt = control.split('\n\n')
+source, plain, withIpopt, documentation = control.split('\n\n')
 
 
 def testVersionsAgree():
@@ -39,6 +39,13 @@ def testBothPackagesNeedTheSame():
 	for name in ('Depends', 'Recommends', 'Architecture', 'Built-Using'):
 		assert field(plain, name) == field(withIpopt, name), name
 	assert field(plain, 'Conflicts') == {'yade-polytope-ipopt'} and field(withIpopt, 'Conflicts') == {'yade-polytope'}
+
+
+def testDocumentationNeedsNoYade():
+	"""It is for every Debian, from the same build, and doc-base has the page that the rules install."""
+	assert field(documentation, 'Architecture') == {'all'} and not any('yade' in name for name in field(documentation, 'Depends'))
+	(index,) = re.findall(r'^Index: (.*)$', (project / 'debian/yade-polytope-doc.doc-base').read_text(), re.MULTILINE)
+	assert index.removeprefix('/').removesuffix('/index.html') in (project / 'debian/rules').read_text()
 
 
 def testEveryModuleThatIsImportedHasItsPackage():

@@ -9,7 +9,7 @@ __all__ = ['modules', 'topics', 'write']
 
 topics = {
 	'bodies': ('Bodies', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split'),
-	'ground': ('Fixed pieces and ground', 'plates tube terrain'),
+	'ground': ('Fixed pieces and ground', 'plates tube terrain facets'),
 	'grains': ('Random grains', 'randomGrain grains cloud'),
 	'rock': (
 		'Jointed rock and cells',

@@ -45,17 +45,25 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 	surface.set(memory.surface);
 }
 
-boost::python::list PolytopeGeom::outlineCorners() const
+std::vector<Vector3r> PolytopeGeom::cornersOfOutline() const
 {
-	boost::python::list corners;
+	std::vector<Vector3r> corners;
 	const Real          n[3] = { normal[0], normal[1], normal[2] };
 	const auto          axes = polytope::axesAround<Real, 3>(n);
 	for (int k = 0; k < outline.count(); ++k) {
 		Vector3r corner = contactPoint;
 		for (int i = 0; i < 3; ++i)
 			corner[i] += outline.corners()[k][0] * axes.m[0][i] + outline.corners()[k][1] * axes.m[1][i];
-		corners.append(corner);
+		corners.push_back(corner);
 	}
+	return corners;
+}
+
+boost::python::list PolytopeGeom::outlineCorners() const
+{
+	boost::python::list corners;
+	for (const Vector3r& corner : cornersOfOutline())
+		corners.append(corner);
 	return corners;
 }
 

@@ -69,7 +69,8 @@ public:
 	/// Whether they differ from those known.
 	bool setInternalPlanes(const polytope::InternalPlanes& planes);
 	/// Corners of the outline in the world.
-	boost::python::list outlineCorners() const;
+	std::vector<Vector3r> cornersOfOutline() const;
+	boost::python::list   outlineCorners() const;
 	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
 	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
