@@ -266,7 +266,7 @@ def testRefusals(tmp_path, monkeypatch):
 
 viewScript = '''
 import os, time
-from yade import O, FrictMat, Gl1_Polytope, qt
+from yade import O, FrictMat, Gl1_Polytope, RockJointMat, qt
 from yade import polytope
 from PyQt5.QtWidgets import QApplication
 
@@ -288,6 +288,22 @@ view.center()
 shown('solid.jpg')
 Gl1_Polytope.wire = True
 shown('wire.jpg')
+
+O.bodies.erase(0)
+Gl1_Polytope.wire = False
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5))
+O.bodies.append([
+	polytope.cuboid((0, 0, -0.5), (1, 1, 0.5), fixed=True, color=(0.7, 0.7, 0.7)),
+	polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5), color=(0.7, 0.7, 0.7)),
+])
+O.engines = polytope.engines()
+O.run(50, wait=True)
+view.center()
+shown('bodies.jpg')
+qt.Renderer().intrGeom = True
+shown('contact.jpg')
+O.interactions.clear()
+shown('gone.jpg')
 os._exit(0)
 '''
 
@@ -303,3 +319,14 @@ def testYadesOwnViewDrawsPolytopes(tmp_path):
 	# in JPEG whatever the name says
 	solid, wire = (shareLike(matplotlib.image.imread(tmp_path / name) / 255, 0) for name in ('solid.jpg', 'wire.jpg'))
 	assert solid > 0.05 and 0 < wire < solid / 3
+	# the rim of the area in which the block stands, its middle and the normal there, over the bodies
+	bodies, contact, gone = (redness(matplotlib.image.imread(tmp_path / name) / 255) for name in ('bodies.jpg', 'contact.jpg', 'gone.jpg'))
+	contact, gone = contact & ~bodies, gone & ~bodies  # the axis x is red, too
+	assert bodies.sum() < 50 and gone.sum() < 20 and contact.sum() > 200, (bodies.sum(), gone.sum(), contact.sum())
+	columns = np.nonzero(contact)[1]
+	assert np.ptp(columns) > 0.1 * contact.shape[1], 'the rim is as wide as the block'
+
+
+def redness(picture):
+	"""Pixels that are red."""
+	return picture[:, :, 0] > picture[:, :, 1] + 0.3
