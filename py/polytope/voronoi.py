@@ -12,6 +12,7 @@ import numbers
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
+from tqdm import tqdm
 from yade import _polytope
 
 from .arguments import flag, namedArguments, numbersOf, randomOf, rows, vectors
@@ -133,7 +134,7 @@ def _cells(points, normals, offsets, corners, box):
 	neighbours = _neighbours(images, len(points), corners)
 	outer = (np.empty((0, 3)), np.empty(0)) if box is not None else (normals, offsets)
 	blocks, volumes, centroids = [], np.empty(len(points)), np.empty((len(points), 3))
-	for k, point in enumerate(points):
+	for k, point in enumerate(tqdm(points, desc='cells', unit=' cells', disable=None, leave=False)):
 		between = images[neighbours[k]] - point
 		distances = np.linalg.norm(between, axis=1)
 		unit = between / distances[:, None]
