@@ -69,6 +69,8 @@ def _scaled(parts):
 	"""The shape of a body, whose intermediate extent along its principal axes becomes 1."""
 	mass, centre, tensor = union(parts)
 	axes = np.linalg.eigh(tensor)[1]
+	if np.linalg.det(axes) < 0:  # a grain is no mirror image
+		axes[:, 0] *= -1
 	points = [(np.array(part.state.pos, float) - centre + cornersOf(part)) @ axes for part in parts]
 	size = float(np.sort(np.ptp(np.concatenate(points), axis=0))[1])
 	return GrainShape([some / size for some in points], mass / float(parts[0].material.density) / size**3)

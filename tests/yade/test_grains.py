@@ -110,6 +110,16 @@ def testGrainsOfGivenShapes():
 	assert np.mean(longest, axis=0) == pytest.approx([1 / 3] * 3, abs=0.08), 'turned at random'
 
 
+@pytest.mark.parametrize('sides', [(1, 2, 3), (3, 1, 2), (2, 3, 1), (2, 1, 3), (1, 3, 2), (3, 2, 1)])
+def testGrainsAreNoMirrorImages(sides):
+	"""Cubes at the corners of a tetrahedron with edges of different lengths."""
+	places = np.vstack([np.zeros(3), np.diag(sides)])
+	parts = [polytope.cuboid(tuple(place), (0.2, 0.2, 0.2)) for place in places]
+	for grain in polytope.grains([(0.01, 0), (0.02, 1)], 0.05, seed=1, shapes=[parts]):
+		first, *others = (np.array(part.state.pos, float) for part in grain)
+		assert np.linalg.det([other - first for other in others]) > 0
+
+
 def testGrainsOfPartsMakeClumps():
 	"""An L of two boxes that overlap: it counts as their union, its parts lie to each other as they were given, and a cloud of clumps has them apart."""
 	parts = [polytope.cuboid((10, 0, 0), (3, 1, 1)), polytope.cuboid((8, 1, 0), (1, 2, 1))]  # 24 + 16 - 8 m³, 6 m × 4 m × 2 m

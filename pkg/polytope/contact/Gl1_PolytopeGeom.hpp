@@ -13,7 +13,8 @@ namespace yade {
 /// Present only where YADE was built with OpenGL.
 class Gl1_PolytopeGeom : public GlIGeomFunctor {
 public:
-	void go(const shared_ptr<IGeom>& geom, const shared_ptr<Interaction>& contact, const shared_ptr<Body>&, const shared_ptr<Body>&, bool) override;
+	void go(const shared_ptr<IGeom>& geom, const shared_ptr<Interaction>& contact, const shared_ptr<Body>&, const shared_ptr<Body>&,
+	        bool) override;
 	RENDERS(PolytopeGeom);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Gl1_PolytopeGeom, GlIGeomFunctor,

@@ -48,8 +48,8 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 std::vector<Vector3r> PolytopeGeom::cornersOfOutline() const
 {
 	std::vector<Vector3r> corners;
-	const Real          n[3] = { normal[0], normal[1], normal[2] };
-	const auto          axes = polytope::axesAround<Real, 3>(n);
+	const Real            n[3] = { normal[0], normal[1], normal[2] };
+	const auto            axes = polytope::axesAround<Real, 3>(n);
 	for (int k = 0; k < outline.count(); ++k) {
 		Vector3r corner = contactPoint;
 		for (int i = 0; i < 3; ++i)
