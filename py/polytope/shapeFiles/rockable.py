@@ -110,7 +110,7 @@ def _body(path, shape, place, parts, body):
 		raise NoBody(f"'{shape.name}' is a rod")
 	if extents[-1] <= flat * extents[0]:
 		return _plate(shape, points, radius, body)
-	if shape.surface:
+	if shape.surface and shape.faces:
 		pieces = ofOneColour(body)
 		return [_plate(shape, points[face], radius, pieces) for face in shape.faces]
 	core = _hull(shape, points, body)
