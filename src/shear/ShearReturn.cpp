@@ -53,7 +53,8 @@ namespace {
 		if (motion.taken() < 1) return true;
 		// axes across the load that are orthogonal by the energy
 		const Eigen::LLT<Matrix3> root(stiffness);
-		const Vector3             along = root.matrixL().solve(load), across1 = along.unitOrthogonal(), across2 = along.normalized().cross(across1);
+		const Vector3             along = root.matrixL().solve(load), across1 = along.unitOrthogonal(),
+		              across2 = along.normalized().cross(across1);
 		Eigen::Matrix<Real, 3, 2> axes;
 		axes << Vector3(root.matrixU().solve(across1)), Vector3(root.matrixU().solve(across2));
 
@@ -61,9 +62,9 @@ namespace {
 			const Real taken = motion.taken();
 			if (taken < 1) return true;
 			if (holdsBeside(strength, motion.resistance, load)) return false;
-			const Eigen::Matrix<Real, 2, 2> hessian  = axes.transpose() * motion.slope * axes;
-			const Vector2                   gradient = axes.transpose() * motion.resistance, change = hessian.ldlt().solve(gradient);
-			const Real                      fall = change.dot(gradient);
+			const Eigen::Matrix<Real, 2, 2> hessian = axes.transpose() * motion.slope * axes;
+			const Vector2 gradient = axes.transpose() * motion.resistance, change = hessian.ldlt().solve(gradient);
+			const Real    fall = change.dot(gradient);
 			if (!(fall > Real(tolerance::shearMotion) * taken)) return false;
 			Real   part = 1;
 			Motion next = motion;
@@ -115,7 +116,7 @@ Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness
 		const bool near = slope <= Real(tolerance::shearReturn * tolerance::shearReturn) * square || slope <= 4 * room;
 		if (near && !(slope < lastSlope / 4)) break;
 		if (near) lastSlope = slope;
-		const Real now = work(motion);
+		const Real now  = work(motion);
 		Real       part = 1;
 		Motion     next(strength, motion.slip - change);
 		for (int halved = 0; !near && halved < tolerance::shearHalvings && !(work(next) <= now - part * slope / 4); ++halved) {

@@ -249,14 +249,16 @@ TEST(ShearReturn, LoadsThatDifferByRoundingLeaveTheSame)
 			corner[1] *= flat;
 		const OutlineMoments moments = momentsOf(corners.data(), int(corners.size()));
 		if (!(moments.area > 1e-4)) continue;
-		const Vector2        offset(0.2 * flat * uniform(random), 0.2 * flat * uniform(random));
-		const ShearStrength  field(corners.data(), int(corners.size()), moments, 1, Vector2(moments.centroid + offset));
-		const Matrix3        stiffness = bedStiffness(50, moments.gyrationSquared(), moments.centroid - field.centre());
-		const Real           angle     = M_PI * uniform(random);
-		Vector3              load(std::cos(angle), std::sin(angle), uniform(random) * std::pow(10, -4 * std::abs(uniform(random))));
+		const Vector2       offset(0.2 * flat * uniform(random), 0.2 * flat * uniform(random));
+		const ShearStrength field(corners.data(), int(corners.size()), moments, 1, Vector2(moments.centroid + offset));
+		const Matrix3       stiffness = bedStiffness(50, moments.gyrationSquared(), moments.centroid - field.centre());
+		const Real          angle     = M_PI * uniform(random);
+		Vector3             load(std::cos(angle), std::sin(angle), uniform(random) * std::pow(10, -4 * std::abs(uniform(random))));
 		load *= 1 + std::pow(10, -1 - 3 * std::abs(uniform(random)));
 		Vector3 one = load, other = load * (1 + 2e-15);
-		if (returnToStrength(field, stiffness, one) == Vector3::Zero() || returnToStrength(field, stiffness, other) == Vector3::Zero()) continue;
+		if (returnToStrength(field, stiffness, one) == Vector3::Zero()
+		        || returnToStrength(field, stiffness, other) == Vector3::Zero())
+			continue;
 		++slipped;
 		EXPECT_LT((one - other).norm(), 1e-9) << trial;
 	}

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lib/high-precision/Constants.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
 
 #include <src/bolt/BoltLayout.hpp>
 #include <src/bolt/BoltTolerances.hpp>
 
-#include "shape/Polytope.hpp"
 #include "bolt/PolytopeBolts.hpp"
+#include "shape/Polytope.hpp"
 
 #include <map>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lib/high-precision/Constants.hpp>
 #include <core/Clump.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
 
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
 
-#include "shape/Polytope.hpp"
 #include "bonding/PolytopeBonds.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
+#include "shape/Polytope.hpp"
 
 #include <limits>
 #include <tuple>
@@ -106,12 +106,13 @@ namespace {
 				        + std::to_string(body2.id) + " are not both of a RockJointMat, whose value would be taken");
 			value = rule(*m1, *m2);
 		};
-		using Mat          = RockJointMat;
-		const auto smaller = [](Real a, Real b) { return math::min(a, b); };
-		const auto stiffness = [&](Real& value, const char* name, Real Mat::*of) {
+		using Mat            = RockJointMat;
+		const auto smaller   = [](Real a, Real b) { return math::min(a, b); };
+		const auto stiffness = [&](Real& value, const char* name, Real Mat::* of) {
 			take(value, name, [&](const Mat& a, const Mat& b) {
 				if (!a.stiffnessPerArea || !b.stiffnessPerArea)
-					refuseBond(std::string(name) + ": must be given per area [Pa/m], that of the RockJointMat is per contact [N/m]");
+					refuseBond(std::string(name)
+					        + ": must be given per area [Pa/m], that of the RockJointMat is per contact [N/m]");
 				return inSeries(a.*of, b.*of);
 			});
 		};

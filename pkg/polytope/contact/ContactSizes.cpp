@@ -3,8 +3,8 @@
 
 #include <pkg/common/Sphere.hpp>
 
-#include "shape/Polytope.hpp"
 #include "host/PartsOfBodies.hpp"
+#include "shape/Polytope.hpp"
 
 namespace yade {
 Real sizeOf(const Shape& shape)

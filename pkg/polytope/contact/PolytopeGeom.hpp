@@ -71,8 +71,8 @@ public:
 	/// Corners of the outline in the world.
 	std::vector<Vector3r> cornersOfOutline() const;
 	boost::python::list   outlineCorners() const;
-	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
-	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
+	polytope::FaceForce   faceForce() const { return polytope::FaceForce(faceForceCode); }
+	std::string           statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,

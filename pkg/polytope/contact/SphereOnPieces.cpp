@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/SphereOnPieces.hpp"
 
-#include "host/Partners.hpp"
 #include "contact/PieceTolerances.hpp"
+#include "host/Partners.hpp"
 #include "shape/Polytope.hpp"
 
 #include <lib/high-precision/Constants.hpp>

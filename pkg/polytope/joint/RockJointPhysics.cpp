@@ -129,7 +129,8 @@ StiffnessRule Ip2_RockJointMat_RockJointMat_RockJointPhys::stiffnessRule(const M
 {
 	const auto *joint1 = dynamic_cast<const RockJointMat*>(&material1), *joint2 = dynamic_cast<const RockJointMat*>(&material2);
 	if (!joint1 || !joint2) return StiffnessRule::Unknown;
-	return stiffnessPerArea && joint1->stiffnessPerArea && joint2->stiffnessPerArea ? StiffnessRule::PerArea : StiffnessRule::PerContact;
+	return stiffnessPerArea && joint1->stiffnessPerArea && joint2->stiffnessPerArea ? StiffnessRule::PerArea
+	                                                                                : StiffnessRule::PerContact;
 }
 
 void Ip2_RockJointMat_RockJointMat_RockJointPhys::go(
@@ -153,8 +154,9 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 	// in different units, that of a contact alone
 	const bool          differ = stiffnessPerArea && m1.stiffnessPerArea != m2.stiffnessPerArea;
 	const RockJointMat &side1 = differ && m1.stiffnessPerArea ? m2 : m1, &side2 = differ && m2.stiffnessPerArea ? m1 : m2;
-	const Real normal = of(kn, side1.normalStiffness, side2.normalStiffness, seriesStiffness(side1.normalStiffness, side2.normalStiffness));
-	const Real shear  = of(ks, side1.shearStiffness, side2.shearStiffness, seriesStiffness(side1.shearStiffness, side2.shearStiffness));
+	const Real          normal
+	        = of(kn, side1.normalStiffness, side2.normalStiffness, seriesStiffness(side1.normalStiffness, side2.normalStiffness));
+	const Real shear = of(ks, side1.shearStiffness, side2.shearStiffness, seriesStiffness(side1.shearStiffness, side2.shearStiffness));
 
 	auto       phys              = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
 	const Real angle             = of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle));

@@ -5,8 +5,8 @@
 #include "output/PolytopeVTKRecorder.hpp"
 #include "output/VtkFiles.hpp"
 
-#include <lib/high-precision/Constants.hpp>
 #include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -3,11 +3,11 @@
 
 #include "output/PolytopeVTKRecorder.hpp"
 
-#include "host/ExactClass.hpp"
-#include "shape/Polytope.hpp"
 #include "contact/PolytopeGeom.hpp"
+#include "host/ExactClass.hpp"
 #include "joint/RockJoint.hpp"
 #include "output/VtkFiles.hpp"
+#include "shape/Polytope.hpp"
 
 #include <core/Scene.hpp>
 #include <pkg/dem/FrictPhys.hpp>

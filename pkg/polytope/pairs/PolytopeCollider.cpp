@@ -5,8 +5,8 @@
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 
-#include "shape/Polytope.hpp"
 #include "host/FindsTimeStep.hpp"
+#include "shape/Polytope.hpp"
 
 #include <limits>
 

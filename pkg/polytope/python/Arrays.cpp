@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "python/Arrays.hpp"
 
-#include "python/ArrayTable.hpp"
 #include "host/Prefetch.hpp"
+#include "python/ArrayTable.hpp"
 
 #include <core/Body.hpp>
 #include <core/Omega.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "python/ArrayTable.hpp"
-#include "python/Arrays.hpp"
-#include "host/ExactClass.hpp"
 #include "contact/PolytopeGeom.hpp"
+#include "host/ExactClass.hpp"
 #include "host/Prefetch.hpp"
 #include "joint/RockJoint.hpp"
+#include "python/ArrayTable.hpp"
+#include "python/Arrays.hpp"
 
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>

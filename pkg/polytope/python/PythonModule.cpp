@@ -170,7 +170,8 @@ yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 	if (!material1 || !material2) return yade::StiffnessRule::Unknown;
 	const auto rule = yade::stiffnessRuleOfNew(*yade::Omega::instance().getScene(), *material1, *material2);
 	if (rule != yade::StiffnessRule::Unknown) return rule;
-	const auto *joint1 = dynamic_cast<const yade::RockJointMat*>(material1.get()), *joint2 = dynamic_cast<const yade::RockJointMat*>(material2.get());
+	const auto *joint1 = dynamic_cast<const yade::RockJointMat*>(material1.get()),
+	           *joint2 = dynamic_cast<const yade::RockJointMat*>(material2.get());
 	if (!joint1 || !joint2) return yade::StiffnessRule::Unknown;
 	return joint1->stiffnessPerArea && joint2->stiffnessPerArea ? yade::StiffnessRule::PerArea : yade::StiffnessRule::PerContact;
 }

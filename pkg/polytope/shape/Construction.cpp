@@ -3,8 +3,8 @@
 // What bodies.py and clumps.py of py/polytope call: a shape made by ShapeFactory, a body made of it, what parts of a clump fill together.
 #include "shape/Construction.hpp"
 
-#include "shape/Polytope.hpp"
 #include "host/Vectors.hpp"
+#include "shape/Polytope.hpp"
 
 #include <core/Body.hpp>
 #include <core/Clump.hpp>
