@@ -8,18 +8,18 @@ from tqdm import tqdm
 from yade import O, RockJointMat
 
 from ._loads import givePermanentLoads, permanentLoads
+from ._namedBodies import namedBodies
 from ._scene import canMove, integrators
 from ._stages import partOfSize, sizeOf
 from .arguments import namedArguments, number, warn
 from .bolting import madeBolts
 from .bonding import madeBonds
 from .films import filmEngines
-from .heap import namedBodies
 from .history import histories
 from .pictures import picture
 from .relaxing import relaxing
-from .unrest import Unrest
 from .strengthReduction import divideStrengths, strengths
+from .unrest import Unrest
 
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
 

@@ -5,9 +5,17 @@ import math
 
 import numpy as np
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O,
-        PolytopeCollider, Quaternion, RockJointMat
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	NewtonIntegrator,
+	O,
+	PolytopeCollider,
+	Quaternion,
+	RockJointMat,
 )
 
 from .bodies import cuboid, regular

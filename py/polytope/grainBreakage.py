@@ -7,11 +7,11 @@ import numbers
 import numpy as np
 from yade import O, Polytope
 
+from ._namedBodies import namedBodies
 from ._ranks import refuseDivided
 from .arguments import namedArguments, number, vector
 from .bonding import madeBonds
 from .breakage import split
-from .heap import namedBodies
 from .measures import bodyStress
 
 __all__ = ['breakGrains']

@@ -10,6 +10,7 @@ import scipy  # loads its packages at their first use: half a second
 from yade import O, Polytope, Sphere, Vector3, _polytope
 
 from ._faces import localVertices
+from ._namedBodies import moverOf, namedBodies, partsOf
 from .arguments import numbersOf, vectors, warn
 from .bodies import fromHalfSpaces
 from .bonding import madeBonds
@@ -17,9 +18,6 @@ from .bonding import madeBonds
 __all__ = [
 	'Coordination',
 	'coordinationNumber',
-	'moverOf',
-	'namedBodies',
-	'partsOf',
 	'porosity',
 	'solidVolume',
 	'volumeInside',
@@ -85,12 +83,6 @@ def _region(region, lower, upper):
 def boxPlanes(lower, upper):
 	"""(normals, offsets) of an axis-parallel box."""
 	return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([upper, -np.array(lower)])
-
-
-def partsOf(k):
-	"""Ids of a clump's members; of another body its own."""
-	body = O.bodies[k]
-	return list(body.shape.members) if body.isClump else [k]
 
 
 def solidVolume(k):
@@ -215,33 +207,3 @@ def coordinationNumber(ids=None):
 	bearing = [count for count in touching.values() if count > 1]
 	mechanical = sum(bearing) / len(bearing) if bearing else float('nan')
 	return Coordination(sum(touching.values()) / len(touching), mechanical, len(touching) - len(bearing), len(touching))
-
-
-def moverOf(k):
-	"""The body itself, or the clump that it is a member of."""
-	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
-
-
-def namedBodies(ids, erased=False, name='ids'):
-	"""Numbers of bodies, a clump by its own; None: all that hold a Polytope and can move. ValueError naming them.
-
-	:param bool erased: leave out numbers of bodies that have been erased, in place of refusing them
-	:param str name: of the argument
-	"""
-	if ids is not None:
-		try:
-			ids = list(ids)
-		except TypeError:
-			raise ValueError(f'{name}: must be a list of numbers of bodies, got {ids!r}') from None
-		if erased:
-			ids = [k for k in ids if not (isinstance(k, numbers.Integral) and 0 <= k < len(O.bodies) and O.bodies[k] is None)]
-		for k in ids:
-			if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None:
-				raise ValueError(f'{name}: there is no body {k!r}')
-			if moverOf(k) != k:
-				raise ValueError(f'{name}: body {k} is a member of clump {moverOf(k)}; name the clump')
-		if len(set(ids)) < len(ids):
-			raise ValueError(f'{name}: some bodies are named twice')
-		return [int(k) for k in ids]
-	free = (moverOf(body.id) for body in O.bodies if isinstance(body.shape, Polytope))
-	return [k for k in dict.fromkeys(free) if O.bodies[k].dynamic]

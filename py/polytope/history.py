@@ -7,8 +7,8 @@ import re
 import numpy as np
 from yade import O, Polytope, PyRunner, Vector3
 
+from ._namedBodies import moverOf
 from .arguments import flag, namedArguments, vector, warn
-from .heap import moverOf
 from .measures import bodyStress
 
 __all__ = ['histories', 'history', 'record']

@@ -10,8 +10,9 @@ import numpy as np
 from yade import O, Polytope, Sphere, Vector3
 
 from ._faces import localVertices, worldVertices
+from ._namedBodies import namedBodies
 from .bonding import madeBonds
-from .heap import namedBodies, solidVolume
+from .heap import solidVolume
 
 __all__ = ['aabbExtrema', 'bodyStress', 'contactFabric', 'particleFabric', 'sizeDistribution']
 

@@ -8,13 +8,13 @@ import numpy as np
 from tqdm import tqdm
 from yade import Body, O, Polytope, Vector3, Wall
 
+from ._namedBodies import namedBodies, partsOf
 from ._scene import geometryFunctors
 from .arguments import namedArguments, number, vector, warn
-from .engines import engines
 from .clumps import clump
-from .grainShapes import partsOfLoose
+from .engines import engines
 from .grains import cloud
-from .heap import namedBodies, partsOf
+from .grainShapes import partsOfLoose
 from .loading.cell import PeriodicSample
 from .loading.sample import between, deepest, fastestStrain, idsOfSample, tooDeep
 from .loading.servo import actOn

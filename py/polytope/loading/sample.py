@@ -12,8 +12,9 @@ import numpy as np
 from tqdm import tqdm
 from yade import O, Polytope, utils
 
+from .._namedBodies import moverOf, partsOf
 from ..arrays import arrays
-from ..heap import moverOf, partsOf, solidVolume
+from ..heap import solidVolume
 from ..measures import bodyStress
 
 __all__ = ['Sample', 'deepest', 'idsOfSample', 'replaceInSamples', 'tooDeep']

@@ -7,9 +7,9 @@ import os
 
 from yade import O, Polytope, Vector3
 
+from .._namedBodies import namedBodies
 from ..arguments import number, vector
 from ..bodies import builder
-from ..heap import namedBodies
 from ..meshes.files import isMeshFile
 from . import compas, neper, rockable, yadeText
 

@@ -6,12 +6,12 @@ import numbers
 import numpy as np
 from yade import O, Polytope
 
+from .._namedBodies import moverOf, namedBodies
 from .._ranks import refuseDivided
 from .._scene import canMove, integrators
 from ..arguments import namedArguments, numbersOf, rows
 from ..bolting import madeBolts
 from ..bonding import madeBonds
-from ..heap import moverOf, namedBodies
 from ..relaxing import startRelaxing
 from .removedForces import removedForces
 

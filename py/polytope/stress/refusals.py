@@ -7,11 +7,11 @@ import numpy as np
 from yade import O, Polytope, RockJointMat
 
 from .._faces import worldVertices
+from .._namedBodies import moverOf, namedBodies
 from .._ranks import refuseDivided
 from .._scene import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
 from .._stages import refuseMatchMaker
 from ..bonding import madeBonds
-from ..heap import moverOf, namedBodies
 from ..rock.faces import areaOfFace
 from .commonFaces import contactOf, materialOf, planesOf
 

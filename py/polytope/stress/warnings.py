@@ -4,9 +4,9 @@
 import numpy as np
 from yade import O, PolytopeWater
 
+from .._namedBodies import moverOf
 from .._scene import canMove, integrators
 from ..arguments import warn
-from ..heap import moverOf
 from .commonFaces import materialOf
 from .refusals import accuracy, forcesBorne
 
