@@ -7,7 +7,7 @@ import os
 from math import radians
 
 from yade import O, RockJointMat, polytope
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 pebble = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pebble.obj')  # in centimetres
 O.materials.append(RockJointMat(density=2600, normalStiffness=1e6, shearStiffness=7e5, stiffnessPerArea=False, frictionAngle=radians(30)))

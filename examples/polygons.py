@@ -7,7 +7,7 @@ from math import cos, pi, radians, sin
 from random import Random
 
 from yade import O, RockJointMat, polytope
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 O.materials.append(RockJointMat(density=2600, normalStiffness=5e7, shearStiffness=3e7, stiffnessPerArea=False, frictionAngle=radians(25)))
 

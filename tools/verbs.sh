@@ -5,7 +5,7 @@
 
 purposesOf() { # VERB ARGUMENTS…
 	case $1 in
-		test) echo base test docs fuzz revision ;; # fuzz: tests/yade/test_verbs.py configures it
+		test) echo base test docs fuzz revision ;; # fuzz: tests/yade/project/test_verbs.py configures it
 		docs) echo base docs ;;
 		shell) echo base test ;; # for pytest
 		search | accuracy | tradeoff | paper) echo base revision ;;
@@ -20,7 +20,7 @@ purposesOf() { # VERB ARGUMENTS…
 	esac
 }
 
-# Options of a verb besides --help. tests/yade/test_verbs.py compares them, and the names below, with what the programs themselves list.
+# Options of a verb besides --help. tests/yade/project/test_verbs.py compares them, and the names below, with what the programs themselves list.
 optionsOf() { # VERB
 	case $1 in
 		demo)

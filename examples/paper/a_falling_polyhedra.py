@@ -28,15 +28,15 @@ if __name__ == '__main__':  # --threads counts when YADE is loaded; within `yade
 	# `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-from yade import O
-from boon2012.reporting.findings import Findings
-from yade.polytope.fallingPolyhedra import solids
 from boon2012.falling.costs import ContactCostReport
-from boon2012.falling.run import FallingRun, save
 from boon2012.falling.report import FallingPolyhedraReport
+from boon2012.falling.run import FallingRun, save
 from boon2012.falling.tables import showCosts, showOutcome, showStates
+from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
 from boon2012.reporting.script import conclude
+from yade import O
+from yade.polytope.fallingPolyhedra import solids
 
 fullNumber, fullSteps = 200, 7000
 expected = {

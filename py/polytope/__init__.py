@@ -21,52 +21,52 @@ from yade import Quaternion, Vector3
 from yade._polytope import buildInfo, contact
 
 from . import _helpTexts
-from .arrays import arrays
-from .bodies import cuboid, fromHalfSpaces, fromVertices, polygon, regular
-from .bolting import Dowel, Grout, bolt, boltArrays, bolts
-from .bonding import bond, bonds
-from .breakage import split
+from .bodies.clumps import clump
+from .bodies.grains import cloud, grains, randomGrain
+from .bodies.meshes import facets, fromMesh
+from .bodies.polytopes import cuboid, fromHalfSpaces, fromVertices, polygon, regular
+from .bodies.shapeFiles import readShapes, writeShapes
+from .bodies.solids import frustum, plates, prism, terrain, tube
+from .bodies.voronoi import VoronoiCells, voronoi
+from .bonding.bolting import Dowel, Grout, bolt, boltArrays, bolts
+from .bonding.bonds import bond, bonds
+from .breakage.byStress import breakGrains
+from .breakage.splitting import split
 from .check import check
-from .checkpoints import checkpoint, continueFrom
-from .clumps import clump
 from .dynamics.base import baseMotion
 from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
-from .energy import mechanicalEnergy
 from .engines import engines
 from .extensions import extensions, load
-from .factorOfSafety import FactorOfSafety, factorOfSafety
-from .films import Film, animate
-from .grainBreakage import breakGrains
-from .grains import cloud, grains, randomGrain
-from .heap import coordinationNumber, porosity
-from .history import history
-from .jointedRock import JointedRock, JointSet, jointedRock
 from .loading.oedometer import oedometer
+from .loading.packing import pack, sample
 from .loading.shearBox import shearBox
 from .loading.simpleShear import simpleShear
 from .loading.triaxial import triaxial
-from .measures import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
-from .meshes import facets, fromMesh
-from .packing import pack, sample
-from .pictures import picture
+from .measures.arrays import arrays
+from .measures.energy import mechanicalEnergy
+from .measures.heap import coordinationNumber, porosity
+from .measures.packings import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
+from .measures.roses import contactRose, forceHistogram, particleRose
+from .pictures.films import Film, animate
+from .pictures.still import picture
 from .requirements import requirements
+from .rest.settling import settle
+from .rest.unrest import NotAtRest
+from .rock.factorOfSafety import FactorOfSafety, factorOfSafety
 from .rock.files import readJoints
+from .rock.history import history
 from .rock.joint import Joint
+from .rock.jointedRock import JointedRock, JointSet, jointedRock
 from .rock.keyBlocks import KeyBlock, keyBlocks
 from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
-from .roses import contactRose, forceHistogram, particleRose
-from .settling import settle
-from .shapeFiles import readShapes, writeShapes
-from .solids import frustum, plates, prism, terrain, tube
-from .stress.excavation import excavate
-from .stress.inSitu import inSitu
-from .timeStep import stableTimeStep
+from .rock.stress.excavation import excavate
+from .rock.stress.inSitu import inSitu
+from .rock.water import water
+from .scene.checkpoints import checkpoint, continueFrom
+from .scene.timeStep import stableTimeStep
 from .tradeoff import tradeoff
-from .unrest import NotAtRest
-from .voronoi import VoronoiCells, voronoi
-from .water import water
 
 __version__ = buildInfo()['version']
 

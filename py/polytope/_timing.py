@@ -6,7 +6,7 @@ import time
 
 from yade import O
 
-from ._scene import geometryFunctors, interactionLoops
+from .scene.present import geometryFunctors, interactionLoops
 
 __all__ = ['meansSoFar', 'resetTimes', 'timed']
 

@@ -34,13 +34,13 @@ from yade import (
 )
 
 from .arguments import namedArguments, number, vector, warn
-from .bolting import bolts, removedBolts
-from .bonding import bonds, removedBonds
+from .bonding.bolting import bolts, removedBolts
+from .bonding.bonds import bonds, removedBonds
 from .check import checkOf
 from .check.scene import SceneToCheck
-from .films import filmEngines
-from .history import histories
-from .relaxing import relaxing
+from .pictures.films import filmEngines
+from .rock.history import histories
+from .scene.relaxing import relaxing
 
 __all__ = ['engines']
 

@@ -18,7 +18,7 @@ from yade import (
 	RockJointMat,
 )
 
-from .bodies import cuboid, regular
+from .bodies.polytopes import cuboid, regular
 
 __all__ = ['FallingPolyhedra', 'circumradiusOfUnitVolume', 'solids']
 
@@ -118,7 +118,6 @@ class FallingPolyhedra:
 		                density=self.density,
 		                normalStiffness=self.normalStiffness,
 		                shearStiffness=self.stiffnessRatio * self.normalStiffness,
-		                stiffnessPerArea=False,
 		                frictionAngle=self.frictionAngle
 		        )
 		)
@@ -127,7 +126,7 @@ class FallingPolyhedra:
 		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom()
 		self.interactionLoop = InteractionLoop(
 		        [self.geometryFunctor],
-		        [Ip2_RockJointMat_RockJointMat_RockJointPhys()],
+		        [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
 		        [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 		)
 		O.engines = [

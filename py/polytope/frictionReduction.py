@@ -18,7 +18,7 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import tan  # of YADE's numbers, in any precision
 
-from ._stages import Reduction, Stage, refuseMatchMaker
+from .scene.stages import Reduction, Stage, refuseMatchMaker
 
 __all__ = ['FrictionReduction', 'FrictionReductionResult', 'Stage', 'setFrictionAngle']
 

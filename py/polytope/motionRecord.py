@@ -4,7 +4,7 @@
 import numpy as np
 from yade import O
 
-from .contactTypes import ContactTypes, typeOf
+from .measures.contactTypes import ContactTypes, typeOf
 
 __all__ = ['MotionRecord', 'noContact']
 

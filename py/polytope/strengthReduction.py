@@ -16,8 +16,8 @@ import math
 from yade import O, RockJointMat, RockJointPhys
 from yade.math import atan, tan  # of YADE's numbers, in any precision
 
-from ._stages import Reduction, refuseMatchMaker
-from .bonding import madeBonds
+from .bonding.bonds import madeBonds
+from .scene.stages import Reduction, refuseMatchMaker
 
 __all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths', 'strengths']
 

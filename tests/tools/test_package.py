@@ -49,8 +49,8 @@ def testDocumentationNeedsNoYade():
 
 
 def testEveryModuleThatIsImportedHasItsPackage():
-	"""Of other projects, by the rule of Debian's names; trials of tests/yade/test_layers.py have the list of what may be imported."""
-	named = re.search(r"ofTheProduct = set\('([^']*)'", (project / 'tests/yade/test_layers.py').read_text())[1].split()
+	"""Of other projects, by the rule of Debian's names; trials of tests/yade/project/test_layers.py have the list of what may be imported."""
+	named = re.search(r"ofTheProduct = set\('([^']*)'", (project / 'tests/yade/project/test_layers.py').read_text())[1].split()
 	packages = {name: f'python3-{name}' for name in named if name != 'coacd'} | {'vtkmodules': 'python3-vtk9', 'PIL': 'python3-pil'}
 	assert 'numpy' in packages and set(packages.values()) <= field(plain, 'Depends') | field(plain, 'Recommends')
 

@@ -36,8 +36,8 @@ if polytope.buildInfo()['precision'] != 'double':
 	# what pytest.approx asks of a number, and the messages of failures
 	numbers.Real.register(yade.minieigenHP.Real)
 	yade.minieigenHP.Real.__format__ = lambda self, how: format(float(self), how)
-	here = os.path.dirname(os.path.abspath(__file__))
-	collect_ignore = [name for name in os.listdir(here) if name.startswith('test_') and name[:-3] not in widePrecision]
+	here = pathlib.Path(__file__).resolve().parent
+	collect_ignore = [str(path.relative_to(here)) for path in here.rglob('test_*.py') if path.stem not in widePrecision]
 
 slowTests = {line.strip() for line in (pathlib.Path(__file__).parent / 'slow.txt').read_text().splitlines() if not line.startswith('#')}
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -77,3 +77,5 @@ def emptyScene():
 	yade.O.reset()
 	yield
 	yade.O.reset()
+	if 'yade.plot' in sys.modules:  # rows that polytope.history left
+		sys.modules['yade.plot'].resetData()

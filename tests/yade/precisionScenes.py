@@ -3,10 +3,8 @@
 scene it is told, every digit, one number a line."""
 import sys
 
-from yade import O, Quaternion, Vector3
-from yade import polytope
-
 import scenes
+from yade import O, Quaternion, Vector3, polytope
 
 
 def collision():

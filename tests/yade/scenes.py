@@ -4,11 +4,21 @@ import time
 from math import sqrt
 
 from yade import (
-        Bo1_Polytope_Aabb, ForceResetter, Ig2_Polytope_Polytope_PolytopeGeom, InsertionSortCollider, InteractionLoop,
-        Ip2_RockJointMat_RockJointMat_RockJointPhys, Law2_PolytopeGeom_RockJointPhys_MohrCoulomb, NewtonIntegrator, O, PolytopeTimeStepper,
-        Quaternion, RockJointMat, Vector3
+	Bo1_Polytope_Aabb,
+	ForceResetter,
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	InsertionSortCollider,
+	InteractionLoop,
+	Ip2_RockJointMat_RockJointMat_RockJointPhys,
+	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
+	NewtonIntegrator,
+	O,
+	PolytopeTimeStepper,
+	Quaternion,
+	RockJointMat,
+	Vector3,
+	polytope,
 )
-from yade import polytope
 
 gravity = 9.81
 density = 2600.

@@ -34,7 +34,7 @@ groups = {
 		'PolytopeCollider PolytopeTimeStepper PolytopeWater PolytopeVTKRecorder PolytopeCheckpoint BaseMotion QuietBoundary VelocityHistory'.split(),
 	),
 }
-"""Page, title, names. tests/yade/test_site.py sees to it that each class is in one of them."""
+"""Page, title, names. tests/yade/project/test_site.py sees to it that each class is in one of them."""
 
 own = [name for _, names in groups.values() for name in names if hasattr(yade, name)]  # Gl1_Polytope: not in a YADE without OpenGL
 texts = {name: (getattr(yade, name).__doc__, {key: one.__doc__ for key, one in vars(getattr(yade, name)).items()}) for name in own}

@@ -30,7 +30,7 @@ topics = {
 	'extensions': ('Classes of others', 'load extensions'),
 	'costs': ('Accuracy and cost', 'tradeoff requirements'),
 }
-"""Page, title, names. tests/yade/test_site.py sees to it that each public name is in one of them."""
+"""Page, title, names. tests/yade/project/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
 	'support': ('bolting.BoltArrays',),

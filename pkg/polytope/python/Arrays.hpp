@@ -8,7 +8,7 @@ namespace yade {
 /// Columns of all real interactions; \returns (columns, names of the statuses). In ContactArrays.cpp.
 boost::python::tuple contactColumns();
 
-/// Defines `bodyColumns` and `contactColumns` in yade._polytope (for PythonModule.cpp): what py/polytope/arrays.py makes NumPy arrays of.
+/// Defines `bodyColumns` and `contactColumns` in yade._polytope (for PythonModule.cpp): what py/polytope/measures/arrays.py makes NumPy arrays of.
 void defineArrays();
 
 } // namespace yade

@@ -6,10 +6,10 @@ import math
 import numpy as np
 from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
-from .._faces import worldVertices
-from .._scene import isPerArea, jointMakers
-from ..bonding import bonds
+from ..bonding.bonds import bonds
+from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
+from ..scene.present import isPerArea, jointMakers
 from .places import overlapShare
 
 __all__ = ['bodyFindings', 'movingBodies']

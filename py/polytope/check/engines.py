@@ -18,9 +18,9 @@ from yade import (
 	TriaxialStressController,
 )
 
-from .._scene import stiffnessesPerArea, wrongUnit
-from ..bolting import removedBolts
-from ..bonding import removedBonds
+from ..bonding.bolting import removedBolts
+from ..bonding.bonds import removedBonds
+from ..scene.present import stiffnessesPerArea, wrongUnit
 
 __all__ = ['engineFindings']
 

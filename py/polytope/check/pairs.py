@@ -20,7 +20,7 @@ unsuitedLaws = (
 	'Law2_ScGeom_MindlinPhys_HertzWithLinearShear',
 	'Law2_ScGeom_MindlinPhys_MindlinDeresiewitz',
 )
-"""Laws whose moments are those of spheres: the normal force has none, and a body never topples (tests/yade/test_yades_laws.py)."""
+"""Laws whose moments are those of spheres: the normal force has none, and a body never topples (tests/yade/contact/test_yades_laws.py)."""
 
 notPeriodicLaws = ('Law2_ScGeom_FrictViscoPhys_CundallStrackVisco', 'Law2_ScGeom_MindlinPhys_Mindlin')
 """Laws that do so in a periodic cell."""

@@ -8,10 +8,10 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
-from .._scene import isPerArea, jointMakers
-from ..arrays import arrays
-from ..bonding import madeBonds
+from ..bonding.bonds import madeBonds
+from ..measures.arrays import arrays
 from ..rock.faceMaterials import materialsOf
+from ..scene.present import isPerArea, jointMakers
 
 __all__ = ['notNumbers', 'overlapShare', 'placeFindings']
 

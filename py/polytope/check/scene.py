@@ -7,7 +7,7 @@ import itertools
 import yade
 from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
 
-from .._scene import canMove
+from ..scene.present import canMove
 
 __all__ = ['Kind', 'SceneToCheck']
 

@@ -16,9 +16,9 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
-from .._faces import worldVertices
-from .._scene import isPerArea, jointMakers
+from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialOfPlane, materialsOf
+from ..scene.present import isPerArea, jointMakers
 
 __all__ = ['softJoints', 'stableTilt']
 

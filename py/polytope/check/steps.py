@@ -19,7 +19,7 @@ from yade import (
 )
 
 from ..requirements.checks import safe, usual
-from ..timeStep import safeTimeStep
+from ..scene.timeStep import safeTimeStep
 
 __all__ = ['stepFindings']
 

@@ -5,7 +5,7 @@ import numbers
 
 from yade import O, VelocityHistory
 
-from .._scene import integrators
+from ..scene.present import integrators
 
 __all__ = ['bodiesOf', 'historyOf', 'integrator']
 

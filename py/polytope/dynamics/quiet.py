@@ -4,11 +4,11 @@
 import numpy as np
 from yade import BaseMotion, NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
 
-from .._faces import localVertices
-from .._loads import permanentLoads
 from ..arguments import namedArguments, number, vector
-from ..bonding import madeBonds
+from ..bonding.bonds import madeBonds
+from ..pictures.faces import localVertices
 from ..precision import real
+from ..scene.permanentLoads import permanentLoads
 from ._bodies import bodiesOf, historyOf, integrator
 
 __all__ = ['quietBoundary']

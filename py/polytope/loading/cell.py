@@ -6,7 +6,7 @@ import math
 import numpy as np
 from yade import Matrix3, NewtonIntegrator, O, PeriTriaxController, utils
 
-from ..bonding import bonds
+from ..bonding.bonds import bonds
 from .sample import Sample
 from .servo import massShare
 

@@ -4,7 +4,7 @@
 import numpy as np
 from yade import O, Vector3
 
-from ..bodies import cuboid
+from ..bodies.polytopes import cuboid
 from .walls import boundaryMask, withoutEachOther
 
 __all__ = ['force', 'moveTo', 'plate', 'replaced']

@@ -12,10 +12,10 @@ import numpy as np
 from tqdm import tqdm
 from yade import O, Polytope, utils
 
-from .._namedBodies import moverOf, partsOf
-from ..arrays import arrays
-from ..heap import solidVolume
-from ..measures import bodyStress
+from ..measures.arrays import arrays
+from ..measures.heap import solidVolume
+from ..measures.packings import bodyStress
+from ..scene.namedBodies import moverOf, partsOf
 
 __all__ = ['Sample', 'deepest', 'idsOfSample', 'replaceInSamples', 'tooDeep']
 

@@ -6,8 +6,8 @@ import itertools
 import numpy as np
 from yade import Bo1_Wall_Aabb, Collider, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom, O, Vector3, utils
 
-from .._scene import colliders, interactionLoops
-from ..measures import aabbExtrema
+from ..measures.packings import aabbExtrema
+from ..scene.present import colliders, interactionLoops
 from .sample import Sample
 from .servo import Servo, actOn, eased
 

@@ -9,7 +9,7 @@ from numbers import Integral
 
 from yade import O, mpy
 
-from .._ranks import eraseRanks
+from ..scene.ranks import eraseRanks
 from . import bonds, clumps, division, meeting, recorders
 from .division import shareTimeStep
 from .fields import arrays, stats

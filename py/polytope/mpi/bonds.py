@@ -3,7 +3,7 @@
 
 from yade import mpy
 
-from .. import bonding
+from ..bonding import bonds as bonding
 
 __all__ = ['check', 'divide', 'share', 'states', 'takeStates']
 

@@ -15,8 +15,8 @@ import traceback
 import yade
 from yade import InteractionLoop, O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
 
-from .. import bolting
-from .._ranks import eraseRanks
+from ..bonding import bolting
+from ..scene.ranks import eraseRanks
 from . import bonds, clumps, dampers, decomposition, joints, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
 

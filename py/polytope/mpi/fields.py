@@ -4,8 +4,8 @@
 import numpy as np
 from yade import InteractionLoop, O, mpy
 
-from ..arrays import Arrays
-from ..arrays import arrays as ofThisRank
+from ..measures.arrays import Arrays
+from ..measures.arrays import arrays as ofThisRank
 from .division import size
 
 __all__ = ['arrays', 'stats']

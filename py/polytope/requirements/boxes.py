@@ -4,7 +4,7 @@
 import numpy as np
 from yade import Polytope, PolytopeCollider
 
-from .._scene import colliders
+from ..scene.present import colliders
 
 __all__ = ['boxes', 'verletDist']
 

@@ -11,9 +11,9 @@ import numpy as np
 import yade
 from yade import NewtonIntegrator, Polytope, PolytopeGeom, RockJointPhys, TimeStepper, _polytope
 
-from .._loads import permanentLoads
-from .._scene import geometryFunctors, interactionLoops, laws, stiffnessesPerArea, wrongUnit
 from ..arguments import vectors
+from ..scene.permanentLoads import permanentLoads
+from ..scene.present import geometryFunctors, interactionLoops, laws, stiffnessesPerArea, wrongUnit
 from .boxes import boxes, verletDist
 from .centre import contactPoint, solver
 from .engines import engines

@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 from .. import _builds
-from .._loads import permanentLoads
+from ..scene.permanentLoads import permanentLoads
 
 __all__ = ['stepTimes']
 

@@ -3,7 +3,7 @@
 
 from yade import Bo1_Polytope_Aabb, ForceResetter, InteractionLoop, NewtonIntegrator
 
-from .._scene import colliders, interactionLoops
+from ..scene.present import colliders, interactionLoops
 
 __all__ = ['engines']
 

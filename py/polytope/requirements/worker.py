@@ -14,10 +14,10 @@ import traceback
 import numpy as np
 from yade import O, PeriodicEngine
 
-from .._loads import givePermanentLoads
-from .._scene import colliders, geometryFunctors, laws
 from .._timing import timed
-from ..bodies import polygon
+from ..bodies.polytopes import polygon
+from ..scene.permanentLoads import givePermanentLoads
+from ..scene.present import colliders, geometryFunctors, laws
 
 __all__ = ['change', 'prismOutline', 'stepTimes']
 

@@ -7,8 +7,8 @@ import numpy as np
 from yade import FrictMat, _polytope
 
 from ..arguments import numbersOf, vectors
-from ..bodies import fromHalfSpaces
-from ..clumps import union
+from ..bodies.clumps import union
+from ..bodies.polytopes import fromHalfSpaces
 
 __all__ = ['Region', 'regionOf']
 

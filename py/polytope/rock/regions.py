@@ -12,8 +12,8 @@ import numpy as np
 from yade import _polytope
 
 from ..arguments import namedArguments, number, numbersOf, vectors
-from ..meshes.digits import warnOfRounding
-from ..meshes.files import readMesh
+from ..bodies.meshes.digits import warnOfRounding
+from ..bodies.meshes.files import readMesh
 from ..precision import real
 from .joint import Cut, Joint, asArguments
 from .region import regionOf

@@ -5,7 +5,7 @@ import math
 
 from yade import O
 
-from .._scene import geometryFunctors
+from ..scene.present import geometryFunctors
 
 __all__ = ['Effect', 'settable']
 

@@ -18,8 +18,8 @@ import numpy as np
 import yade
 from yade import O, _polytope
 
-from .._scene import geometryFunctors
 from .._timing import meansSoFar, resetTimes, timed
+from ..scene.present import geometryFunctors
 from .effect import Effect
 from .energy import Energy
 from .inside import CalledAgain

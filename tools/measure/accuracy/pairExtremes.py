@@ -26,7 +26,6 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/pape
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, existingFile, writableFolder
 from boon2012.reporting.script import conclude
-
 from extremePlots import plotPairs
 from pairAxes import axes
 from pairTables import faults, readSamples, summary, summaryColumns, unjudged, worst

@@ -20,8 +20,8 @@ from yade import (
 	Quaternion,
 	RockJointMat,
 	Vector3,
+	polytope,
 )
-from yade import polytope
 from yade.utils import kineticEnergy
 
 __all__ = ['Scene', 'collide', 'rest', 'slide', 'stack', 'tower', 'vibrate']

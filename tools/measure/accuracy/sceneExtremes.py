@@ -24,7 +24,6 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/pape
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import writableFolder
 from boon2012.reporting.script import conclude
-
 from sceneAxes import collide, rest, slide, stack, tower, vibrate
 from scenePlots import Line, plotScenes
 

@@ -4,12 +4,11 @@
 import dataclasses
 import math
 
+from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, pressedPast, restOverEnd, roll
+from surfaceStudy.measures import cross, rest, slideDown, stop
 from tabulate import tabulate
 from tqdm import tqdm
 from yade import Quaternion, Vector3
-
-from surfaceStudy.edges import drop, edgeCarries, gapHolds, onStep, pressedPast, restOverEnd, roll
-from surfaceStudy.measures import cross, rest, slideDown, stop
 
 __all__ = ['SurfaceStudy', 'contacts', 'rules']
 

@@ -23,11 +23,10 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/pape
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, number, positive, writableFolder
 from boon2012.reporting.script import conclude
+from surfacePlots import plotCrossings
 from surfaceStudy.flatBodies import bodyKinds
 from surfaceStudy.floors import floorKinds
 from surfaceStudy.measures import cross
-
-from surfacePlots import plotCrossings
 from surfaceTables import SurfaceStudy, sliding
 
 

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 from memory import memoryInUse
-from yade import Body, InsertionSortCollider, InteractionLoop, ForceResetter, NewtonIntegrator, O, Quaternion, Vector3, utils
+from yade import Body, ForceResetter, InsertionSortCollider, InteractionLoop, NewtonIntegrator, O, Quaternion, Vector3, utils
 from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
 
 
@@ -104,8 +104,10 @@ def potentialBlockLoop(scene):
 
 def polyhedraLoop(scene):
 	from yade import (
-	        Bo1_Polyhedra_Aabb, Ig2_Polyhedra_Polyhedra_PolyhedraGeom, Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys,
-	        Law2_PolyhedraGeom_PolyhedraPhys_Volumetric
+		Bo1_Polyhedra_Aabb,
+		Ig2_Polyhedra_Polyhedra_PolyhedraGeom,
+		Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys,
+		Law2_PolyhedraGeom_PolyhedraPhys_Volumetric,
 	)
 	return Bo1_Polyhedra_Aabb(), InteractionLoop(
 	        [Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
@@ -157,8 +159,13 @@ def setEngines(scene, bounds):
 def replaceBySpheres(scene):
 	"""Spheres of the particles' volume, of the same mass and contact stiffness, between walls at the same places."""
 	from yade import (
-	        Bo1_Sphere_Aabb, Bo1_Wall_Aabb, FrictMat, Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
-	        Law2_ScGeom_FrictPhys_CundallStrack
+		Bo1_Sphere_Aabb,
+		Bo1_Wall_Aabb,
+		FrictMat,
+		Ig2_Sphere_Sphere_ScGeom,
+		Ig2_Wall_Sphere_ScGeom,
+		Ip2_FrictMat_FrictMat_FrictPhys,
+		Law2_ScGeom_FrictPhys_CundallStrack,
 	)
 	# aside by a little: exactly above each other they would stay so
 	aside = np.random.default_rng(scene.seed).uniform(-0.1, 0.1, (scene.number, 2)) * scene.size

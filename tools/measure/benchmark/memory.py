@@ -49,8 +49,17 @@ def cubes(places, turn):
 def spheres(places):
 	"""As cubes(), of YADE's spheres of diameter 1."""
 	from yade import (
-	        Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop,
-	        Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, utils
+		Bo1_Sphere_Aabb,
+		ForceResetter,
+		FrictMat,
+		Ig2_Sphere_Sphere_ScGeom,
+		InsertionSortCollider,
+		InteractionLoop,
+		Ip2_FrictMat_FrictMat_FrictPhys,
+		Law2_ScGeom_FrictPhys_CundallStrack,
+		NewtonIntegrator,
+		O,
+		utils,
 	)
 
 	O.reset()

@@ -39,7 +39,15 @@ class Parts:
 
 
 def build(number, yadesCollider):
-	from yade import Bo1_Polytope_Aabb, InsertionSortCollider, Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, polytope
+	from yade import (
+		Bo1_Polytope_Aabb,
+		InsertionSortCollider,
+		Ip2_RockJointMat_RockJointMat_RockJointPhys,
+		O,
+		Quaternion,
+		RockJointMat,
+		polytope,
+	)
 
 	O.materials.append(RockJointMat(density=density, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
 	chance, side = random.Random(1), round(number**(1 / 3))

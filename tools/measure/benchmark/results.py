@@ -38,8 +38,17 @@ def scene(number):
 def spheres(number):
 	"""YADE's own at the same places, four contacts each."""
 	from yade import (
-	        Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-	        Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, utils
+		Bo1_Sphere_Aabb,
+		ForceResetter,
+		FrictMat,
+		Ig2_Sphere_Sphere_ScGeom,
+		InsertionSortCollider,
+		InteractionLoop,
+		Ip2_FrictMat_FrictMat_FrictPhys,
+		Law2_ScGeom_FrictPhys_CundallStrack,
+		NewtonIntegrator,
+		O,
+		utils,
 	)
 
 	O.reset()

@@ -136,7 +136,7 @@ class PluginTests:
 		self.times, self.reaching, self.leftOut = {}, {}, []
 
 	def run(self, file, mutant, seconds, reached=None):
-		command = [sys.executable, '-m', 'pytest', '-q', '-x', '-p', 'no:cacheprovider', f'tests/yade/{file}']
+		command = [sys.executable, '-m', 'pytest', '-q', '-x', '-p', 'no:cacheprovider', str(next((self.tree / 'tests/yade').rglob(file)))]
 		environment = {**self.environment, **({'POLYTOPE_MUTANTS_REACHED': reached} if reached else {})}
 		return Run(command, mutant, seconds, environment, self.tree)
 
@@ -159,7 +159,7 @@ class PluginTests:
 			run = self.run(file, mutant, 30 + 4 * self.times[file])
 			if run.code == 0:
 				continue
-			failed = re.search(r'^(?:FAILED|ERROR) (?:tests/yade/)?(\S+)', run.output, re.MULTILINE)
+			failed = re.search(r'^(?:FAILED|ERROR) (?:\S*/)?(\S+)', run.output, re.MULTILINE)
 			if failed:
 				return failed.group(1)
 			return f'{file} (no end)' if run.code is None else f'{file} (ends with {run.code})'

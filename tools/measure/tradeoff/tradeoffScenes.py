@@ -27,9 +27,9 @@ from yade import (
 	Vector3,
 )
 from yade._polytope import contact
-
-from yade.polytope.bodies import regular
+from yade.polytope.bodies.polytopes import regular
 from yade.polytope.frictionReduction import FrictionReduction
+
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))  # in a process of its own, too
 from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.collisions.scene import Collision, readBlocks

@@ -21,7 +21,7 @@ from yade import (
 	RockJointMat,
 	Vector3,
 )
-from yade.polytope.bodies import polygon
+from yade.polytope.bodies.polytopes import polygon
 
 __all__ = ['BeamReading', 'ThreeHingedBeam']
 

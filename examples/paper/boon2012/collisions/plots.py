@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from yade import Quaternion
 from yade.polytope.motionRecord import noContact
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 __all__ = ['drawSequence', 'plotJumps', 'plotOverview', 'plotTransitions']
 

@@ -18,7 +18,7 @@ from yade import (
 	Quaternion,
 	RockJointMat,
 )
-from yade.polytope.bodies import cuboid
+from yade.polytope.bodies.polytopes import cuboid
 
 __all__ = ['Block', 'Collision', 'readBlocks']
 

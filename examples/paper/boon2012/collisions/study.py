@@ -215,7 +215,7 @@ class CollisionReport:
 			f'Blocks of {given.density:g} kg/m³; at the contact kₙ = {given.normal_stiffness:g} N/m, kₛ = {given.shear_stiffness:g} N/m, '
 			f'friction coefficient {given.friction:g}, {given.contact_damping:g} of critical damping; YADE damping {given.damping:g}, '
 			f'time step {given.time_step:g} s. Contact types are named by the faces of each block within the corner radius of the '
-			"contact point (yade.polytope.contactTypes). YADE's damping takes a fraction of every component of the resultant of contact "
+			"contact point (yade.polytope.measures.contactTypes). YADE's damping takes a fraction of every component of the resultant of contact "
 			'force and gravity, in free flight too; the budgets count it, and a run without it satisfies Δ(m v) = ∫F dt + m g t with '
 			'the contact force alone.'
 		)

@@ -4,7 +4,7 @@
 import numpy as np
 from matplotlib.image import imread, imsave
 from yade import O
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 __all__ = ['HeapPictures']
 

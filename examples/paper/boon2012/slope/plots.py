@@ -8,7 +8,7 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patches import Polygon
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 from .study import prismTypes
 from .theory import centroid

@@ -18,7 +18,7 @@ from yade import (
 	O,
 	RockJointMat,
 )
-from yade.polytope.bodies import polygon
+from yade.polytope.bodies.polytopes import polygon
 
 __all__ = ['SlumpingSlope', 'readSlope']
 

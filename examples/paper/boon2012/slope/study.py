@@ -6,8 +6,8 @@ import math
 import numpy as np
 from tqdm import tqdm
 from yade import O
-from yade.polytope.contactTypes import ContactTypes
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
+from yade.polytope.measures.contactTypes import ContactTypes
 
 from .scene import SlumpingSlope
 from .theory import criticalFrictionAngle

@@ -17,7 +17,7 @@ from yade import (
 	O,
 	RockJointMat,
 )
-from yade.polytope.bodies import fromHalfSpaces
+from yade.polytope.bodies.polytopes import fromHalfSpaces
 
 from .blockGeometry import BlockGeometry, samePlane
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from yade import O
 from yade.polytope.frictionReduction import FrictionReduction, setFrictionAngle
-from yade.polytope.pictures import picture
+from yade.polytope.pictures.still import picture
 
 from ..reporting.options import (
 	Decreasing,

@@ -14,7 +14,7 @@ import math
 import numpy as np
 from yade import O, Quaternion, Vector3, utils
 from yade._polytope import contact
-from yade.polytope.bodies import cuboid, regular
+from yade.polytope.bodies.polytopes import cuboid, regular
 from yade.polytope.fallingPolyhedra import circumradiusOfUnitVolume, solids
 
 from .scene import EnergyScene

@@ -25,7 +25,7 @@ from yade import (
 	RockJointMat,
 	Vector3,
 )
-from yade.polytope.bodies import cuboid
+from yade.polytope.bodies.polytopes import cuboid
 
 __all__ = ['Contact', 'EnergyScene', 'freeFlight']
 

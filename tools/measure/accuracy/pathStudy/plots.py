@@ -5,8 +5,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from yade import O
-from yade.polytope.bodies import cuboid
-from yade.polytope.pictures import picture
+from yade.polytope.bodies.polytopes import cuboid
+from yade.polytope.pictures.still import picture
 
 from .path import forceUnit, quantities
 from .scenes import fixedHalf, movingHalf

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from yade import O, Polytope, Quaternion, RockJointMat, Vector3
 from yade._polytope import contact
-from yade.polytope.bodies import cuboid
+from yade.polytope.bodies.polytopes import cuboid
 
 __all__ = ['Pair', 'Placing', 'deep', 'fixedHalf', 'movingHalf', 'paths', 'planeSets', 'variants']
 

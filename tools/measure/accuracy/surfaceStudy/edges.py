@@ -10,8 +10,8 @@ from yade.utils import kineticEnergy
 
 from .flatBodies import lyingBody, planarBodies
 from .floors import Floor
-from .surface import SurfaceScene
 from .measures import planarFloor
+from .surface import SurfaceScene
 
 __all__ = ['Drop', 'drop', 'edgeCarries', 'gapHolds', 'onStep', 'pressedPast', 'restOverEnd', 'roll']
 

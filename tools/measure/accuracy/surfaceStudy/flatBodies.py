@@ -5,8 +5,7 @@ import math
 
 import numpy as np
 from yade import Quaternion, Vector3, utils
-
-from yade.polytope.bodies import cuboid, fromVertices, polygon, regular
+from yade.polytope.bodies.polytopes import cuboid, fromVertices, polygon, regular
 
 __all__ = ['Lying', 'lyingBody', 'bodyKinds', 'planarBodies']
 

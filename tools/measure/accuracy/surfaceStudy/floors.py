@@ -10,9 +10,8 @@ import math
 import numpy as np
 from scipy.spatial import Delaunay
 from yade import utils
-
-from yade.polytope.bodies import cuboid, fromHalfSpaces, fromVertices, polygon
-from yade.polytope.jointedRock import JointSet, jointedRock
+from yade.polytope.bodies.polytopes import cuboid, fromHalfSpaces, fromVertices, polygon
+from yade.polytope.rock.jointedRock import JointSet, jointedRock
 
 __all__ = ['Floor', 'floorKinds', 'planarFloors']
 

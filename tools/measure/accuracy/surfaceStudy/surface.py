@@ -31,9 +31,9 @@ from yade import (
 	RockJointMat,
 	Vector3,
 )
+from yade.polytope.bodies.clumps import clump
+from yade.polytope.scene.timeStep import stableTimeStep
 
-from yade.polytope.clumps import clump
-from yade.polytope.timeStep import stableTimeStep
 from .flatBodies import lyingBody, planarBodies
 from .floors import Floor
 

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies that are not convex, as clumps of convex parts that may overlap: `polytope.clump(…)`. Mass and inertia are those of the union."""
+
+import numpy as np
+from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
+
+from ..arguments import warn
+from .polytopes import isotropyTolerance
+
+__all__ = ['clump', 'rigid', 'union']
+
+apart = 0.01
+"""Gap between two parts over the smaller one's inscribed radius, above which they do not belong together: parts that a program cuts out of a mesh
+miss each other by the rounding of their file, a part in the wrong place by a part of its size."""
+
+
+def clump(parts):
+	"""Adds convex bodies to the scene as one rigid body, a clump: ``number, members = polytope.clump([polytope.cuboid(…), …])``.
+
+	The parts may touch and overlap. Mass, centre of mass and inertia are those of their union, where overlaps count once, with the density
+	of the part that comes first; O.bodies.appendClumped counts them for each part. There are no contacts between parts, and bodies slide
+	over faces that two parts share as over one. It moves as the first part does, and is fixed if that is.
+
+	Parts that do not touch are allowed, as in YADE: the clump is rigid across the gap. Since that is seldom meant, a warning names the part.
+
+	O.bodies.updateClumpProperties and addToClump make YADE's sums of them again.
+
+	:param parts: list of polyhedra that are not in the scene yet
+	:returns: (number of the clump, numbers of its parts), as O.bodies.appendClumped does
+	:raises ValueError: naming *parts*, also where their union would take more than some ten seconds
+	"""
+	parts = list(parts)
+	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for part in parts):
+		raise ValueError('parts: must be a list of polyhedra, as polytope.cuboid and other builders make')
+	if any(part.id >= 0 for part in parts):
+		raise ValueError(
+			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'
+		)
+	whole = union(parts)
+	_warnOfPartsApart(parts)
+	return _append(parts, *whole)
+
+
+def rigid(parts):
+	"""The same for parts that are known to touch and not to overlap: their sums, in a time in proportion to their number."""
+	masses = np.array([float(part.state.mass) for part in parts])
+	places = np.array([[float(x) for x in part.state.pos] for part in parts])
+	centre = masses @ places / masses.sum()
+	tensor = np.zeros((3, 3))
+	for part, mass, place in zip(parts, masses, places, strict=True):
+		turn = np.array([float(x) for x in np.ravel(part.state.ori.toRotationMatrix())]).reshape(3, 3)
+		away = place - centre
+		tensor += turn @ np.diag(np.array(part.state.inertia, float)) @ turn.T + mass * (away @ away * np.eye(3) - np.outer(away, away))
+	return _append(parts, float(masses.sum()), centre, tensor)
+
+
+def _append(parts, mass, centre, tensor):
+	"""Adds the clump with this mass, centre of mass and tensor of inertia about it."""
+	first = parts[0].state
+	velocity = first.vel + first.angVel.cross(Vector3(*centre) - first.pos)
+	spin, blocked = Vector3(first.angVel), first.blockedDOFs
+	number, members = O.bodies.appendClumped(parts)
+	moments, axes = np.linalg.eigh(tensor)
+	if np.linalg.det(axes) < 0:
+		axes[:, 0] *= -1
+	_polytope.setClump(O.bodies[number], mass, Vector3(*moments), Vector3(*centre), _quaternion(axes), isotropyTolerance)
+	state = O.bodies[number].state
+	state.vel, state.angVel, state.blockedDOFs = velocity, spin, blocked
+	state.angMom = Vector3(*(tensor @ np.array(spin, float)))
+	return number, members
+
+
+def union(parts):
+	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra fill together (src/shape/UnionOfParts.hpp)."""
+	_, mass, centre, tensor = _polytope.unionOf(parts)
+	return float(mass), np.array(centre, float), np.array(tensor, float).reshape(3, 3)
+
+
+def _warnOfPartsApart(parts):
+	"""Parts that touch none of the others, as groups: the body is rigid across the gap all the same."""
+	reach = [max(float(vertex.norm()) for vertex in part.shape.vertices) for part in parts]
+	groups = list(range(len(parts)))
+	for j, part in enumerate(parts):
+		for k in range(j):
+			allowed = apart * float(min(part.shape.inscribedRadius, parts[k].shape.inscribedRadius))
+			if groups[j] == groups[k] or (part.state.pos - parts[k].state.pos).norm() > reach[j] + reach[k] + allowed:
+				continue
+			if _polytope.contact(part, parts[k]).infeasibility < allowed / 2:  # half of the gap
+				groups = [groups[k] if group == groups[j] else group for group in groups]
+	alone = [k for k, group in enumerate(groups) if group != groups[0]]
+	if alone:
+		warn(
+			f'parts: part {alone[0]} touches neither part 0 nor what is joined to it; the clump is rigid across the gap. If that is not meant, check center and extents of the part',
+		)
+
+
+def _quaternion(axes):
+	"""Of the rotation whose matrix has these columns."""
+	return Quaternion(Matrix3(*axes.flatten().tolist())).normalized()

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The mechanical energy of a scene, as exactly as its time steps define it."""
+
+from yade import O, Vector3
+
+from ..bonding.bolting import madeBolts
+from ..bonding.bonds import madeBonds
+from ..scene.present import canMove, geometryFunctors, integrators, meanwhile
+
+__all__ = ['mechanicalEnergy']
+
+
+def mechanicalEnergy():
+	"""Take one time step, and return the total energy at the positions it started from: kinetic, of gravity, and of the springs of contacts, bonds and bolts.
+
+	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
+	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
+	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
+	unequal moments of inertia (rotAlgorithm delValle2023). Springs: kn × *PolytopeGeom.energyPerStiffness* where there is one,
+	kn depth²/2 for others, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
+
+	Contacts count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
+
+	:returns: [J]
+	:raises ValueError: if O.engines has no NewtonIntegrator
+	"""
+	if not integrators():
+		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
+	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
+	with meanwhile([(geometry, 'computeEnergy', True) for geometry in geometryFunctors()]):
+		O.step()
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(one.energy for one in madeBonds() + madeBolts())
+	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
+
+
+def _motion(state):
+	# copies: what YADE returns are references, which change with the body
+	return Vector3(state.pos), state.ori.conjugate(), Vector3(state.vel), Vector3(state.angVel)
+
+
+def _energy(state, position, toBody, velocity, spin, gravity):
+	before, after = toBody * spin, toBody * state.angVel
+	rotation = sum(moment * one * other for moment, one, other in zip(state.inertia, before, after, strict=True))
+	return (state.mass * velocity.dot(state.vel) + rotation) / 2 - state.mass * gravity.dot(position)
+
+
+def _moves(contact):
+	"""Whether forces can move one of the bodies, or its clump: what those that are held store is nobody's."""
+	return canMove(O.bodies[contact.id1]) or canMove(O.bodies[contact.id2])
+
+
+def _stored(contact):
+	geom, phys = contact.geom, contact.phys
+	perStiffness = getattr(geom, 'energyPerStiffness', -1)
+	if perStiffness < 0:
+		depth = max(geom.penetrationDepth, 0)
+		perStiffness = phys.energyPerStiffness(depth) if hasattr(phys, 'energyPerStiffness') else depth**2 / 2
+	sheared = getattr(phys, 'shearEnergy', None)
+	if sheared is None:
+		sheared = phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0
+	return phys.kn * perStiffness + sheared

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A scene brought to rest under its loads, before its joints have to bear them."""
+
+from tqdm import tqdm
+from yade import O
+
+from ..arguments import flag, namedArguments, number
+from ..bonding.bolting import bolts
+from ..bonding.bonds import bonds
+from ..scene.present import integrators, laws, meanwhile
+from ..scene.relaxing import relaxing
+from .scaledMasses import scaledMasses
+from .unrest import NotAtRest, Unrest, remedy, told
+
+__all__ = ['settle']
+
+between = 50
+"""Steps between two looks at the unbalanced force."""
+looks = 3
+"""Looks in a row at which it must be small: it passes through low values in each swing."""
+
+
+@namedArguments
+def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densityScaling=False):
+	"""Steps until the bodies are at rest under the scene's loads, as they would be if these had come slowly.
+
+	Gravity that begins at once makes bodies swing: joints then bear up to twice their load, and one with cohesion or tensile strength and a
+	factor of safety below two fails in the first swing. So while the bodies come to rest the joints are elastic: those that touch do
+	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield; motion is damped strongly. Then they have their strength
+	and the scene its damping again. What they can't bear fails in the steps that follow, from rest.
+
+	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
+	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
+	A state that is saved meanwhile has joints with their strength, but this damping.
+
+	:param unbalanced: resultant force on a body over its weight, or over half of what its contacts, bonds and bolts bear where that is more, below which it counts as
+	    being at rest [-]; of all bodies that can move
+	:param elastic: False: joints keep their strength, only damping is changed
+	:param damping: of NewtonIntegrator meanwhile [-], above 0 and below 1
+	:param steps: most steps to take
+	:param densityScaling: True: bodies that need a smaller time step than half of all bodies do, such as slivers, are heavier meanwhile, with the weight that
+	    they have: the same state of rest in fewer steps. Masses are what they were when the function returns. Time (O.time) has no meaning meanwhile, and
+	    PolytopeCheckpoint does not save
+	:returns: the number of steps taken
+	:raises ValueError: if an argument is out of range, if O.engines has no NewtonIntegrator, or naming *densityScaling* in a scene in motion: with BaseMotion, QuietBoundary
+	    or bodies of prescribed velocity, or with weights that are not NewtonIntegrator.gravity
+	:raises NotAtRest: a RuntimeError that names the bodies which do not come to rest, with their unbalanced force and why, as soon as that is clear: they fall with nothing below, slide away, or
+	    tremble in place; or all that move after so many steps. Strengths and damping are the scene's own again
+	"""
+	unbalanced, damping, steps = number(unbalanced, 'unbalanced'), number(damping, 'damping'), number(steps, 'steps')
+	if not unbalanced > 0:
+		raise ValueError(f'unbalanced: {unbalanced:g}; above 0')
+	if not 0 < damping < 1:
+		raise ValueError(f'damping: {damping:g}; above 0 and below 1')
+	if not steps >= 1:
+		raise ValueError(f'steps: {steps:g}; at least 1')
+	if O.running:
+		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
+	if not integrators():
+		raise ValueError('O.engines: there must be a NewtonIntegrator, whose damping counts')
+	changed = [(integrator, 'damping', damping) for integrator in integrators()]
+	if flag(elastic, 'elastic'):
+		breakable = [*laws(), *(engine for engine in (bonds(), bolts()) if engine)]
+		changed += [(one, 'unbreakable', True) for one in breakable]
+	with meanwhile(changed):
+		if not flag(densityScaling, 'densityScaling'):
+			return _untilRest(unbalanced, int(steps))
+		with scaledMasses() as (adapt, masses):
+			return _untilRest(unbalanced, int(steps), adapt, masses)
+
+
+def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
+	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
+	with tqdm(unit=' steps', disable=None, leave=False) as bar:
+		while taken < steps:
+			now = min(between, steps - taken)
+			for _ in range(now):
+				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
+			taken += now
+			force, fading = unrest.look(now), bool(relaxing())
+			adapt()
+			bar.set_postfix_str(f'unbalanced force {force:.2g} for {unbalanced:g}', refresh=False)
+			bar.update(now)
+			quiet = quiet + 1 if force < unbalanced and not fading else 0
+			if quiet == looks:
+				return taken
+			if fading:
+				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves
+			lost = unrest.hopeless()
+			if lost:
+				raise NotAtRest(f'bodies: {told(lost)}; {remedy(lost)}', lost)
+	left = unrest.moving()
+	raise NotAtRest(f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}): {told(left)}; more steps, or {remedy(left)}', left)

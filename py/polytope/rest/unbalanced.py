@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How far each body is from equilibrium: its resultant force over what it bears."""
+
+import numpy as np
+from yade import O
+
+from ..bonding.bolting import madeBolts
+from ..bonding.bonds import madeBonds
+from ..measures.arrays import arrays
+from ..scene.present import integrators
+
+__all__ = ['unbalancedForce', 'unbalancedForces']
+
+
+def unbalancedForce(watched=None):
+	"""Of the body that is least at rest: resultant, along what it can move, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
+
+	:param watched: ids, of clumps their own; None: all that can move
+	"""
+	return float(unbalancedForces(watched).max(initial=0.0))
+
+
+def unbalancedForces(watched=None, masses=None):
+	"""The same of each body, by its id [-]; 0 of those that cannot move or are not watched, and of parts of clumps.
+
+	:param masses: true masses by id, where those of the scene are scaled [kg]
+	"""
+	bodies, contacts = arrays()
+	last = len(O.bodies)
+	owner = np.arange(last)
+	owner[bodies.ids] = np.where(bodies.clumpIds >= 0, bodies.clumpIds, bodies.ids)  # a clump moves as one
+	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts
+	resultant = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	pressing = np.linalg.norm(np.nan_to_num(contacts.forces), axis=1) / 2
+	borne = sum(np.bincount(owner[contacts.ids[:, side]], pressing, last) for side in (0, 1))
+	forces = [(bond, bond.force.norm()) for bond in madeBonds() if bond.intact]
+	forces += [(crossing, abs(crossing.tension) + crossing.shearForce.norm()) for one in madeBolts() for crossing in one.crossings if not crossing.failure]
+	for link, force in forces:
+		for key in (link.id1, link.id2):
+			borne[owner[key]] += float(force) / 2
+	gravity, present, true = np.array(integrators()[0].gravity, float), np.zeros(last), np.zeros(last)
+	present[bodies.ids] = true[bodies.ids] = bodies.masses
+	for key, mass in (masses or {}).items():
+		true[key] = float(mass)
+	# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
+	present[bodies.ids[~single]] = true[bodies.ids[~single]]
+	weight = np.outer(present, gravity)
+	scale = np.maximum(true * np.linalg.norm(gravity), borne)
+	moving, free = _movers()
+	resultant[moving] = free * (resultant + weight)[moving]  # what is held bears any force
+	if watched is not None:
+		moving = np.intersect1d(moving, np.fromiter(watched, int))
+	moving = moving[scale[moving] > 0]
+	found = np.zeros(last)
+	found[moving] = np.linalg.norm(resultant[moving], axis=1) / scale[moving]
+	return found
+
+
+def _movers():
+	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for x, y, z along which they do, else 0)"""
+	moving = [body for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember]
+	held = [body.state.blockedDOFs for body in moving]
+	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in 'xyz'] for one in held], float).reshape(-1, 3)

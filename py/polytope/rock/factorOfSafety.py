@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The factor of safety of a scene, and how it fails: `polytope.factorOfSafety(…)` (docs/strength-reduction.md)."""
+
+import dataclasses
+
+import numpy as np
+from tqdm import tqdm
+from yade import O, RockJointMat
+
+from ..arguments import namedArguments, number, warn
+from ..bonding.bolting import madeBolts
+from ..bonding.bonds import madeBonds
+from ..pictures.films import filmEngines
+from ..pictures.still import picture
+from ..rest.unrest import Unrest
+from ..scene.namedBodies import namedBodies
+from ..scene.permanentLoads import givePermanentLoads, permanentLoads
+from ..scene.present import canMove, integrators
+from ..scene.relaxing import relaxing
+from ..scene.stages import partOfSize, sizeOf
+from ..strengthReduction import divideStrengths, strengths
+from .history import histories
+
+__all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
+
+atRest = 1e-4
+"""Unbalanced force, as of *settle*, below which bodies stand [-]: one that slides has the part by which its strength is too small, so this is far below any tolerance."""
+between, looks = 50, 3
+"""Steps between two looks, and looks in a row at which all must be at rest."""
+damping = 0.4
+"""Of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
+growth = 1.5
+"""Of the factor from one trial to the next, until one fails."""
+gently = 1.02
+"""Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
+partOfMode = 0.1
+"""Of the largest displacement: bodies that move more are part of the mode."""
+before, standing = 'factorOfSafety', 'factorOfSafety.standing'
+"""Names of states in memory: as the scene was, and at rest with its own strengths."""
+
+
+@dataclasses.dataclass
+class Trial:
+	"""Strengths divided by one number."""
+
+	factor: float
+	outcome: str
+	"""'stable': at rest; 'failed': a body has moved too far; 'creeping': neither by the last step, which counts as failure."""
+	steps: int
+	unbalanced: float
+	"""Force at the end [-]."""
+	displacement: float
+	"""Of the body that has moved farthest for its size [m]."""
+	trembling: list = dataclasses.field(default_factory=list)
+	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
+
+
+@dataclasses.dataclass
+class FactorOfSafety:
+	"""What *polytope.factorOfSafety* found."""
+
+	stable: float
+	"""Highest number by which strengths were divided and the scene stood."""
+	failed: float
+	"""Lowest one at which it failed."""
+	bodies: list
+	"""Ids of those that moved when it failed, the farthest first: all that moved at least a tenth as far."""
+	displacements: np.ndarray
+	"""(n, 3) theirs [m]"""
+	rotations: np.ndarray
+	"""(n, 3) theirs, as vectors along the axis [rad]"""
+	trials: list
+	"""All *Trial* in the order in which they were made."""
+
+	@property
+	def factor(self):
+		"""Middle of the bracket."""
+		return (self.stable + self.failed) / 2
+
+	@property
+	def directions(self):
+		"""(n, 3) unit vectors of the displacements"""
+		return self.displacements / np.linalg.norm(self.displacements, axis=1, keepdims=True)
+
+	def picture(self, path, **arguments):
+		"""The scene as it is, bodies coloured by how far they moved when it failed. *arguments* are those of *polytope.picture*."""
+		ways = dict(zip(self.bodies, np.linalg.norm(self.displacements, axis=1), strict=True))
+		picture(
+			path,
+			**{
+				'colorBy': lambda body: ways.get(body.clumpId if body.isClumpMember else body.id, 0.0),
+				'legend': 'displacement [m]',
+				**arguments,
+			},
+		)
+
+	def __str__(self):
+		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {_told(self.bodies, self.displacements)}'
+
+
+@namedArguments
+def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps=200000):
+	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
+
+	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. From there each trial begins, with strengths divided by a number that is bisected. It
+	is stable when no body has an unbalanced force, or only such as tremble in place for good, and has failed when a body has moved by a fiftieth of its size. Where a bolt has no pretension strengths are lowered by 2 % at a
+	time, each from rest. Then the scene is what it was, time and
+	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
+
+	Other engines of O.engines run in the trials, too: those that write files should be dead meanwhile.
+
+	:param bodies: ids of those that count; default all that can move
+	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
+	:param float tolerance: width of the bracket over the factor
+	:param float most: factor at which to give up
+	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
+	:returns: *FactorOfSafety*
+	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
+	:raises RuntimeError: the scene does not stand with its own strengths, or stands with a *most*-th of them; it is what it was
+	"""
+	tolerance, most, steps = number(tolerance, 'tolerance'), number(most, 'most'), number(steps, 'steps')
+	if not 0 < tolerance < 1:
+		raise ValueError(f'tolerance: must be above 0 and below 1, got {tolerance:g}')
+	if not 1 < most < float('inf'):
+		raise ValueError(f'most: must be above 1 and finite, got {most:g}')
+	if not steps >= looks * between:
+		raise ValueError(f'steps: must be at least {looks * between}, got {steps:g}')
+	divideStrengths(1, reduce)  # refuses what is no strength
+	watched = [int(k) for k in namedBodies(bodies, name='bodies')]
+	if not watched:
+		raise ValueError('bodies: there is none that can move')
+	_refuseBodies(watched)
+	_refuseScene()
+	O.saveTmp(before, quiet=True)
+	loads = permanentLoads()
+	try:
+		return _Search(watched, reduce, int(steps), loads).run(tolerance, most)
+	finally:
+		_load(before, loads)
+
+
+def _refuseBodies(watched):
+	fixed = [k for k in watched if not canMove(O.bodies[k])]
+	if fixed:
+		raise ValueError(f'bodies: body {fixed[0]} cannot move; name bodies that can')
+	parts = [part for k in watched for part in ([O.bodies[m] for m in O.bodies[k].shape.members] if O.bodies[k].isClump else [O.bodies[k]])]
+	if not madeBonds() and not any(isinstance(part.material, RockJointMat) for part in parts):
+		kinds = ', '.join(sorted({type(part.material).__name__ for part in parts}))
+		raise ValueError(f'bodies: they are of {kinds}, and what is reduced are strengths of RockJointMat and of bonds')
+
+
+def _refuseScene():
+	if O.running:
+		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
+	if not integrators():
+		raise ValueError('O.engines: there must be a NewtonIntegrator; set O.engines first')
+	if relaxing():
+		raise RuntimeError('O.engines: forces of excavated bodies are still fading; polytope.settle() first')
+
+
+def _load(name, loads):
+	O.loadTmp(name, quiet=True)
+	givePermanentLoads(loads)
+
+
+class _Search:
+	def __init__(self, watched, reduce, steps, loads):
+		self.watched, self.reduce, self.steps, self.loads = watched, tuple(reduce), steps, loads
+		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
+		self.trials, self.mode = [], None
+		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts())
+		self.reached = 1.0
+		"""Factor of the state from which trials begin."""
+
+	def run(self, tolerance, most):
+		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
+			self.origin = self._places()
+			first = self._trial(1.0)
+			if first.outcome != 'stable':
+				raise RuntimeError(
+					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps; '
+					f'{_told(*self._motion()[:2])}; polytope.settle() first, more strength, or a support'
+				)
+			O.saveTmp(standing, quiet=True)
+			self.origin = self._places()
+			stable, failed = self._enclose(most)
+			while failed / stable - 1 > tolerance:
+				trial = self._trialFromRest((stable + failed) / 2)
+				if trial.outcome == 'stable':
+					stable = trial.factor
+				else:
+					stable, failed = max(stable, self.reached), trial.factor
+		self._tellTrembling()
+		return FactorOfSafety(stable, failed, *self.mode, self.trials)
+
+	def _tellTrembling(self):
+		ones = sorted({k for trial in self.trials for k in trial.trembling})
+		if ones:
+			warn(
+				f'bodies: {", ".join(map(str, ones[:3]))}{" …" if len(ones) > 3 else ""} tremble in place by more than {atRest:g} of what they bear; their trials count as stable'
+			)
+
+	def _enclose(self, most):
+		stable = 1.0
+		while stable < most:
+			trial = self._trialFromRest(min(stable * growth, most))
+			if trial.outcome != 'stable':
+				return max(stable, self.reached), trial.factor
+			stable = trial.factor
+		raise RuntimeError(
+			f'stable with strengths divided by {stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
+		)
+
+	def _trialFromRest(self, factor):
+		_load(standing, self.loads)
+		if self.gently:
+			while self.reached * gently < factor:
+				trial = self._weaken(self.reached * gently)
+				if trial.outcome != 'stable':
+					return trial
+				self.reached, self.origin = trial.factor, self._places()
+				O.saveTmp(standing, quiet=True)
+		return self._weaken(factor)
+
+	def _weaken(self, factor):
+		divideStrengths(factor / self.reached, self.reduce)
+		trial = self._trial(factor)
+		if trial.outcome != 'stable':
+			self.mode = self._motion()
+		return trial
+
+	def _trial(self, factor):
+		for integrator in integrators():
+			integrator.damping = damping
+		for engine in [*histories(), *filmEngines()]:
+			engine.dead = True  # what happens in a trial is none of the scene's history
+		trial, quiet, unrest = Trial(factor, 'creeping', 0, 0.0, 0.0), 0, Unrest(atRest, self.watched)
+		self.trials.append(trial)
+		while trial.steps < self.steps:
+			for _ in range(between):
+				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
+			trial.steps += between
+			trial.unbalanced, trial.displacement = unrest.look(between), self._show(factor)
+			if not trial.displacement <= 1:  # not a number counts as failed
+				trial.outcome = 'failed'
+				break
+			quiet = quiet + 1 if trial.unbalanced < atRest else 0
+			trial.trembling = [] if quiet == looks else _trembling(unrest)
+			if quiet == looks or trial.trembling:
+				trial.outcome = 'stable'
+				break
+		farthest = int(np.argmax(self._ways() / self.limits))
+		trial.displacement = float(self._ways()[farthest])
+		return trial
+
+	def _show(self, factor):
+		"""Largest way over what counts as failure."""
+		self.bar.set_postfix_str(f'strengths over {factor:.4g}', refresh=False)
+		self.bar.update(between)
+		return float((self._ways() / self.limits).max())
+
+	def _places(self):
+		return np.array([tuple(O.bodies[k].state.pos) for k in self.watched], float), [O.bodies[k].state.ori for k in self.watched]
+
+	def _ways(self):
+		return np.linalg.norm(self._places()[0] - self.origin[0], axis=1)
+
+	def _motion(self):
+		"""(ids, displacements, rotations) of the bodies that have moved, the farthest first."""
+		ways = self._ways()
+		order = [k for k in np.argsort(-ways) if ways[k] >= partOfMode * ways.max()]
+		moved = (self._places()[0] - self.origin[0])[order]
+		turned = [_rotation(self.origin[1][k].conjugate(), O.bodies[self.watched[k]].state.ori) for k in order]
+		return [self.watched[k] for k in order], moved, np.array(turned)
+
+
+def _told(bodies, displacements):
+	"""The first ones, for a message."""
+	modes = '; '.join(
+		f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
+		for k, way in list(zip(bodies, displacements, strict=True))[:3]
+	)
+	return modes + (f' and {len(bodies) - 3} more' if len(bodies) > 3 else '')
+
+
+def _trembling(unrest):
+	"""Ids of the bodies that are not at rest, if all of them tremble in place for good."""
+	lost = unrest.hopeless()
+	return [one.id for one in lost] if all(one.kind == 'trembles' for one in lost) else []
+
+
+def _rotation(back, now):
+	axis, angle = (now * back).toAxisAngle()[:2]
+	angle = float(angle)
+	return np.array(axis, float) * (angle - 2 * np.pi if angle > np.pi else angle)

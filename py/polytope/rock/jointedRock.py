@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A rock mass cut into blocks by joints.
+
+Blocks are lists of half-spaces, so a joint cuts a block in two by being added to it once from either side (src/shape/JointedBlocks.hpp; Boon,
+Houlsby & Utili 2015, "A new rock slicing method based on linear programming", Computers and Geotechnics 65:12-29). Coordinates: x east, y north, z up.
+"""
+
+import dataclasses
+import itertools
+import numbers
+from collections.abc import Iterable
+
+import numpy as np
+from yade import O, _polytope
+
+from ..arguments import namedArguments
+from ..bodies.clumps import rigid
+from ..bodies.polytopes import fromHalfSpaces, randomColour
+from ..precision import real
+from .faceMaterials import faceMaterials, materialsOfFaces
+from .joint import Joint, asArguments, finite
+from .jointSets import JointSet
+from .region import regionOf
+from .termination import Earlier
+
+__all__ = ['JointSet', 'JointedRock', 'jointedRock']
+
+mostBlocks = 500000
+"""Blocks: more are refused, since such a scene could not be run; a spacing in a wrong unit is more likely."""
+
+smallestFraction = 0.01
+"""Default inscribed radius of the smallest piece over the smallest spacing, or over the region's own inscribed radius if that is less: thinner
+pieces need a shorter time step and carry no load."""
+
+smallestBridge = 1e-3
+"""Area over which rock goes on from one block to the next, over the smaller of the two faces, below which it is taken for broken: joints
+of a file that were meant to end at each other miss by the last of its digits."""
+
+
+@dataclasses.dataclass
+class JointedRock:
+	"""What *jointedRock* made."""
+
+	blocks: list
+	"""(normals, offsets) of each convex block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
+	volumes: np.ndarray
+	"""Of the blocks [m³]; they add up to the region's."""
+	bodies: list
+	"""For each rigid body the numbers of its blocks: one, or several where no joint separates them wholly (*incomplete*)."""
+	joints: np.ndarray
+	"""(n, 4) planes a·x = d of all joints that cut a block, unit normals."""
+	faces: list
+	"""For each block the joint (row of *joints*) that made each of its planes; −1: the region's own."""
+	sets: np.ndarray
+	"""For each joint which of the *jointSets* it comes from."""
+	areas: np.ndarray
+	"""Area of each joint [m²] inside the blocks that it cut."""
+	sections: np.ndarray
+	"""Area of these blocks' sections [m²]: larger than *areas* where a joint ends inside a block."""
+	network: list
+	"""For each joint its own extent (rock.joint.Cut): normal, centre, radius, edges."""
+	uncut: int
+	"""Cuts that were not made, as they would have left a piece below *smallest*."""
+	entries: int
+	"""Number of *jointSets*."""
+
+	def append(self, jointMaterials=None, **body):
+		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
+
+		Mass and inertia of a clump are the sums over its blocks, which do not overlap. There are no contacts between blocks of one clump.
+
+		A material belongs to the faces that its joint has made: a contact that ends and is made again, with the same block or another, has that of the face which it
+		lies on (Polytope.faceMaterials).
+
+		:param jointMaterials: for each of *jointSets* the RockJointMat of its joints, by index or label in O.materials or itself; None among them: the body's own
+		:param body: arguments of *fromHalfSpaces*: material, fixed, color …
+		:returns: numbers in O.bodies, in the order of *bodies*: of the body, or of the clump
+		:raises ValueError: naming *jointMaterials*: not one for each of *jointSets*, no RockJointMat, or stiffer than the body's own material, which sets the
+		    time step before blocks touch
+		"""
+		chosen = None if jointMaterials is None else materialsOfFaces(jointMaterials, self.entries, body.get('material', -1))
+		given = body.get('color')
+		ids = []
+		for parts in self.bodies:
+			colour = randomColour() if given is None else given
+			made = [fromHalfSpaces(*self.blocks[k], **{**body, 'color': colour}) for k in parts]
+			for k, one in zip(parts, made, strict=True):
+				if chosen is not None:
+					one.shape.faceMaterials = faceMaterials(one, self.blocks[k][0], self.faces[k], self.sets, chosen)
+			ids.append(O.bodies.append(made[0]) if len(made) == 1 else rigid(made)[0])
+		return ids
+
+
+@namedArguments
+def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='clump'):
+	"""Cut a region of rock into blocks by joints::
+
+		slope = polytope.jointedRock(normals, offsets, [polytope.JointSet(radians(35), radians(90), spacing=2), …])
+		slope.append(material=…)
+
+	The blocks fill the region and touch without overlap, to the rounding of double (in YADE's wider precisions, too). Joints
+	cut one after the other, set by set: where *smallest* or *persistence* keeps a cut from being made, the order matters.
+
+	A joint that ends in the rock cuts the blocks that it reaches into along its whole plane. What it separates only in part is one body, by default:
+	its blocks move together. Pieces that make one convex block are put together again.
+
+	:param normals: (n, 3) outward normals of the region, of any length [-]; for a region that is not convex a list of those of convex parts, which
+	    may share faces and must not overlap
+	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
+	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns
+	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
+	    of the smallest spacing (1/P32) or of the region's own inscribed radius
+	:param int seed: of the random places, radii and normals
+	:param str incomplete: what becomes of blocks that a joint separates only in part: 'clump', they are one body; 'cut', each is a body, as if joints
+	    went on to the faces of the blocks that they reach into (Boon et al. 2015)
+	:returns: *JointedRock*
+	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 500 000
+	    blocks, *smallest* negative or above the region's inscribed radius, *seed* negative
+	"""
+	entries = _entriesOf(jointSets)
+	if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or not 0 <= seed < 2**63:
+		raise ValueError(f'seed: must be a whole number from 0 on, got {seed!r}')
+	if incomplete not in ('clump', 'cut'):
+		raise ValueError(f"incomplete: must be 'clump' or 'cut', got {incomplete!r}")
+	region = regionOf(normals, offsets)
+	sets = [entry for entry in entries if isinstance(entry, JointSet)]
+	if smallest is None:
+		smallest = smallestFraction * min([region.inscribedRadius, *(1 / joints.intensity for joints in sets)])
+	if not finite(smallest) or not 0 <= smallest <= region.inscribedRadius:
+		raise ValueError(
+			f"smallest: must be from zero to the region's own inscribed radius, {region.inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
+		)
+	expected = _expectedBlocks(region.volume, [joints for joints in sets if joints.radius is None and joints.persistence == 1])
+	if expected > mostBlocks:
+		raise ValueError(
+			f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?'
+		)
+	cuts = _cuts(entries, region, np.random.default_rng(seed))
+	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
+	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
+	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
+	return _rock(made, cuts, region.centre, len(entries))
+
+
+def _entriesOf(jointSets):
+	entries = list(jointSets) if isinstance(jointSets, Iterable) else []
+	lists = [entry if isinstance(entry, (list, tuple)) else [entry] for entry in entries if not isinstance(entry, JointSet)]
+	if not entries or not all(isinstance(joint, Joint) for joints in lists for joint in joints):
+		raise ValueError('jointSets: must be a sequence of one or more JointSet or Joint, or of lists of Joint')
+	return entries
+
+
+def _cuts(entries, region, random):
+	"""All joints in the order in which they cut, about the region's centre."""
+	cuts = []
+	for number, entry in enumerate(entries):
+		if isinstance(entry, JointSet):
+			cuts += entry.cuts(region, Earlier(cuts), number, random)
+		else:
+			for joint in entry if isinstance(entry, (list, tuple)) else [entry]:
+				cuts.append(dataclasses.replace(joint.cut.moved(-region.centre), entry=number))
+	return cuts
+
+
+def _rock(made, cuts, centre, entries):
+	"""The result in world coordinates, with the joints that have cut."""
+	planes = np.frombuffer(made['planes']).reshape(-1, 4)
+	normals, offsets = planes[:, :3].copy(), planes[:, 3] + planes[:, :3] @ centre
+	areas, sections = np.frombuffer(made['areas']), np.frombuffer(made['sections'])
+	cutting = np.flatnonzero(sections > 0)
+	row = np.full(len(cuts) + 1, -1)  # the last one is the region's own, −1
+	row[cutting] = np.arange(len(cutting))
+	labels = row[np.frombuffer(made['labels'], np.int32)]
+	ends = np.cumsum(np.frombuffer(made['counts'], np.int32))
+	slices = [slice(begin, end) for begin, end in zip([0, *ends[:-1]], ends, strict=True)]
+	bodies = [[] for _ in range(max(np.frombuffer(made['bodies'], np.int32)) + 1)]
+	for block, body in enumerate(np.frombuffer(made['bodies'], np.int32).tolist()):
+		bodies[body].append(block)
+	return JointedRock(
+		[(normals[one], offsets[one]) for one in slices],
+		np.frombuffer(made['volumes']).copy(),
+		bodies,
+		np.array([[*cuts[j].normal, cuts[j].offset + cuts[j].normal @ centre] for j in cutting]).reshape(-1, 4),
+		[labels[one] for one in slices],
+		np.array([cuts[j].entry for j in cutting], int),
+		areas[cutting],
+		sections[cutting],
+		[cuts[j].moved(centre) for j in cutting],
+		made['uncut'],
+		entries,
+	)
+
+
+def _expectedBlocks(volume, jointSets):
+	"""As many as there are points in which three joints meet, within the region, lines on its surface in which two do, and so on."""
+	length, scaled = volume ** (1 / 3), [joints.normal * joints.intensity for joints in jointSets]
+	planes = sum(np.linalg.norm(a) for a in scaled)
+	lines = sum(np.linalg.norm(np.cross(a, b)) for a, b in itertools.combinations(scaled, 2))
+	points = sum(abs(np.linalg.det(three)) for three in itertools.combinations(scaled, 3))
+	return 1 + planes * length + lines * length**2 + points * volume

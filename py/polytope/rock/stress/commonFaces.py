@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Faces that neighbours have in common in the scene: where joints are, before there is a contact."""
+
+import dataclasses
+import math
+
+import numpy as np
+from yade import O, PolytopeBond, PolytopeBonds
+
+from ...pictures.faces import rows
+from ..faceMaterials import materialOfPlane
+
+__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
+
+facing = 0.01
+"""Largest angle between two faces that are one joint [rad], as in *polytope.bond*."""
+samePlane = 1e-4
+"""1 − cosine of the angle within which a plane of a body is that of its joint: that of *facing*."""
+
+
+@dataclasses.dataclass
+class CommonFace:
+	id1: int
+	id2: int
+	normal: np.ndarray
+	"""From body 1 to body 2."""
+	centroid: np.ndarray
+	area: float
+	"""[m²]"""
+	corners: np.ndarray
+	"""(n, 3) in the world [m]"""
+	second: np.ndarray
+	"""(3, 3) ∫ r ⊗ r over the area, r from the centroid [m⁴]; zero of a polygon, whose line does not turn in its plane."""
+	overlap: float
+	"""By which the faces overlap already [m]"""
+
+
+def commonFaces(chosen):
+	"""Those of pairs of bodies of which one is chosen and one can move. They touch, or overlap.
+
+	:param chosen: set of ids
+	"""
+	search = PolytopeBonds()  # knows neighbours and what their faces have in common; it is not put among the engines
+	search.make(
+		[], -1, facing, PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
+	)
+	return [_face(found) for found in search.bonds if found.id1 in chosen or found.id2 in chosen]
+
+
+def _face(found):
+	body = O.bodies[found.id1]
+	axes = np.array((body.state.ori * found.frame1).toRotationMatrix(), float).reshape(3, 3)
+	centroid = np.array(body.state.pos + body.state.ori * found.point1, float)
+	second = np.zeros((3, 3))
+	if body.shape.dimension == 3:
+		second = sum(float(moment) * np.outer(axis, axis) for moment, axis in zip(found.secondMoments, axes.T[1:], strict=True))
+	return CommonFace(
+		found.id1, found.id2, axes[:, 0], centroid, float(found.area), centroid + rows(found.corners) @ axes.T, second, float(found.overlap)
+	)
+
+
+def contactOf(face):
+	"""The contact of its two bodies; None where there is none."""
+	if not O.interactions.has(face.id1, face.id2, onlyReal=True):
+		return None
+	return O.interactions[face.id1, face.id2]
+
+
+def planesOf(body):
+	"""(normals (n, 3), offsets (n,)) of the body in the world."""
+	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	normals = rows(body.shape.normals) @ turn.T
+	return normals, np.array(body.shape.offsets, float) + normals @ np.array(body.state.pos, float)
+
+
+def planeOf(face, k):
+	"""Index of the plane of body k that has the face; −1 if none does."""
+	side = 1 if k == face.id1 else -1
+	normals, offsets = planesOf(O.bodies[k])
+	away = np.abs(normals @ face.centroid - offsets)
+	away[1 - side * normals @ face.normal > samePlane] = np.inf  # of those that are parallel one has the face
+	plane = int(np.argmin(away))
+	return plane if np.isfinite(away[plane]) else -1
+
+
+def materialOf(face, k):
+	"""Of body k's side of the joint: that of its face, if it has one of its own (*Polytope.faceMaterials*)."""
+	body = O.bodies[k]
+	return materialOfPlane(body, planeOf(face, k) if len(getattr(body.shape, 'faceMaterials', [])) else -1)

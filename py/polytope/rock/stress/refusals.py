@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What an initial stress is refused for, before anything of the scene is changed."""
+
+import math
+
+import numpy as np
+from yade import O, Polytope, RockJointMat
+
+from ...bonding.bonds import madeBonds
+from ...pictures.faces import worldVertices
+from ...scene.namedBodies import moverOf, namedBodies
+from ...scene.present import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
+from ...scene.ranks import refuseDivided
+from ...scene.stages import refuseMatchMaker
+from ..faces import areaOfFace
+from .commonFaces import contactOf, materialOf, planesOf
+
+__all__ = ['accuracy', 'forcesBorne', 'massOf', 'refuseField', 'refuseForces', 'refuseScene']
+
+accuracy = 0.01
+"""To which the stress is what was asked for: of a block's forces, what may be missing for want of neighbours, and be left by gravity."""
+
+wrongForce = 0.05
+"""Of what a body bears: by which a joint's force may differ from what was asked. The rim of its face and neighbours across an edge have a part of the closure over its width."""
+
+rounding = 1e-9
+"""Of the largest stress at a joint."""
+
+
+def massOf(bodies):
+	"""Set of ids of the blocks, parts of clumps by themselves."""
+	if bodies is None:
+		named = [body.id for body in O.bodies if body is not None and isinstance(body.shape, Polytope) and canMove(body)]
+	else:
+		named = [part for k in namedBodies(bodies, name='bodies') for part in (O.bodies[k].shape.members if O.bodies[k].isClump else (k,))]
+	if not named:
+		raise ValueError('bodies: there is no free Polytope; append the blocks first')
+	for k in named:
+		if not isinstance(O.bodies[k].shape, Polytope):
+			raise ValueError(f'bodies: body {k} is a {type(O.bodies[k].shape).__name__}, no Polytope')
+	return set(named)
+
+
+def refuseScene(chosen):
+	refuseDivided()
+	if O.running:
+		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
+	if O.periodic:
+		raise ValueError('O.periodic: blocks get their stress between fixed blocks; in a periodic cell strain the cell instead')
+	makers = jointMakers(interactionLoops())
+	if not laws() or not makers:
+		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
+	models = {functor.contactModel for functor in geometryFunctors()}
+	if not all(isPerArea(material, makers) for material in jointMaterials()) or not models <= {'surface', 'foundation'}:
+		raise ValueError(
+			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
+		)
+	refuseMatchMaker()
+	if any(
+		getattr(functor, name, None) for loop in interactionLoops() for functor in loop.physDispatcher.functors for name in ('kn', 'ks')
+	):
+		raise ValueError(
+			'O.engines: a MatchMaker sets stiffnesses by pairs; a block has the closure of its own material, so give materials theirs'
+		)
+	for k in chosen:
+		if not isinstance(O.bodies[k].material, RockJointMat):
+			raise ValueError(f'bodies: body {k} is of a {type(O.bodies[k].material).__name__}; a stress needs joints between RockJointMat')
+	if any(contact.isReal for contact in O.interactions):
+		raise ValueError('O.interactions: there are contacts already; call inSitu before the first step, or O.interactions.clear() first')
+	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)} & chosen
+	if bonded:
+		raise ValueError(
+			f'bodies: body {min(bonded)} is bonded, and a bond has no force as bodies are when it is made; give joints cohesion and tensileStrength in place of bonds'
+		)
+
+
+def refuseField(field, faces, chosen):
+	if not faces:
+		raise ValueError('bodies: no two faces touch; blocks must lie face on face as polytope.jointedRock makes them')
+	stresses = [field.at(face.corners) for face in faces]
+	largest = max(float(np.abs(several).max()) for several in stresses)
+	if largest == 0:
+		raise ValueError('stress: is zero at all joints; a mass without stress needs none')
+	for face, several in zip(faces, stresses, strict=True):
+		pulls = several @ face.normal @ face.normal
+		worst = int(np.argmax(pulls))
+		if pulls[worst] > rounding * largest:
+			place = ', '.join(f'{x:.4g}' for x in face.corners[worst])
+			raise ValueError(
+				f'stress: tension of {pulls[worst]:.3g} Pa across the joint between {face.id1} and {face.id2} at ({place}); compression is negative, '
+				'and a surface where it ends in the mass is where the blocks must end'
+			)
+	_refuseStrength(field, faces, largest)
+	_refuseOverlap(faces, largest)
+	_refuseCover(field, faces, chosen)
+
+
+def _refuseStrength(field, faces, largest):
+	weak = []
+	for face in faces:
+		traction = field.at(face.centroid) @ face.normal
+		normal = -float(traction @ face.normal)
+		shear = float(np.linalg.norm(traction + normal * face.normal))
+		materials = [materialOf(face, k) for k in (face.id1, face.id2)]
+		if not all(isinstance(material, RockJointMat) for material in materials):
+			raise ValueError(f'bodies: the joint between {face.id1} and {face.id2} is not between two RockJointMat')
+		if any(material.closure for material in materials):
+			raise ValueError(
+				f'bodies: the joint between {face.id1} and {face.id2} has a closure of its own; a stress is given by linear springs '
+				'(RockJointMat.closure=None)'
+			)
+		cohesion = min(float(material.cohesion) for material in materials)
+		friction = min(float(material.frictionAngle) for material in materials)
+		if shear > cohesion + normal * math.tan(friction) + rounding * largest:
+			weak.append((math.atan2(max(shear - cohesion, 0), normal), face, friction))
+	if weak:
+		needed, face, friction = max(weak, key=lambda one: one[0])
+		raise ValueError(
+			f'stress: {len(weak)} of {len(faces)} joints cannot bear it, the one between {face.id1} and {face.id2} needs '
+			f'{math.degrees(needed):.1f}° of friction and has {math.degrees(friction):.1f}°; a stress nearer to equal in all directions, or stronger joints'
+		)
+
+
+def _refuseOverlap(faces, largest):
+	for face in faces:
+		stiffness = min(float(materialOf(face, k).normalStiffness) for k in (face.id1, face.id2))
+		if face.overlap * stiffness > accuracy * largest:
+			raise ValueError(
+				f'bodies: {face.id1} and {face.id2} overlap by {face.overlap:.3g} m already; blocks must lie face on face, and a stress that they '
+				'have from an earlier call cannot be replaced: make the mass anew'
+			)
+
+
+def _refuseCover(field, faces, chosen):
+	"""Each face of a block that can move must have neighbours all over, unless the stress leaves it free."""
+	touching, bears = {}, forcesBorne(field, faces)
+	for face in faces:
+		touching.setdefault(face.id1, []).append((face.normal, face.area))
+		touching.setdefault(face.id2, []).append((-face.normal, face.area))
+	for k in chosen:
+		body = O.bodies[k]
+		if not canMove(body) or body.isClumpMember:  # members lie on each other
+			continue
+		vertices, (normals, offsets) = worldVertices(body), planesOf(body)
+		for normal, offset in zip(normals, offsets, strict=True):
+			area = areaOfFace(vertices, normal, offset)
+			if area == 0:  # a plane that owns no face
+				continue
+			covered = sum(part for n, part in touching.get(k, []) if n @ normal > 1 - 1e-4)
+			missing = abs(area - covered) * float(np.linalg.norm(field.at(_middle(vertices, normal, offset)) @ normal))
+			if missing > accuracy * bears.get(k, 0.0):
+				direction = ', '.join(f'{x:.3g}' for x in normal)
+				raise ValueError(
+					f'bodies: of the face of body {k} towards ({direction}) {covered:.4g} of {area:.4g} m² lies on neighbours, so {missing:.3g} N would be '
+					'missing or too much; surround the mass by fixed Polytopes that touch it and do not overlap each other, fill openings and excavate them afterwards'
+				)
+
+
+def _middle(vertices, normal, offset):
+	away = offset - vertices @ normal
+	return vertices[away <= away.min() + 1e-9 * float(np.ptp(vertices))].mean(axis=0)
+
+
+def refuseForces(field, faces):
+	"""Contacts that do not bear what their joint was given."""
+	bears = forcesBorne(field, faces)
+	for face in faces:
+		asked = -face.area * float(face.normal @ field.at(face.centroid) @ face.normal)
+		contact = contactOf(face)
+		borne = 0.0 if contact is None else float(contact.phys.normalForce.norm())
+		if abs(borne - asked) > wrongForce * min(bears[moverOf(k)] for k in (face.id1, face.id2) if canMove(O.bodies[k])):
+			raise ValueError(
+				f'bodies: the joint between {face.id1} and {face.id2} would bear {borne:.4g} N for {asked:.4g} N. Do a mask or the collider keep them apart? Are they parts of a clump '
+				"whose faces are not convex (jointedRock's incomplete='cut' makes none)? Is the closure, pressure over normalStiffness, a large part of a block (stiffer joints)?"
+			)
+
+
+def forcesBorne(field, faces):
+	"""id of each mover → half of what its joints bear [N]"""
+	bears = {}
+	for face in faces:
+		for k in {moverOf(face.id1), moverOf(face.id2)}:
+			bears[k] = bears.get(k, 0.0) + face.area * float(np.linalg.norm(field.at(face.centroid) @ face.normal)) / 2
+	return bears

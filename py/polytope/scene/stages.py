@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Stages in which a scene comes to rest again or fails, each weaker than the one before: of frictionReduction and strengthReduction."""
+
+import dataclasses
+
+from yade import O, Polytope
+
+from .permanentLoads import givePermanentLoads, permanentLoads
+from .present import interactionLoops
+
+__all__ = ['Reduction', 'Stage', 'partOfSize', 'refuseMatchMaker', 'sizeOf']
+
+partOfSize = 0.02
+"""Of the size of the largest watched body: the way at which it has failed, by default."""
+
+
+def refuseMatchMaker():
+	"""
+	:raises ValueError: naming *frictAngle* if a MatchMaker of the Ip2 functor sets the angle of new contacts
+	"""
+	for loop in interactionLoops():
+		if any(getattr(functor, 'frictAngle', None) for functor in loop.physDispatcher.functors):
+			raise ValueError("frictAngle: new contacts would take the MatchMaker of the Ip2 functor, not the materials' angle")
+
+
+@dataclasses.dataclass
+class Stage:
+	"""What happened at one strength."""
+
+	angle: float
+	"""Friction angle [rad], or the factor by which strengths were divided [-] (*strengthReduction*)."""
+	outcome: str
+	"""'stable': at rest; 'failed': moved too far; 'creeping': neither by the time limit, which counts as failure."""
+	steps: int
+	speed: float
+	"""Of the fastest body at the end [m/s]."""
+	displacement: float
+	"""Of the body that has moved most since the scene had settled, at the end [m]."""
+	samples: list
+	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
+	measured: object = None
+	"""What *measure* returned at the end of the stage."""
+
+
+class Reduction:
+	"""What both reductions share. A subclass has
+
+	- *mark*, the name of its saved state,
+	- _set(level), which gives joints the strength of a level,
+	- _levels(began, step), the levels that follow a stable one,
+	- _standsAnyway(stable), the message where all of them are stable.
+	"""
+
+	calmChecks = 3
+
+	def __init__(self, bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress):
+		self.bodies = list(bodies)
+		if not self.bodies:
+			raise ValueError('bodies: there must be at least one')
+		self.stableSpeed, self.failedDistance = stableSpeed, failedDistance
+		self.checkEvery, self.mostSteps = checkEvery, mostSteps
+		self.measure, self.progress = measure, progress
+		for name in ('stableSpeed', 'failedDistance', 'checkEvery', 'mostSteps'):
+			value = getattr(self, name)
+			if value is not None and not value > 0:
+				raise ValueError(f'{name}: must be positive, got {value}')
+		self.stages, self.failedQueries = [], 0
+
+	def _takeSteps(self, steps, what):
+		self.steps = list(steps)
+		falling = all(a > b for a, b in zip(self.steps, self.steps[1:], strict=False))
+		if not self.steps or not all(step > 0 for step in self.steps) or not falling:
+			raise ValueError(f'steps: must be {what}, each smaller than the one before, got {self.steps}')
+
+	def _begin(self, level, what):
+		"""The stage that the scene begins with."""
+		self.stages, self.failedQueries = [], 0
+		if self.failedDistance is None:
+			self.failedDistance = partOfSize * max(map(sizeOf, self.bodies))
+		settled = self._stage(level)
+		if settled.outcome != 'stable':
+			raise RuntimeError(
+				f'the scene is not stable {what}: {settled.outcome} '
+				f'({settled.displacement:.3g} m, {settled.speed:.3g} m/s after {settled.steps} steps); '
+				+ (
+					'start with more strength, with stiffer contacts, or with a larger failedDistance'
+					if settled.outcome == 'failed'
+					else 'take more damping, a larger stableSpeed, or more mostSteps'
+				)
+			)
+		self.origins = self._positions()
+		self._save()
+
+	def _bracket(self, stable):
+		"""(last stable level, level of failure) by all steps, from a level that is stable."""
+		for number, step in enumerate(self.steps):
+			if number:
+				self.restore()
+			stable, failed = self._reduce(stable, step)
+		self._bookQueries()
+		return stable, failed
+
+	def _reduce(self, stable, step):
+		"""The same by one step."""
+		for level in self._levels(stable, step):
+			if self._stage(level).outcome != 'stable':
+				return stable, level
+			stable = level
+			self._save()
+		raise RuntimeError(self._standsAnyway(stable))
+
+	def restore(self):
+		"""Brings back the last stable state."""
+		self._bookQueries()
+		O.loadTmp(self.mark, quiet=True)
+		givePermanentLoads(self.loads)
+
+	def _save(self):
+		O.saveTmp(self.mark, quiet=True)
+		self.loads = permanentLoads()
+
+	def _stage(self, level):
+		self._set(level)
+		if not self.stages:
+			self.origins = self._positions()
+		stage = Stage(level, 'creeping', 0, 0.0, 0.0, [])
+		self.stages.append(stage)
+		began, calm = O.time, 0
+		while stage.steps < self.mostSteps:
+			for _ in range(self.checkEvery):
+				O.step()  # O.run(…, wait=True) checks only every 40 ms whether it is done
+			stage.steps += self.checkEvery
+			stage.speed = max(float(O.bodies[k].state.vel.norm()) for k in self.bodies)
+			stage.displacement = max(float((O.bodies[k].state.pos - origin).norm()) for k, origin in self.origins.items())
+			stage.samples.append((O.time - began, stage.speed, stage.displacement))
+			self.progress(stage)
+			calm = calm + 1 if stage.speed < self.stableSpeed else 0
+			if not stage.displacement <= self.failedDistance:  # not a number counts as failed
+				stage.outcome = 'failed'
+				break
+			if calm == self.calmChecks:
+				stage.outcome = 'stable'
+				break
+		stage.measured = self.measure()
+		return stage
+
+	def _positions(self):
+		return {k: O.bodies[k].state.pos for k in self.bodies}
+
+	def _bookQueries(self):
+		"""Adds the contact functors' counts of failures to ours."""
+		for loop in interactionLoops():
+			for functor in loop.geomDispatcher.functors:
+				if hasattr(functor, 'stats'):
+					self.failedQueries += functor.stats()['failures']
+					functor.resetStats()
+
+
+def sizeOf(number):
+	"""Edge of the cube, or square, of the body's volume, or area [m]; of a clump that of its parts together."""
+	body = O.bodies[number]
+	if body.isClump:
+		return sum(sizeOf(part) ** 3 for part in body.shape.members) ** (1 / 3)
+	shape = body.shape
+	if not isinstance(shape, Polytope):
+		return 2 * float(getattr(shape, 'radius', 0.5))
+	return (float(shape.volume) / (float(shape.thickness) if shape.dimension == 2 else 1)) ** (1 / shape.dimension)

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""contactModel='spring' in YADE: refusals, energy under YADE's own integrator, friction, rest.
+
+The core's tests compare force and torque with the energy's derivative; here the law, the integrator and the scene are the subject.
+"""
+from math import atan, cos, sqrt
+
+import numpy as np
+import pytest
+from scenes import blockOnFloor, density, gravity, joint, loop
+from scipy.integrate import solve_ivp
+from yade import Ig2_Polytope_Polytope_PolytopeGeom, O, Quaternion, Vector3, polytope
+from yade.polytope.fallingPolyhedra import FallingPolyhedra
+
+stiffness = 1e6
+spring = {'contactModel': 'spring'}
+
+
+@pytest.fixture(autouse=True)
+def emptyScene():
+	O.reset()
+
+
+def testWhatReplacesTheFormerModelIsNamed():
+	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')
+	for former, now in (('conservative', 'surface'), ('paper', 'boon2012')):
+		with pytest.raises(ValueError, match=f"contactModel: '{former}' is '{now}' now"):
+			functor.contactModel = former
+		assert functor.contactModel == 'spring'
+	with pytest.raises(ValueError, match="contactModel: 'conservative' is 'surface' now"):
+		polytope.contact(*(polytope.cuboid((0, 0, z), (1, 1, 1)) for z in (0, 1.9)), contactModel='conservative')
+	assert not hasattr(functor, 'barrier')
+
+
+def testOnePairKnowsItsEnergy():
+	joint()
+	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .999), (.5, .5, .5))
+	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='spring')
+	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap
+	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=5e-3)
+	assert tuple(other.normal) == pytest.approx((0, 0, 1), abs=1e-4)
+
+
+# ------------------------------------------------------------------------------------------------------------- collisions
+
+
+def kineticEnergy(body):
+	"""Of YADE's default integrator, which carries the angular velocity in the body's axes."""
+	state = body.state
+	spin = state.ori.conjugate() * state.angVel
+	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k]**2 for k in range(3))) / 2
+
+
+def angularMomentum(body):
+	"""About the origin, of the moment half a step before the present positions: that of the velocities."""
+	state, half = body.state, O.dt / 2
+	spin = state.ori.conjugate() * state.angVel
+	turn = state.ori * Quaternion(state.angVel.norm() and spin.normalized(), -half * spin.norm())
+	own = turn * Vector3(*[state.inertia[k] * spin[k] for k in range(3)])
+	return own + state.mass * (state.pos - half * state.vel).cross(state.vel)
+
+
+def momentum():
+	return sum((angularMomentum(body) for body in O.bodies), Vector3.Zero)
+
+
+def halfLengths(cubes):
+	return [(.4, .4, .4), (.3, .3, .3)] if cubes else [(.5, .35, .25), (.3, .45, .4)]
+
+
+def meet(seed, model, cubes=False, gap=2e-3):
+	"""Two unequal boxes (or cubes), turned at random and spinning, just apart and on their way to each other: no friction, no damping."""
+	random = np.random.default_rng(seed)
+	O.reset()
+	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0)
+	loop(ig2={'contactModel': model})
+	bodies = []
+	for half in halfLengths(cubes):
+		axis, angle = random.standard_normal(3), random.uniform(0, 3)
+		bodies.append(polytope.cuboid((0, 0, 0), half, Quaternion(tuple(axis), angle), cornerRadius=0.05))
+	O.bodies.append(bodies)
+	direction = Vector3(tuple(random.standard_normal(3))).normalized()
+	near, far = 0., 2.
+	for _ in range(40):
+		bodies[1].state.pos = (near + far) / 2 * direction
+		if polytope.contact(*bodies).inContact: near = (near + far) / 2
+		else: far = (near + far) / 2
+	bodies[1].state.pos = (far + gap) * direction
+	bodies[1].state.vel = -direction * 0.5 + Vector3(tuple(random.uniform(-.1, .1, 3)))
+	for body in bodies:
+		spin = Vector3(tuple(random.uniform(-.2, .2, 3)))
+		body.state.angVel = body.state.ori * spin
+		body.state.angMom = body.state.ori * Vector3(*[body.state.inertia[k] * spin[k] for k in range(3)])
+	return bodies
+
+
+flight = 0.35
+"""Time in which two bodies meet and part [s]."""
+
+
+def collide(seed, step, model, cubes=False):
+	"""Relative error of the kinetic energy after the bodies of meet() have parted; *step* is over sqrt(mass / stiffness), half a contact's
+	duration over π."""
+	bodies = meet(seed, model, cubes)
+	before = sum(map(kineticEnergy, bodies))
+	O.dt = step * sqrt(density * 0.2 / stiffness)
+	touching = touched = False
+	while touching or O.time < flight:  # some meet twice
+		assert O.time < 10 * flight
+		O.step()
+		touching = any(i.isReal for i in O.interactions)
+		touched = touched or touching
+	assert touched
+	return sum(map(kineticEnergy, bodies)) / before - 1
+
+
+meetings = range(1, 41)
+steps = 0.01, 0.005, 0.0025
+
+
+def rms(errors):
+	return sqrt(np.mean(np.square(errors)))
+
+
+@pytest.mark.parametrize('cubes', [False, True])
+def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
+	"""With YADE's own integrator; boxes have three different moments of inertia."""
+	errors = [np.array([collide(seed, step, 'spring', cubes) for seed in meetings]) for step in steps]
+	paper = np.array([collide(seed, steps[0], 'boon2012', cubes) for seed in meetings])
+	for step, found in zip((*steps, 'boon2012'), (*errors, paper), strict=True):
+		print(f'{step}: median {np.median(abs(found)):.1e}, rms {rms(found):.1e}, largest {max(abs(found)):.1e}')
+	assert rms(errors[2]) < rms(errors[0]) / 3.5**2  # over both halvings: one alone depends on where the steps meet the corners
+	assert rms(paper) > 100 * rms(errors[0])
+
+
+def testWhatTheIntegratorDoesByItself():
+	"""The same boxes in free flight, with the same steps, for as long: YADE's rotation of unequal moments keeps energy and momentum far
+	better than a collision does. So the error of a collision is that of its steps through the contact, not of its free rotation."""
+	lost, turned = [], []
+	for step in steps:
+		energies, momenta = [], []
+		for seed in list(meetings)[:8]:
+			bodies = meet(seed, 'spring', gap=5)
+			O.dt = step * sqrt(density * 0.2 / stiffness)
+			O.step()
+			start, moment = [kineticEnergy(body) for body in bodies], momentum()
+			spins = [body.state.ori.conjugate() * body.state.angVel for body in bodies]
+			taken = int(flight / O.dt)
+			O.run(taken, wait=True)
+			energies += [kineticEnergy(body) / one - 1 for body, one in zip(bodies, start, strict=True)]
+			momenta.append((momentum() - moment).norm() / moment.norm())
+			for body, spin in zip(bodies, spins, strict=True):
+				inertia = np.array(body.state.inertia, float)
+				exact = solve_ivp(
+				        lambda _, w, inertia=inertia: np.cross(inertia * w, w) / inertia, (0, taken * O.dt),
+				        np.array(spin, float),
+				        method='DOP853',
+				        rtol=1e-13,
+				        atol=1e-14
+				).y[:, -1]
+				ours = np.array(body.state.ori.conjugate() * body.state.angVel, float)
+				assert np.linalg.norm(ours - exact) < 1e-9 * np.linalg.norm(exact)
+		lost.append(rms(energies))
+		turned.append(rms(momenta))
+	print('free flight, rms of relative errors: energy', lost, 'angular momentum', turned)
+	assert max(lost) < 1e-10 and max(turned) < 1e-10
+
+
+@pytest.mark.parametrize('cubes', [False, True])
+def testAngularMomentumIsKept(cubes):
+	"""To rounding of cubes; of unequal moments to what YADE's integrator does with a torque, which it takes in axes of the step's start."""
+	errors = []
+	for step in steps:
+		meet(3, 'spring', cubes)
+		O.dt = step * sqrt(density * 0.2 / stiffness)
+		O.step()
+		start, contacts = momentum(), 0
+		for _ in range(int(flight / O.dt)):
+			O.step()
+			contacts += any(i.isReal for i in O.interactions)
+		assert contacts > 10
+		errors.append((momentum() - start).norm() / start.norm())
+	print('angular momentum:', errors)
+	if cubes:
+		assert max(errors) < 1e-11
+	else:
+		assert errors[0] < 1e-5 and errors[2] < errors[0] / 3.5**2
+
+
+# ------------------------------------------------------------------------------------------------------- rest and friction
+
+
+def testFrictionOnAnInclineGivesTheExactAcceleration():
+	slope, friction = 0.7, 0.5
+	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=atan(friction))
+	tilt = atan(slope)
+	loop(normalDamping=0.3, rockingDamping=0.5, gravity=(gravity * slope * cos(tilt), 0, -gravity * cos(tilt)), ig2=spring)
+	floor, block = blockOnFloor(1e-3)
+	O.dt = polytope.stableTimeStep(0.1, default=1e-4)
+	O.run(int(0.3 / O.dt), wait=True)
+	start, began = block.state.vel[0], O.time
+	O.run(int(0.5 / O.dt), wait=True)
+	acceleration = (block.state.vel[0] - start) / (O.time - began) / gravity
+	assert acceleration == pytest.approx((slope - friction) * cos(tilt), rel=5e-3)
+
+
+def testTowerOfTenStands():
+	joint(normalStiffness=1e8, shearStiffness=1e8)
+	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=spring)
+	blockOnFloor(0)
+	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
+	O.dt = 1e-4
+	while O.time < 5:
+		O.run(500, wait=True)
+		O.dt = min(1e-4, polytope.stableTimeStep(0.2, default=1e-4))
+	overlap = O.bodies[1].state.mass * gravity / 1e8  # of one block's weight
+	for k in range(1, 11):
+		state = O.bodies[k].state
+		sunk = overlap * sum(10 - below for below in range(k))
+		assert state.pos[2] == pytest.approx(k - .5 - sunk, abs=0.02 * sunk)
+		assert state.vel.norm() < 1e-6 and state.angVel.norm() < 1e-6
+
+
+@pytest.mark.skipif(polytope.buildInfo()['bits'] > 64, reason='200 bodies for long: takes an hour in arithmetic that no hardware has')
+def testPileOf200WithoutDampingKeepsItsEnergyBudget():
+	"""Frictionless, undamped solids of five kinds fall into a box and fly about (examples/energy.py: for longer, higher, and by other steps)."""
+	worst = {}
+	for model in ('spring', 'boon2012'):
+		scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), columns=10, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.02).build()
+		scene.geometryFunctor.contactModel = model
+		start = polytope.mechanicalEnergy()
+		contacts, values = 0, []
+		for _ in range(15):
+			O.run(int(0.03 / O.dt), wait=True)
+			contacts += sum(i.isReal for i in O.interactions)
+			values.append(polytope.mechanicalEnergy() / start - 1)
+		assert contacts > 100
+		assert scene.geometryFunctor.stats()['failures'] == 0
+		worst[model] = max(map(abs, values))
+	print(worst)
+	assert worst['spring'] < 5e-4
+	assert worst['boon2012'] > 100 * worst['spring']

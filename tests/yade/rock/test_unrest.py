@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""polytope.settle names the bodies that do not come to rest, and why, as soon as that is clear."""
+
+import math
+
+import pytest
+from scenes import joint
+from yade import O, PyRunner, Quaternion, Vector3, polytope
+from yade.polytope.rest.unrest import patience
+
+
+def floor(half=2.0, dip=0.0, flat=False):
+	"""A fixed slope through the origin that dips towards x."""
+	turn = Quaternion((0, 0, 1), -dip) if flat else Quaternion((0, 1, 0), dip)
+	if flat:
+		corners = [turn * Vector3(x, y, 0) for x, y in ((-half, -1), (half, -1), (half, 0), (-half, 0))]
+		O.bodies.append(polytope.polygon([(c[0], c[1]) for c in corners], fixed=True))
+	else:
+		O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -0.5), (half, half, 0.5), orientation=turn, fixed=True))
+	return turn
+
+
+def block(turn, x, flat=False):
+	if flat:
+		corners = [turn * Vector3(x + dx, y, 0) for dx, y in ((-0.25, 0), (0.25, 0), (0.25, 0.5), (-0.25, 0.5))]
+		return O.bodies.append(polytope.polygon([(c[0], c[1]) for c in corners]))
+	return O.bodies.append(polytope.cuboid(turn * Vector3(x, 0, 0.25), (0.25, 0.25, 0.25), orientation=turn))
+
+
+def engines(flat=False):
+	O.engines = polytope.engines(gravity=(0, -9.81, 0) if flat else (0, 0, -9.81))
+
+
+def settleFails(**arguments):
+	with pytest.raises(polytope.NotAtRest) as told:
+		polytope.settle(**arguments)
+	return told.value
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testWhatFallsIsToldAtOnce(flat):
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	turn = floor(flat=flat)
+	stays, falls = block(turn, 0, flat), block(turn, 3, flat)
+	engines(flat)
+	error = settleFails()
+	assert [(one.id, one.kind) for one in error.bodies] == [(falls, 'falls')]
+	assert f'body {falls} touches nothing, and nothing is below it (1)' in str(error) and 'a support for what falls' in str(error)
+	assert O.iter <= 1250
+	O.bodies.erase(falls)
+	assert polytope.settle() > 0 and O.bodies[stays].state.vel.norm() < 1e-4
+
+
+def testWhatFallsOnSomethingIsWaitedFor():
+	joint(normalStiffness=1e9, shearStiffness=1e9)
+	turn = floor()
+	above = block(turn, 0)
+	O.bodies[above].state.pos += (0, 0, 3)
+	engines()
+	steps = polytope.settle(damping=0.2)
+	assert steps > 1250 and O.bodies[above].state.pos[2] == pytest.approx(0.25, abs=1e-3)
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testWhatSlidesIsToldWithItsBase(flat):
+	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=math.radians(20))
+	turn = floor(40, math.radians(30), flat)
+	slides = block(turn, -30, flat)
+	engines(flat)
+	error = settleFails(elastic=False)
+	assert [(one.id, one.kind) for one in error.bodies] == [(slides, 'slides')]
+	assert 'slides on body 0, by ' in str(error) and 'more strength or a support' in str(error)
+	assert O.iter <= patience
+	way = (O.bodies[slides].state.pos - turn * Vector3(-30, 0.25 if flat else 0, 0 if flat else 0.25)).norm()
+	assert way < 30  # long before its end
+
+
+def testWhatTremblesIsToldInABoundedTime():
+	"""A force that changes its sign every 20 steps, as of a contact that comes and goes."""
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	turn = floor()
+	rests, trembles = block(turn, -1), block(turn, 1)
+	engines()
+	push = PyRunner(command=f'O.forces.addF({trembles}, Vector3((-1) ** (O.iter // 20), 0, 0))', iterPeriod=1)
+	O.engines = O.engines[:3] + [push] + O.engines[3:]
+	error = settleFails()
+	assert [(one.id, one.kind) for one in error.bodies] == [(trembles, 'trembles')] and rests
+	least = error.bodies[0].unbalanced
+	assert 1e-5 < least < 1e-2 and f'body {trembles} trembles in place ({least:.2g})' in str(error)
+	assert patience <= O.iter <= 2 * patience
+	assert polytope.settle(unbalanced=10 * least) < 1000  # the remedy
+
+
+def testThinOnesAreCalledThin():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	floor()
+	plate = O.bodies.append(polytope.cuboid((0, 0, 0.02), (0.5, 0.5, 0.02)))
+	engines()
+	push = PyRunner(command=f'O.forces.addF({plate}, Vector3((-1) ** (O.iter // 20), 0, 0))', iterPeriod=1)
+	O.engines = O.engines[:3] + [push] + O.engines[3:]
+	assert 'is thin' in str(error := settleFails()) and '*smallest* of polytope.jointedRock' in str(error)
+
+
+def testWhatComesToRestSlowlyIsNotGivenUp():
+	"""A column that swings for many periods with hardly any damping."""
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	floor()
+	for k in range(5):
+		O.bodies.append(polytope.cuboid((0, 0, 0.5 * k + 0.25), (0.25, 0.25, 0.25)))
+	engines()
+	assert polytope.settle(unbalanced=1e-6, damping=0.01) > 5000
+
+
+def testClumpsAreToldByTheirOwnId():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	floor()
+	clump, _ = O.bodies.appendClumped([polytope.cuboid((3 + x, 0, 0.25), (0.25, 0.25, 0.25)) for x in (0, 0.5)])
+	engines()
+	assert [one.id for one in settleFails().bodies] == [clump]
+
+
+def testWhatFloatsIsWaitedFor():
+	"""It touches nothing, nothing is below, and it heaves for long."""
+	joint(normalStiffness=1e8, shearStiffness=1e8)
+	O.materials[0].density = 600
+	raft = O.bodies.append(polytope.cuboid((0, 0, 0.2), (1, 1, 0.5)))
+	O.bodies[raft].state.blockedDOFs = 'XYZ'
+	O.engines = polytope.engines(timeStepper=False)
+	O.dt = 1e-4
+	polytope.water(level=0)
+	assert polytope.settle(unbalanced=1e-4, damping=0.1) > 1250
+	assert O.bodies[raft].state.pos[2] == pytest.approx(0.5 - 0.6, abs=1e-3)
+
+
+def testABodyThatIsGoneIsNotTold():
+	joint(normalStiffness=1e7, shearStiffness=1e7)
+	turn = floor()
+	block(turn, 0)
+	gone = block(turn, 3)
+	engines()
+	O.engines += [PyRunner(command=f'O.bodies.erase({gone}) if O.bodies[{gone}] else None', iterPeriod=1200)]
+	assert polytope.settle() > 0
