@@ -3,7 +3,7 @@
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a rock mass cut by joints:
-*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; a body broken along a plane: *split*; grains
+*jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
 *tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
@@ -38,6 +38,14 @@ from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
 from .engines import engines
 from .extensions import extensions, load
+from .factorOfSafety import FactorOfSafety, factorOfSafety
+from .films import Film, animate
+from .grainBreakage import breakGrains
+from .grains import cloud, grains, randomGrain
+from .heap import coordinationNumber, porosity
+from .history import history
+from .jointedRock import JointedRock, JointSet, jointedRock
+from .lining import Adhesion, lining
 from .loading.oedometer import oedometer
 from .loading.packing import pack, sample
 from .loading.shearBox import shearBox
@@ -78,6 +86,7 @@ for _name, _class in (('Quaternion', Quaternion), ('Vector3', Vector3)):
 _helpTexts.rewrite()
 
 __all__ = [
+	'Adhesion',
 	'Dowel',
 	'FactorOfSafety',
 	'Film',
@@ -127,6 +136,7 @@ __all__ = [
 	'jointedRock',
 	'mechanicalEnergy',
 	'keyBlocks',
+	'lining',
 	'load',
 	'meshRegion',
 	'oedometer',

@@ -17,7 +17,7 @@ topics = {
 		'voronoi VoronoiCells',
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
-	'support': ('Rock bolts and cables', 'bolt Grout Dowel bolts boltArrays'),
+	'support': ('Rock bolts, cables, linings', 'bolt Grout Dowel bolts boltArrays lining Adhesion'),
 	'scene': ('Scenes', 'engines check settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
@@ -33,7 +33,7 @@ topics = {
 """Page, title, names. tests/yade/project/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
-	'support': ('bolting.BoltArrays',),
+	'support': ('bolting.BoltArrays', 'lining.Lining', 'lining.LiningForces'),
 	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check', 'unrest.Restless'),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),

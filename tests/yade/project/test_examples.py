@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -87,6 +87,13 @@ def testBoltsAreAsTheirClosedFormsSay(runs, capsys):
 	runs('boltCurves')
 	differences = [float(found) for found in re.findall(r'([\d.]+) %', capsys.readouterr().out)]
 	assert len(differences) == 2 and max(differences) < 0.2 and isPicture('output/boltCurves.png')
+
+
+def testALiningBearsWhatComesLooseInTheRoof(runs, capsys):
+	names = runs('lining')
+	weight, borne = map(float, re.findall(r'([\d.]+) kN', capsys.readouterr().out)[-2:])
+	assert weight > 1 and borne == pytest.approx(weight, rel=1e-3) and isPicture('output/lining.png')
+	assert names['forces'].moment == pytest.approx(names['forces'].moment[::-1], abs=1) and names['forces'].normal.max() < 0
 
 
 def testDirectShearByThreeLaws(runs, capsys):
