@@ -38,14 +38,18 @@ def axisOf(axis, points):
 			raise ValueError('axis: is z where points have two components; leave it out, or give points of three')
 		return np.array([0.0, 0.0, 1.0])
 	if axis is None:
-		raise ValueError('axis: must be given where points have three components: the direction of the width, for example that of the tunnel')
+		raise ValueError(
+			'axis: must be given where points have three components: the direction of the width, for example that of the tunnel'
+		)
 	axis = np.array(vector(axis, 'axis'), float)
 	if not axis.any():
 		raise ValueError('axis: must not be zero')
 	axis /= np.linalg.norm(axis)
 	away = np.abs((points - points[0]) @ axis)
 	if away.max() > outOfPlane * np.ptp(points, axis=0).max():
-		raise ValueError(f'points: must lie in one plane normal to the axis; point {away.argmax()} is {away.max():g} m out of that of the first one')
+		raise ValueError(
+			f'points: must lie in one plane normal to the axis; point {away.argmax()} is {away.max():g} m out of that of the first one'
+		)
 	return axis
 
 
@@ -56,7 +60,9 @@ def divided(points, axis, closed, longest):
 	least = 3 if closed else 2
 	if len(points) < least:
 		raise ValueError(f'points: {least} at least' + (', where closed is True' if closed else '') + f', got {len(points)}')
-	line = np.column_stack([points, np.zeros(len(points))]) if points.shape[1] == 2 else points - np.outer((points - points[0]) @ axis, axis)
+	line = (
+		np.column_stack([points, np.zeros(len(points))]) if points.shape[1] == 2 else points - np.outer((points - points[0]) @ axis, axis)
+	)
 	whole = np.vstack([line, line[:1]]) if closed else line
 	legs = np.linalg.norm(np.diff(whole, axis=0), axis=1)
 	if legs.min() <= outOfPlane * legs.max():
@@ -81,14 +87,18 @@ def segmentsOf(line, axis, thickness, side, closed):
 	worst = int(cosines.argmin())
 	if cosines[worst] < math.cos(sharpest) - outOfPlane:
 		turn = math.degrees(math.acos(max(cosines[worst], -1)))
-		raise ValueError(f'points: the line turns by {turn:.0f}° at {tuple(line[worst].tolist())}; at most 90°, round the corner with points between')
+		raise ValueError(
+			f'points: the line turns by {turn:.0f}° at {tuple(line[worst].tolist())}; at most 90°, round the corner with points between'
+		)
 	outward = np.cross(axis, before + behind) / (1 + cosines)[:, None]
 	low, high = (line + share * thickness * outward for share in sides[side])
 	following = (np.arange(len(along)) + 1) % len(line)
 	inner = np.minimum(*(np.einsum('ij,ij->i', face[following] - face[: len(along)], along) for face in (low, high)))
 	if inner.min() <= outOfPlane * thickness:
 		place = tuple(line[int(inner.argmin())].tolist())
-		raise ValueError(f'thickness: {thickness:g} m is too much for the bend of the line at {place}; thinner, longer segments or the other side')
+		raise ValueError(
+			f'thickness: {thickness:g} m is too much for the bend of the line at {place}; thinner, longer segments or the other side'
+		)
 	middle = (low + high) / 2
 	lengths = np.linalg.norm(middle[following] - middle[: len(along)], axis=1)
 	at = [*range(1, len(along)), *([0] if closed else [])]  # the point of each joint

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A lining or beam of segments along a line, in contact with blocks or bonded to them: `polytope.lining(…)` (docs/support.md)."""
 
-import dataclasses
 import math
 from typing import NamedTuple
 
 import numpy as np
-from yade import O, Polytope, RockJointMat, Vector3
+from yade import O, Vector3
 
+from ._liningAdhesion import Adhesion, blocksNear, positive
 from ._liningSegments import axisOf, divided, segmentsOf
-from ._scene import isPerArea, jointMakers, interactionLoops, placeOfForces
+from ._scene import placeOfForces
 from .arguments import flag, materialOf, number, rows, warn
 from .bodies import builder, fromVertices, ofOneColour, polygon
 from .bonding import bond, bonds, madeBonds
@@ -18,19 +18,6 @@ __all__ = ['Adhesion', 'Lining', 'LiningForces', 'lining']
 
 shearPart = 5 / 6
 """κ: part of a rectangular section that counts in shear (Timoshenko's beam)."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Adhesion:
-	"""Strength with which a lining sticks to the blocks that it lies on, as sprayed concrete does, until it fails. Its stiffnesses and its friction angle are
-	those of the joint between the two RockJointMats."""
-
-	tensileStrength: float
-	"""Of the stress normal to the face, bending included [Pa]; infinity: does not fail."""
-	shearStrength: float
-	"""Of the shear stress without normal stress, the cohesion [Pa]; infinity: does not fail."""
-	gap: float | None = None
-	"""Largest distance of lining and block [m]; None: they touch."""
 
 
 class LiningForces(NamedTuple):
@@ -60,9 +47,17 @@ class Lining:
 
 	@property
 	def bonds(self):
-		"""The PolytopeBond of each joint."""
+		"""The PolytopeBond of each joint.
+
+		:raises ValueError: if the scene has none of them any more
+		"""
 		found = {(one.id1, one.id2): one for one in madeBonds()}
-		return [found[tuple(sorted(joint))] for joint in self.joints]
+		try:
+			return [found[tuple(sorted(joint))] for joint in self.joints]
+		except KeyError:
+			raise ValueError(
+				"engines: the scene lacks the lining's bonds; O.engines = polytope.engines() puts them back, O.reset() ends them"
+			) from None
 
 	@property
 	def adhesion(self):
@@ -116,17 +111,21 @@ def lining(
 	:returns: Lining, with *ids* and section *forces*
 	:raises ValueError: naming the argument and the remedy; then nothing was changed
 	"""
-	thickness, modulus, width = (_positive(x, name) for x, name in ((thickness, 'thickness'), (youngsModulus, 'youngsModulus'), (width, 'width')))
+	thickness, modulus, width = (
+		positive(x, name) for x, name in ((thickness, 'thickness'), (youngsModulus, 'youngsModulus'), (width, 'width'))
+	)
 	ratio = float(number(poissonsRatio, 'poissonsRatio'))
 	if not -1 < ratio <= 0.5:
 		raise ValueError(f'poissonsRatio: must be above -1 and at most 0.5, got {ratio:g}')
-	strengths = dict(tensileStrength=_positive(tensileStrength, 'tensileStrength', True), cohesion=_positive(shearStrength, 'shearStrength', True))
+	strengths = dict(
+		tensileStrength=positive(tensileStrength, 'tensileStrength', True), cohesion=positive(shearStrength, 'shearStrength', True)
+	)
 	flat = _isFlat(points)
 	line = np.array(rows(points, 'points', 2 if flat else 3), float)
 	axis = axisOf(axis, line)
 	closed = flag(closed, 'closed')
 	if segmentLength is not None:
-		segmentLength = _positive(segmentLength, 'segmentLength')
+		segmentLength = positive(segmentLength, 'segmentLength')
 	chain = segmentsOf(divided(line, axis, closed, segmentLength), axis, thickness, side, closed)
 	pieces = ofOneColour({**body, 'material': materialOf(body.get('material', -1))})
 	if flat:
@@ -135,24 +134,22 @@ def lining(
 		made = [fromVertices([x + z * axis for x in outline for z in (-width / 2, width / 2)], **pieces) for outline in chain.outlines]
 	if bonds() is None:
 		placeOfForces('bonds act')  # refuses before anything is changed
-	near = [] if adhesion is None else _near(made, chain, width, axis, adhesion, flat)
+	near = [] if adhesion is None else blocksNear(made, chain, width, axis, adhesion, flat)
 
 	ids = O.bodies.append(made)
 	count = len(ids)
 	joints = [(ids[k - 1], ids[k]) for k in range(1, count)] + ([(ids[-1], ids[0])] if closed else [])
 	for joint, length, cosine in zip(joints, chain.lengths, chain.cosines):
 		bond(list(joint), frictionAngle=0, **_stiffnesses(modulus, ratio, thickness, width, length, cosine), **strengths)
-	stuck = sum(bond([ids[k], other], gap=adhesion.gap, tensileStrength=adhesion.tensileStrength, cohesion=adhesion.shearStrength) for k, other in near)
+	stuck = sum(
+		bond([ids[k], other], gap=adhesion.gap, tensileStrength=adhesion.tensileStrength, cohesion=adhesion.shearStrength)
+		for k, other in near
+	)
 	if adhesion is not None and not stuck:
-		warn('adhesion: no segment has a face on the face of a block, so the lining does not stick to any; move it or its side, or give Adhesion(…, gap=…)')
+		warn(
+			'adhesion: no segment has a face on the face of a block, so the lining does not stick to any; move it or its side, or give Adhesion(…, gap=…)'
+		)
 	return Lining(ids, joints, chain.distances, axis)
-
-
-def _positive(value, name, infinite=False):
-	value = float(number(value, name))
-	if not 0 < value or not (infinite or value < math.inf):
-		raise ValueError(f'{name}: must be positive' + ('' if infinite else ' and finite') + f', got {value:g}')
-	return value
 
 
 def _isFlat(points):
@@ -193,29 +190,3 @@ def _section(one, behind, axis):
 	left = np.cross(axis, along)
 	force, moment = sign * np.array(one.force, float), sign * np.array(one.moment, float)  # on the part behind the joint
 	return [*one.point, -force @ along, -force @ left / np.linalg.norm(left), moment @ axis]
-
-
-def _near(made, chain, width, axis, adhesion, flat):
-	"""(segment, id) of blocks whose bounding boxes meet, by the segment's number; refuses those that the adhesion does not fit."""
-	if not isinstance(adhesion, Adhesion):
-		raise ValueError(f'adhesion: must be a polytope.Adhesion(tensileStrength, shearStrength), got {adhesion!r}')
-	for name in ('tensileStrength', 'shearStrength'):
-		_positive(getattr(adhesion, name), f'adhesion: {name}', True)
-	gap = 0.0 if adhesion.gap is None else float(number(adhesion.gap, 'adhesion: gap'))
-	if not 0 <= gap < math.inf:
-		raise ValueError(f'adhesion: its gap must be a finite distance, at least 0 [m], got {gap:g}')
-	depth = np.abs(axis) * (0 if flat else width / 2)
-	boxes = [(outline.min(axis=0) - depth, outline.max(axis=0) + depth) for outline in chain.outlines]
-	margin = gap + 1e-3 * max(float(np.ptp(chain.outlines[0], axis=0).max()), width)
-	makers, near = jointMakers(interactionLoops()), []
-	blocks = [other for other in O.bodies if isinstance(other.shape, Polytope) and (other.shape.dimension == 2) == flat]
-	for other in blocks:
-		turn = np.array(other.state.ori.toRotationMatrix(), float).reshape(3, 3)
-		corners = np.array(other.shape.vertices, float) @ turn.T + np.array(other.state.pos, float)
-		low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
-		near += [(k, other.id) for k, box in enumerate(boxes) if (low <= box[1]).all() and (box[0] <= high).all()]
-	for one in [made[0], *(O.bodies[number] for number in sorted({number for _, number in near}))]:
-		if not isinstance(one.material, RockJointMat) or not isPerArea(one.material, makers):
-			which = 'the lining' if one is made[0] else f'block {one.id}'
-			raise ValueError(f'adhesion: needs stiffnesses per area, but the material of {which} is no RockJointMat that has them; give it one')
-	return near

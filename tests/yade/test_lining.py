@@ -6,7 +6,7 @@ from math import cos, inf, nan, pi, sin
 import numpy as np
 import pytest
 from scenes import joint
-from yade import FrictMat, O, RockJointMat, Vector3, polytope
+from yade import FrictMat, O, PolytopeBonds, RockJointMat, Vector3, polytope
 from yade.polytope import Adhesion
 
 g, density = 9.81, 2400.0
@@ -280,3 +280,17 @@ def testAnAdhesionThatFindsNoBlockWarns():
 	with pytest.warns(UserWarning, match='adhesion: no segment has a face'):
 		polytope.lining(line, adhesion=Adhesion(1e6, 1e6), **beam)
 	assert len(polytope.lining([(0, -0.9), (2, -0.9)], adhesion=Adhesion(1e6, 1e6, gap=0.2), **beam).adhesion) == 1
+
+
+def testALiningAfterAnExcavationAndWithoutItsEngine():
+	start(2)
+	gone, rock = block((0, 0), (2, 1), 2), block((0, 1), (2, 2), 2, fixed=True)
+	O.bodies.erase(gone)
+	made = polytope.lining([(0, 1), (2, 1)], side='right', segmentLength=0.5, adhesion=Adhesion(1e6, 1e6), **beam)
+	assert {one.id1 for one in made.adhesion} == {rock} and len(made.adhesion) == 4
+	O.bodies.erase(made.ids[1])
+	O.step()
+	assert np.isnan(made.forces.moment).tolist() == [True, True, False]
+	O.engines = [one for one in O.engines if not isinstance(one, PolytopeBonds)]
+	with pytest.raises(ValueError, match="engines: the scene lacks the lining's bonds"):
+		made.forces  # noqa: B018
