@@ -17,9 +17,8 @@ from matplotlib import pyplot  # noqa: E402
 radius, number, key = 3.0, 16, (7, 8)
 O.materials.append(RockJointMat(density=2600, normalStiffness=1e10, shearStiffness=5e9, frictionAngle=radians(35)))
 contour = [(radius * cos(a), radius * sin(a)) for a in np.linspace(0, pi, number + 1)]
-for k, (a, b) in enumerate(
-	zip(contour, contour[1:])
-):  # wedges around the tunnel; the two in the middle of the roof are narrower above, and loose
+# wedges around the tunnel; the two in the middle of the roof are narrower above, and loose
+for k, (a, b) in enumerate(zip(contour, contour[1:], strict=False)):
 	outer = [(1.5 * x, 1.5 * y) for x, y in (a, b)] if k not in key else [(0.9 * x, y + 1.4) for x, y in (a, b)]
 	O.bodies.append(polytope.polygon([a, b, *outer], fixed=k not in key))
 O.engines = polytope.engines(gravity=(0, -9.81, 0))
