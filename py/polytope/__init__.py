@@ -38,14 +38,6 @@ from .dynamics.history import velocityHistory
 from .dynamics.quiet import quietBoundary
 from .engines import engines
 from .extensions import extensions, load
-from .factorOfSafety import FactorOfSafety, factorOfSafety
-from .films import Film, animate
-from .grainBreakage import breakGrains
-from .grains import cloud, grains, randomGrain
-from .heap import coordinationNumber, porosity
-from .history import history
-from .jointedRock import JointedRock, JointSet, jointedRock
-from .lining import Adhesion, lining
 from .loading.oedometer import oedometer
 from .loading.packing import pack, sample
 from .loading.shearBox import shearBox
@@ -67,6 +59,7 @@ from .rock.history import history
 from .rock.joint import Joint
 from .rock.jointedRock import JointedRock, JointSet, jointedRock
 from .rock.keyBlocks import KeyBlock, keyBlocks
+from .rock.lining import Adhesion, lining
 from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
 from .rock.stress.excavation import excavate

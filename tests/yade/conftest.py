@@ -41,6 +41,7 @@ if polytope.buildInfo()['precision'] != 'double':
 
 slowTests = {line.strip() for line in (pathlib.Path(__file__).parent / 'slow.txt').read_text().splitlines() if not line.startswith('#')}
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path += sorted(str(path) for path in pathlib.Path(__file__).resolve().parent.iterdir() if path.is_dir())  # tests may use those of other folders
 # last: both have a report.py, which no test takes by its name
 for folder in ('examples/paper', 'tools/measure/accuracy'):
 	sys.path.append(os.path.abspath(os.path.join(__file__, '../../..', folder)))

@@ -33,8 +33,8 @@ topics = {
 """Page, title, names. tests/yade/project/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
-	'support': ('bolting.BoltArrays', 'lining.Lining', 'lining.LiningForces'),
-	'scene': ('arrays.BodyArrays', 'arrays.ContactArrays', 'check.Check', 'unrest.Restless'),
+	'support': ('bonding.bolting.BoltArrays', 'rock.lining.Lining', 'rock.lining.LiningForces'),
+	'scene': ('measures.arrays.BodyArrays', 'measures.arrays.ContactArrays', 'check.Check', 'rest.unrest.Restless'),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),

@@ -223,9 +223,9 @@ def testFacetWhoseCornersMoveInARun(flip):
 
 
 strange = '''
-import json, math, sys
+import json, math, os, sys
 from yade import Bo1_Box_Aabb, Bo1_Facet_Aabb, Ig2_Box_Polytope_PolytopeGeom, Ig2_Facet_Polytope_PolytopeGeom, O, Vector3, utils
-sys.path.insert(0, sys.argv[1])
+sys.path[:0] = sys.argv[1], os.path.dirname(sys.argv[1])
 from test_mixed_pairs import held
 
 numbers = [math.nan, math.inf, -math.inf, 0, -1, 1e-160, 1e-51, 1e-14, 1e-11, 1e-9, 1e-7, 1e8, 1e16, 1e30, 1e51, 1e160]
@@ -265,7 +265,7 @@ print('ANSWERS', json.dumps([answers, counted]))
 
 def testStrangeBoxesAndFacetsAreCountedNotFatal():
 	"""In YADE's loop: extents and corners that are no solid, too thin, too far, or no numbers. Afterwards all is as before."""
-	where = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+	where = os.path.dirname(os.path.abspath(__file__))
 	done = subprocess.run([sys.executable, '-c', strange, where], env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=600)
 	assert done.returncode == 0, done.stderr[-2000:]
 	answers, counted = json.loads(next(line for line in done.stdout.splitlines() if line.startswith('ANSWERS'))[8:])

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from yade import O, Polytope, RockJointMat
 
-from ._scene import interactionLoops, isPerArea, jointMakers
-from .arguments import number
+from ..arguments import number
+from ..scene.present import interactionLoops, isPerArea, jointMakers
 
 __all__ = ['Adhesion', 'blocksNear', 'positive']
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .arguments import vector
+from ..arguments import vector
 
 __all__ = ['Chain', 'axisOf', 'divided', 'segmentsOf']
 

@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from yade import O, Vector3
 
-from ._liningAdhesion import Adhesion, blocksNear, positive
-from ._liningSegments import axisOf, divided, segmentsOf
-from ._scene import placeOfForces
-from .arguments import flag, materialOf, number, rows, warn
-from .bodies import builder, fromVertices, ofOneColour, polygon
-from .bonding import bond, bonds, madeBonds
+from ..arguments import flag, materialOf, number, rows, warn
+from ..bodies.polytopes import builder, fromVertices, ofOneColour, polygon
+from ..bonding.bonds import bond, bonds, madeBonds
+from ..scene.present import placeOfForces
+from .liningAdhesion import Adhesion, blocksNear, positive
+from .liningSegments import axisOf, divided, segmentsOf
 
 __all__ = ['Adhesion', 'Lining', 'LiningForces', 'lining']
 
