@@ -56,7 +56,8 @@ def survey(path):
 
 
 os.makedirs('output', exist_ok=True)
-if not options.joints:
+drawn = not options.joints
+if drawn:
 	options.joints = 'output/slopeFromJoints.csv'
 	survey(options.joints)
 joints = polytope.readJoints(options.joints)
@@ -74,7 +75,9 @@ steps = polytope.settle(unbalanced=1e-4, elastic=False)  # joints have friction 
 told(f'at rest after {steps} steps of {O.dt:.2g} s')
 found = polytope.factorOfSafety(tolerance=options.tolerance)
 told(found)
-told(f'sliding on bedding: {tan(radians(40)) / tan(radians(35)):.3f}; {len(found.trials)} trials, {sum(trial.steps for trial in found.trials)} steps')
+told(f'{len(found.trials)} trials, {sum(trial.steps for trial in found.trials)} steps')
+if drawn:
+	print(f'sliding on bedding: {tan(radians(40)) / tan(radians(35)):.3f}')
 view = {'fixed': 'solid', 'view': (-1, -0.6, 0.42)}
 found.picture('output/slopeFromJoints.png', **view)
 told('output/slopeFromJoints.png')

@@ -27,6 +27,8 @@ tonnes = 0.3, 30.0
 tooStiff = 1e-6
 """Overlap over the inscribed radius under a body's own weight below which its density is taken for one in other units than its stiffness: one of some
 t/m³ beside N and m makes it a thousandth of what was meant."""
+weakestWall = 1e5
+"""Compressive strength of a joint's wall [Pa] below which it is taken for one in MPa."""
 unitsApart = 300.0
 """Extent over the median of the bodies that can move, above which units differ: millimetres and metres differ by 1000, grains
 seldom by 100."""
@@ -195,6 +197,10 @@ def units(scene):
 def jointLaws(scene):
 	"""Both materials of a joint must have a law for it to hold."""
 	all = {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values()
+	for material in all:
+		wall = float(getattr(material.strength, 'JCS', weakestWall))
+		if wall < weakestWall:
+			yield 'joint laws', f'JCS of RockJointMat {material.label!r} is {wall:g} Pa: no rock is so weak, and its joints have no roughness', 'give it in Pa: 60 MPa are 60e6'
 	for name in ('closure', 'strength'):
 		# what is smooth is meant to be
 		materials = [material for material in all if name == 'closure' or material.frictionAngle > 0]

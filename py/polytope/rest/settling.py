@@ -4,13 +4,13 @@
 from tqdm import tqdm
 from yade import O
 
-from ..arguments import flag, namedArguments, number
+from ..arguments import flag, namedArguments, number, warn
 from ..bonding.bolting import bolts
 from ..bonding.bonds import bonds
 from ..scene.present import integrators, laws, meanwhile
 from ..scene.relaxing import relaxing
 from .scaledMasses import scaledMasses
-from .unrest import NotAtRest, Unrest, remedy, told
+from .unrest import NotAtRest, Unrest, named, remedy, told
 
 __all__ = ['settle']
 
@@ -27,7 +27,8 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 	Gravity that begins at once makes bodies swing: joints then bear up to twice their load, and one with cohesion or tensile strength and a
 	factor of safety below two fails in the first swing. So while the bodies come to rest the joints are elastic: those that touch do
 	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield; motion is damped strongly. Then they have their strength
-	and the scene its damping again. What they can't bear fails in the steps that follow, from rest.
+	and the scene its damping again. What they can't bear fails in the steps that follow, from rest. A warning names bodies that stood on others and came to rest
+	elsewhere: they slid, fell or toppled.
 
 	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
 	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
@@ -69,6 +70,13 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 			return _untilRest(unbalanced, int(steps), adapt, masses)
 
 
+def _tellDisplaced(bodies):
+	"""A block that has toppled is at rest, too."""
+	if bodies:
+		ones = ', '.join(f'body {k} by {way:.2g} m' for k, way in bodies[:named]) + (', …' if len(bodies) > named else '')
+		warn(f'settle: at rest, but {len(bodies)} that stood on others moved by more than their size: {ones}; they slid, fell or toppled')
+
+
 def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
@@ -83,6 +91,7 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			bar.update(now)
 			quiet = quiet + 1 if force < unbalanced and not fading else 0
 			if quiet == looks:
+				_tellDisplaced(unrest.displaced())
 				return taken
 			if fading:
 				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves

@@ -66,6 +66,8 @@ class Unrest:
 	def __init__(self, bound, watched=None, masses=None):
 		self.bound, self.watched, self.masses = bound, watched, masses
 		self.steps, self.end, self.looks = 0, firstSpan, 0
+		self.stood = None
+		"""Ids of bodies that touched others at the first look."""
 		self.sum = self.mean = self.before = np.zeros(0)
 		self.origin = self.began = _places()
 		self.span = self.spanBefore = np.zeros(len(self.origin))
@@ -76,9 +78,17 @@ class Unrest:
 		forces = unbalancedForces(self.watched, self.masses)
 		self.sum, self.looks, self.steps = _ofLength(self.sum, len(forces)) + forces, self.looks + 1, self.steps + steps
 		self.mean = self.sum / self.looks
+		if self.stood is None:
+			self.stood = set(map(int, np.unique(arrays().contacts.ids)))
 		ways = _ways(self.began, _places())
 		self.span = np.maximum(_ofLength(self.span, len(ways)), ways)
 		return float(forces.max(initial=0.0))
+
+	def displaced(self):
+		"""Of bodies that stood on others when it began, those that have moved by more than their size, as (id, way [m]), the farthest first."""
+		ways = _ways(self.origin, _places())
+		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in self.stood and ways[k] > sizeOf(int(k))]
+		return sorted(far, key=lambda one: -one[1])
 
 	def hopeless(self):
 		"""All bodies that are not at rest, if none of them comes nearer to it, as *Restless*; else none. To be asked after each look."""

@@ -15,7 +15,7 @@ from ..pictures.still import picture
 from ..rest.unrest import Unrest
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
-from ..scene.present import canMove, integrators
+from ..scene.present import canMove, integrators, jointMaterials
 from ..scene.relaxing import relaxing
 from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
@@ -103,7 +103,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
 
 	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. From there each trial begins, with strengths divided by a number that is bisected. It
-	is stable when no body has an unbalanced force, or only such as tremble in place for good, and has failed when a body has moved by a fiftieth of its size. Where a bolt has no pretension strengths are lowered by 2 % at a
+	is stable when no body has an unbalanced force, or only such as tremble in place for good, and has failed when a body has moved by a fiftieth of its size. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
 	time, each from rest. Then the scene is what it was, time and
 	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
 
@@ -168,7 +168,8 @@ class _Search:
 		self.watched, self.reduce, self.steps, self.loads = watched, tuple(reduce), steps, loads
 		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
-		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts())
+		# what bears only after some motion: slack bolts, joints whose roughness slip mobilises
+		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts()) or any(one.strength is not None for one in jointMaterials())
 		self.reached = 1.0
 		"""Factor of the state from which trials begin."""
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from yade import O, Polytope, PolytopeWater, Vector3, _polytope
 
-from ..arguments import namedArguments, number, vector
+from ..arguments import namedArguments, number, vector, warn
 from ..pictures.faces import worldVertices
 from ..precision import isNumber
 from ..scene.present import canMove, integrators, placeOfForces
@@ -31,6 +31,8 @@ class Face(NamedTuple):
 	"""[m²]"""
 
 
+least = 100.0
+"""Density [kg/m³] below which it is taken for one in t/m³: no liquid in rock has it."""
 sameMass = 1e-6
 """Of a clump: more than its parts' rounding, less than any overlap that is seen."""
 
@@ -110,6 +112,8 @@ def _below(level, density, bodies, someFaces):
 	if not 0 < density < math.inf:
 		raise ValueError(f'density: must be above 0 [kg/m³], water has 1000, got {density:g}')
 	gravity = np.array([float(x) for x in integrators()[0].gravity])
+	if density < least:
+		warn(f'density: {density:g} kg/m³ is no water, which has 1000: in t/m³? Lengths are in m, masses in kg')
 	weight = float(density) * float(np.linalg.norm(gravity))
 	if not weight > 0:
 		raise ValueError('level: NewtonIntegrator has no gravity, so there is no up; set it first, or give pressures')

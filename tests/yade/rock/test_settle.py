@@ -211,3 +211,19 @@ def testDensityScalingIsRefusedForMotion():
 		polytope.settle(densityScaling=True)
 	with pytest.raises(ValueError, match='^densityScaling'):
 		polytope.settle(densityScaling='yes')
+
+
+@pytest.mark.parametrize('tilt', [20, 35])
+def testAColumnThatToppledIsTold(tilt, recwarn):
+	"""Twice as high as wide it stands on 26.6°: beyond that it comes to rest on its side, and on less nothing is said."""
+	angle = math.radians(tilt)
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=math.radians(60)))
+	turn = Quaternion((0, 1, 0), angle)
+	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -1), (30, 5, 1), orientation=turn, fixed=True))
+	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, 2 - 1e-5), (1, 1, 2), orientation=turn))
+	O.engines = polytope.engines()
+	recwarn.clear()
+	polytope.settle(damping=0.3)
+	told = [str(one.message) for one in recwarn if 'moved by more than their size' in str(one.message)]
+	assert len(told) == (tilt > 26.6)
+	assert not told or 'body 1 by ' in told[0]

@@ -395,3 +395,11 @@ def testAClumpOfPartsThatOverlapIsRefused():
 	with pytest.raises(ValueError, match='8000 kg and the clump 6000 kg, so they overlap'):
 		polytope.water(level=20)
 	assert len(O.engines) == engines
+
+
+def testADensityInOtherUnitsIsTold():
+	rock()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	O.engines = polytope.engines()
+	with pytest.warns(UserWarning, match='density: 1 kg/m³ is no water'):
+		polytope.water(level=3, density=1)
