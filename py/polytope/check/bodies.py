@@ -9,7 +9,7 @@ from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPh
 from ..bonding.bonds import bonds
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
-from ..scene.present import isPerArea, jointMakers
+from ..scene.present import isPerArea, jointMakers, jointMaterials
 from .places import overlapShare
 
 __all__ = ['bodyFindings', 'movingBodies']
@@ -185,8 +185,7 @@ def tension(scene):
 
 def units(scene):
 	"""Joints of two materials whose stiffnesses are in different units."""
-	used = {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values()
-	makers = jointMakers(scene.loops)
+	used, makers = jointMaterials(scene.bodies), jointMakers(scene.loops)
 	perArea = [material for material in used if isPerArea(material, makers)]
 	perContact = [material for material in used if not isPerArea(material, makers)]
 	if perArea and perContact:
@@ -196,14 +195,14 @@ def units(scene):
 
 def jointLaws(scene):
 	"""Both materials of a joint must have a law for it to hold."""
-	all = {id(body.material): body.material for body in scene.bodies if isinstance(body.material, RockJointMat)}.values()
-	for material in all:
+	used = jointMaterials(scene.bodies)
+	for material in used:
 		wall = float(getattr(material.strength, 'JCS', weakestWall))
 		if wall < weakestWall:
 			yield 'joint laws', f'JCS of RockJointMat {material.label!r} is {wall:g} Pa: no rock is so weak, and its joints have no roughness', 'give it in Pa: 60 MPa are 60e6'
 	for name in ('closure', 'strength'):
 		# what is smooth is meant to be
-		materials = [material for material in all if name == 'closure' or material.frictionAngle > 0]
+		materials = [material for material in used if name == 'closure' or material.frictionAngle > 0]
 		kinds = {type(getattr(material, name)).__name__ for material in materials}
 		if len(kinds) > 1:
 			without = next((material for material in materials if getattr(material, name) is None), None)

@@ -15,10 +15,11 @@ from ..pictures.still import picture
 from ..rest.unrest import Unrest
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
-from ..scene.present import canMove, integrators, jointMaterials
+from ..scene.present import canMove, integrators
 from ..scene.relaxing import relaxing
 from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
+from .faceMaterials import materialsOf
 from .history import histories
 
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
@@ -169,7 +170,9 @@ class _Search:
 		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
 		# what bears only after some motion: slack bolts, joints whose roughness slip mobilises
-		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts()) or any(one.strength is not None for one in jointMaterials())
+		self.gently = any(float(bolt.pretension) == 0 for bolt in madeBolts()) or any(
+			getattr(material, 'strength', None) is not None for body in O.bodies for material in materialsOf(body)
+		)
 		self.reached = 1.0
 		"""Factor of the state from which trials begin."""
 

@@ -65,9 +65,9 @@ def jointMakers(loops):
 	return [one for loop in loops for one in loop.physDispatcher.functors if isinstance(one, Ip2_RockJointMat_RockJointMat_RockJointPhys)]
 
 
-def jointMaterials():
-	"""RockJointMats of the scene's bodies. O.materials is not asked: reading it ends the process where a material was added twice."""
-	used = [body.material for body in O.bodies]
+def jointMaterials(bodies):
+	"""RockJointMats of these bodies. O.materials is not asked: reading it ends the process where a material was added twice."""
+	used = [body.material for body in bodies]
 	return list({id(material): material for material in used if isinstance(material, RockJointMat)}.values())
 
 
@@ -79,7 +79,7 @@ def isPerArea(material, makers):
 def stiffnessesPerArea(loops):
 	"""Whether these loops make joints whose stiffness is per area, of one of the scene's materials at least."""
 	makers = jointMakers(loops)
-	joints = jointMaterials()
+	joints = jointMaterials(O.bodies)
 	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
 
 

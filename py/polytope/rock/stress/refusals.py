@@ -51,7 +51,7 @@ def refuseScene(chosen):
 	if not laws() or not makers:
 		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
 	models = {functor.contactModel for functor in geometryFunctors()}
-	if not all(isPerArea(material, makers) for material in jointMaterials()) or not models <= {'surface', 'foundation'}:
+	if not all(isPerArea(material, makers) for material in jointMaterials(O.bodies)) or not models <= {'surface', 'foundation'}:
 		raise ValueError(
 			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
 		)
