@@ -25,15 +25,15 @@ template <class R, int D> struct PairSurface {
 };
 
 /// From the vertices of the pair's feasible set, its planes tight as in the last step, or found anew. False if they do not say what it is.
-template <class R, int W>
+template <class R, int W, class Spare>
 POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, bool energy,
-        KeptVertices* kept, FeasibleBuffers<R>& set, const SurfaceBuffers<R, 3>& spare, PairSurface<R, 3>& surface)
+        KeptVertices* kept, FeasibleBuffers<R>& set, const Spare& spare, PairSurface<R, 3>& surface)
 {
 	const PairPlanes<R, 3>& planes = near ? near->planes() : all;
 	FeasibleSet<R, W>       vertices(planes, surface.size, set);
 	if (!(near ? vertices.explore(basis) : vertices.recall(*kept, all.first))) return false;
 	FeasibleSums<R> sums(set, energy, surface.sums);
-	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare, *surface.on);
+	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare(planes.total), *surface.on);
 	surface.sums.kept = !near;
 	surface.status    = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
 	surface.nearest   = set.tightPlanes();
@@ -58,24 +58,23 @@ POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R
 	surface.spare   = walkNumbers + Buffers::numbersNeeded(most);
 	surface.deepest = -optimum.infeasibility;
 	surface.size    = size;
-	Set set(most, numbers + own, setIndices);
+	Set        set(most, numbers + own, setIndices);
+	const auto spare = [&](int total) { return Buffers(total, walkNumbers, walkIndices); };
 	if constexpr (D == 3) {
-		const Buffers spare(planes.total, walkNumbers, walkIndices);
 		if (kept && kept->vertices > 0 && !kept->exchanged
-		        && surfaceOfVertices<R, W>(planes, nullptr, nullptr, energy, kept, set, spare, surface))
+		        && surfaceOfVertices<R, W>(planes, static_cast<Near*>(nullptr), nullptr, energy, kept, set, spare, surface))
 			return;
 		if (kept) kept->vertices = 0;
 	}
 	LpBasis<R, D> basis = optimum;
 	Near          near(planes, basis, size, numbers, indices);
-	const Buffers buffers(near.planes().total, walkNumbers, walkIndices);
 	if constexpr (D == 3) {
-		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, energy, kept, set, buffers, surface)) return;
+		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, energy, kept, set, spare, surface)) return;
 	}
 	surface.nearest          = near.planes();
 	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
 	surface.status           = contactSurface<R, D, W>(
-                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, buffers, surface.sums, surface.on);
+                surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, spare(surface.nearest.total), surface.sums, surface.on);
 }
 
 } // namespace polytope

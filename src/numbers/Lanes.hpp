@@ -149,6 +149,12 @@ template <class R, int a, int b, int c, int d, class V> POLYTOPE_INLINE V shuffl
 	else return { { v[a], v[b], v[c], v[d] } };
 }
 
+/// a × b of the first three lanes.
+template <class R, class V> POLYTOPE_INLINE V crossProduct(const V& a, const V& b)
+{
+	return shuffled<R, 1, 2, 0, 3>(a) * shuffled<R, 2, 0, 1, 3>(b) - shuffled<R, 2, 0, 1, 3>(a) * shuffled<R, 1, 2, 0, 3>(b);
+}
+
 template <class R> POLYTOPE_INLINE Plain4<R> absolute(const Plain4<R>& v) { return { { abs(v[0]), abs(v[1]), abs(v[2]), abs(v[3]) } }; }
 template <class V> POLYTOPE_INLINE V         absolute(const V& v) { return v < 0 ? -v : v; }
 POLYTOPE_INLINE double                       absolute(double v) { return std::abs(v); }

@@ -90,24 +90,30 @@ ShearStrength::ShearStrength(const Vector2* corner, int count, const OutlineMome
 	const Vector2 own = moments.centroid + share * offset;
 	shift_            = -own;
 	atCentre_         = mean + gradient_.dot(own - moments.centroid);
+	// the moments of the triangles between the edges and the centre, by Simpson's rule along the edges, which is exact for cubics
+	Real       farthest = 0;
+	const auto add      = [this](const Vector2& x, Real weight) {
+                const Real strength = weight * (atCentre_ / 4 + gradient_.dot(x) / 5);
+                second_[0] += strength * x[0] * x[0];
+                second_[1] += strength * x[0] * x[1];
+                second_[2] += strength * x[1] * x[1];
+	};
+	Vector2    from = this->corner(count - 1), to = this->corner(0);
+	Real       twice      = cross(from, to);
+	const Real twiceFirst = twice;
 	for (int k = 0; k < count; ++k) {
-		const Vector2 from = this->corner(k), to = this->corner(k + 1 < count ? k + 1 : 0), middle = (from + to) / 2;
-		farthest_ = from.norm() > farthest_ ? from.norm() : farthest_;
-		addSecond(from, 1, cross(from, to));
-		addSecond(middle, 4, cross(from, to));
-		addSecond(to, 1, cross(from, to));
+		const Real before = twice;
+		farthest          = to.squaredNorm() > farthest ? to.squaredNorm() : farthest;
+		add((from + to) / 2, 4 * before);
+		from  = to;
+		to    = this->corner(k + 1 < count ? k + 1 : 0);
+		twice = k + 1 < count ? cross(from, to) : twiceFirst;
+		add(from, before + twice);
 	}
+	farthest_ = sqrt(farthest);
 	for (Real& second : second_)
-		second /= total;
+		second /= 6 * total;
 	leastRadius_ = farthest_ > 0 ? (second_[0] + second_[2]) / farthest_ : Real(0);
-}
-
-/// What a point of an edge adds to the moments of the triangle between it and the centre, by Simpson's rule, which is exact for cubics.
-void ShearStrength::addSecond(const Vector2& x, Real weight, Real twice)
-{
-	const Real strength = weight / 6 * twice * (atCentre_ / 4 + gradient_.dot(x) / 5);
-	for (int m = 0; m < 3; ++m)
-		second_[m] += strength * x[m / 2] * x[(m + 1) / 2];
 }
 
 Real ShearStrength::meanRadius() const

@@ -46,7 +46,6 @@ private:
 	struct Sums;
 	Vector2 corner(int k) const { return corner_[k] + shift_; }
 	Real    at(const Vector2& x) const { return atCentre_ + gradient_.dot(x); }
-	void    addSecond(const Vector2& x, Real weight, Real twice);
 	Vector3 byPoints(const Vector3& slip, bool precise, Matrix3* slope) const;
 	bool    isNarrowFrom(const Vector2& pole) const;
 	void    addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, Sums& sums) const;

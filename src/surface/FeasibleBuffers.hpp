@@ -33,11 +33,10 @@ template <class R> struct FeasibleBuffers {
 	int* localOf; ///< number among the tight ones, or −1
 
 	R* piece; ///< pieceRows of each pair of planes
-	R* cell;  ///< CellCones
 
 	static int numbersNeeded(int total)
 	{
-		return (4 + 5 + 4) * mostPlanes + 4 * mostVertices + 2 * (total + padWidth) + pieceRows * mostPieces;
+		return (4 + 4) * mostPlanes + 4 * mostVertices + 2 * (total + padWidth) + pieceRows * mostPieces;
 	}
 	static int indicesNeeded(int total) { return total + padWidth; }
 
@@ -45,7 +44,6 @@ template <class R> struct FeasibleBuffers {
 	FeasibleBuffers(int total, R* numbers, int* indices)
 	{
 		plane = take(numbers, 4 * mostPlanes);
-		cell  = take(numbers, 5 * mostPlanes);
 		for (R*& row : component_)
 			row = take(numbers, mostPlanes);
 		point   = take(numbers, 4 * mostVertices);

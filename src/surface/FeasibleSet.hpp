@@ -31,25 +31,27 @@ public:
 	POLYTOPE_INLINE bool recall(const KeptVertices& kept, int rowsOfBody1)
 	{
 		const int planes = kept.planes, vertices = kept.vertices;
-		if (vertices < 5 || vertices > Buffers::mostVertices || planes > Buffers::mostPlanes) return false;
+		if (vertices < 5 || vertices > Buffers::mostVertices || planes < 5 || planes > Buffers::mostPlanes) return false;
 		for (int k = 0; k < planes; ++k) {
 			const int row = kept.row(k, rowsOfBody1, planes_.total);
 			if (row < 0) return false;
 			setPlane(k, row);
 		}
-		bool right = true;
+		std::uint64_t noPressure = 0, named = 0, misplaced = 0;
+		for (int k = 0; k < planes; ++k)
+			if (buffers_.bodyOf[k] == Buffers::noBody) noPressure |= bit(k);
 		for (int v = 0; v < vertices; ++v) {
-			std::uint64_t mask = 0;
-			for (int k = 0; k < 4; ++k) {
-				const int plane = kept.tight[std::size_t(v)][std::size_t(k)];
-				if (plane >= planes) return false;
-				right                = right && (k == 3 || buffers_.bodyOf[plane] != Buffers::noBody);
-				buffers_.tight[v][k] = std::uint8_t(plane);
-				mask |= bit(plane);
-			}
-			buffers_.mask[v]    = mask;
+			const std::array<std::uint8_t, 4>& tight = kept.tight[std::size_t(v)];
+			const std::uint64_t three = bit(tight[0] & lastPlane) | bit(tight[1] & lastPlane) | bit(tight[2] & lastPlane);
+			if ((tight[0] | tight[1] | tight[2] | tight[3]) > lastPlane) return false;
+			for (int k = 0; k < 4; ++k)
+				buffers_.tight[v][k] = tight[std::size_t(k)];
+			buffers_.mask[v]    = three | bit(tight[3]);
 			buffers_.dropped[v] = 0;
+			named |= buffers_.mask[v];
+			misplaced |= three & noPressure;
 		}
+		bool right        = misplaced == 0 && (named >> (planes - 1)) <= 1 && !(buffers_.mask[0] & noPressure);
 		buffers_.planes   = planes;
 		buffers_.vertices = vertices;
 		buffers_.edges    = 2 * vertices;
@@ -111,6 +113,9 @@ public:
 	}
 
 private:
+	static constexpr int lastPlane = Buffers::mostPlanes - 1;
+	static_assert((Buffers::mostPlanes & lastPlane) == 0);
+
 	using V    = typename Lanes<R, W>::Type;
 	using Four = typename Lanes<R, 4>::Type; ///< x, y, z and s, or a and d
 
@@ -138,10 +143,6 @@ private:
 
 	// -------------------------------------------------------------------------------------------------------------------------------- vertices
 
-	static POLYTOPE_INLINE Four crossProduct(const Four& a, const Four& b)
-	{
-		return shuffled<R, 1, 2, 0, 3>(a) * shuffled<R, 2, 0, 1, 3>(b) - shuffled<R, 2, 0, 1, 3>(a) * shuffled<R, 1, 2, 0, 3>(b);
-	}
 	static POLYTOPE_INLINE R dotOf3(const Four& a, const Four& b)
 	{
 		const Four product = a * b;
@@ -151,7 +152,7 @@ private:
 	/// Where a vertex' planes cross: three less the `last`, and the cross products of two of those in turn.
 	struct Crossing {
 		Four row[3], across[3], last;
-		R    volume, lengths; ///< of the three; the product of the squares of their lengths
+		R    volume, lengths; ///< of the three; the product of the squares of their lengths, or what that cannot exceed
 
 		/// Whether the planes are so nearly parallel that it matters which is subtracted from which.
 		bool isSharp() const { return volume * volume < R(tolerance::sharpVertex) * R(tolerance::sharpVertex) * lengths; }
@@ -163,9 +164,10 @@ private:
 		for (int k = 0; k < 3; ++k)
 			c.row[k] = load<R, 4>(buffers_.plane + 4 * tight[k == last ? 3 : k]) - c.last;
 		for (int k = 0; k < 3; ++k)
-			c.across[k] = crossProduct(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
-		c.volume      = dotOf3(c.row[0], c.across[0]);
-		c.lengths     = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
+			c.across[k] = crossProduct<R>(c.row[(k + 1) % 3], c.row[(k + 2) % 3]);
+		c.volume  = dotOf3(c.row[0], c.across[0]);
+		c.lengths = 64; // differences of unit vectors
+		if (c.isSharp()) c.lengths = dotOf3(c.row[0], c.row[0]) * dotOf3(c.row[1], c.row[1]) * dotOf3(c.row[2], c.row[2]);
 		const R least = R(tolerance::vertexVolume);
 		return c.volume * c.volume > least * least * c.lengths;
 	}

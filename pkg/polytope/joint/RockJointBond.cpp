@@ -8,6 +8,8 @@
 // in compression. While all of it is pressed, both are the same.
 #include "joint/RockJointStep.hpp"
 
+#include <optional>
+
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
 
@@ -129,19 +131,22 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	}
 	geom.normal       = normal;
 	geom.contactPoint = bond.point;
-	const Pair     atBond(contact, geom, scene);
+	const Pair                atBond(contact, geom, scene);
+	std::optional<DampedPair> damped;
+	if (damps()) damped.emplace(atBond, phys, stiffnessSums);
 	const bool     yields       = bond.yields() && bond.plasticWork() > 0; // then it is not damped
-	const Real     viscous      = normalDamping > 0 && !yields ? normalDamper(atBond, phys, elastic) : Real(0);
-	const Vector3r shearViscous = shearDamping > 0 ? shearDamper(atBond, phys, elastic + viscous, shear) : Vector3r::Zero();
+	const Real     viscous      = normalDamping > 0 && !yields ? normalDamper(atBond, *damped, phys, elastic) : Real(0);
+	const Vector3r shearViscous = shearDamping > 0 ? shearDamper(atBond, *damped, phys, elastic + viscous, shear) : Vector3r::Zero();
 	phys.isSliding              = false;
 	phys.normalViscous          = viscous * normal;
 	phys.normalForce            = (elastic + viscous) * normal;
 	phys.shearViscous           = shearViscous;
 	phys.shearForce             = shear + shearViscous;
 	phys.shearAt(bond.point);
-	if (rockingDamping > 0) phys.rockingMoment = rockingDamper(atBond, phys, std::numeric_limits<Real>::infinity());
+	phys.rockingMoment = rockingDamping > 0 ? rockingDamper(atBond, *damped, phys, std::numeric_limits<Real>::infinity())
+	                                        : Vector3r(Vector3r::Zero());
 	if (!apply(atBond, phys)) return true;
-	if (damps()) takePart(atBond, phys);
+	if (damped) takePart(atBond, *damped, phys);
 
 	geom.energyPerStiffness = (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn;
 	if (!scene->trackEnergy) phys.lastStep.clear();

@@ -7,7 +7,6 @@
 #include <pkg/common/Sphere.hpp>
 
 #include "joint/RockJointStep.hpp"
-#include "joint/StiffnessSums.hpp"
 
 namespace yade {
 
@@ -90,86 +89,79 @@ namespace {
 
 } // namespace
 
-/// One of the two bodies of a contact, as a damper has it.
-struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
-	const Body& mover;
-	Real        part = 1; ///< s
-	Real        limit
-	        = 1; ///< part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows
-	Vector3r arm; ///< from the mover's centre to the contact point
-
-	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other,
-	        const Vector3r& shift)
-	        : mover(moverOf(body, *pair.scene)), arm(pair.geom.contactPoint - mover.state->pos - shift)
-	{
-		if (!moves()) return;
-		const Vector3r& normal = pair.geom.normal;
-		if (phys.dampedStiffness > 0 && sums.lastKnown()) {
-			const StiffnessSum sum = sums.last(mover.id);
-			part                   = partOfSum(phys.dampedStiffness, sum.along(across(other, *pair.scene), normal));
-			limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
-		} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
-			part  = pair.geom.share;
-			limit = partOfCount(body, mover, pair.geom.share);
-		} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
-	}
-	bool moves() const { return movesByForces(mover); }
-};
-
-/// The damper of this fraction of the critical one: for a spring and motion along a direction or, for a moment, about an axis.
-Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::damper(
-        const Pair& pair, const RockJointPhys& phys, Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared) const
+Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody::DampedBody(
+        const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other, const Vector3r& shift)
+        : mover(moverOf(body, *pair.scene)), moves(movesByForces(mover)), otherIs(across(other, *pair.scene)),
+          arm(pair.geom.contactPoint - mover.state->pos - shift)
 {
-	const bool       rocks    = gyrationSquared >= 0;
-	const DampedBody bodies[] = { { pair, phys, stiffnessSums, *pair.body1, *pair.body2, Vector3r(Vector3r::Zero()) },
-		{ pair, phys, stiffnessSums, *pair.body2, *pair.body1, pair.shift2() } };
-	Real             inverse = 0, motion = 0;
-	for (const DampedBody& body : bodies) {
-		if (!body.moves()) continue;
-		inverse += 1 / (body.part * body.mover.state->mass);
-		motion += (rocks ? turning(body.mover, direction)
-		                 : translating(body.mover, direction) + turning(body.mover, body.arm.cross(direction)))
-		        / body.limit;
-	}
+	if (!moves) return;
+	const Vector3r& normal = pair.geom.normal;
+	if (phys.dampedStiffness > 0 && sums.lastKnown()) {
+		const StiffnessSum sum = sums.last(mover.id);
+		part                   = partOfSum(phys.dampedStiffness, sum.along(otherIs, normal));
+		limit                  = math::max(Real(part / 2), partOfSum(phys.dampedStiffness, sum.along(normal)));
+	} else if (pair.geom.stiffnessRule == int(StiffnessRule::PerContact)) {
+		part  = pair.geom.share;
+		limit = partOfCount(body, mover, pair.geom.share);
+	} else part = limit = partOfArea(body, mover, normal, phys.contactArea);
+}
+
+Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair::DampedPair(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums)
+        : body { { pair, phys, sums, *pair.body1, *pair.body2, Vector3r(Vector3r::Zero()) },
+	          { pair, phys, sums, *pair.body2, *pair.body1, pair.shift2() } },
+          dt(pair.scene->dt)
+{
+	for (const DampedBody& one : body)
+		if (one.moves) inverse += 1 / (one.part * one.mover.state->mass);
+}
+
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair::damper(
+        Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared) const
+{
 	if (!(inverse > 0)) return 0;
+	const bool rocks  = gyrationSquared >= 0;
+	Real       motion = 0;
+	for (const DampedBody& one : body)
+		if (one.moves)
+			motion += (rocks ? turning(one.mover, direction)
+			                 : translating(one.mover, direction) + turning(one.mover, one.arm.cross(direction)))
+			        / one.limit;
 	const Real damper = 2 * fraction * math::sqrt(stiffness / inverse) * (rocks ? gyrationSquared : Real(1));
-	return damper * motion * pair.scene->dt > 1 ? 1 / (motion * pair.scene->dt) : damper;
+	return damper * motion * dt > 1 ? 1 / (motion * dt) : damper;
 }
 
 /// The contact was part of what carries its bodies in this step.
-void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, RockJointPhys& phys)
+void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::takePart(const Pair& pair, const DampedPair& damped, RockJointPhys& phys)
 {
 	phys.dampedStiffness = math::isfinite(phys.kn) ? phys.kn : Real(0);
-	for (const Body* body : { pair.body1, pair.body2 }) {
-		const Body& mover = moverOf(*body, *pair.scene);
-		if (movesByForces(mover))
-			stiffnessSums.add(mover.id, across(body == pair.body1 ? *pair.body2 : *pair.body1, *pair.scene),
-			        phys.dampedStiffness, pair.geom.normal);
-	}
+	for (const DampedBody& one : damped.body)
+		if (one.moves) stiffnessSums.add(one.mover.id, one.otherIs, phys.dampedStiffness, pair.geom.normal);
 }
 
 /// Viscous normal force on body 2, along the normal; is not tensile in a joint without tensile strength.
-Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const
+Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::normalDamper(
+        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic) const
 {
 	const Vector3r& normal       = pair.geom.normal;
-	const Real      viscous      = -damper(pair, phys, normalDamping, phys.kn, normal) * normal.dot(pair.velocity());
+	const Real      viscous      = -damped.damper(normalDamping, phys.kn, normal) * normal.dot(pair.velocity());
 	const bool      takesTension = phys.presentTensileStrength() > 0;
 	return takesTension ? viscous : math::max(viscous, -elastic);
 }
 
 /// Viscous shear force on body 2, at most to the strength.
 Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
-        const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
+        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal, const Vector3r& shear) const
 {
 	const Vector3r velocity = pair.velocity(), along = velocity - pair.geom.normal.dot(velocity) * pair.geom.normal;
 	const Real     speed = along.norm();
 	if (!(speed > 0)) return Vector3r::Zero();
-	const Vector3r viscous = -damper(pair, phys, shearDamping, phys.ks, along / speed) * along;
+	const Vector3r viscous = -damped.damper(shearDamping, phys.ks, along / speed) * along;
 	return fractionWithin(phys.shearStrength(normal), shear, viscous) * viscous;
 }
 
 /// Moment on body 2 of dampers spread over the contact area, as far as a pressure that gives this normal force can balance it.
-Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const
+Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(
+        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal) const
 {
 	Real        gyrationSquared = phys.contactArea / 12;
 	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
@@ -180,7 +172,7 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(const Pair& 
 	const Vector3r rocking = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
 	const Real     rate    = rocking.norm();
 	if (!(rate > 0)) return Vector3r::Zero();
-	const Vector3r moment = -damper(pair, phys, rockingDamping, phys.kn, rocking / rate, gyrationSquared) * rocking;
+	const Vector3r moment = -damped.damper(rockingDamping, phys.kn, rocking / rate, gyrationSquared) * rocking;
 	const Real     limit = math::sqrt(3 * gyrationSquared) * normal, size = moment.norm();
 	return size > limit ? Vector3r(limit / size * moment) : moment;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointShear.hpp"
 
+#include <optional>
+
 namespace yade {
 
 YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
@@ -54,8 +56,10 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 		work.fractured = phys.presentTensileStrength() > phys.residualTensileStrength;
 		work.plastic   = phys.yieldInTension(elasticNormal);
 	}
+	std::optional<DampedPair> damped;
+	if (damps()) damped.emplace(pair, phys, stiffnessSums);
 	// what yields is not damped, as what slides is not
-	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, phys, elasticNormal) : Real(0);
+	const Real viscous = normalDamping > 0 && work.plastic == 0 ? normalDamper(pair, *damped, phys, elasticNormal) : Real(0);
 	const Real normal  = elasticNormal + viscous;
 
 	// a joint pulled straight open has no shear but what rounding of the normal leaves: displacements below the resolution of positions
@@ -67,17 +71,17 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::go(shared_ptr<IGeom>& igeom, s
 	if (shearDamping > 0 && !phys.isSliding) {
 		const Vector3r along = shear.velocity();
 		const Real     speed = along.norm();
-		shear.damp(phys, normal, damper(pair, phys, shearDamping, phys.ks, speed > 0 ? Vector3r(along / speed) : along),
-		        damper(pair, phys, shearDamping, phys.ks, geom.normal, shear.gyrationSquared()));
+		shear.damp(phys, normal, damped->damper(shearDamping, phys.ks, speed > 0 ? Vector3r(along / speed) : along),
+		        damped->damper(shearDamping, phys.ks, geom.normal, shear.gyrationSquared()));
 	}
 
 	phys.normalViscous = viscous * geom.normal;
 	phys.normalForce   = normal * geom.normal;
 	shear.keep(phys);
-	if (rockingDamping > 0 || last.moment != Vector3r::Zero())
-		phys.rockingMoment = rockingDamper(pair, phys, math::max(normal, Real(0)));
+	phys.rockingMoment
+	        = rockingDamping > 0 ? rockingDamper(pair, *damped, phys, math::max(normal, Real(0))) : Vector3r(Vector3r::Zero());
 	if (!apply(pair, phys)) return true;
-	if (damps()) takePart(pair, phys);
+	if (damped) takePart(pair, *damped, phys);
 
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {

@@ -58,15 +58,15 @@ private:
 	struct Last;
 	struct StepWork;
 	struct DampedBody;
+	struct DampedPair;
 	bool     damps() const { return normalDamping > 0 || shearDamping > 0 || rockingDamping > 0; }
 	bool     actsAsBond(Interaction& contact, PolytopeGeom& geom, RockJointPhys& phys, const Last& last, const Vector3r& elasticShear);
 	bool     limitShear(RockJointPhys& phys, Real normal, Shear& shear) const;
-	Real     normalDamper(const Pair& pair, const RockJointPhys& phys, Real elastic) const;
-	Vector3r shearDamper(const Pair& pair, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;
-	Vector3r rockingDamper(const Pair& pair, const RockJointPhys& phys, Real normal) const;
-	Real     damper(const Pair& pair, const RockJointPhys& phys, Real fraction, Real stiffness, const Vector3r& direction,
-	            Real gyrationSquared = -1) const;
-	void     takePart(const Pair& pair, RockJointPhys& phys);
+	Real     normalDamper(const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real elastic) const;
+	Vector3r shearDamper(
+	        const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal, const Vector3r& shear) const;
+	Vector3r rockingDamper(const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal) const;
+	void     takePart(const Pair& pair, const DampedPair& damped, RockJointPhys& phys);
 	bool     apply(const Pair& pair, RockJointPhys& phys);
 	bool     open(const Pair& pair, RockJointPhys& phys, const Last& last, Shear& shear);
 	void     beginOwnLaws(RockJointPhys& phys, const PolytopeGeom& geom) const;

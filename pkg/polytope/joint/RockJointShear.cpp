@@ -128,6 +128,14 @@ polytope::Vector2 Shear::centreOfStrength(const RockJointPhys& phys, Real streng
 	return phys.presentCohesion() * phys.contactArea / strength * moments_.centroid;
 }
 
+/// The damper asks for what the limit has asked for, if the joint did not fail there.
+const polytope::ShearStrength& Shear::spreadStrength(Real strength, const polytope::Vector2& centre)
+{
+	if (!spread_ || spread_->total() != strength || spread_->centre() != centre)
+		spread_.emplace(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
+	return *spread_;
+}
+
 bool Shear::limit(const RockJointPhys& phys, Real normal)
 {
 	const Vector3r before   = force_;
@@ -143,9 +151,9 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 		layers_.move((before - force_) / stiffness_);
 		return true;
 	}
-	const polytope::Vector2       centre = centreOfStrength(phys, strength);
-	const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
-	polytope::Vector3             load = loadAbout(centre, force_, twist_);
+	const polytope::Vector2        centre = centreOfStrength(phys, strength);
+	const polytope::ShearStrength& spread = spreadStrength(strength, centre);
+	polytope::Vector3              load   = loadAbout(centre, force_, twist_);
 	if (spread.surelyHolds(load)) return false;
 	const auto bed = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
 	if (polytope::returnToStrength(spread, bed, load) == polytope::Vector3::Zero()) return false;
@@ -174,11 +182,10 @@ void Shear::damp(const RockJointPhys& phys, Real normal, Real damper, Real twist
 	Real strength = phys.shearStrength(normal);
 	if (hasOutline() && strength > 0 && (twist_ != 0 || viscousTwist_ != 0)) {
 		// within the part of the limit surface that ShearStrength::surelyHolds() knows
-		const polytope::Vector2       centre = centreOfStrength(phys, strength);
-		const polytope::ShearStrength spread(pair_.geom.outline.corners(), pair_.geom.outline.count(), moments_, strength, centre);
-		const Real                    before = math::abs(loadAbout(centre, force_, twist_)[2]),
-		           after                     = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
-		strength -= math::max(before, after) / spread.leastRadius();
+		const polytope::Vector2 centre = centreOfStrength(phys, strength);
+		const Real              before = math::abs(loadAbout(centre, force_, twist_)[2]),
+		           after               = math::abs(loadAbout(centre, force_ + viscous_, twist_ + viscousTwist_)[2]);
+		strength -= math::max(before, after) / spreadStrength(strength, centre).leastRadius();
 	}
 	const Real part = fractionWithin(strength, force_, viscous_);
 	viscous_ *= part;

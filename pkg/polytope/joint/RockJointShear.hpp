@@ -2,6 +2,9 @@
 #pragma once
 
 #include <src/shear/ShearLayers.hpp>
+#include <src/shear/ShearStrength.hpp>
+
+#include <optional>
 
 #include "joint/RockJointStep.hpp"
 
@@ -59,28 +62,30 @@ private:
 	Vector3r inWorld(const polytope::Vector2& x) const { return x[0] * axis_[0] + x[1] * axis_[1]; }
 	Vector3r acrossNormal(const Vector3r& x) const { return pair_.geom.normal.cross(x); }
 	/// Force along the axes, and moment about a point of the outline.
-	polytope::Vector3 loadAbout(const polytope::Vector2& centre, const Vector3r& force, Real twist) const;
-	Real              twistOf(const polytope::Vector3& load, const polytope::Vector2& centre) const;
-	polytope::Vector2 centreOfStrength(const RockJointPhys& phys, Real strength) const;
-	void              setArea(const RockJointPhys& phys);
-	void              followCentroid(Real areaBefore, Real areaNow);
+	polytope::Vector3              loadAbout(const polytope::Vector2& centre, const Vector3r& force, Real twist) const;
+	Real                           twistOf(const polytope::Vector3& load, const polytope::Vector2& centre) const;
+	const polytope::ShearStrength& spreadStrength(Real strength, const polytope::Vector2& centre);
+	polytope::Vector2              centreOfStrength(const RockJointPhys& phys, Real strength) const;
+	void                           setArea(const RockJointPhys& phys);
+	void                           followCentroid(Real areaBefore, Real areaNow);
 
-	const Pair&              pair_;
-	Vector3r                 axis_[2];
-	polytope::OutlineMoments moments_;
-	Vector3r                 offset_ = Vector3r::Zero(); ///< from the contact point to the area's centroid
-	Vector3r                 lastPoint_;
-	Real                     gyration_ = 0; ///< ρ² [m²]
-	Vector3r                 force_, lastForce_, trialForce_ = Vector3r::Zero();
-	Real                     twist_, lastTwist_;
-	Real                     stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
-	Real                     areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
-	polytope::ShearLayers    layers_;                        ///< of a stiffness per area
-	Real                     before_       = 0;
-	Vector3r                 motion_       = Vector3r::Zero(); ///< at the area's centroid
-	Real                     turn_         = 0;                ///< about the normal
-	Vector3r                 viscous_      = Vector3r::Zero();
-	Real                     viscousTwist_ = 0;
+	const Pair&                            pair_;
+	Vector3r                               axis_[2];
+	polytope::OutlineMoments               moments_;
+	Vector3r                               offset_ = Vector3r::Zero(); ///< from the contact point to the area's centroid
+	Vector3r                               lastPoint_;
+	Real                                   gyration_ = 0; ///< ρ² [m²]
+	Vector3r                               force_, lastForce_, trialForce_ = Vector3r::Zero();
+	Real                                   twist_, lastTwist_;
+	Real                                   stiffness_, twistingStiffness_; ///< k_s [N/m], k_s ρ² [N m/rad]
+	Real                                   areaBefore_, perArea_ = 0;      ///< perArea_: 0 for a stiffness per contact
+	std::optional<polytope::ShearStrength> spread_;                        ///< the last one that was asked for
+	polytope::ShearLayers                  layers_;                        ///< of a stiffness per area
+	Real                                   before_       = 0;
+	Vector3r                               motion_       = Vector3r::Zero(); ///< at the area's centroid
+	Real                                   turn_         = 0;                ///< about the normal
+	Vector3r                               viscous_      = Vector3r::Zero();
+	Real                                   viscousTwist_ = 0;
 };
 
 } // namespace yade

@@ -6,6 +6,7 @@
 #include "contact/PolytopeGeom.hpp"
 #include "joint/RockJoint.hpp"
 #include "joint/RockJointLaw.hpp"
+#include "joint/StiffnessSums.hpp"
 
 /// What the law of rock joints knows of one contact in one step: motion, the state before, and the work done.
 namespace yade {
@@ -70,6 +71,32 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 	}
 	/// From where body 2 is to where it is in the period of body 1.
 	Vector3r shift2() const { return centre2 - state2.pos; }
+};
+
+/// One of the two bodies of a contact, as a damper has it.
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
+	const Body& mover;
+	bool        moves;
+	Across      otherIs;  ///< what the other body is for this one
+	Real        part = 1; ///< s
+	/// Part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows.
+	Real     limit = 1;
+	Vector3r arm; ///< from the mover's centre to the contact point
+
+	DampedBody(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums, const Body& body, const Body& other,
+	        const Vector3r& shift);
+};
+
+/// Both, for all dampers of a contact in one step.
+struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair {
+	DampedBody body[2];
+	Real       inverse = 0; ///< 1/(s₁ m₁) + 1/(s₂ m₂) [1/kg]
+	Real       dt;
+
+	DampedPair(const Pair& pair, const RockJointPhys& phys, const StiffnessSums& sums);
+
+	/// The damper of this fraction of the critical one: for a spring and motion along a direction or, with `gyrationSquared`, for a moment about an axis.
+	Real damper(Real fraction, Real stiffness, const Vector3r& direction, Real gyrationSquared = -1) const;
 };
 
 /// State at the end of the last step, before this one changes it; the shear bed's is in RockJointShear.hpp.
