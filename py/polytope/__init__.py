@@ -5,8 +5,8 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong before the first step: *check*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
-*tradeoff*, *requirements*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
+*tradeoff*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
 Saved states: *checkpoint*, *continueFrom*. The scene as a PNG, without a screen: *picture*; a film of its run: *animate*. The classes (Polytope,
@@ -50,7 +50,6 @@ from .measures.packings import aabbExtrema, bodyStress, contactFabric, particleF
 from .measures.roses import contactRose, forceHistogram, particleRose
 from .pictures.films import Film, animate
 from .pictures.still import picture
-from .requirements import requirements
 from .rest.settling import settle
 from .rest.unrest import NotAtRest
 from .rock.factorOfSafety import FactorOfSafety, factorOfSafety
@@ -147,7 +146,6 @@ __all__ = [
 	'readShapes',
 	'regionWithout',
 	'regular',
-	'requirements',
 	'rockReport',
 	'sample',
 	'scanLine',

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Times of a step of the present scene, by YADE's own clocks: for *tradeoff* and *requirements*."""
+"""Times of a step of the present scene, by YADE's own clocks: for *tradeoff* and *check*."""
 
 import math
 import time

@@ -47,7 +47,7 @@ __all__ = ['engines']
 usualNormalDamping, usualDamping = 0.3, 0.2
 """Of critical in contacts; YADE's artificial damping."""
 reach = 0.1
-"""verletDist over the inscribed radius of the smallest body that can move, as polytope.requirements advises it."""
+"""verletDist over the inscribed radius of the smallest body that can move, as polytope.check(O, costs=True) advises it."""
 reachOfNothing = 0.02
 """verletDist [m] in a scene without such a body."""
 firstStep = 1e-8

@@ -32,7 +32,7 @@ def load(path):
 	"""Load an extension: a library that was built by ``yade_polytope_add_extension`` (docs/extending.md).
 
 	Its classes are then YADE's like any other: in ``yade.wrapper``, and in the script by their names. Processes that are started from this one, as by
-	*tradeoff* and *requirements*, load it, too: its path is added to the environment variable YADE_POLYTOPE_EXTENSIONS. Loaded already: nothing is done.
+	*tradeoff* and *check*, load it, too: its path is added to the environment variable YADE_POLYTOPE_EXTENSIONS. Loaded already: nothing is done.
 
 	:param str path: of the library; its name does not matter
 	:returns: what was loaded: (path, name, classes), see *Extension*

@@ -296,7 +296,7 @@ def edited():
 		with warnings.catch_warnings():
 			warnings.simplefilter('error')
 			polytope.check(O)
-		polytope.requirements(O)  # starts processes of its own
+		polytope.check(O, costs=True)  # starts a process of its own
 	mpi.run(20)
 	if master:
 		O.bodies.append(polytope.regular(6, radius, (0, 0, 1.6)))

@@ -28,19 +28,19 @@ topics = {
 		'contactRose particleRose forceHistogram',
 	),
 	'extensions': ('Classes of others', 'load extensions'),
-	'costs': ('Accuracy and cost', 'tradeoff requirements'),
+	'costs': ('Accuracy and cost', 'tradeoff'),
 }
 """Page, title, names. tests/yade/project/test_site.py sees to it that each public name is in one of them."""
 
 returned = {
 	'support': ('bonding.bolting.BoltArrays', 'rock.lining.Lining', 'rock.lining.LiningForces'),
-	'scene': ('measures.arrays.BodyArrays', 'measures.arrays.ContactArrays', 'check.Check', 'rest.unrest.Restless'),
+	'scene': ('measures.arrays.BodyArrays', 'measures.arrays.ContactArrays', 'check.findings.Check', 'check.findings.Finding', 'rest.unrest.Restless'),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
 	),
 	'extensions': ('extensions.Extension',),
-	'costs': ('tradeoff.table.TradeoffTable', 'requirements.Requirements', 'requirements.Finding'),
+	'costs': ('tradeoff.table.TradeoffTable',),
 }
 """Classes of what functions of a topic return, which have no public name."""
 

@@ -83,12 +83,16 @@ def densityScaling(scene):
 
 
 def order(scene):
-	"""From a ForceResetter on, and round to the first engine again, the loop must come before the integrator."""
+	"""From a ForceResetter on, and round to the first engine again, the loop must come before the integrator; from that on the collider before the loop."""
+	if scene.colliders and scene.loops and scene.integrators:
+		after = _roundFrom(scene, scene.integrators[0])
+		if after.index(scene.colliders[0]) > after.index(scene.loops[0]):
+			name = type(scene.colliders[0]).__name__
+			yield 'order of engines', f'{name} is behind the InteractionLoop: pairs are found a step late', f'put {name} before the InteractionLoop'
 	resetters = scene.those(ForceResetter)
 	if not resetters or not scene.loops or not scene.integrators:
 		return
-	start = scene.engines.index(resetters[0])
-	after = scene.engines[start + 1 :] + scene.engines[:start]
+	after = _roundFrom(scene, resetters[0])
 	if after.index(scene.loops[0]) > after.index(scene.integrators[0]):
 		where = 'between the InteractionLoop and the NewtonIntegrator: it erases the contact forces before they act'
 		yield (
@@ -96,6 +100,12 @@ def order(scene):
 			f'ForceResetter is {where}',
 			'put ForceResetter first in O.engines, then collider, InteractionLoop, NewtonIntegrator',
 		)
+
+
+def _roundFrom(scene, engine):
+	"""The engines that follow this one, round to the first again."""
+	start = scene.engines.index(engine)
+	return scene.engines[start + 1 :] + scene.engines[:start]
 
 
 def bonds(scene):
@@ -133,8 +143,7 @@ def erasedForces(scene):
 	resetters = scene.those(ForceResetter)
 	if not resetters or not scene.integrators:
 		return
-	start = scene.engines.index(resetters[0])
-	after = scene.engines[start + 1 :] + scene.engines[:start]
+	after = _roundFrom(scene, resetters[0])
 	for kind, what in ((PolytopeBonds, 'bonds'), (PolytopeBolts, 'bolts'), (PolytopeWater, 'water'), (QuietBoundary, 'order of engines')):
 		if any(after.index(one) > after.index(scene.integrators[0]) for one in scene.those(kind)):
 			seen = f'{kind.__name__} is not before the NewtonIntegrator: its forces are erased before they act'

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks of polytope.check() that go the way of a contact: bound, geometry, physics, law.
 
-For each pair of shapes and materials that can meet;
-The dispatchers themselves are asked, with a body of each kind.
+For each pair of shapes and materials that can meet, the dispatchers themselves are asked, with a body of each kind.
 """
 
 import yade
@@ -187,21 +186,23 @@ def forces(scene, loop, functor, one, other):
 				seen,
 				'take Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) or Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()',
 			)
-	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, functor, maker, phys, one, other):
+	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, functor, maker, law, phys, one, other):
+		damper = 'normalDamping of the law' if isinstance(phys, yade.RockJointPhys) else 'RockJointMat'
 		yield (
 			'damping and energy',
-			f'contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: where edges cross or faces lift off they gain energy',
-			"take RockJointMat, or contactModel='surface', or NewtonIntegrator.damping above 0 (usual: 0.2)",
+			f"contacts of polytopes by {type(maker).__name__} have no damping, nor has NewtonIntegrator: with contactModel 'boon2012' they gain energy",
+			f"contactModel='surface', or {damper}, or NewtonIntegrator.damping above 0 (usual: 0.2)",
 		)
 
 
-def undamped(scene, functor, maker, phys, one, other):
-	"""Contacts of YADE's physics on two flat-faced bodies, without loss: with one stiffness for all areas the force is no gradient of an energy. A sphere
-	has none of it."""
-	if 'Sphere' in (one.shape, other.shape) or functor.contactModel != 'boon2012' or isinstance(phys, yade.RockJointPhys):
+def undamped(scene, functor, maker, law, phys, one, other):
+	"""Contacts on two flat-faced bodies without loss in the normal direction, by the model whose force is no gradient of an energy. A sphere has none of it."""
+	if 'Sphere' in (one.shape, other.shape) or functor.contactModel != 'boon2012':
 		return False
 	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
 		return False
+	if isinstance(phys, yade.RockJointPhys):
+		return not getattr(law, 'normalDamping', 1) > 0
 	if isinstance(phys, yade.MindlinPhys):
 		return not any(getattr(maker, name) for name in ('en', 'es', 'betan', 'betas'))
 	return type(phys) in (yade.FrictPhys, yade.ViscoFrictPhys)  # the creep of the latter acts on shear alone

@@ -18,11 +18,12 @@ from yade import (
 	TimeStepper,
 )
 
-from ..requirements.checks import safe, usual
 from ..scene.timeStep import safeTimeStep
 
-__all__ = ['stepFindings']
+__all__ = ['stepFindings', 'usual', 'yadesDt']
 
+usual, safe = 0.2, 1.0
+"""Time step over τ (docs/time-step.md): as advised, and up to where any heap is stable, see stableTimeStep."""
 yadesDt = 1e-8
 """YADE's own O.dt, until something sets it [s]."""
 

@@ -90,8 +90,7 @@ def testRestsOnASphereAsAPrismOfItsThickness():
 )
 def testWhatDoesNotMixIsCountedAndNamedBefore(support):
 	onto(support, 0)
-	found = polytope.requirements(O, measure=False)['polygons among solids']
-	assert found.seen.startswith('1 polygon') and 'walls along x and y' in found.advice
+	assert 'polytope.polygon' in polytope.check(O)['polygons'].advice
 	O.step()
 	assert sum(pair.stats()['failures'] for pair in O.engines[2].geomDispatcher.functors) == 1
 	assert not any(one.isReal for one in O.interactions)
@@ -99,6 +98,6 @@ def testWhatDoesNotMixIsCountedAndNamedBefore(support):
 
 def testWhatMixesIsNotNamed():
 	onto(lambda: utils.wall(0, 1), 0)
-	assert not polytope.requirements(O, measure=False)['polygons among solids'].advice
+	assert 'polygons' not in [one.what for one in polytope.check(O)]
 	O.bodies.append(utils.sphere((5, 0, 0), 0.5))
-	assert not polytope.requirements(O, measure=False)['polygons among solids'].advice
+	assert 'polygons' not in [one.what for one in polytope.check(O)]

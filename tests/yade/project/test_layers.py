@@ -126,7 +126,7 @@ def testTheProductImportsNothingOfReproductionAndMeasurement():
 			assert not re.match(r'yade\.polytope\b', name), f'{path.name} imports {name}; within the product imports are relative'
 
 
-parts = """precision arguments _sharedArguments _builds pictures scene bodies bonding measures _timing requirements rest strengthReduction rock check engines
+parts = """precision arguments _sharedArguments _builds pictures scene bodies bonding measures _timing rest strengthReduction rock check engines
 loading breakage dynamics mpi fallingPolyhedra frictionReduction motionRecord tradeoff extensions _helpTexts""".split()
 """Folders and modules of py/polytope, in this order."""
 
@@ -141,12 +141,6 @@ def testEachPartOfTheProductImportsToTheLeftOnly():
 		for name in imports(path, product):
 			of = name.split('.')[1] if name.startswith('polytope.') else None
 			assert of not in parts or parts.index(of) <= parts.index(own), f'{path.relative_to(product)} imports {name}'
-
-
-def testCostsAndTradeOffsDoNotBorrowFromEachOther():
-	for path in files(product / 'tradeoff', '.py'):
-		borrowed = [name for name in imports(path, product) if name.split('.')[1:2] == ['requirements']]
-		assert not borrowed, f'{path.name} imports {borrowed}; what both need stands in a module before them'
 
 
 def testTheReproductionImportsNothingOfMeasurement():

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The check of the third dimension, of polytope.requirements(): whether all are prisms side by side, and what moves stays in the xy plane."""
+"""The third dimension, of polytope.check(O, costs=True): whether all bodies are prisms side by side, and what moves stays in the xy plane."""
 
 import numpy as np
-from yade import NewtonIntegrator, Polytope, Sphere, Vector3, Wall
+from yade import NewtonIntegrator, O, Polytope, Vector3
 
-from .worker import prismOutline
+from ..bodies.polytopes import polygon
 
-__all__ = ['dimension', 'polygons']
+__all__ = ['dimension', 'makePolygons']
 
 sideBySide = 0.5
 """Part of the least height that all heights must have in common: a polygon meets every other one, whatever its height. With less,
 prisms may touch from above and below."""
 
+flat = 1e-9
+"""Up to which a normal counts as in the plane, or normal to it."""
 rounding = 1e-9
 """Motion out of the plane, over that in it, that rounding accounts for: it accumulates over the steps, but stays far below this."""
 alongALine, towardsAPlace = ('gravity', 'force'), ('accel', 'acceleration')
@@ -19,38 +21,45 @@ alongALine, towardsAPlace = ('gravity', 'force'), ('accel', 'acceleration')
 
 
 def dimension(scene):
-	"""third dimension"""
-	if not scene.moving:
-		return 'no body can move'
-	if any(body.shape.dimension == 2 for body in scene.bodies):
-		return 'polygons: contacts are solved in the plane', ''
-	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in scene.moving)
-	kept = inPlane or _staysInPlane(scene.O, scene.moving)
-	if len(scene.bodies) < len(scene.O.bodies) or not kept or any(prismOutline(body) is None for body in scene.bodies):
-		return 'bodies move in space', ''
-	seen = f'prisms along z, {"blocked out of the xy plane" if inPlane else "moving in the xy plane"}'
-	common, least = _heights(scene.bodies)
-	if common < sideBySide * least:
-		shared = f'only {common:.3g} m' if common > 0 else 'nothing'
-		return f'{seen}, but not side by side in one plane: their z ranges have {shared} in common', ''
+	"""Yields (what, seen, advice, trial) where polygons would do."""
+	bodies, moving = scene.bodies, [body for body in scene.bodies if body.dynamic]
+	if not moving or any(not isinstance(body.shape, Polytope) or body.shape.dimension == 2 for body in bodies):
+		return
+	inPlane = all(set('zXY') <= set(body.state.blockedDOFs) for body in moving)
+	kept = inPlane or _staysInPlane(scene.O, moving)
+	if len(bodies) < len(scene.O.bodies) or not kept or any(_outline(body) is None for body in bodies):
+		return
+	common, shortest = _heights(bodies)
+	if common < sideBySide * shortest:
+		return
+	seen = f'prisms along z, {"blocked out of the xy plane" if inPlane else "moving in the xy plane"}, solved in space'
 	advice = 'make the bodies with polytope.polygon(outline, thickness)' + ('' if inPlane else ', if they are to stay in the plane')
-	return f'{seen}, solved in space', advice, None, ('dimension', 2)
+	yield 'third dimension', seen, advice, ('dimension', 2)
 
 
-def polygons(scene):
-	"""polygons among solids"""
-	flat = sum(body.shape.dimension == 2 for body in scene.bodies)
-	others = [body.id for body in scene.O.bodies if body is not None and flat and not body.isClump and not _meetsPolygons(body.shape)]
-	if not others:
-		return f'{flat} polygons, and nothing that they cannot touch' if flat else 'no polygons', ''
-	seen = f'{flat} polygon{"s" if flat > 1 else ""}, and {len(others)} bodies that polygons cannot touch (body {others[0]})'
-	return seen, 'polyhedra for polygons, or the other way round: polygons touch polygons, walls along x and y, and spheres alone'
+def _outline(body):
+	"""Corners of the cross-section of a polyhedron that is a prism along z where it is, in order, as (n, 2) array; None if it is none."""
+	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	normals = np.array(body.shape.normals, float).reshape(-1, 3) @ turn.T
+	along = np.abs(normals[:, 2])
+	if not np.all((along < flat) | (along > 1 - flat)):
+		return None
+	corners = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
+	return corners[corners[:, 2] > corners[:, 2].mean(), :2]
 
 
-def _meetsPolygons(shape):
-	if isinstance(shape, Polytope):
-		return shape.dimension == 2
-	return shape is None or isinstance(shape, Sphere) or isinstance(shape, Wall) and shape.axis < 2
+def makePolygons():
+	"""Polygons in place of all bodies of the scene, which are prisms; they keep material, place and motion. Contacts are found anew."""
+	bodies = []
+	for body in O.bodies:
+		height = np.ptp([float((body.state.ori * corner)[2]) for corner in body.shape.vertices])
+		made = polygon(_outline(body).tolist(), thickness=height, material=body.material, fixed=not body.dynamic)
+		made.shape.cornerRadius = min(body.shape.cornerRadius, 0.9 * made.shape.inscribedRadius)
+		made.state.vel, made.state.angVel = body.state.vel, body.state.angVel
+		bodies.append(made)
+	O.interactions.clear()
+	O.bodies.clear()
+	O.bodies.append(bodies)
 
 
 def _heights(bodies):

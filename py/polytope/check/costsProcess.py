@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Times a saved scene as it is and with things changed: `python3 -m yade.polytope.requirements.worker SCENE CHANGES ANSWER`.
+"""Times a saved scene as it is and with things changed: `python3 -m yade.polytope.check.costsProcess SCENE CHANGES ANSWER`.
 
-polytope.requirements() starts it as a process of its own: what it does to the scene does not matter.
+polytope.check(O, costs=True) starts it as a process of its own: what it does to the scene does not matter.
 """
 
 import json
@@ -11,33 +11,19 @@ import pathlib
 import sys
 import traceback
 
-import numpy as np
 from yade import O, PeriodicEngine
 
 from .._timing import timed
-from ..bodies.polytopes import polygon
 from ..scene.permanentLoads import givePermanentLoads
-from ..scene.present import colliders, geometryFunctors, laws
+from ..scene.present import colliders, geometryFunctors
+from .plane import makePolygons
 
-__all__ = ['change', 'prismOutline', 'stepTimes']
+__all__ = ['change', 'stepTimes']
 
 seconds, rounds = 0.12, 2
 """Of timed steps for each change in a round, and rounds over all changes: the machine may be busy during one."""
 warmUp = 3
 """Steps before them: boxes and the contacts' warm-start data are computed again."""
-flat = 1e-9
-"""Up to which a normal counts as in the plane, or normal to it."""
-
-
-def prismOutline(body):
-	"""Corners of the cross-section of a polyhedron that is a prism along z where it is, in order, as (n, 2) array; None if it is none."""
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = np.array(body.shape.normals, float).reshape(-1, 3) @ turn.T
-	along = np.abs(normals[:, 2])
-	if not np.all((along < flat) | (along > 1 - flat)):
-		return None
-	corners = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
-	return corners[corners[:, 2] > corners[:, 2].mean(), :2]
 
 
 def change(name, value):
@@ -47,31 +33,11 @@ def change(name, value):
 	elif name == 'verletDist':
 		for collider in colliders():
 			collider.verletDist = value
-	elif name == 'rockingDamping':
-		for law in laws():
-			law.rockingDamping = value
-		for contact in O.interactions:  # whether areas are needed is determined when a contact is made
-			if contact.isReal:
-				O.interactions.erase(contact.id1, contact.id2)
 	elif name == 'dimension':
-		_flatten()
+		makePolygons()
 	else:
 		for functor in geometryFunctors():
 			setattr(functor, name, value)
-
-
-def _flatten():
-	"""Polygons for prisms; bodies keep material, place and motion, contacts are found anew."""
-	bodies = []
-	for body in O.bodies:
-		height = np.ptp([float((body.state.ori * corner)[2]) for corner in body.shape.vertices])
-		flatBody = polygon(prismOutline(body).tolist(), thickness=height, material=body.material, fixed=not body.dynamic)
-		flatBody.shape.cornerRadius = min(body.shape.cornerRadius, 0.9 * flatBody.shape.inscribedRadius)
-		flatBody.state.vel, flatBody.state.angVel = body.state.vel, body.state.angVel
-		bodies.append(flatBody)
-	O.interactions.clear()
-	O.bodies.clear()
-	O.bodies.append(bodies)
 
 
 def load(scene, loads):
@@ -97,16 +63,16 @@ def stepTime(scene, loads, changes):
 
 
 def stepTimes(scene, trials, loads=()):
-	"""Name → time of a step [µs] with that change and the advised ones before it in force; '' as the scene is. Without what does not run.
+	"""Name → time of a step [µs] with that change and those before it in force; '' as the scene is. Without what does not run.
 
-	:param list trials: (name, value, whether it is advised)
+	:param list trials: (name, value)
 	:param loads: [body's id, force, torque] of permanent loads
 	"""
 	plans, times, inForce = {'': []}, {'': stepTime(scene, loads, [])}, []
-	for name, value, advised in trials:
+	for name, value in trials:
 		plans[name] = [*inForce, (name, value)]
 		times[name] = stepTime(scene, loads, plans[name])
-		if advised and times[name] < math.inf:
+		if times[name] < math.inf:
 			inForce = plans[name]
 	for _ in range(rounds - 1):
 		for name, plan in plans.items():
