@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cost and accuracy of settings in a scene of your own: three blocks dropped on each other, four settings, one table.
 
-	./run python examples/tradeoff.py          prints the table, writes output/tradeoff.png and output/tradeoff.csv
+	./run python examples/tradeoff.py          prints the table, writes output/tradeoff.csv
 """
 import os
 from math import radians
@@ -66,5 +66,4 @@ if __name__ == '__main__':  # true no more after `from yade import *`, which bri
 	table.show()
 	os.makedirs('output', exist_ok=True)
 	table.csv('output/tradeoff.csv')
-	table.plot('output/tradeoff.png', title='height of the third block')
 	print('On the Pareto front:', ', '.join(row.name for row in table.front()))

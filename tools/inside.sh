@@ -127,7 +127,7 @@ search() {
 
 # The full run uses every precision that its scenes name and that is installed; the quick one those that are already built.
 tradeoff() {
-	local script=$project/tools/measure/tradeoff/tradeoffPaper.py said other needed
+	local script=$project/tools/measure/tradeoff.py said other needed
 	# options first: a mistake, or --help, is answered before anything is built
 	said=$(python3 "$script" --check "$@") || exit
 	[ -z "$said" ] || { echo "$said" && exit; }

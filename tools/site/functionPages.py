@@ -40,7 +40,7 @@ returned = {
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),
 	),
 	'extensions': ('extensions.Extension',),
-	'costs': ('tradeoff.table.TradeoffTable',),
+	'costs': ('tradeoff.TradeoffTable', 'tradeoff.Row'),
 }
 """Classes of what functions of a topic return, which have no public name."""
 

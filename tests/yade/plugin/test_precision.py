@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The plug-in computes with all digits of the YADE it was built for, whichever of the four precisions that is; and the
 precisions agree with each other as far as the coarser one goes."""
-import json
 import os
 import subprocess
 import sys
@@ -14,7 +13,6 @@ import scenes
 import yade
 from mpmath import mpf
 from yade import O, Quaternion, polytope
-from yade.polytope.tradeoff.energy import Energy
 
 info = polytope.buildInfo()
 precisions = {'double': 53, 'longdouble': 64, 'float128': 113, 'mpfr150': 500}
@@ -153,15 +151,3 @@ def testScenesAgreeAsFarAsTheCoarserPrecisionGoes(scene, precision):
 		error = distance(ours, theirs)
 	assert coarser / 16 < error  # else one of them has not the digits it says
 	assert error < 1e5 * coarser
-
-
-def testEnergyOfATradeoffIsAPlainNumber():
-	"""A run in any precision returns it as JSON, see polytope.tradeoff."""
-	scenes.joint()
-	scenes.loop(gravity=(0, 0, -scenes.gravity))
-	scenes.blockOnFloor(overlap=0.01)
-	O.dt = 1e-4
-	energy = Energy()
-	O.run(50, True)
-	created, there = json.loads(json.dumps(energy.created()))
-	assert there > 0 and created != 0

@@ -271,7 +271,7 @@ def testRestitutionIsThatOfTheClosedForm(runs, capsys):
 
 def testTradeoffFindsTheHeightAtRest(runs, capsys):
 	names = runs('tradeoff')
-	assert isPicture('output/tradeoff.png') and 'On the Pareto front:' in capsys.readouterr().out
+	assert 'On the Pareto front:' in capsys.readouterr().out
 	with open('output/tradeoff.csv') as file:
 		rows = list(csv.DictReader(file))
 	assert [next(iter(row.values())) for row in rows] == list(names['settings'])

@@ -42,7 +42,7 @@ programs = {
 	'demo': ['examples/paper/a_falling_polyhedra.py'],
 	'docs': ['tools/site/build.py'],
 	'paper': ['examples/paper/report.py'],
-	'tradeoff': ['tools/measure/tradeoff/tradeoffPaper.py'],
+	'tradeoff': ['tools/measure/tradeoff.py'],
 }
 """Behind the verbs."""
 
