@@ -11,6 +11,7 @@ gradient of an energy: that of such a gas grows, at any time step.
 
 import argparse
 import os
+import sys
 
 os.environ.setdefault('OMP_NUM_THREADS', '1')
 
@@ -18,7 +19,9 @@ from matplotlib.figure import Figure
 from tabulate import tabulate
 from tqdm import tqdm
 from yade import O, polytope
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'paper'))
+from boon2012.falling.scene import FallingPolyhedra
 
 fraction = 0.02
 """Of sqrt(mass / stiffness): the longest time step."""

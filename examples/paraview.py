@@ -3,8 +3,13 @@
 
 	./run python examples/paraview.py          then open output/paraview/bodies.pvd and contacts.pvd in ParaView
 """
+import os
+import sys
+
 from yade import O, PolytopeVTKRecorder
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'paper'))
+from boon2012.falling.scene import FallingPolyhedra
 
 FallingPolyhedra(faces=(4, 6, 8, 12, 20), number=60, columns=4).build()
 O.engines = O.engines + [PolytopeVTKRecorder(fileName='output/paraview/', iterPeriod=100)]

@@ -12,7 +12,7 @@ Heaps are chaotic: other ranges are compared over several seeds. Ends with 1 if 
 	./run python examples/paper/a_falling_polyhedra.py --seeds 8   # as `./run paper` does: five minutes
 	./run yade -n -x examples/paper/a_falling_polyhedra.py --quick
 
-What the paper leaves open (sizes, stiffness, damping, time step) is set in yade.polytope.fallingPolyhedra.FallingPolyhedra.
+What the paper leaves open (sizes, stiffness, damping, time step) is set in boon2012.falling.scene.FallingPolyhedra.
 """
 
 import argparse
@@ -31,12 +31,12 @@ if __name__ == '__main__':  # --threads counts when YADE is loaded; within `yade
 from boon2012.falling.costs import ContactCostReport
 from boon2012.falling.report import FallingPolyhedraReport
 from boon2012.falling.run import FallingRun, save
+from boon2012.falling.scene import solids
 from boon2012.falling.tables import showCosts, showOutcome, showStates
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import contactModels, contactPoints, count, isReference, notNegative, number, paperParser, positive, shown
 from boon2012.reporting.script import conclude
 from yade import O
-from yade.polytope.fallingPolyhedra import solids
 
 fullNumber, fullSteps = 200, 7000
 expected = {

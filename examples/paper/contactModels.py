@@ -21,6 +21,7 @@ from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.beam.theory import BeamBetweenWalls, BeamOfTwoBlocks
 from boon2012.collisions.scene import Collision
 from boon2012.collisions.study import CollisionRun
+from boon2012.falling.scene import FallingPolyhedra, solids
 from boon2012.reporting.options import writableFolder
 from boon2012.roofWedge.scene import RoofWedge
 from boon2012.slidingWedge.study import limitEquilibrium
@@ -33,7 +34,6 @@ from scipy.optimize import minimize_scalar
 from tabulate import tabulate
 from tqdm import tqdm
 from yade import O, polytope
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 from yade.polytope.frictionReduction import FrictionReduction
 from yade.utils import kineticEnergy
 

@@ -54,6 +54,7 @@ import numpy as np
 from boon2012.beam.scene import ThreeHingedBeam
 from boon2012.beam.theory import BeamBetweenWalls
 from boon2012.collisions.scene import Collision, readBlocks
+from boon2012.falling.scene import FallingPolyhedra, circumradiusOfUnitVolume
 from boon2012.reporting.origin import origin
 from boon2012.reporting.report import endOnTerm
 from boon2012.roofWedge.scene import RoofWedge
@@ -73,7 +74,6 @@ from yade import (
 )
 from yade._polytope import contact
 from yade.polytope import _builds, engines, regular, tradeoff
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
 from yade.polytope.frictionReduction import FrictionReduction
 
 models = ('surface', 'boon2012')

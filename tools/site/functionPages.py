@@ -50,7 +50,7 @@ inner = (
 )
 """Members of these that no script needs, or that lists and tuples have."""
 
-modules = ('frictionReduction', 'strengthReduction', 'fallingPolyhedra', 'motionRecord', 'mpi')
+modules = ('frictionReduction', 'strengthReduction', 'motionRecord', 'mpi')
 """Those that are imported by their own names."""
 
 

@@ -4,9 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
+from boon2012.falling.scene import FallingPolyhedra, circumradiusOfUnitVolume
 from boon2012.runWatch import RunWatch, stateHash
 from yade import O
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
 
 # of the solid of volume 1: circumradius, inradius and moment of inertia over mass
 table = {

@@ -10,6 +10,7 @@ import warnings
 
 import pytest
 import yade
+from boon2012.falling.scene import FallingPolyhedra
 from scenes import runInBackground
 from yade import (
 	BartonBandisStrength,
@@ -53,7 +54,6 @@ from yade import (
 	polytope,
 	utils,
 )
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
 withPolytopes = (

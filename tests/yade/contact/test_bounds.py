@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from boon2012.falling.scene import FallingPolyhedra
 from scenes import driven, joint, loop
 from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, Polytope, PolytopeCollider, Quaternion, Vector3, polytope
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 colliders = [InsertionSortCollider, PolytopeCollider]
 

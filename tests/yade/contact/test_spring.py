@@ -7,10 +7,10 @@ from math import atan, cos, sqrt
 
 import numpy as np
 import pytest
+from boon2012.falling.scene import FallingPolyhedra
 from scenes import blockOnFloor, density, gravity, joint, loop
 from scipy.integrate import solve_ivp
 from yade import Ig2_Polytope_Polytope_PolytopeGeom, O, Quaternion, Vector3, polytope
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 stiffness = 1e6
 spring = {'contactModel': 'spring'}

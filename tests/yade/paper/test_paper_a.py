@@ -13,11 +13,11 @@ import types
 import pytest
 from boon2012.falling.costs import curves
 from boon2012.falling.report import FallingPolyhedraReport
+from boon2012.falling.scene import FallingPolyhedra, solids
 from boon2012.reporting.findings import Findings
 from boon2012.runWatch import stateHash
 from boon2012.solverTimes import StateSample, hasSolver
 from yade import O
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 
 path = pathlib.Path(__file__).resolve().parents[3] / 'examples' / 'paper' / 'a_falling_polyhedra.py'
 specification = importlib.util.spec_from_file_location('fallingPolyhedra', path)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """While it computes a pair, the functor prefetches the data of the pairs after it: of any kind, also if deleted."""
 import pytest
+from boon2012.falling.scene import FallingPolyhedra
 from boon2012.runWatch import stateHash
 from scenes import joint, loop
 from yade import Bo1_Facet_Aabb, Bo1_Sphere_Aabb, Ig2_Facet_Polytope_PolytopeGeom, Ig2_Sphere_Polytope_PolytopeGeom, O, polytope, utils
-from yade.polytope.fallingPolyhedra import FallingPolyhedra
 
 
 def heap():

@@ -127,7 +127,7 @@ def testTheProductImportsNothingOfReproductionAndMeasurement():
 
 
 parts = """precision arguments _sharedArguments _builds pictures scene bodies bonding measures _timing rest strengthReduction rock check engines
-loading breakage dynamics mpi fallingPolyhedra frictionReduction motionRecord tradeoff extensions _helpTexts""".split()
+loading breakage dynamics mpi frictionReduction motionRecord tradeoff extensions _helpTexts""".split()
 """Folders and modules of py/polytope, in this order."""
 
 

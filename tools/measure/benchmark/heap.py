@@ -6,13 +6,16 @@ Usage: heap.py '{"method": "ours", …}' with the fields of Request as JSON. The
 import dataclasses
 import json
 import os
+import pathlib
 import sys
 import time
 
 import numpy as np
 from memory import memoryInUse
 from yade import Body, ForceResetter, InsertionSortCollider, InteractionLoop, NewtonIntegrator, O, Quaternion, Vector3, utils
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, circumradiusOfUnitVolume
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/paper'))
+from boon2012.falling.scene import FallingPolyhedra, circumradiusOfUnitVolume
 
 
 @dataclasses.dataclass

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Simulation A: regular polyhedra fall onto a floor between four walls (the scene: yade.polytope.fallingPolyhedra)."""
+"""Simulation A: regular polyhedra fall onto a floor between four walls."""

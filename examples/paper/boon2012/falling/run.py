@@ -10,12 +10,12 @@ import time
 
 from tqdm import tqdm
 from yade import O, PolytopeVTKRecorder
-from yade.polytope.fallingPolyhedra import FallingPolyhedra, solids
 from yade.utils import kineticEnergy
 
 from ..runWatch import RunWatch
 from ..solverTimes import StateSample, hasSolver
 from .pictures import HeapPictures
+from .scene import FallingPolyhedra, solids
 
 __all__ = ['FallingRun', 'halfStep', 'quantities', 'save']
 
@@ -38,7 +38,7 @@ quantities = {
 class FallingRun:
 	"""One run. That of the first seed also leaves pictures and ParaView files, and times of other solvers.
 
-	:param str name: of the solid, a key of yade.polytope.fallingPolyhedra.solids, or 'mixed' for all in one scene
+	:param str name: of the solid, a key of boon2012.falling.scene.solids, or 'mixed' for all in one scene
 	:param int seed: of the orientations
 	:param given: the options *parameters* (a dictionary for FallingPolyhedra), *number*, *steps*, *seed* (the first), *contact_model*,
 	    *contact_point*,

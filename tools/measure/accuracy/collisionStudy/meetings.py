@@ -12,10 +12,10 @@ import dataclasses
 import math
 
 import numpy as np
+from boon2012.falling.scene import circumradiusOfUnitVolume, solids
 from yade import O, Quaternion, Vector3, utils
 from yade._polytope import contact
 from yade.polytope.bodies.polytopes import cuboid, regular
-from yade.polytope.fallingPolyhedra import circumradiusOfUnitVolume, solids
 
 from .scene import EnergyScene
 

@@ -17,8 +17,7 @@ from yade import (
 	Quaternion,
 	RockJointMat,
 )
-
-from .bodies.polytopes import cuboid, regular
+from yade.polytope import cuboid, regular
 
 __all__ = ['FallingPolyhedra', 'circumradiusOfUnitVolume', 'solids']
 
