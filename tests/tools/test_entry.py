@@ -163,7 +163,7 @@ def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
 	assert 'MADE' not in done.stdout and 'REMOVED' not in done.stdout and f'root is {cache}/debian13' in done.stdout
 	assert './run clean --root' in done.stdout, 'a root of 1970 is old'
 	added = (cache / 'added').read_text().split()
-	assert {'g++', 'python3-pytest-xdist', 'valgrind'} <= set(added) and not {'yade', 'cmake', 'libfcl-dev'} & set(added)
+	assert {'g++', 'python3-pytest-xdist', 'valgrind'} <= set(added) and not {'yade', 'cmake', 'libccd-dev'} & set(added)
 	assert (cache / 'debian13-0123abcd').exists()
 
 
@@ -173,28 +173,28 @@ def testArchivesOfTheRoot(clone, tmp_path):
 	functions = functions[functions.index('rootArchives()'):functions.index('# Everything before')]
 	apt = tmp_path / 'root/etc/apt'
 	(apt / 'sources.list.d').mkdir(parents=True)
-	(apt / 'sources.list').write_text('deb [signed-by=/a.gpg] http://mirror/debian trixie main\n\ndeb http://security trixie-security main\n')
-	expected = ['http://mirror/debian trixie main', 'http://security trixie-security main']
+	(apt / 'sources.list').write_text('deb [signed-by=/a.gpg] https://debian.example/debian trixie main\n\ndeb https://security.example trixie-security main\n')
+	expected = ['https://debian.example/debian trixie main', 'https://security.example trixie-security main']
 	for _ in range(2):
 		done = shell(clone, tmp_path, f'{functions}\nfound=$(rootArchives {shlex.quote(str(tmp_path))}/root)\necho "$found"')
 		assert done.returncode == 0 and done.stdout.splitlines() == expected
-		(apt / 'sources.list.d/more.list').write_text('deb http://more trixie main\n')
-		expected = [*expected, 'http://more trixie main']
+		(apt / 'sources.list.d/more.list').write_text('deb https://more.example trixie main\n')
+		expected = [*expected, 'https://more.example trixie main']
 
 
 @pytest.mark.parametrize('verb, needed, spared', [
-        ('demo', {'yade', 'g++', 'xvfb'}, {'clang', 'valgrind', 'libgtest-dev', 'libfcl-dev', 'python3-pytest', 'clang-format'}),
-        ('yade', {'yade', 'g++'}, {'clang', 'valgrind', 'libfcl-dev'}),
+        ('demo', {'yade', 'g++', 'xvfb'}, {'clang', 'valgrind', 'libgtest-dev', 'libccd-dev', 'python3-pytest', 'clang-format'}),
+        ('yade', {'yade', 'g++'}, {'clang', 'valgrind', 'libccd-dev'}),
         ('build overlay', {'yade'}, {'libgtest-dev'}),
-        ('build testPrograms', {'yade', 'libgtest-dev'}, {'libfcl-dev'}),
-        ('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth', 'python3-sphinx'}, {'libfcl-dev'}),
+        ('build testPrograms', {'yade', 'libgtest-dev'}, {'libccd-dev'}),
+        ('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth', 'python3-sphinx'}, {'libccd-dev'}),
         ('docs', {'yade', 'python3-sphinx', 'python3-myst-parser', 'furo', 'libjs-mathjax'}, {'clang', 'valgrind'}),
-        ('bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
-        ('paper', {'git', 'yade'}, {'libfcl-dev', 'clang'}),
-        ('figures --check', {'yade'}, {'libfcl-dev', 'git'}),
-        ('figures --measure bench', {'libfcl-dev', 'git'}, {'clang', 'valgrind'}),
-        ('fuzz', {'clang', 'libclang-rt-dev'}, {'libfcl-dev'}),
-        ('format', {'clang-format'}, {'libfcl-dev'}),
+        ('bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
+        ('paper', {'git', 'yade'}, {'libccd-dev', 'clang'}),
+        ('figures --check', {'yade'}, {'libccd-dev', 'git'}),
+        ('figures --measure bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
+        ('fuzz', {'clang', 'libclang-rt-dev'}, {'libccd-dev'}),
+        ('format', {'clang-format'}, {'libccd-dev'}),
 ])
 def testPackagesOfAVerb(clone, tmp_path, verb, needed, spared):
 	done = shell(clone, tmp_path, f'packages $(purposesOf {verb})')
@@ -226,7 +226,7 @@ def testProxyIsLeftNowhere(clone, tmp_path):
 				cp "$settings" "$root/etc/apt/apt.conf.d/99mmdebstrap"
 				return {fails}
 			}}
-			makeDebianRoot "$cache/debian13" http://mirror http://security yade g++ && echo made || echo failed
+			makeDebianRoot "$cache/debian13" https://debian.example/debian https://security.example yade g++ && echo made || echo failed
 			grep -r secret "$cache" || echo none
 		'''
 		done = shell(clone, cache, script)

@@ -26,7 +26,6 @@ from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, paperParser, shown
 from boon2012.reporting.script import conclude
 from pathStudy.path import change, forceUnit, halvings, quantities, scan, smoothness, warmAnswers, zoom
-from pathStudy.plots import drawPaths, plotHalving, plotPaths
 from pathStudy.scenes import deep, paths, planeSets, variants
 
 foundation, spring, analytic, chebyshev, centroid, sharp = variants
@@ -233,34 +232,16 @@ class Study:
 			rows,
 		)
 
-	def pictures(self):
-		plain = {path: self.scans['plain', path] for path in paths}
-		folder, figure = self.findings.folder, self.findings.figure
-		if not self.given.no_pictures:
-			drawPaths(folder / 'cubes.png', plain)
-			figure('cubes.png', 'The paths: the moving cube at the start (dark), between, and at the end (light).')
-		chosen = ('tilt, face to edge', 'vertex over an edge to the next face', 'vertex over a vertex', pressed)
-		plotPaths(folder / 'paths.png', {path: plain[path] for path in chosen})
-		figure('paths.png', 'Contact point, normal and force on four of the paths.')
-		worst = {name: {quantity: self.worst(name, quantity, without=(pressed,)).worst for quantity in quantities} for name in variants}
-		plotHalving(folder / 'halving.png', worst)
-		figure(
-			'halving.png',
-			'The step with the largest change, halved again and again, on paths less deep than the corner radius: a jump goes up with '
-			'slope 1, what is smooth becomes level.',
-		)
-
 	def all(self):
 		self.measure()
 		self.rows()
 		self.table()
 		self.warm()
 		self.scaling()
-		self.pictures()
 
 
 def main(arguments=None):
-	parser = paperParser(__doc__, quick='fewer steps, planes and halvings', noPictures='no pictures of the cubes (plots are made)')
+	parser = paperParser(__doc__, quick='fewer steps, planes and halvings')
 	parser.set_defaults(output=pathlib.Path('output/accuracy/contactPath'))
 	parser.add_argument('--steps', type=count, default=None, help='of each path (2000; quick: 400)')
 	given = parser.parse_args(arguments)

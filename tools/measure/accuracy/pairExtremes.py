@@ -26,7 +26,6 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/pape
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, existingFile, writableFolder
 from boon2012.reporting.script import conclude
-from extremePlots import plotPairs
 from pairAxes import axes
 from pairTables import faults, readSamples, summary, summaryColumns, unjudged, worst
 
@@ -65,7 +64,7 @@ def sampled(given):
 
 
 def report(findings, name, samples):
-	"""One axis: rows, table, plot."""
+	"""One axis: rows, table."""
 	axis = axes[name]
 	found = faults(samples)
 	worstOf = '; '.join(
@@ -93,8 +92,6 @@ def report(findings, name, samples):
 			findings.row(f'{axis.title}: {limit.text}, worst', most, accept=(0, limit.most))
 	findings.text(f'{axis.title}. {axis.note}')
 	findings.table(name, f'{axis.title}; value: {axis.label}; errors of point over the overlap’s own size, of lengths over the size', summaryColumns, summary(samples))
-	plotPairs(findings.folder / f'{name}.png', axis, samples)
-	findings.figure(findings.folder / f'{name}.png', f'{axis.title}: error and status along the axis.')
 
 
 def transitions(findings, given):

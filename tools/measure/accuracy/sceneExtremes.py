@@ -25,7 +25,6 @@ from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import writableFolder
 from boon2012.reporting.script import conclude
 from sceneAxes import collide, rest, slide, stack, tower, vibrate
-from scenePlots import Line, plotScenes
 
 models = ('surface', 'boon2012')
 
@@ -49,18 +48,6 @@ def worst(values):
 	return max(values) if values else math.nan
 
 
-def linesOf(results, **quantities):
-	"""{model: [Line]}; quantities: attribute → (label, panel)."""
-	return {
-		model: [
-			Line(label, [v for m, v, r in results if m == model], [getattr(r, name) for m, v, r in results if m == model], panel)
-			for name, (label, panel) in quantities.items()
-			if not all(math.isnan(getattr(r, name)) for m, v, r in results if m == model)
-		]
-		for model in models
-	}
-
-
 def stiffness(findings, quick):
 	title = 'Stiffness ratio'
 	ratios = (1, 1e2, 1e4) if quick else (1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6)
@@ -74,9 +61,6 @@ def stiffness(findings, quick):
 		'follows the stiff joint, the settling the soft one. Each rounding of a position (1e-16 m) is a force of the stiff joint’s stiffness times that.'
 	)
 	findings.table('stiffness', f'{title}; value: stiffness below over above', *cells(results))
-	lines = linesOf(results, lowerForce=('force below', 0), upperForce=('force above', 0), lowerHeight=('height below', 1), upperHeight=('height above', 1))
-	panels = ['relative error of the normal force', 'error of height over the soft overlap']
-	return title, 'stiffness below over above', panels, lines, ()
 
 
 def mass(findings, quick):
@@ -97,16 +81,6 @@ def mass(findings, quick):
 	)
 	findings.table('mass', f'{title}, collisions; value: heavy over light body', *cells(results))
 	findings.table('massStacks', f'{title}, heavy block on a light one; value: heavy over light block', *cells(stacks))
-	lines = {
-		model: [
-			Line(f'{name}, {who} moves', ratios, [getattr(r, name) for m, _, r in results if m == f'{model}, {who} moves'])
-			for name in ('speed', 'momentum')
-			for who in ('light', 'heavy')
-		]
-		for model in models
-	}
-	lines['surface'] += [Line(label, ratios, [getattr(r, name) for _, _, r in stacks], 1) for name, label in (('lowerForce', 'below'), ('upperForce', 'above'))]
-	return title, 'heavy over light body', ['collision: relative error', 'heavy on light at rest: relative error of the force'], lines, ()
 
 
 def timeStep(findings, quick):
@@ -126,8 +100,6 @@ def timeStep(findings, quick):
 		'comes back: kinetic energy tells at once, and every number stays finite.'
 	)
 	findings.table('timeStep', f'{title}; value: over polytope.stableTimeStep(2)', *cells(results))
-	lines = linesOf(results, growth=('largest swing', 0), energyGrowth=('largest kinetic energy', 1))
-	return title, 'time step over polytope.stableTimeStep(2)', ['largest swing over the first', 'largest kinetic energy over the first'], lines, [(1, 'limit')]
 
 
 def towers(findings, quick):
@@ -145,8 +117,6 @@ def towers(findings, quick):
 	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
 		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')
 	findings.table('tower', f'{title}; value: steps', *cells(results))
-	lines = linesOf(results, force=('normal force', 0), sideways=('way sideways (m)', 1), tilt=('tilt (rad)', 1), speed=('speed (m/s)', 1))
-	return title, 'steps', ['largest relative error of a normal force', 'largest of all blocks'], lines, ()
 
 
 def atRest(findings, quick):
@@ -166,8 +136,6 @@ def atRest(findings, quick):
 	findings.row(f'{title}: its kinetic energy over weight × overlap', worst(r.energy for _, _, r in results), accept=(0, 1e-15))
 	findings.text(f'{title}. A block on a floor, both turned in space, has come to rest; then all damping is taken away.')
 	findings.table('rest', f'{title}; value: steps', *cells(results))
-	lines = linesOf(results, position=('way (m)', 0), turn=('turn (rad)', 0), energy=('kinetic energy', 1))
-	return title, 'steps', ['drift', 'kinetic energy over weight × overlap'], lines, ()
 
 
 def slides(findings, quick):
@@ -186,8 +154,6 @@ def slides(findings, quick):
 	findings.row(f'{title}: tilt of the block', worst(r.tilt for _, _, r in results), 'rad', accept=(0, 1e-5))
 	findings.text(f'{title}. A flat block slides down a slope half a degree steeper than its friction angle, with normal and rocking damping.')
 	findings.table('slide', f'{title}; value: steps', *cells(results))
-	lines = linesOf(results, distanceError=('distance', 0), speedError=('speed', 0), tilt=('tilt (rad)', 1))
-	return title, 'steps', ['relative error', 'tilt (rad)'], lines, ()
 
 
 axes = {'stiffness': stiffness, 'mass': mass, 'timeStep': timeStep, 'tower': towers, 'rest': atRest, 'slide': slides}
@@ -205,9 +171,7 @@ def main(arguments=None):
 	given = options(arguments)
 	findings = Findings('scenes', 'Scenes at the extremes', given.output, {'quick': given.quick})
 	for name in tqdm(given.axes):
-		title, label, panels, lines, marks = axes[name](findings, given.quick)
-		plotScenes(findings.folder / f'{name}.png', title, label, panels, lines, marks=marks)
-		findings.figure(findings.folder / f'{name}.png', f'{title}: along the axis, both contact models.')
+		axes[name](findings, given.quick)
 	return conclude(findings)
 
 

@@ -23,11 +23,10 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / 'examples/pape
 from boon2012.reporting.findings import Findings
 from boon2012.reporting.options import count, number, positive, writableFolder
 from boon2012.reporting.script import conclude
-from surfacePlots import plotCrossings
 from surfaceStudy.flatBodies import bodyKinds
 from surfaceStudy.floors import floorKinds
 from surfaceStudy.measures import cross
-from surfaceTables import SurfaceStudy, sliding
+from surfaceTables import SurfaceStudy
 
 
 def attribute(text):
@@ -76,8 +75,6 @@ def main(arguments=None):
 	findings = Findings('surfaces', 'Floors made of flush pieces', given.output, {'quick': given.quick})
 	study = SurfaceStudy(findings, given.quick)
 	study.crossings()
-	plotCrossings(findings.folder / 'crossings.png', study.cases, sliding)
-	findings.figure(findings.folder / 'crossings.png', 'Loss of speed at 1 m/s over three joints, without friction; dotted: the limit.')
 	study.others()
 	return conclude(findings)
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-/// libccd (Fiser): portal refinement, and GJK with the expanding polytope. Its tolerances of 1e-4 are its defaults.
+/// libccd (Fiser): portal refinement. Its tolerances of 1e-4 are its defaults.
 namespace {
 
 struct Placed {
@@ -41,14 +41,14 @@ void centre(const void* object, ccd_vec3_t* out)
 
 class CcdPeer : public peer::Peer {
 public:
-	explicit CcdPeer(bool portal) : portal_(portal)
+	CcdPeer()
 	{
 		CCD_INIT(&settings_);
 		settings_.support1 = settings_.support2 = support;
 		settings_.center1 = settings_.center2 = centre;
 		settings_.max_iterations              = 500;
 	}
-	const char* name() const override { return portal_ ? "libccd MPR" : "libccd GJK+EPA"; }
+	const char* name() const override { return "libccd MPR"; }
 	int         add(const peer::Body& body) override
 	{
 		bodies_.emplace_back(body.vertices, body.vertices + 3 * body.vertexCount);
@@ -59,18 +59,15 @@ public:
 		const Placed one { &bodies_[std::size_t(body1)], &pose1 }, two { &bodies_[std::size_t(body2)], &pose2 };
 		ccd_vec3_t   direction, point;
 		ccd_real_t   depth = 0;
-		const int    code  = portal_ ? ccdMPRPenetration(&one, &two, &settings_, &depth, &direction, &point)
-		                             : ccdGJKPenetration(&one, &two, &settings_, &depth, &direction, &point);
+		const int    code  = ccdMPRPenetration(&one, &two, &settings_, &depth, &direction, &point);
 		return { code == 0, true, depth, { direction.v[0], direction.v[1], direction.v[2] } };
 	}
 
 private:
-	bool                             portal_;
 	ccd_t                            settings_;
 	std::vector<std::vector<double>> bodies_;
 };
 
 } // namespace
 
-extern "C" peer::Peer* makeCcdPortal() { return new CcdPeer(true); }
-extern "C" peer::Peer* makeCcdEpa() { return new CcdPeer(false); }
+extern "C" peer::Peer* makeCcd() { return new CcdPeer; }

@@ -356,9 +356,7 @@ namespace {
 			const struct {
 				const char *name, *library, *factory;
 			} peers[] = {
-				{ "libccd MPR", "ccd", "makeCcdPortal" },
-				{ "libccd GJK+EPA", "ccd", "makeCcdEpa" },
-				{ "FCL", "fcl", "makeFcl" },
+				{ "libccd MPR", "ccd", "makeCcd" },
 				{ "CLP, as YADE calls it", "clp", "makeClpNew" },
 				{ "CLP, one model reused", "clp", "makeClpReused" },
 				{ "coal GJK+EPA", "coal", "makeCoal" },

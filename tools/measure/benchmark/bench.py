@@ -32,8 +32,7 @@ from tabulate import tabulate
 here = pathlib.Path(__file__).resolve().parent
 groups = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
 outputs = (
-        'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png',
-        'breakdown.png', 'cost-by-set.png', 'heaps.png', 'asked-for.png', 'growth.png'
+        'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png'
 )
 
 
@@ -136,8 +135,6 @@ def kernelGroup(run):
 	flat, solid = found['ours warm', 'squares, 2-D'].median, found['ours warm', 'cube'].median
 	run.say(f'two dimensions instead of three: squares {1000 * flat:.0f} ns, cubes {1000 * solid:.0f} ns, warm\n')
 	plots.costAgainstPlanes(found, run.output / 'cost-against-planes.png')
-	plots.breakdown(found, run.output / 'breakdown.png')
-	plots.costBySet(found, run.output / 'cost-by-set.png')
 	return targets.kernelRows(found)
 
 
@@ -184,7 +181,6 @@ def sceneGroup(run):
 	describe(
 	        run, [(name, one) for name, methods in heaps.items() for one in methods.values()] + [('settled cubes, spheres', one) for one in settled.values()]
 	)
-	plots.heaps(heaps, run.output / 'heaps.png')
 	showExtras(run)
 	return targets.sceneRows(heaps) + targets.settledRows(settled)
 
@@ -198,7 +194,6 @@ def showExtras(run):
 	rows = [[name, found[name]['pairs'], cost, cost - without, 100 * (cost / without - 1)] for name, cost in costs.items()]
 	head = [f"asked for ({found['nothing']['bodies']} settled cubes)", 'pairs', 'µs/step', 'more', '%']
 	run.say(tabulate(rows, head, floatfmt=('', '', '.0f', '+.0f', '+.1f')) + '\n')
-	plots.extras(costs, run.output / 'asked-for.png')
 
 
 def sizeGroup(run):
@@ -243,7 +238,6 @@ def growthGroup(run):
 		if one:
 			run.say(f'memory, 2000 cubes, {name}: {scenes.memoryPerBody(one):.0f} B a body, {scenes.memoryPerContact(one):.0f} B a contact')
 	run.say('')
-	plots.growth(found, run.output / 'growth.png')
 	if run.quick:
 		run.note('--quick leaves out heaps of 20 000 and 100 000: those are what growth is about.')
 	return targets.growthRows(found, memory)
