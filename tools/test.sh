@@ -5,17 +5,19 @@
 
 results=$build/test-results # a JUnit file for each part; tools/skipped.py reads what was skipped from them
 fast=
+places=() # what pytest runs, all where it is empty; rooms are folders of tests/yade
+core=yes  # whether ctest runs
 
 # Tests of the core (in double alone), then of the plug-in; both run whatever the result of the first.
 runTests() {
 	local result=0
-	if [ "$precision" = double ]; then
+	if [ "$precision" = double ] && [ -n "$core" ]; then
 		echo
 		rm -f "$results/core.xml"
 		ctest --test-dir "$build" --output-on-failure -j "$cores" --output-junit "$results/core.xml" ${fast:+-LE slow} || result=1
 	fi
 	echo
-	runPytest "$@" || result=1
+	[ ${#places[@]} = 0 ] && [ -n "$onlyCore" ] || runPytest "$@" || result=1
 	return $result
 }
 
@@ -24,6 +26,7 @@ runTests() {
 runPytest() {
 	local options=() folders=(tests/yade) argument parallel=yes
 	[ "$precision" != double ] || folders+=(tests/tools)
+	[ ${#places[@]} = 0 ] || folders=("${places[@]}")
 	for argument in "$@"; do
 		case $argument in -n | -n[0-9]* | --numprocesses* | --dist* | --pdb | --trace | no:xdist) parallel='' ;; esac
 	done
@@ -39,9 +42,9 @@ runPytest() {
 testAll() {
 	local result=0 status
 	buildTests
-	if [ -z "$fast" ] && hasPrecision longdouble; then buildPrecision longdouble overlay; fi # now, since tests in double use it, too
+	if [ -z "$fast$onlyPlaces" ] && hasPrecision longdouble; then buildPrecision longdouble overlay; fi # now, since tests in double use it, too
 	runTests "$@" || result=1
-	if [ -z "$fast" ] && hasPrecision longdouble; then
+	if [ -z "$fast$onlyPlaces" ] && hasPrecision longdouble; then
 		echo
 		usePrecision longdouble
 		echo "long double:"
@@ -54,17 +57,23 @@ testAll() {
 
 # What the tests of this precision need.
 buildTests() {
-	if [ "$precision" = double ]; then
+	if [ "$precision" = double ] && [ -n "$core" ]; then
 		build overlay testPrograms
 	else
 		build overlay
 	fi
 }
 
-# test [--fast] OPTIONS OF PYTEST…
+# test [--fast] [PLACE…] OPTIONS OF PYTEST…
 test_() {
-	local result=0 expected=()
+	local result=0 expected=() onlyPlaces='' onlyCore='' place
 	if [ "${1:-}" = --fast ]; then fast=yes && shift; fi
+	while [ $# -gt 0 ] && [[ $1 != -* ]]; do
+		[ -n "$onlyPlaces" ] || core=''
+		onlyPlaces=yes place=$(placeOf "$1") || exit
+		if [ "$place" = core ]; then core=yes onlyCore=yes; else places+=("$place"); fi
+		shift
+	done
 	# pytest looks at its options first: nothing is built for a wrong one
 	(cd "$project" && pytest --version "$@" >/dev/null) || return
 	mkdir -p "$results"
@@ -74,9 +83,9 @@ test_() {
 		runTests "$@" || result=1
 	else
 		testAll "$@" || result=1
-		[ -n "$fast" ] || expected=(--expect-precision longdouble)
+		[ -n "$fast$onlyPlaces" ] || expected=(--expect-precision longdouble)
 	fi
-	[ "$fast${YADE_POLYTOPE_PRECISION:-double}" != double ] || expected+=(--expect-core)
+	[ "$fast$onlyPlaces${YADE_POLYTOPE_PRECISION:-double}" != double ] || expected+=(--expect-core)
 	echo
 	[ -z "$fast" ] || echo "--fast: tests marked slow, tests of the core with the label slow, and the repeat in long double were left out"
 	python3 "$project/tools/skipped.py" "${expected[@]}" "$results" || result=1

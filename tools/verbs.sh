@@ -81,9 +81,30 @@ checkArguments() { # VERB ARGUMENTS…
 	done
 }
 
-# All but --fast are pytest's, which checks them before anything is built (test.sh); here only what is meant for --fast and is not.
+# What pytest runs for a place: core, tools, a room (folder of tests/yade), the name of a test file, or a path with or without the name of a test.
+placeOf() { # PLACE
+	local found
+	case $1 in
+		core) echo core && return ;;
+		tools) echo tests/tools && return ;;
+	esac
+	if [ -d "$project/tests/yade/$1" ]; then echo "tests/yade/$1" && return; fi
+	if [ -e "$project/${1%%::*}" ]; then echo "$1" && return; fi
+	found=$(cd "$project" && find tests/yade tests/tools -name "$(basename "${1%%::*}" .py).py" 2>/dev/null)
+	[ -n "$found" ] || fail "test: there is no place '$1'." "They are: core, tools, $(cd "$project/tests/yade" && printf '%s\n' */test_*.py | cut -d/ -f1 | uniq | sed 's/$/,/' | tr '\n' ' ')and test files."
+	case $1 in *::*) echo "$found::${1#*::}" ;; *) echo "$found" ;; esac
+}
+
+# Places, --fast, and what is meant for it; all other options are pytest's, which checks them before anything is built (test.sh).
 checkTestArguments() { # ARGUMENTS…
 	local argument
+	for argument in "$@"; do
+		case $argument in
+			--fast) ;;
+			-*) break ;;
+			*) placeOf "$argument" >/dev/null || exit ;;
+		esac
+	done
 	for argument in "$@"; do
 		case $argument in
 			--fast | --ff | --failed-first | --fixtures* | --full-trace | --funcargs) ;;
