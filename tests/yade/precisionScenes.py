@@ -4,7 +4,7 @@ scene it is told, every digit, one number a line."""
 import sys
 
 import scenes
-from yade import O, Quaternion, Vector3, polytope
+from yade import O, Quaternion, polytope
 
 
 def collision():

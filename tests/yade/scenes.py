@@ -4,9 +4,17 @@ import time
 from math import sqrt
 
 from yade import (
+	Bo1_Box_Aabb,
+	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
+	Bo1_Sphere_Aabb,
+	Bo1_Wall_Aabb,
 	ForceResetter,
+	Ig2_Box_Polytope_PolytopeGeom,
+	Ig2_Facet_Polytope_PolytopeGeom,
 	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	Ig2_Wall_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
@@ -18,10 +26,27 @@ from yade import (
 	RockJointMat,
 	Vector3,
 	polytope,
+	utils,
 )
 
 gravity = 9.81
 density = 2600.
+
+bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
+"""Of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on, with its functor."""
+withPolytopes = (
+	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Sphere_Polytope_PolytopeGeom,
+	Ig2_Wall_Polytope_PolytopeGeom,
+	Ig2_Facet_Polytope_PolytopeGeom,
+	Ig2_Box_Polytope_PolytopeGeom,
+)
+supports = {
+	'wall': (Ig2_Wall_Polytope_PolytopeGeom, lambda: utils.wall(0, 2)),
+	'box': (Ig2_Box_Polytope_PolytopeGeom, lambda: utils.box((0, 0, -1), (5, 5, 1), fixed=True)),
+	'facet': (Ig2_Facet_Polytope_PolytopeGeom, lambda: utils.facet([(-5, -5, 0), (5, -5, 0), (0, 5, 0)], fixed=True)),
+	'sphere': (Ig2_Sphere_Polytope_PolytopeGeom, lambda: utils.sphere((0, 0, -5), 5, fixed=True)),
+}
 
 
 def joint(**attributes):

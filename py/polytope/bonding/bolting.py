@@ -6,10 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from yade import O, PolytopeBolt, PolytopeBolts
+from yade import PolytopeBolt, PolytopeBolts
 
 from ..arguments import flag, namedArguments, number, vector
-from ..scene.present import EngineOfScene, placeOfForces
+from ..scene.present import EngineOfScene
 
 __all__ = ['BoltArrays', 'Dowel', 'Grout', 'bolt', 'boltArrays', 'bolts', 'madeBolts', 'removedBolts']
 
@@ -140,14 +140,7 @@ def bolt(
 		**_ofGrout(grout),
 		**_ofDowel(dowel),
 	)
-	engine = bolts()
-	new = engine is None
-	if new:
-		place, engine = placeOfForces('bolts act'), PolytopeBolts()
-	index = engine.make(pattern)
-	if new:
-		O.engines = O.engines[:place] + [engine] + O.engines[place:]
-		ofScene.last = engine
+	engine, index = ofScene.make('bolts act', lambda engine: engine.make(pattern))
 	return engine.bolts[index]
 
 

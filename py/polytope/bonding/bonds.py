@@ -8,7 +8,7 @@ from yade import Clump, O, Polytope, PolytopeBond, PolytopeBonds
 
 from ..arguments import namedArguments, warn
 from ..precision import isNumber, real
-from ..scene.present import EngineOfScene, placeOfForces
+from ..scene.present import EngineOfScene
 
 __all__ = ['bond', 'bonds', 'madeBonds', 'removedBonds']
 
@@ -72,20 +72,17 @@ def bond(
 	bodies = [] if ids is None else _parts(ids)
 	if ids is not None and not bodies:
 		return 0
-	engine = bonds()
-	new = engine is None
-	if new:
-		place, engine = placeOfForces('bonds act'), PolytopeBonds()
-	made = engine.make(bodies, -1 if gap is None else real(gap), real(angle), pattern)
-	if made == 0 and engine.intactCount == 0:
-		within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
-		movable = '' if ids is not None else ' of which one can move'
-		advice = 'give a larger gap or angle' + (', or ids to bond fixed bodies' if movable else '')
-		warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}')
-	if new:
-		O.engines = O.engines[:place] + [engine] + O.engines[place:]
-		ofScene.last = engine
-	return made
+
+	def making(engine):
+		made = engine.make(bodies, -1 if gap is None else real(gap), real(angle), pattern)
+		if made == 0 and engine.intactCount == 0:
+			within = 'touch or overlap' if gap is None else f'lie within {float(gap):g} m'
+			movable = '' if ids is not None else ' of which one can move'
+			advice = 'give a larger gap or angle' + (', or ids to bond fixed bodies' if movable else '')
+			warn(f'no bond was made: no two faces of bodies{movable} {within} and face each other within {float(angle):g} rad; {advice}')
+		return made
+
+	return ofScene.make('bonds act', making)[1]
 
 
 def bonds():

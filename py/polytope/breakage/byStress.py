@@ -10,6 +10,7 @@ from yade import O, Polytope
 from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
 from ..measures.packings import bodyStress
+from ..scene.movers import movers
 from ..scene.namedBodies import namedBodies
 from ..scene.ranks import refuseDivided
 from .splitting import split
@@ -107,7 +108,7 @@ def _cut(k, planes, smallest):
 
 def _breakable(ids):
 	if ids is None:
-		chosen = [body.id for body in O.bodies if isinstance(body.shape, Polytope) and body.dynamic and not body.isClumpMember]
+		chosen = [body.id for body in movers() if isinstance(body.shape, Polytope)]
 	else:
 		chosen = [k for k in namedBodies(ids, erased=True) if O.bodies[k].dynamic and not O.bodies[k].isClump]
 		other = next((k for k in chosen if not isinstance(O.bodies[k].shape, Polytope)), None)

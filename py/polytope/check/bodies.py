@@ -9,6 +9,7 @@ from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPh
 from ..bonding.bonds import bonds
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
+from ..scene.movers import isMover, movers
 from ..scene.present import isPerArea, jointMakers, jointMaterials
 from .places import overlapShare
 
@@ -77,7 +78,7 @@ def movingBodies(scene):
 	"""How many can move, how large and heavy they are; nothing for a scene without bodies."""
 	if not scene.bodies:
 		return ''
-	whole = [body for body in scene.O.bodies if body is not None and body.dynamic and not body.isClumpMember and (body.shape is not None or body.isClump)]
+	whole = [body for body in movers() if body.shape is not None or body.isClump]
 	if not whole:
 		return 'no body can move'
 	shapes = [body for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)]
@@ -97,7 +98,7 @@ def _span(values):
 def mass(scene):
 	light, heavy = [], []
 	for body in scene.bodies:
-		if body.dynamic and not body.isClumpMember:
+		if isMover(body):
 			(heavy if 0 < float(body.state.mass) < math.inf else light).append(body)
 	if light:
 		seen = f'{_number(light)} can move and has mass {float(light[0].state.mass):g} kg: no force accelerates it'
@@ -140,14 +141,7 @@ def _inMetres(scene):
 def _extentOfSupports(scene):
 	"""Largest edge of the box around all that cannot move [m]; walls are endless and tell nothing."""
 	held = [body for body in scene.bodies if not scene.moves(body)]
-	corners = [worldVertices(body) for body in held if isinstance(body.shape, Polytope)]
-	for body in held:
-		if isinstance(body.shape, Box):
-			reach = np.array(body.shape.extents, float)
-			turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-			corners.append(np.array(body.state.pos, float) + np.abs(turn) @ reach * np.array([[-1.0], [1.0]]))
-		if isinstance(body.shape, Facet):
-			corners.append(np.array([list(body.state.pos + body.state.ori * corner) for corner in body.shape.vertices], float))
+	corners = [worldVertices(body) for body in held if isinstance(body.shape, (Polytope, Box, Facet))]
 	return float(np.ptp(np.concatenate(corners), axis=0).max()) if corners else 0.0
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from yade import Polytope, PolytopeCollider, PolytopeGeom, Sphere
 
 from .. import _builds
+from ..pictures.faces import worldVertices
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import geometryFunctors
 from ..scene.timeStep import safeTimeStep
@@ -120,7 +121,7 @@ def _radius(body):
 
 
 def _tightBox(body, room):
-	points = np.array([list(body.state.pos + body.state.ori * vertex) for vertex in body.shape.vertices], float)
+	points = worldVertices(body)
 	return points.min(axis=0) - room, points.max(axis=0) + room
 
 

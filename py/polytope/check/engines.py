@@ -26,7 +26,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bonds, bolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
 		yield from one(scene)
 
 
@@ -108,24 +108,19 @@ def _roundFrom(scene, engine):
 	return scene.engines[start + 1 :] + scene.engines[:start]
 
 
-def bonds(scene):
-	"""Bonds that are lost, or of which others know nothing."""
-	those, removed = scene.those(PolytopeBonds), removedBonds() if scene.ownEngines else None
-	if removed is not None:
-		seen = f'O.engines has no PolytopeBonds any more, whose {removed.intactInScene} bonds were intact: those bodies are loose'
-		yield 'bonds', seen, 'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.bonds() before NewtonIntegrator'
-	if len(those) > 1:
-		yield 'bonds', f'O.engines has {len(those)} PolytopeBonds: contacts know the bonds of the first one only', 'keep one, and make all bonds with polytope.bond'
-
-
-def bolts(scene):
-	"""The same of bolts."""
-	those, removed = scene.those(PolytopeBolts), removedBolts() if scene.ownEngines else None
-	if removed is not None:
-		seen = f'O.engines has no PolytopeBolts any more, of which {removed.actingInScene} held blocks: they hold nothing now'
-		yield 'bolts', seen, 'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.bolts() before NewtonIntegrator'
-	if len(those) > 1:
-		yield 'bolts', f'O.engines has {len(those)} PolytopeBolts: polytope.bolts() and the functions that need bolts know the first one only', 'keep one'
+def bondsAndBolts(scene):
+	"""Those that are lost, or of which others know nothing."""
+	for what, kind, removed, loss in (
+		('bonds', PolytopeBonds, removedBonds, lambda engine: f'whose {engine.intactInScene} bonds were intact: those bodies are loose'),
+		('bolts', PolytopeBolts, removedBolts, lambda engine: f'of which {engine.actingInScene} held blocks: they hold nothing now'),
+	):
+		those, lost = scene.those(kind), removed() if scene.ownEngines else None
+		if lost is not None:
+			remedy = f'O.engines = polytope.engines(…) puts it back; a list of your own must hold polytope.{what}() before NewtonIntegrator'
+			yield what, f'O.engines has no {kind.__name__} any more, {loss(lost)}', remedy
+		if len(those) > 1:
+			seen = f'O.engines has {len(those)} {kind.__name__}: contacts and functions know the {what} of the first one only'
+			yield what, seen, f'keep one, and make all {what} with polytope.{what[:-1]}'
 
 
 def dampingOfShaken(scene):

@@ -10,7 +10,9 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
+from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
+from ..scene.movers import isMover, sameClump
 from ..scene.present import isPerArea, jointMakers
 
 __all__ = ['notNumbers', 'overlapShare', 'placeFindings']
@@ -61,8 +63,7 @@ def coincidence(scene):
 		if isinstance(body.shape, Polytope):
 			where = (*map(float, body.state.pos), float(body.shape.volume))
 			for other in there.setdefault(where, []):
-				sameClump = body.isClumpMember and other.isClumpMember and body.clumpId == other.clumpId
-				if other.mask & body.mask and not sameClump and _planes(other) == _planes(body):
+				if other.mask & body.mask and not sameClump(body, other) and _planes(other) == _planes(body):
 					pairs.append((other.id, body.id))
 					break
 			there[where].append(body)
@@ -158,9 +159,7 @@ def _anyRests(scene, bodies, supports):
 	"""Whether a vertex of one of the bodies lies on a box, facet or wall."""
 	pairs = ((body, support) for body in bodies if scene.moves(body) for support in supports if body.mask & support.mask)
 	for body, support in itertools.islice(pairs, looks):
-		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-		vertices = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
-		if _distances(support, vertices).min(initial=math.inf) < touching * float(body.shape.circumscribedRadius):
+		if _distances(support, worldVertices(body)).min(initial=math.inf) < touching * float(body.shape.circumscribedRadius):
 			return True
 	return False
 
@@ -189,9 +188,8 @@ def _gap(one, other):
 
 def _meet(scene, one, other):
 	"""Whether they may have a contact: not the same place, which coincidence() finds."""
-	sameClump = one.isClumpMember and other.isClumpMember and one.clumpId == other.clumpId
 	samePlace = (one.state.pos - other.state.pos).norm() == 0 and _planes(one) == _planes(other)
-	return one.mask & other.mask and not sameClump and not samePlace and (scene.moves(one) or scene.moves(other))
+	return one.mask & other.mask and not sameClump(one, other) and not samePlace and (scene.moves(one) or scene.moves(other))
 
 
 def _depth(one, other):
@@ -243,7 +241,7 @@ def stiffness(scene):
 		return
 	deepest, worst, gravity = 0.0, None, scene.gravity()
 	for body in scene.bodies:
-		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and body.dynamic and not body.isClumpMember:
+		if isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and isMover(body):
 			share = overlapShare(body, isPerArea(body.material, makers), gravity)
 			if share > deepest:
 				deepest, worst = share, body

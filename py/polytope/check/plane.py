@@ -5,6 +5,7 @@ import numpy as np
 from yade import NewtonIntegrator, O, Polytope, Vector3
 
 from ..bodies.polytopes import polygon
+from ..pictures.faces import worldVertices
 
 __all__ = ['dimension', 'makePolygons']
 
@@ -44,7 +45,7 @@ def _outline(body):
 	along = np.abs(normals[:, 2])
 	if not np.all((along < flat) | (along > 1 - flat)):
 		return None
-	corners = np.array(body.shape.vertices, float).reshape(-1, 3) @ turn.T + np.array(body.state.pos, float)
+	corners = worldVertices(body)
 	return corners[corners[:, 2] > corners[:, 2].mean(), :2]
 
 
@@ -52,7 +53,7 @@ def makePolygons():
 	"""Polygons in place of all bodies of the scene, which are prisms; they keep material, place and motion. Contacts are found anew."""
 	bodies = []
 	for body in O.bodies:
-		height = np.ptp([float((body.state.ori * corner)[2]) for corner in body.shape.vertices])
+		height = float(np.ptp(worldVertices(body)[:, 2]))
 		made = polygon(_outline(body).tolist(), thickness=height, material=body.material, fixed=not body.dynamic)
 		made.shape.cornerRadius = min(body.shape.cornerRadius, 0.9 * made.shape.inscribedRadius)
 		made.state.vel, made.state.angVel = body.state.vel, body.state.angVel
@@ -64,8 +65,7 @@ def makePolygons():
 
 def _heights(bodies):
 	"""(what the z ranges of all these bodies have in common, the least of their heights) [m]; below zero if there is a gap."""
-	heights = [[float((body.state.pos + body.state.ori * corner)[2]) for corner in body.shape.vertices] for body in bodies]
-	low, high = (np.array([bound(one) for one in heights]) for bound in (min, max))
+	low, high = (np.array([bound(worldVertices(body)[:, 2]) for body in bodies]) for bound in (np.min, np.max))
 	return high.min() - low.max(), (high - low).min()
 
 

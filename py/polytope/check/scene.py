@@ -7,7 +7,7 @@ import itertools
 import yade
 from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
 
-from ..scene.present import canMove
+from ..scene.movers import canMove
 
 __all__ = ['Kind', 'SceneToCheck']
 

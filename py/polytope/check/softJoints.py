@@ -18,6 +18,7 @@ from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialOfPlane, materialsOf
+from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
 
 __all__ = ['softJoints', 'stableTilt']
@@ -101,8 +102,7 @@ def _mayTopple(body):
 	return (
 		isinstance(body.shape, Polytope)
 		and isinstance(body.material, RockJointMat)
-		and body.dynamic
-		and not body.isClumpMember
+		and isMover(body)
 		and not any(material.tensileStrength > 0 for material in materialsOf(body))
 		and float(body.state.mass) > 0
 	)

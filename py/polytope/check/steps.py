@@ -18,6 +18,7 @@ from yade import (
 	TimeStepper,
 )
 
+from ..scene.movers import moverOf
 from ..scene.timeStep import safeTimeStep
 
 __all__ = ['stepFindings', 'usual', 'yadesDt']
@@ -128,7 +129,7 @@ def _passes(body):
 
 def _turns(scene, body, driven):
 	"""Or may turn, pushed by others; a member turns with its clump."""
-	whole = scene.O.bodies[body.clumpId] if body.isClumpMember else body
+	whole = scene.O.bodies[moverOf(body.id)]
 	return whole.id in driven or body.id in driven or float(whole.state.angVel.norm()) > 0 or (scene.moves(body) and not _held(whole))
 
 

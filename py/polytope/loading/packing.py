@@ -14,7 +14,8 @@ from ..bodies.grains import cloud
 from ..bodies.grainShapes import partsOfLoose
 from ..engines import engines
 from ..measures.packings import aabbExtrema
-from ..scene.namedBodies import namedBodies, partsOf
+from ..scene.movers import movers, partsOf
+from ..scene.namedBodies import namedBodies
 from ..scene.present import geometryFunctors
 from .cell import PeriodicSample
 from .sample import between, deepest, fastestStrain, idsOfSample, tooDeep
@@ -97,7 +98,7 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 	:returns: WalledSample or PeriodicSample
 	:raises ValueError: naming the argument
 	"""
-	chosen = [body.id for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember] if ids is None else namedBodies(ids)
+	chosen = [body.id for body in movers()] if ids is None else namedBodies(ids)
 	if not chosen:
 		raise ValueError('ids: the sample has no body that can move')
 	if (lower is None) != (upper is None) or (O.periodic and lower is not None):

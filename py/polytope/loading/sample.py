@@ -15,7 +15,7 @@ from yade import O, Polytope, utils
 from ..measures.arrays import arrays
 from ..measures.heap import solidVolume
 from ..measures.packings import bodyStress
-from ..scene.namedBodies import moverOf, partsOf
+from ..scene.movers import moverOf, partsOf
 
 __all__ = ['Sample', 'deepest', 'idsOfSample', 'replaceInSamples', 'tooDeep']
 

@@ -4,7 +4,7 @@
 import numpy as np
 from yade import O
 
-from ..scene.namedBodies import partsOf
+from ..scene.movers import partsOf
 from .plates import force, moveTo, plate, replaced, thickness
 from .sample import Sample
 from .servo import Servo, actOn, eased

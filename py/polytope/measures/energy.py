@@ -5,7 +5,8 @@ from yade import O, Vector3
 
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
-from ..scene.present import canMove, geometryFunctors, integrators, meanwhile
+from ..scene.movers import canMove, movers
+from ..scene.present import geometryFunctors, integrators, meanwhile
 
 __all__ = ['mechanicalEnergy']
 
@@ -26,7 +27,7 @@ def mechanicalEnergy():
 	"""
 	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
-	moving = [(body.state, *_motion(body.state)) for body in O.bodies if not body.isClumpMember and body.state.mass > 0 and body.dynamic]
+	moving = [(body.state, *_motion(body.state)) for body in movers() if body.state.mass > 0]
 	with meanwhile([(geometry, 'computeEnergy', True) for geometry in geometryFunctors()]):
 		O.step()
 	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(one.energy for one in madeBonds() + madeBolts())

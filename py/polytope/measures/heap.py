@@ -12,7 +12,8 @@ from ..arguments import numbersOf, vectors, warn
 from ..bodies.polytopes import fromHalfSpaces
 from ..bonding.bonds import madeBonds
 from ..pictures.faces import localVertices
-from ..scene.namedBodies import moverOf, namedBodies, partsOf
+from ..scene.movers import moverOf, partsOf
+from ..scene.namedBodies import namedBodies
 
 __all__ = [
 	'Coordination',

@@ -11,6 +11,7 @@ from yade import O, Polytope, Sphere, Vector3
 
 from ..bonding.bonds import madeBonds
 from ..pictures.faces import localVertices, worldVertices
+from ..scene.movers import moverOf, movers
 from ..scene.namedBodies import namedBodies
 from .heap import solidVolume
 
@@ -37,7 +38,7 @@ def bodyStress(ids=None):
 		point = np.array(contact.geom.contactPoint, float)
 		shift = np.array(O.cell.hSize * contact.cellDist, float) if O.periodic else 0
 		for k, sign, place in ((contact.id1, -1, point), (contact.id2, 1, point - shift)):
-			whole = _whole(k)
+			whole = moverOf(k)
 			if whole in stress:
 				stress[whole] += np.outer(sign * force, place - np.array(O.bodies[whole].state.pos, float))
 	for bond in _intactBonds():
@@ -53,7 +54,7 @@ def _addBond(stress, bond):
 	spread = np.outer(normal, np.cross(normal, moment)) + moment @ normal / 2 * (np.outer(v, u) - np.outer(u, v))
 	shift = np.array(O.cell.hSize * bond.cellDist, float) if O.periodic else 0
 	for k, sign, place in ((bond.id1, -1, point), (bond.id2, 1, point - shift)):
-		whole = _whole(k)
+		whole = moverOf(k)
 		if whole in stress:
 			stress[whole] += sign * (np.outer(force, place - np.array(O.bodies[whole].state.pos, float)) + spread)
 
@@ -67,9 +68,9 @@ def contactFabric(ids=None):
 	:raises ValueError: naming *ids*, or if there is no such contact
 	"""
 	chosen = set(_massive(ids))
-	normals = [np.array(contact.geom.normal, float) for contact in _bearing() if {_whole(contact.id1), _whole(contact.id2)} & chosen]
+	normals = [np.array(contact.geom.normal, float) for contact in _bearing() if {moverOf(contact.id1), moverOf(contact.id2)} & chosen]
 	for bond in _intactBonds():
-		if bond.force.squaredNorm() > 0 and {_whole(bond.id1), _whole(bond.id2)} & chosen:
+		if bond.force.squaredNorm() > 0 and {moverOf(bond.id1), moverOf(bond.id2)} & chosen:
 			normals.append(np.array(O.bodies[bond.id1].state.ori * bond.frame1 * Vector3(1, 0, 0), float))
 	if not normals:
 		raise ValueError('ids: no contact of these bodies bears a force')
@@ -149,15 +150,10 @@ def _intactBonds():
 	return [bond for bond in madeBonds() if bond.intact]
 
 
-def _whole(k):
-	"""The clump of a member; any other body itself."""
-	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
-
-
 def _massive(ids):
 	"""Polytopes, spheres and clumps."""
 	if ids is None:
-		bodies = (O.bodies[_whole(body.id)] for body in O.bodies if body is not None and isinstance(body.shape, (Polytope, Sphere)))
+		bodies = (O.bodies[moverOf(body.id)] for body in O.bodies if body is not None and isinstance(body.shape, (Polytope, Sphere)))
 		return list(dict.fromkeys(body.id for body in bodies if body.dynamic))
 	for k in (named := namedBodies(ids)):
 		if not O.bodies[k].isClump and not isinstance(O.bodies[k].shape, (Polytope, Sphere)):
@@ -167,11 +163,7 @@ def _massive(ids):
 
 def _polytopes(ids):
 	if ids is None:
-		found = [
-			body.id
-			for body in O.bodies
-			if body is not None and isinstance(body.shape, Polytope) and body.dynamic and not body.isClumpMember
-		]
+		found = [body.id for body in movers() if isinstance(body.shape, Polytope)]
 	else:
 		found = namedBodies(ids)
 	if not found:

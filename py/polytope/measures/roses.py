@@ -6,7 +6,8 @@ import os
 
 import numpy as np
 
-from .packings import _bearing, _longAxes, _massive, _whole
+from ..scene.movers import moverOf
+from .packings import _bearing, _longAxes, _massive
 
 __all__ = ['contactRose', 'forceHistogram', 'particleRose']
 
@@ -68,7 +69,7 @@ def forceHistogram(path=None, bins=40, ids=None):
 
 def _of(ids):
 	chosen = set(_massive(ids))
-	contacts = [contact for contact in _bearing() if {_whole(contact.id1), _whole(contact.id2)} & chosen]
+	contacts = [contact for contact in _bearing() if {moverOf(contact.id1), moverOf(contact.id2)} & chosen]
 	if not contacts:
 		raise ValueError('ids: no contact of these bodies bears a force')
 	return contacts

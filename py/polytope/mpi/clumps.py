@@ -10,17 +10,15 @@ import functools
 
 from yade import O, mpy
 
-__all__ = ['check', 'followClumps', 'giveMaterials', 'mover', 'movers', 'parts', 'takeMaterials', 'wholeClumps']
+from ..scene.movers import moverOf
+from ..scene.movers import movers as allMovers
 
-
-def mover(body):
-	"""Id of the body that moves it: of its clump, or its own."""
-	return body.clumpId if body.isClumpMember else body.id
+__all__ = ['check', 'followClumps', 'giveMaterials', 'movers', 'parts', 'takeMaterials', 'wholeClumps']
 
 
 def movers():
 	"""Bodies that forces can move; of a clump its own body alone."""
-	return [body for body in O.bodies if body.dynamic and not body.isSubdomain and not body.isClumpMember]
+	return [body for body in allMovers() if not body.isSubdomain]
 
 
 def parts(number):
@@ -76,5 +74,5 @@ def wholeClumps(genLocalIntersections):
 def _withClumps(ids):
 	all = {}  # in their order, each once
 	for k in ids:
-		all.update(dict.fromkeys(parts(mover(O.bodies[k]))))
+		all.update(dict.fromkeys(parts(moverOf(k))))
 	return list(all)

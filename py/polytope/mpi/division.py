@@ -16,6 +16,7 @@ import yade
 from yade import InteractionLoop, O, PolytopeTimeStepper, PyRunner, TimeStepper, mpy
 
 from ..bonding import bolting
+from ..scene.movers import moverOf
 from ..scene.ranks import eraseRanks
 from . import bonds, clumps, dampers, decomposition, joints, permanentLoads, reallocation, waiting
 from .recorders import ofWholeScene
@@ -49,7 +50,7 @@ def assign(ranks):
 	"""
 	_ranksOfBodies.clear()
 	for body in O.bodies:
-		body.subdomain = ranks.get(clumps.mover(body), 0)
+		body.subdomain = ranks.get(moverOf(body.id), 0)
 
 
 def _own():

@@ -9,6 +9,7 @@ contact over when both its bodies are there. A search for pairs by all ranks fol
 
 from yade import O, mpy
 
+from ..scene.movers import moverOf
 from . import bonds, clumps, dampers, permanentLoads
 
 __all__ = ['beyondTheMiddle', 'reallocate']
@@ -47,7 +48,7 @@ def reallocate(choose, blocking=True):
 
 def _chosen(choose):
 	"""Ids for each rank, clumps whole. A worker keeps one body at least."""
-	own = {clumps.mover(O.bodies[k]) for k in O.subD.ids} if mpy.rank > 0 else {}
+	own = {moverOf(k) for k in O.subD.ids} if mpy.rank > 0 else {}
 	of = mpy.comm.allgather((len(own), O.subD.centerOfMass() if mpy.rank > 0 else None))
 	chosen = [[] for _ in of]
 	if mpy.rank == 0:
@@ -61,7 +62,7 @@ def _chosen(choose):
 		if other == 0:
 			continue
 		for k in choose(mpy.rank, other, int((len(own) - of[other][0]) / 2)):
-			number = clumps.mover(O.bodies[k])
+			number = moverOf(k)
 			if number in own and len(own) > 1:
 				own.remove(number)
 				chosen[other] += clumps.parts(number)
@@ -75,7 +76,7 @@ def _neighbours(ids):
 		for pair in O.interactions.withBodyAll(k):
 			other = O.bodies[pair.id1 if pair.id2 == k else pair.id2]
 			if other is not None and not other.isSubdomain:
-				found.update(dict.fromkeys(clumps.parts(clumps.mover(other))))
+				found.update(dict.fromkeys(clumps.parts(moverOf(other.id))))
 	return [k for k in found if k not in ids]
 
 

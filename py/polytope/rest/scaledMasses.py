@@ -7,6 +7,7 @@ import math
 import numpy as np
 from yade import BaseMotion, O, PolytopeCheckpoint, PolytopeTimeStepper, QuietBoundary, TimeStepper, Vector3, _polytope
 
+from ..scene.movers import movers
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import integrators, meanwhile
 from ..scene.timeStep import safeTimeStep
@@ -73,8 +74,7 @@ def _ownStep(before):
 
 class _Scaled:
 	def __init__(self):
-		bodies = [body for body in O.bodies if body.dynamic and not body.isClumpMember]
-		self.before = {body.id: (body.state.mass, Vector3(body.state.inertia)) for body in bodies if 0 < float(body.state.mass) < math.inf}
+		self.before = {body.id: (body.state.mass, Vector3(body.state.inertia)) for body in movers() if 0 < float(body.state.mass) < math.inf}
 		self.masses = {key: mass for key, (mass, _) in self.before.items()}
 		self.factors = dict.fromkeys(self.before, 1.0)
 		self.gravity = integrators()[0].gravity

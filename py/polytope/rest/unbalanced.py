@@ -7,6 +7,7 @@ from yade import O
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
+from ..scene.movers import movers
 from ..scene.present import integrators
 
 __all__ = ['unbalancedForce', 'unbalancedForces']
@@ -58,6 +59,6 @@ def unbalancedForces(watched=None, masses=None):
 
 def _movers():
 	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for x, y, z along which they do, else 0)"""
-	moving = [body for body in O.bodies if body is not None and body.dynamic and not body.isClumpMember]
+	moving = movers()
 	held = [body.state.blockedDOFs for body in moving]
 	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in 'xyz'] for one in held], float).reshape(-1, 3)

@@ -13,9 +13,10 @@ from ..bonding.bonds import madeBonds
 from ..pictures.films import filmEngines
 from ..pictures.still import picture
 from ..rest.unrest import Unrest
+from ..scene.movers import canMove, moverOf
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
-from ..scene.present import canMove, integrators
+from ..scene.present import integrators
 from ..scene.relaxing import relaxing
 from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
@@ -89,7 +90,7 @@ class FactorOfSafety:
 		picture(
 			path,
 			**{
-				'colorBy': lambda body: ways.get(body.clumpId if body.isClumpMember else body.id, 0.0),
+				'colorBy': lambda body: ways.get(moverOf(body.id), 0.0),
 				'legend': 'displacement [m]',
 				**arguments,
 			},

@@ -9,7 +9,7 @@ from yade import O, Polytope, PyRunner, Vector3
 
 from ..arguments import flag, namedArguments, vector, warn
 from ..measures.packings import bodyStress
-from ..scene.namedBodies import moverOf
+from ..scene.movers import moverOf
 
 __all__ = ['histories', 'history', 'record']
 

@@ -10,7 +10,8 @@ from yade import O, Polytope, PolytopeWater, Vector3, _polytope
 from ..arguments import namedArguments, number, vector, warn
 from ..pictures.faces import worldVertices
 from ..precision import isNumber
-from ..scene.present import canMove, integrators, placeOfForces
+from ..scene.movers import canMove
+from ..scene.present import integrators, placeOfForces
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
 
 __all__ = ['Face', 'water']

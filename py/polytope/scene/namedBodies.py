@@ -5,18 +5,9 @@ import numbers
 
 from yade import O, Polytope
 
-__all__ = ['moverOf', 'namedBodies', 'partsOf']
+from .movers import moverOf
 
-
-def partsOf(k):
-	"""Ids of a clump's members; of another body its own."""
-	body = O.bodies[k]
-	return list(body.shape.members) if body.isClump else [k]
-
-
-def moverOf(k):
-	"""The body itself, or the clump that it is a member of."""
-	return O.bodies[k].clumpId if O.bodies[k].isClumpMember else k
+__all__ = ['namedBodies']
 
 
 def namedBodies(ids, erased=False, name='ids'):

@@ -16,7 +16,6 @@ from yade import (
 
 __all__ = [
 	'EngineOfScene',
-	'canMove',
 	'colliders',
 	'geometryFunctors',
 	'integrators',
@@ -83,11 +82,6 @@ def stiffnessesPerArea(loops):
 	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
 
 
-def canMove(body):
-	"""Whether forces move it: a member of a clump moves with the clump."""
-	return (O.bodies[body.clumpId] if body.isClumpMember else body).dynamic
-
-
 def wrongUnit(models, perArea):
 	"""(seen, advice) for each contact model whose force is no gradient of an energy with stiffnesses of this unit."""
 	for model in sorted(set(models) & set(unitOfModel)):
@@ -148,6 +142,21 @@ class EngineOfScene:
 			self.last = found
 			found._meetBodies()  # loaded members do not know their bodies yet; in another scene they would take what has the same ids
 		return found
+
+	def make(self, act, making):
+		"""The scene's engine, or a new one, with what *making*, a function of the engine, returns. A new one is in O.engines only if that raises nothing.
+
+		:param str act: what acts in it, with its verb, for the messages
+		:raises ValueError: naming *engines* if there is no place for a new one
+		"""
+		engine, place = self.present(), None
+		if engine is None:
+			place, engine = placeOfForces(act), self.kind()
+		made = making(engine)
+		if place is not None:
+			O.engines = O.engines[:place] + [engine] + O.engines[place:]
+			self.last = engine
+		return engine, made
 
 	def removed(self):
 		"""One that is no longer in O.engines and would hold bodies of this scene; None where there is none."""

@@ -11,26 +11,19 @@ import warnings
 import pytest
 import yade
 from boon2012.falling.scene import FallingPolyhedra
-from scenes import runInBackground
+from scenes import bounds, runInBackground, withPolytopes
 from yade import (
 	BartonBandisStrength,
-	Bo1_Box_Aabb,
-	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
-	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
 	ForceResetter,
 	FrictMat,
 	GlobalStiffnessTimeStepper,
 	HyperbolicClosure,
-	Ig2_Box_Polytope_PolytopeGeom,
 	Ig2_Box_Sphere_ScGeom,
-	Ig2_Facet_Polytope_PolytopeGeom,
 	Ig2_Facet_Sphere_ScGeom,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,
 	Ig2_Sphere_Sphere_ScGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
 	Ig2_Wall_Sphere_ScGeom,
 	InsertionSortCollider,
 	InteractionLoop,
@@ -55,14 +48,6 @@ from yade import (
 	utils,
 )
 
-bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
-withPolytopes = (
-	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Polytope_PolytopeGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
-	Ig2_Facet_Polytope_PolytopeGeom,
-	Ig2_Box_Polytope_PolytopeGeom,
-)
 withSpheres = (Ig2_Sphere_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom, Ig2_Box_Sphere_ScGeom)
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies at rest, sliding, in flight, in collision, across a periodic boundary; with the plug-in's law and with YADE's own."""
-from math import cos, pi, radians, sin, sqrt, tan
+from math import cos, radians, sin, sqrt, tan
 
 import pytest
 from flatFace import sunk
-from scenes import blockOnFloor, contact, density, driven, gravity, joint, law, loop, period, rowInAPeriodicCell
+from scenes import blockOnFloor, contact, density, gravity, joint, law, loop, period, rowInAPeriodicCell
 from yade import (
 	Bo1_Polytope_Aabb,
 	ForceResetter,
@@ -14,15 +14,12 @@ from yade import (
 	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_FrictMat_FrictMat_FrictPhys,
-	Ip2_RockJointMat_RockJointMat_RockJointPhys,
-	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	Law2_ScGeom_FrictPhys_CundallStrack,
 	Matrix3,
 	NewtonIntegrator,
 	O,
 	Quaternion,
 	Vector3,
-	Vector3i,
 	polytope,
 )
 

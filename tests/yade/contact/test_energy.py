@@ -5,12 +5,12 @@ The law takes work over a step with the mean of the forces at both ends. With th
 terms is then constant to rounding whatever happens in a contact; the term *nonconservative* is what stored, frictional and viscous
 energy leave unexplained, so that it is small is the test.
 """
-from math import radians, sin, tan
+from math import tan
 
 import numpy as np
 import pytest
 from flatFace import faceEnergy
-from scenes import blockOnFloor, contact, density, driven, gravity, joint, law, loop, period
+from scenes import blockOnFloor, contact, density, driven, gravity, joint, loop, period
 from yade import O, Quaternion, Vector3, polytope
 
 stiffness = 1e8

@@ -10,19 +10,17 @@ import sys
 
 import pytest
 from flatFace import faceForce
+from scenes import bounds, withPolytopes
 from yade import (
 	Bo1_Box_Aabb,
 	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
 	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
 	ForceResetter,
 	FrictMat,
 	Ig2_Box_Polytope_PolytopeGeom,
 	Ig2_Facet_Polytope_PolytopeGeom,
-	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_FrictMat_FrictMat_FrictPhys,
@@ -41,16 +39,10 @@ def settle(supports, body, steps=8000, mayLieWithin=False):
 	for support in supports:
 		O.bodies.append(support())
 	block = O.bodies[O.bodies.append(body())]
-	functors = [
-	        Ig2_Polytope_Polytope_PolytopeGeom(),
-	        Ig2_Wall_Polytope_PolytopeGeom(),
-	        Ig2_Box_Polytope_PolytopeGeom(),
-	        Ig2_Facet_Polytope_PolytopeGeom(),
-	        Ig2_Sphere_Polytope_PolytopeGeom(),
-	]
+	functors = [one() for one in withPolytopes]
 	O.engines = [
 	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb()], verletDist=.01),
+	        InsertionSortCollider([one() for one in bounds], verletDist=.01),
 	        InteractionLoop(functors, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
 	        NewtonIntegrator(gravity=(0, 0, -9.81), damping=.4),
 	]

@@ -3,19 +3,9 @@
 
 import pytest
 from flatFace import faceForce, sunk
-from scenes import gravity, joint
+from scenes import bounds, gravity, joint, withPolytopes
 from yade import (
-	Bo1_Box_Aabb,
-	Bo1_Facet_Aabb,
-	Bo1_Polytope_Aabb,
-	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
 	ForceResetter,
-	Ig2_Box_Polytope_PolytopeGeom,
-	Ig2_Facet_Polytope_PolytopeGeom,
-	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Polytope_PolytopeGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
@@ -35,13 +25,11 @@ def onto(support, steps=1):
 	joint(normalStiffness=1e6, shearStiffness=1e6)
 	O.bodies.append(support())
 	square = O.bodies[O.bodies.append(polytope.polygon(corners, thickness=0.5))]
-	pairs = [kind() for kind in (Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom, Ig2_Box_Polytope_PolytopeGeom)]
-	pairs += [Ig2_Facet_Polytope_PolytopeGeom(), Ig2_Sphere_Polytope_PolytopeGeom()]
-	boxes = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb(), Bo1_Sphere_Aabb()]
+	pairs = [one() for one in withPolytopes]
 	law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.5, shearDamping=0.5, rockingDamping=0.5)
 	O.engines = [
 		ForceResetter(),
-		InsertionSortCollider(boxes, verletDist=0.001),
+		InsertionSortCollider([one() for one in bounds], verletDist=0.001),
 		InteractionLoop(pairs, [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)], [law]),
 		NewtonIntegrator(gravity=(0, -gravity, 0), damping=0.3),
 	]

@@ -4,20 +4,12 @@
 from math import sqrt
 
 import pytest
-from scenes import blockOnFloor, contact, density, driven, gravity, joint, loop
+from scenes import blockOnFloor, bounds, contact, density, driven, gravity, joint, loop, supports
 from yade import (
-	Bo1_Box_Aabb,
-	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
-	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
 	ForceResetter,
 	FrictMat,
-	Ig2_Box_Polytope_PolytopeGeom,
-	Ig2_Facet_Polytope_PolytopeGeom,
 	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Polytope_PolytopeGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
 	Ip2_FrictMat_FrictMat_FrictPhys,
@@ -32,10 +24,8 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	Quaternion,
-	Vector3,
 	ViscElMat,
 	polytope,
-	utils,
 )
 from yade.utils import kineticEnergy
 
@@ -158,18 +148,10 @@ def testAcrossAPeriodicBoundary():
 	assert depths[0] == pytest.approx(depths[1], rel=1e-9)
 
 
-supports = {
-	'wall': (Ig2_Wall_Polytope_PolytopeGeom, lambda: utils.wall(0, 2)),
-	'box': (Ig2_Box_Polytope_PolytopeGeom, lambda: utils.box((0, 0, -1), (5, 5, 1), fixed=True)),
-	'facet': (Ig2_Facet_Polytope_PolytopeGeom, lambda: utils.facet([(-5, -5, 0), (5, -5, 0), (0, 5, 0)], fixed=True)),
-	'sphere': (Ig2_Sphere_Polytope_PolytopeGeom, lambda: utils.sphere((0, 0, -5), 5, fixed=True)),
-}
-
-
 def loopWith(functor):
 	"""With the law's engines, but one mixed functor."""
 	loop(ig2=spring, gravity=(0, 0, -gravity))
-	O.engines[1].boundDispatcher.functors = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb(), Bo1_Sphere_Aabb()]
+	O.engines[1].boundDispatcher.functors = [one() for one in bounds]
 	O.engines[2].geomDispatcher.functors = [functor]
 
 

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from scenes import gravity, joint, loop, stepper
-from yade import O, Quaternion, Vector3, polytope
+from yade import O, Quaternion, polytope
 
 kn, ks = 1e9, 4e8
 overlap = 5e-6

@@ -223,14 +223,15 @@ def testALoadedSceneGoesOnYielding(archive, tmp_path):
 	assert ends[0] == pytest.approx(ends[1], abs=1e-13)
 
 
+@pytest.mark.parametrize('name', ['residualTensileStrength', 'residualCohesion'])
 @pytest.mark.parametrize('value', [-1, float('nan'), float('inf')])
-def testBadValuesAreRefused(value):
-	with pytest.raises(ValueError, match='^residualTensileStrength'):
-		RockJointMat(residualTensileStrength=value)
-	material = RockJointMat(residualTensileStrength=5)
-	with pytest.raises(ValueError, match='^residualTensileStrength'):
-		material.residualTensileStrength = value
-	assert material.residualTensileStrength == 5
+def testBadValuesAreRefused(name, value):
+	with pytest.raises(ValueError, match=f'^{name}'):
+		RockJointMat(**{name: value})
+	material = RockJointMat(**{name: 5})
+	with pytest.raises(ValueError, match=f'^{name}'):
+		setattr(material, name, value)
+	assert getattr(material, name) == 5
 
 
 def testItCountsUpToTheTensileStrength():

@@ -18,7 +18,6 @@ from yade import (
 	O,
 	Quaternion,
 	RockJointMat,
-	RockJointPhys,
 	Vector3,
 	polytope,
 	utils,

@@ -5,7 +5,7 @@ import math
 
 import pytest
 from scenes import gravity, joint
-from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, PyRunner, Vector3, polytope, utils
+from yade import Bo1_Polytope_Aabb, InsertionSortCollider, O, PyRunner, polytope, utils
 
 
 def grains(count=3, half=0.005, velocity=(0, 0, 0), base=0.0):

@@ -7,21 +7,15 @@ import subprocess
 import sys
 
 import pytest
-from scenes import blockOnFloor, contactOf, density, gravity, joint, loop, stepper, stepUntil
+from scenes import blockOnFloor, bounds, contactOf, density, gravity, joint, loop, stepper, stepUntil, supports
 from yade import (
-	Bo1_Box_Aabb,
-	Bo1_Facet_Aabb,
 	Bo1_Polytope_Aabb,
 	Bo1_Sphere_Aabb,
-	Bo1_Wall_Aabb,
 	ForceResetter,
 	FrictMat,
-	Ig2_Box_Polytope_PolytopeGeom,
-	Ig2_Facet_Polytope_PolytopeGeom,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,
 	Ig2_Sphere_Sphere_ScGeom,
-	Ig2_Wall_Polytope_PolytopeGeom,
 	InteractionLoop,
 	Ip2_FrictMat_FrictMat_FrictPhys,
 	Law2_ScGeom_FrictPhys_CundallStrack,
@@ -106,16 +100,9 @@ def testFixedBodiesLimitNothing():
 	assert O.dt == 0.123 and engine.limitedBy == '' and engine.limitingBody == -1
 
 
-supports = {
-	'wall': (Ig2_Wall_Polytope_PolytopeGeom, lambda: utils.wall(0, 2)),
-	'box': (Ig2_Box_Polytope_PolytopeGeom, lambda: utils.box((0, 0, -1), (5, 5, 1), fixed=True)),
-	'facet': (Ig2_Facet_Polytope_PolytopeGeom, lambda: utils.facet([(-5, -5, 0), (5, -5, 0), (0, 5, 0)], fixed=True)),
-}
-
-
 @pytest.mark.parametrize('perArea', [False, True])
 @pytest.mark.parametrize('model', ['boon2012', 'surface'])
-@pytest.mark.parametrize('support', supports)
+@pytest.mark.parametrize('support', ['wall', 'box', 'facet'])
 def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 	"""A cube on a wall, a box or a facet has the step that it has on a polytope: rocking, too."""
 	steps = []
@@ -125,7 +112,7 @@ def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 		ig2 = contactOf(model, perArea)
 		loop(perArea=perArea, normalDamping=0.3, ig2=ig2)
 		if functor:
-			O.engines[1].boundDispatcher.functors = [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb()]
+			O.engines[1].boundDispatcher.functors = [one() for one in bounds]
 			O.engines[2].geomDispatcher.functors = [functor(**ig2)]
 		engine = stepper()
 		O.bodies.append([make(), polytope.cuboid((0.1, 0.2, 0.4999), (0.5, 0.5, 0.5))])

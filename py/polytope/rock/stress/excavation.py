@@ -9,8 +9,9 @@ from yade import O, Polytope
 from ...arguments import namedArguments, numbersOf, rows
 from ...bonding.bolting import madeBolts
 from ...bonding.bonds import madeBonds
-from ...scene.namedBodies import moverOf, namedBodies
-from ...scene.present import canMove, integrators
+from ...scene.movers import canMove, moverOf
+from ...scene.namedBodies import namedBodies
+from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.relaxing import startRelaxing
 from .removedForces import removedForces

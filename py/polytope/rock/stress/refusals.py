@@ -8,8 +8,9 @@ from yade import O, Polytope, RockJointMat
 
 from ...bonding.bonds import madeBonds
 from ...pictures.faces import worldVertices
-from ...scene.namedBodies import moverOf, namedBodies
-from ...scene.present import canMove, geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
+from ...scene.movers import canMove, moverOf
+from ...scene.namedBodies import namedBodies
+from ...scene.present import geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
 from ..faces import areaOfFace

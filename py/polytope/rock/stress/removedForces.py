@@ -4,7 +4,7 @@
 from yade import O, PolytopeGeom, RockJointPhys, Vector3
 
 from ...bonding.bonds import madeBonds
-from ...scene.present import canMove
+from ...scene.movers import canMove
 
 __all__ = ['removedForces']
 

@@ -11,7 +11,7 @@ import scipy  # loads its packages at their first use
 from yade import O, Polytope
 
 from ...pictures.faces import worldVertices
-from ...scene.present import canMove
+from ...scene.movers import canMove
 from ..faceMaterials import materialOfPlane
 from .commonFaces import planesOf
 

@@ -5,8 +5,8 @@ import numpy as np
 from yade import O, PolytopeWater
 
 from ...arguments import warn
-from ...scene.namedBodies import moverOf
-from ...scene.present import canMove, integrators
+from ...scene.movers import canMove, moverOf
+from ...scene.present import integrators
 from .commonFaces import materialOf
 from .refusals import accuracy, forcesBorne
 
