@@ -44,10 +44,13 @@ from .loading.shearBox import shearBox
 from .loading.simpleShear import simpleShear
 from .loading.triaxial import triaxial
 from .measures.arrays import arrays
+from .measures.coordination import coordinationNumber
 from .measures.energy import mechanicalEnergy
-from .measures.heap import coordinationNumber, porosity
-from .measures.packings import aabbExtrema, bodyStress, contactFabric, particleFabric, sizeDistribution
+from .measures.fabric import contactFabric, particleFabric
+from .measures.porosity import porosity
 from .measures.roses import contactRose, forceHistogram, particleRose
+from .measures.sizes import aabbExtrema, sizeDistribution
+from .measures.stress import bodyStress
 from .pictures.films import Film, animate
 from .pictures.still import picture
 from .rest.settling import settle

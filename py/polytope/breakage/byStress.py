@@ -9,7 +9,7 @@ from yade import O, Polytope
 
 from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
-from ..measures.packings import bodyStress
+from ..measures.stress import bodyStress
 from ..scene.movers import movers
 from ..scene.namedBodies import namedBodies
 from ..scene.ranks import refuseDivided

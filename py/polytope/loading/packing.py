@@ -13,7 +13,7 @@ from ..bodies.clumps import clump
 from ..bodies.grains import cloud
 from ..bodies.grainShapes import partsOfLoose
 from ..engines import engines
-from ..measures.packings import aabbExtrema
+from ..measures.sizes import aabbExtrema
 from ..scene.movers import movers, partsOf
 from ..scene.namedBodies import namedBodies
 from ..scene.present import geometryFunctors

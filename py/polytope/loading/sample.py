@@ -13,8 +13,8 @@ from tqdm import tqdm
 from yade import O, Polytope, utils
 
 from ..measures.arrays import arrays
-from ..measures.heap import solidVolume
-from ..measures.packings import bodyStress
+from ..measures.porosity import solidVolume
+from ..measures.stress import bodyStress
 from ..scene.movers import moverOf, partsOf
 
 __all__ = ['Sample', 'deepest', 'idsOfSample', 'replaceInSamples', 'tooDeep']

@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 from yade import Bo1_Wall_Aabb, Collider, Ig2_Polytope_Polytope_PolytopeGeom, Ig2_Wall_Polytope_PolytopeGeom, O, Vector3, utils
 
-from ..measures.packings import aabbExtrema
+from ..measures.sizes import aabbExtrema
 from ..scene.present import colliders, interactionLoops
 from .sample import Sample
 from .servo import Servo, actOn, eased

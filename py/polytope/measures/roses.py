@@ -7,7 +7,8 @@ import os
 import numpy as np
 
 from ..scene.movers import moverOf
-from .packings import _bearing, _longAxes, _massive
+from .counted import bearing, massive
+from .fabric import longAxes
 
 __all__ = ['contactRose', 'forceHistogram', 'particleRose']
 
@@ -42,7 +43,7 @@ def particleRose(path=None, plane='xz', bins=36, ids=None):
 	:returns: (edges of the sectors [rad], part of each)
 	:raises ValueError: naming the argument
 	"""
-	axes = _longAxes(ids)
+	axes = longAxes(ids)
 	return _rose(path, axes, np.ones(len(axes)), plane, bins, 'long axes')
 
 
@@ -68,8 +69,8 @@ def forceHistogram(path=None, bins=40, ids=None):
 
 
 def _of(ids):
-	chosen = set(_massive(ids))
-	contacts = [contact for contact in _bearing() if {moverOf(contact.id1), moverOf(contact.id2)} & chosen]
+	chosen = set(massive(ids))
+	contacts = [contact for contact in bearing() if {moverOf(contact.id1), moverOf(contact.id2)} & chosen]
 	if not contacts:
 		raise ValueError('ids: no contact of these bodies bears a force')
 	return contacts

@@ -8,7 +8,7 @@ import numpy as np
 from yade import O, Polytope, PyRunner, Vector3
 
 from ..arguments import flag, namedArguments, vector, warn
-from ..measures.packings import bodyStress
+from ..measures.stress import bodyStress
 from ..scene.movers import moverOf
 
 __all__ = ['histories', 'history', 'record']

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scenes import gravity, joint, loop
 from yade import Matrix3, O, Quaternion, polytope, utils
-from yade.polytope.measures.heap import volumeWithin
+from yade.polytope.measures.porosity import volumeWithin
 
 
 def testCubesOnALatticeHaveTheirPorosity():
