@@ -27,7 +27,7 @@ def contactsSoFar():
 
 
 def meansSoFar():
-	"""The same as timed() of all steps since resetTimes(): means."""
+	"""Means over all steps since resetTimes(): (µs a step, µs of the loop a contact, contacts a step)."""
 	steps, found = max((engine.execCount for engine in O.engines), default=0), contactsSoFar()
 	if not steps:
 		return None, None, None

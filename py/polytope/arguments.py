@@ -84,7 +84,7 @@ def vectors(rows, name, length):
 
 
 def rows(values, name, length):
-	"""The same as lists of numbers, to compute with."""
+	"""Rows of *length* numbers as lists, to compute with."""
 	try:
 		found = [[real(x) for x in row] for row in values]
 	except (TypeError, ValueError):

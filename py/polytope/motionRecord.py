@@ -100,7 +100,7 @@ class MotionRecord:
 		return -self.mass * self.damping * np.abs(acceleration) * np.sign(middle)
 
 	def dampingTorque(self):
-		"""The same for the torque [N·m]; bodies of unequal moments are damped by the torque itself."""
+		"""Torque that NewtonIntegrator's damping adds [N·m]; bodies of unequal moments are damped by the torque itself."""
 		if self.body.aspherical:
 			return -self.damping * np.abs(self.torque) * np.sign(self.spinBefore)
 		acceleration = self.torque / self.inertia

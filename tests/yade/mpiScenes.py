@@ -151,7 +151,7 @@ def sliding(pieces, number, waterTable=None):
 
 
 def reallocated(scene, atRandom=False):
-	"""The same with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both ranks know."""
+	"""A heap with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both ranks know."""
 	def once():
 		mpy, counts, dice = mpi.mpy, [], random.Random(mpi.rank())
 		byPlace, collide = mpy.REALLOCATE_FILTER, mpy.checkAndCollide

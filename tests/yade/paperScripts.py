@@ -26,7 +26,7 @@ def run(name, where, *options):
 
 
 def runHere(name, where, monkeypatch, *options):
-	"""The same within this process; returns what main() does."""
+	"""Runs the script within this process; returns what main() does."""
 	specification = importlib.util.spec_from_file_location(name, folder / f'{name}.py')
 	script = importlib.util.module_from_spec(specification)
 	specification.loader.exec_module(script)

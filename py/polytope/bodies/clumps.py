@@ -42,7 +42,7 @@ def clump(parts):
 
 
 def rigid(parts):
-	"""The same for parts that are known to touch and not to overlap: their sums, in a time in proportion to their number."""
+	"""A clump of parts that are known to touch and not to overlap: sums over them, in a time in proportion to their number."""
 	masses = np.array([float(part.state.mass) for part in parts])
 	places = np.array([[float(x) for x in part.state.pos] for part in parts])
 	centre = masses @ places / masses.sum()

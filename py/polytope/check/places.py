@@ -44,7 +44,7 @@ def placeFindings(scene):
 
 
 def notNumbers(scene):
-	"""Also of clumps, whose members follow them."""
+	"""Positions, orientations and velocities that are not finite, also of clumps, whose members follow them."""
 	bodies = arrays().bodies
 	fields = {'pos': bodies.positions, 'ori': bodies.orientations, 'vel': bodies.velocities, 'angVel': bodies.angularVelocities}
 	lost = np.array([~np.isfinite(field).all(axis=1) for field in fields.values()])

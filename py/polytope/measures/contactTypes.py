@@ -65,7 +65,7 @@ class ContactTypes:
 		return self.features(body, [point], [body.state.pos], turn)[0]
 
 	def features(self, body, points, positions, turns):
-		"""The same for many points at once, with as many poses of the body.
+		"""Features of *body* at many points, with as many poses of the body.
 
 		:param points: (n, 3) in world coordinates
 		:param positions: (n, 3) of the body's centre

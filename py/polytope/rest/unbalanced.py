@@ -22,7 +22,7 @@ def unbalancedForce(watched=None):
 
 
 def unbalancedForces(watched=None, masses=None):
-	"""The same of each body, by its id [-]; 0 of those that cannot move or are not watched, and of parts of clumps.
+	"""Unbalanced force of each body over its scale (unbalancedForce), by its id [-]; 0 of those that cannot move or are not watched, and of parts of clumps.
 
 	:param masses: true masses by id, where those of the scene are scaled [kg]
 	"""

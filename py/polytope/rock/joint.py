@@ -89,7 +89,7 @@ class Joint:
 
 	@property
 	def cut(self):
-		"""The same as jointedRock cuts by it."""
+		"""The joint as jointedRock cuts by it."""
 		centre = np.array(self.centre)
 		if self.corners is None:
 			return Cut(self.normal, centre, self.radius or 0.0)
@@ -122,7 +122,7 @@ class Cut:
 		return float(self.normal @ self.centre)
 
 	def moved(self, by):
-		"""The same elsewhere."""
+		"""The joint moved by a vector."""
 		edges = self.edges.copy()
 		edges[:, 3] += edges[:, :3] @ by
 		return dataclasses.replace(self, centre=self.centre + by, edges=edges)

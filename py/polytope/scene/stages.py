@@ -101,7 +101,7 @@ class Reduction:
 		return stable, failed
 
 	def _reduce(self, stable, step):
-		"""The same by one step."""
+		"""(last stable level, level of failure) by one step, from a level that is stable."""
 		for level in self._levels(stable, step):
 			if self._stage(level).outcome != 'stable':
 				return stable, level

@@ -39,7 +39,7 @@ def sums(boxes):
 
 
 def properties(number):
-	"""The same of a clump in the scene."""
+	"""Mass and moments of a clump in the scene."""
 	state = O.bodies[number].state
 	turn = np.array(state.ori.toRotationMatrix(), float).reshape(3, 3)
 	return float(state.mass), np.array(state.pos, float), turn @ np.diag([float(x) for x in state.inertia]) @ turn.T

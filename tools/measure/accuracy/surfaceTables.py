@@ -119,7 +119,7 @@ class SurfaceStudy:
 		)
 
 	def _summary(self):
-		"""The same, bodies taken together, as CSV and as Markdown for the documentation."""
+		"""Range over all bodies of each floor, contact and unit, as CSV and as Markdown for the documentation."""
 		columns = ['floor', 'contact', 'stiffness', 'speed kept', 'direction [rad]', 'spin', 'lift', 'depth']
 		groups = {}
 		for c in self.cases:

@@ -11,6 +11,7 @@ import statistics
 import tempfile
 import time
 
+import memory
 import oneProcess
 
 numbers = {'quick': 10000, 'full': 100000}
@@ -37,30 +38,9 @@ def scene(number):
 
 def spheres(number):
 	"""YADE's own at the same places, four contacts each."""
-	from yade import (
-		Bo1_Sphere_Aabb,
-		ForceResetter,
-		FrictMat,
-		Ig2_Sphere_Sphere_ScGeom,
-		InsertionSortCollider,
-		InteractionLoop,
-		Ip2_FrictMat_FrictMat_FrictPhys,
-		Law2_ScGeom_FrictPhys_CundallStrack,
-		NewtonIntegrator,
-		O,
-		utils,
-	)
+	from yade import O
 
-	O.reset()
-	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
-	O.bodies.append([utils.sphere(place, 0.5) for place in places(number)])
-	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Sphere_Aabb()]),
-	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
-	        NewtonIntegrator(),
-	]
-	O.dt = 1e-6
+	memory.spheres(places(number))
 	for _ in range(2):
 		O.step()
 
@@ -82,7 +62,7 @@ def median(call, repeats):
 
 
 def mean(call, repeats):
-	"""The same of a call that is short against the hundredths of a second in which the system counts."""
+	"""Mean times of a call that is short against the hundredths of a second in which the system counts."""
 
 	def many():
 		for _ in range(repeats):

@@ -155,7 +155,7 @@ class Scenes:
 		return found, memory
 
 	def threads(self):
-		"""The same heap with one thread and with two: {threads: result}."""
+		"""One heap with one thread and with two: {threads: result}."""
 		number, columns = (2000, 19) if self.quick else (10000, 42)
 		with tempfile.TemporaryDirectory() as folder:
 			heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'steps': self.steps}

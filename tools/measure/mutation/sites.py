@@ -60,7 +60,7 @@ class Mutant:
 
 
 def withoutComments(text):
-	"""The same text with blanks for comments, so that columns stay."""
+	"""The text with blanks for comments, so that columns stay."""
 	blank = lambda match: re.sub(r'[^\n]', ' ', match.group())
 	return re.sub(r'//[^\n]*|/\*.*?\*/', blank, text, flags=re.DOTALL)
 

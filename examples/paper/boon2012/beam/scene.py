@@ -35,7 +35,7 @@ class BeamReading:
 	load: float
 	"""W = M/(L₁/2) with the moment M of all contact forces on one half-beam about its contact point at the abutment [N]."""
 	loadTrueArm: float
-	"""The same with the arm from that contact point to the half-beam's centre: its weight that would be in equilibrium. [N]"""
+	"""W with the arm from that contact point to the half-beam's centre: its weight that would be in equilibrium [N]."""
 	thrust: float
 	"""Horizontal force at the abutment [N]."""
 	thrustMidspan: float

@@ -74,7 +74,7 @@ class AbutmentSize:
 	model: tuple
 	"""Peak by the independent model (N, rad)."""
 	wall: tuple
-	"""The same with a rigid block of the abutments' size instead of the other half-beam."""
+	"""Peak (N, rad) by that model with a rigid block of the abutments' size instead of the other half-beam."""
 
 
 @dataclasses.dataclass

@@ -103,7 +103,7 @@ class RoofWedgeCase(WedgeCase):
 
 	@property
 	def closedForm(self):
-		"""The same with ΣH from σ_h, what the blocks' own joints take, and the elastic settlement."""
+		"""α + atan(W/ΣH) with ΣH from σ_h, what the blocks' own joints take, and the elastic settlement."""
 		scene = self.scene
 		area = sum(joint.area for joint in scene.joints)
 		stiffnesses = scene.normalStiffness * area, scene.shearStiffness * area

@@ -23,7 +23,7 @@ notConvex = 1e-3
 singlePrecision = 1e-6
 """Distance over the extent up to which a mesh file's points count as coplanar: binary STL and most exporters keep 24 bits."""
 facetNoise = 4.0
-"""The same distance, over the largest error of a coordinate where that is more: points of a plane, rounded in three coordinates, and a margin."""
+"""Distance over the largest error of a coordinate up to which points count as coplanar, where that is more: they are rounded in three coordinates; and a margin."""
 mostNoise = 0.01
 """Of the extent, at most."""
 farOut = 1000.0

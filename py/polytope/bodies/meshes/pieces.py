@@ -82,7 +82,7 @@ def _labels(triangles, objects, whole):
 
 
 def _inOrder(labels):
-	"""The same, numbered in the order in which they first come."""
+	"""Labels numbered in the order in which they first come."""
 	found, first = np.unique(labels[labels >= 0], return_index=True)
 	new = np.empty(len(found), int)
 	new[np.argsort(first)] = np.arange(len(found))

@@ -29,7 +29,7 @@ def housnerPeriod(width, height, tilt, gravity=9.81):
 
 
 def rockingPeriod(width, height, tilt, gravity=9.81):
-	"""The same without the approximation: four times the fall from θ₀ to 0, ½ θ'² = p² (cos(α − θ₀) − cos(α − θ)) [s].
+	"""Period of free rocking without that approximation: four times the fall from θ₀ to 0, ½ θ'² = p² (cos(α − θ₀) − cos(α − θ)) [s].
 
 	With θ = θ₀ − u² the integrand has no singularity at the start."""
 	_check(width, height, tilt)

@@ -17,7 +17,7 @@ def rigidToppling(width, height):
 
 
 def elasticToppling(width, height, pressing, stiffness, followsTilt=True):
-	"""The same on an elastic joint that takes no tension: the largest tangent at which there is equilibrium.
+	"""Tangent of the tilt at which a block topples on an elastic joint that takes no tension: the largest one at which there is equilibrium.
 
 	A joint of normal stiffness kn per area under a block turned by θ carries the pressure kn θ x, x from where the joint opens to the toe:
 	a wedge of the length L with the resultant N = ½ kn θ L² per unit of breadth, L/3 from the toe. Against it stands the weight, whose
