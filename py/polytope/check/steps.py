@@ -48,6 +48,11 @@ def steppers(scene):
 		if isinstance(engine, GlobalStiffnessTimeStepper) and unknown:
 			seen = f'GlobalStiffnessTimeStepper does not know {" and ".join(unknown)}: its step may be unstable'
 			yield 'time step', seen, 'PolytopeTimeStepper() in its place'
+		limit = safeTimeStep() if scene.ownEngines and scene.loops and scene.O.iter > 0 else None
+		if isinstance(engine, GlobalStiffnessTimeStepper) and limit is not None and float(scene.O.dt) > safe * float(limit):
+			share = float(scene.O.dt) / float(limit)
+			seen = f'GlobalStiffnessTimeStepper, which neglects the rocking of faces, has set O.dt to {share:.2g} of the largest step that is stable for any heap'
+			yield 'time step', seen, 'PolytopeTimeStepper() in its place'
 
 
 def timeStep(scene):

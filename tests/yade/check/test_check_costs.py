@@ -15,6 +15,7 @@ from yade import (
 	Bo1_Polytope_Aabb,
 	ForceResetter,
 	FrictMat,
+	GlobalStiffnessTimeStepper,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	InsertionSortCollider,
 	InteractionLoop,
@@ -116,6 +117,18 @@ def testSmallTimeStep():
 		assert not polytope.check(O)
 	O.dt = 1.5 * polytope.stableTimeStep(1)
 	assert '1.5 of the largest step' in polytope.check(O)['time step'].seen
+
+
+def testGlobalStiffnessTimeStepperIsAdvisedAgainst():
+	"""It takes steps beyond the limit, where the contact of a face rocks."""
+	row(steps=0, contactModel='spring')
+	O.engines = [*O.engines, GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.8, defaultDt=1e-5, timeStepUpdateInterval=1)]
+	O.dt = 1e-5
+	assert not polytope.check(O)
+	for _ in range(300):
+		O.step()
+	assert O.dt > 1.5 * polytope.stableTimeStep(1)
+	assert 'rocking of faces' in polytope.check(O)['time step'].seen
 
 
 # ------------------------------------------------------------------------------------------------ prisms that polygons could be
