@@ -127,7 +127,7 @@ def materialOf(material):
 
 
 def _listed(material):
-	"""By its label or index in O.materials."""
+	"""The material of this label or index in O.materials."""
 	try:
 		return O.materials[material]
 	except (IndexError, KeyError):

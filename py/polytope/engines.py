@@ -45,7 +45,7 @@ from .scene.relaxing import relaxing
 __all__ = ['engines']
 
 usualNormalDamping, usualDamping = 0.3, 0.2
-"""Of critical in contacts; YADE's artificial damping."""
+"""Damping of contacts as a fraction of critical; YADE's artificial damping."""
 reach = 0.1
 """verletDist over the inscribed radius of the smallest body that can move, as polytope.check(O, costs=True) advises it."""
 reachOfNothing = 0.02
@@ -134,7 +134,7 @@ def _collider(scene):
 
 
 def _shapes(scene):
-	"""Of the scene that contacts are known for; in one without bodies all."""
+	"""Names of the scene's shapes that contacts are known for; in a scene without bodies all of them."""
 	return sorted({kind.shape for kind in scene.kinds} & set(allShapes)) or list(allShapes)
 
 

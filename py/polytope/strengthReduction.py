@@ -90,7 +90,7 @@ class StrengthReductionResult:
 
 	@property
 	def factor(self):
-		"""Of safety: the middle of the bracket."""
+		"""Factor of safety: the middle of the bracket."""
 		return (self.stable + self.failed) / 2
 
 

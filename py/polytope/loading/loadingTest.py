@@ -23,7 +23,7 @@ def checkStress(stress, name='stress'):
 
 
 def checkGoal(value, name):
-	"""Of run(): with what is not a number it would record rows without a step."""
+	"""Refuses a goal of run() that is not a number: it would record rows without a step."""
 	if isinstance(value, bool) or not isNumber(value) or not abs(value) < math.inf:
 		raise ValueError(f'{name}: must be a finite number, got {value!r}')
 

@@ -123,7 +123,7 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 
 
 def _corners(former):
-	"""Of the box between six walls, if there are as many."""
+	"""Corners of the box between six walls, if there are as many."""
 	walls = [[float(body.state.pos[axis]) for body in former if isinstance(body.shape, Wall) and body.shape.axis == axis] for axis in range(3)]
 	return tuple(np.array([end(places) for places in walls]) for end in (min, max)) if all(len(places) == 2 for places in walls) else None
 
@@ -168,7 +168,7 @@ def _largeEnough(loose, lower, upper, porosity):
 
 
 def _length(parts):
-	"""Of a body of these parts, at most [m]."""
+	"""Largest length of a body of these parts [m]."""
 	middle = sum((part.state.pos for part in parts), Vector3.Zero) / len(parts)
 	return 2 * max(float((part.state.pos - middle).norm()) + float(corner.norm()) for part in parts for corner in part.shape.vertices)
 

@@ -36,5 +36,5 @@ def moveTo(k, place, spin=0.0):
 
 
 def force(*several):
-	"""By the bodies on these plates together [N]."""
+	"""Force of the bodies on these plates together [N]."""
 	return sum(np.array(O.forces.f(k, sync=True), float) for k in several)

@@ -18,7 +18,7 @@ class Coordination:
 	"""Contacts per body, a clump being one. A contact of two bodies of the heap counts for both, one with a wall or floor once."""
 
 	mean: float
-	"""Over all bodies, rattlers included."""
+	"""Mean over all bodies, rattlers included."""
 	mechanical: float
 	"""Over bodies with two contacts or more, counting contacts on these alone: Thornton's mechanical coordination number (2000,
 	Géotechnique 50:43), (2C − N₁)/(N − N₀ − N₁). NaN if there is no such body."""

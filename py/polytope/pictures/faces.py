@@ -14,9 +14,9 @@ from yade import Box, Facet, O, Polytope, Sphere, Wall, _polytope
 __all__ = ['collect', 'localVertices', 'reachOfWalls', 'rows', 'worldVertices']
 
 mostRings, fewestRings = 24, 4
-"""Between the poles of a sphere that is drawn."""
+"""Rings of faces between the poles of a sphere that is drawn."""
 mostSphereFaces = 2_500_000
-"""Of all spheres together, above which they get fewer rings: so many are each a few pixels large."""
+"""Faces of all spheres together, above which they get fewer rings: so many are each a few pixels large."""
 
 
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):
@@ -44,7 +44,7 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 
 
 def _joined(vertices, counts, corners, places, quaternions, colors, ids):
-	"""Of each of these one for a body."""
+	"""Arrays of all bodies together, from lists with one entry for each body."""
 	own = [len(one) for one in vertices]
 	first = np.cumsum([0, *own[:-1]])
 	points = _turned(np.concatenate(vertices), np.repeat(np.array(quaternions), own, axis=0))
@@ -143,7 +143,7 @@ def _rings(spheres):
 
 @functools.lru_cache
 def _sphereFaces(rings):
-	"""Of radius 1: quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
+	"""Faces of a sphere of radius 1: quadrilaterals between circles of latitude; triangles at the poles would make no visible difference."""
 	around = 2 * rings
 	latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, around, endpoint=False), indexing='ij')
 	points = np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=-1)
@@ -154,5 +154,5 @@ def _sphereFaces(rings):
 
 
 def localVertices(shape):
-	"""In the body's frame; none of a wall."""
+	"""Vertices in the body's frame; none of a wall."""
 	return _localFaces(shape)[0]

@@ -18,7 +18,7 @@ module = "__import__('yade.polytope.pictures.films', fromlist=['record']).record
 """A call that leaves no name among the script's own."""
 
 openFilms = {}
-"""Of this process, by the path of the file."""
+"""Films of this process that are open, by the path of the file."""
 
 
 @namedArguments

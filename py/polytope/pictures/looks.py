@@ -26,7 +26,7 @@ colorMap = ['#1d4e79', '#3380a8', '#86bcbb', '#f0e4ba', '#f2a541', '#c8451b']
 """Low to high; dark to light to warm, so that it is readable in grey and for colour-blind readers as well."""
 
 shades = 256
-"""Of the map that are told apart."""
+"""Shades of the colour map that are told apart."""
 
 usualFixedColor = (0.86, 0.86, 0.84)
 
@@ -70,7 +70,7 @@ def colorsWithoutValue(colorBy, fixedColor):
 
 
 def endsOf(least, greatest, valueRange):
-	"""Of the scale, for values from the least to the greatest."""
+	"""Ends of the colour scale, for values from the least to the greatest."""
 	low, high = valueRange or (least, greatest)
 	if valueRange is None and 0 < low < 0.1 * high:
 		low = 0

@@ -37,12 +37,12 @@ shadingReduction = 2
 """The soft shading is drawn this much smaller and then enlarged: it has no detail, and its cost grows with the pixels. At full size it took
 nine tenths of the time."""
 shadingSamples = 32
-"""Of the surroundings of each of its pixels."""
+"""Places around a pixel that are looked at for its shading."""
 
 styleOpacity = {'solid': 1.0, 'smooth': 1.0, 'glass': 0.16, 'wire': 0.0}
 edgeColor = (0.10, 0.12, 0.15)
 edgeWidth = 1.1
-"""In pixels of the finished picture."""
+"""Width of edges in pixels of the finished picture."""
 
 
 scalePlace = 0.05, 0.40, 0.955, 0.979

@@ -66,7 +66,7 @@ def _steppers():
 
 
 def _ownStep(before):
-	"""With the true masses: a PolytopeTimeStepper's next update may be some steps ahead."""
+	"""The time step that is right with the true masses: a PolytopeTimeStepper's next update may be some steps ahead."""
 	own = next((one for one in _steppers() if isinstance(one, PolytopeTimeStepper)), None)
 	limit = safeTimeStep() if own else None
 	return before if limit is None else min(own.timestepSafetyCoefficient * limit, own.maxDt)

@@ -113,7 +113,7 @@ class Unrest:
 		return one.kind in ('falls', 'slides')
 
 	def _kind(self, k, way, span):
-		"""Of body k, which has moved by *way* since the start and by *span* since the span began."""
+		"""Kind of unrest of body k, which has moved by *way* since the start and by *span* since the span began."""
 		size, touched = sizeOf(k), _touched(k)
 		if not touched and not _held(k):
 			if way > size and not _anythingBelow(k):  # what floats or hangs by a given force stays
@@ -178,7 +178,7 @@ def _held(k):
 
 
 def _anythingBelow(k):
-	"""By the balls around boxes: rather too much."""
+	"""Whether there is anything below body k, by the balls around boxes: rather too much counts."""
 	gravity = np.array(integrators()[0].gravity, float)
 	if not gravity.any():
 		return True
@@ -223,5 +223,5 @@ def _ways(before, now):
 
 
 def _ofLength(values, length):
-	"""With zeros for bodies that are new."""
+	"""The values, with zeros for bodies that are new."""
 	return np.concatenate([values[:length], np.zeros(max(0, length - len(values)))])

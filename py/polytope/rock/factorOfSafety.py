@@ -30,9 +30,9 @@ atRest = 1e-4
 between, looks = 50, 3
 """Steps between two looks, and looks in a row at which all must be at rest."""
 damping = 0.4
-"""Of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
+"""Damping of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
 growth = 1.5
-"""Of the factor from one trial to the next, until one fails."""
+"""Growth of the factor from one trial to the next, until one fails."""
 gently = 1.02
 """Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
 partOfMode = 0.1
@@ -52,7 +52,7 @@ class Trial:
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Of the body that has moved farthest for its size [m]."""
+	"""Way of the body that has moved farthest for its size [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 

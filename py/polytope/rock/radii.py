@@ -73,7 +73,7 @@ class PowerLaw:
 		return self.smallest * (1 + part * (ratio**rest - 1)) ** (1 / rest)
 
 	def _integral(self, exponent):
-		"""Of x^−exponent from 1 to the ratio of both radii."""
+		"""Integral of x^−exponent from 1 to the ratio of both radii."""
 		rest, ratio = 1 - exponent, self.largest / self.smallest
 		return math.log(ratio) if abs(rest) < nearlyOne else (ratio**rest - 1) / rest
 

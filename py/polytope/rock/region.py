@@ -23,7 +23,7 @@ class Region:
 	centre: np.ndarray
 	"""Centroid [m]."""
 	radius: float
-	"""Of the ball about the centre that holds it [m]."""
+	"""Radius of the ball about the centre that holds it [m]."""
 	inscribedRadius: float
 	"""The largest one of its parts [m]."""
 	volume: float

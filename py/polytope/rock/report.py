@@ -21,7 +21,7 @@ class RockReport:
 	"""What *rockReport* measures; printed it is a table."""
 
 	volumes: np.ndarray
-	"""Of the bodies [m³]."""
+	"""Volumes of the bodies [m³]."""
 	flatness: np.ndarray
 	"""Shortest over longest extent of each body, along the principal axes of its corners."""
 	parts: np.ndarray

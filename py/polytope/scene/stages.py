@@ -33,9 +33,9 @@ class Stage:
 	"""'stable': at rest; 'failed': moved too far; 'creeping': neither by the time limit, which counts as failure."""
 	steps: int
 	speed: float
-	"""Of the fastest body at the end [m/s]."""
+	"""Speed of the fastest body at the end [m/s]."""
 	displacement: float
-	"""Of the body that has moved most since the scene had settled, at the end [m]."""
+	"""Way of the body that has moved most since the scene had settled, at the end [m]."""
 	samples: list
 	"""(time since the stage began [s], speed [m/s], displacement [m]) at each check."""
 	measured: object = None

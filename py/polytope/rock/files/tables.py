@@ -17,7 +17,7 @@ names = {
 	**dict.fromkeys(('dipdirection', 'dip_dir', 'dipdir', 'dd'), 'dip_direction'),
 	**{f'{word}_{axis}': axis for word in ('position', 'centre', 'center') for axis in 'xyz'},
 }
-"""Of columns, in small letters with underscores."""
+"""Names of columns, in small letters with underscores."""
 ofPlanes, ofRectangles = 11, 16
 """BlockGen's columns; those of rectangles end with a comment."""
 
