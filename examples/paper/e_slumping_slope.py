@@ -39,7 +39,7 @@ from boon2012.reporting.options import (
 	shown,
 )
 from boon2012.reporting.script import conclude
-from boon2012.slope.plots import drawBlocks, plotFailure, plotMechanism, plotReduction, sideBySide
+from boon2012.slope.plots import drawBlocks, plotMechanism, sideBySide
 from boon2012.slope.scene import readSlope
 from boon2012.slope.study import Failure, SlopeReport, SlopeRun
 
@@ -167,12 +167,6 @@ def main():
 	findings.figure(
 		'mechanism.png',
 		'The mechanism: dual of the linear program, and motion of the blocks when the slope has failed. Blue: blocks that turn.',
-	)
-	plotReduction(given.output / 'reduction.png', run.result, report.limit)
-	findings.figure('reduction.png', 'Motion since settling at each friction angle.')
-	plotFailure(given.output / 'contacts.png', failure, report.layers)
-	findings.figure(
-		'contacts.png', "The failure: motion, rotation, and contacts by type, named for the prisms (a polygon's edge is a prism's face)."
 	)
 	report.tables(run, failure)
 	if not given.quick:

@@ -23,7 +23,7 @@ os.environ.setdefault('OMP_NUM_THREADS', '1')  # read when YADE is loaded; two b
 if __name__ == '__main__':  # `yade`, unlike `python`, does not search the script's folder for modules
 	sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-from boon2012.collisions.plots import drawSequence, plotJumps, plotOverview, plotTransitions
+from boon2012.collisions.plots import drawSequence, plotOverview
 from boon2012.collisions.scene import readBlocks
 from boon2012.collisions.study import CollisionReport, CollisionRun, labels
 from boon2012.reporting.findings import Findings
@@ -93,14 +93,6 @@ def figures(findings, given, run):
 		f'{label}_overview.png',
 		f'{label} over time; the background is the contact type. The last panel shows the energy balance since the start.',
 	)
-	plotJumps(folder / f'{label}_jumps.png', run)
-	findings.figure(f'{label}_jumps.png', f'{label}: change of contact point, normal and contact force from one step to the next.')
-	if plotTransitions(folder / f'{label}_transitions.png', run):
-		caption = (
-			f'{label}: the first change of each kind between contact types, step by step. Where the shear force alternates from step '
-			'to step, the contact alternates between sticking, where the shear damper acts, and sliding, where it does not.'
-		)
-		findings.figure(f'{label}_transitions.png', caption)
 
 
 def main():

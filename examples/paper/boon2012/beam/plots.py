@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of simulation B: the load-rotation curves (Fig. 8 of the paper), the beam and its overlaps, and the abutments' size."""
+"""Figures of simulation B: the load-rotation curves (Fig. 8 of the paper), the beam and its overlaps."""
 
 import math
 
@@ -10,7 +10,7 @@ from yade import O
 
 from .study import contactPointNames, solverNames
 
-__all__ = ['drawBeam', 'plotCurves', 'plotSizes']
+__all__ = ['drawBeam', 'plotCurves']
 
 colors = {'centroid': '#1d4e79', 'analyticCentre': '#c8451b', 'chebyshevCentre': '#5d8a3a', 'spring': '#7a4fa3'}
 ipoptColor = '#3a8f6b'
@@ -52,30 +52,6 @@ def plotCurves(path, closed, curves, pushes, last):
 	top.set(xlim=plot.get_xlim(), xlabel='drop at midspan (mm)')
 	top.set_xticks(np.interp(ticks, 1e3 * closed.drop(turned), np.degrees(turned)), [f'{tick:g}' for tick in ticks])
 	plot.legend(fontsize=8, loc='lower center', bbox_to_anchor=(0.44, 0.02))
-	_save(figure, path)
-
-
-def plotSizes(path, closed, sizes):
-	"""Peak load against the abutments' height.
-
-	:param closed: BeamBetweenWalls
-	:param list sizes: AbutmentSizes
-	"""
-	figure = Figure(figsize=(7, 4.4), dpi=150)
-	plot = figure.subplots()
-	for length, style in zip(sorted({size.length for size in sizes}), ('o-', 's--', '^:'), strict=False):
-		chosen = [size for size in sizes if size.length == length]
-		heights = [size.height for size in chosen]
-		look = {'mfc': 'none', 'lw': 1.2}
-		label = f'of {length:g} block height{"s" if length != 1 else ""} in length'
-		beams, walls = [size.peak.load / 1e3 for size in chosen], [size.wall[0] / 1e3 for size in chosen]
-		plot.plot(heights, beams, style, color=colors['analyticCentre'], label=f'two half-beams, abutments {label}', **look)
-		plot.plot(heights, walls, style, color='0.55', label=f'one half-beam between two blocks {label}', **look)
-	plot.axhline(closed.peak()[0] / 1e3, color='black', lw=1.2, label='closed form (Appendix A), centroid')
-	plot.set(xscale='log', xlabel='height of the abutments (block heights)', ylabel='peak load (kN)')
-	plot.set_xticks(heights, [f'{height:g}' for height in heights])
-	plot.minorticks_off()
-	plot.legend(fontsize=8)
 	_save(figure, path)
 
 

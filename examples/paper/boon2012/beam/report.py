@@ -4,7 +4,7 @@
 import math
 
 from ..solverTimes import hasSolver
-from .plots import drawBeam, plotCurves, plotSizes
+from .plots import drawBeam, plotCurves
 from .study import contactPointNames, solverNames
 
 __all__ = ['BeamReport', 'noIpopt']
@@ -195,10 +195,6 @@ class BeamReport:
 		drawBeam(folder / 'beam.png', study, self.given.contact_point, study.first, 0.93 * study.last)
 		caption = 'The beam and its line of thrust, through the contact points; below, both overlaps at the peak (stretched sideways).'
 		findings.figure('beam.png', caption)
-		if self.sizes:
-			plotSizes(folder / 'abutments.png', self.closed, self.sizes)
-			caption = 'Analytic centre: peak load and the size of the abutments. Grey: a rigid block instead of the other half-beam.'
-			findings.figure('abutments.png', caption)
 
 	def explain(self):
 		"""What the rows and tables show, with their figures."""

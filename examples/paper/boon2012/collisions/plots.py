@@ -8,7 +8,7 @@ from yade import Quaternion
 from yade.polytope.motionRecord import noContact
 from yade.polytope.pictures.still import picture
 
-__all__ = ['drawSequence', 'plotJumps', 'plotOverview', 'plotTransitions']
+__all__ = ['drawSequence', 'plotOverview']
 
 typeColors = {
 	noContact: '#f2f2f2',
@@ -90,47 +90,6 @@ def plotOverview(path, run):
 	for axis in (energy, taken):
 		axis.legend(frameon=False)
 	_save(figure, path)
-
-
-def plotJumps(path, run):
-	"""Change of contact point, normal and force from one step to the next."""
-	figure = Figure(figsize=(10, 8.5))
-	axes = figure.subplots(3, 1, sharex=True)
-	for axis, values, label in zip(axes, run.jumps(), ('contact point [mm]', 'normal [°]', 'contact force [kN]'), strict=True):
-		_shadeTypes(axis, run, labelled=axis is axes[0])
-		axis.semilogy(run.record.time, values, color='#222222', lw=0.7)
-		axis.set_ylabel(f'change in a step:\n{label}')
-	axes[0].legend(loc='upper center', bbox_to_anchor=(0.5, 1.3), ncol=7, frameon=False)
-	axes[-1].set_xlabel('time [s]')
-	_save(figure, path)
-
-
-def plotTransitions(path, run, columns=5, half=120):
-	"""Contact point, normal and force, step by step, before and after the first change of each kind between two types."""
-	record, first = run.record, {}
-	for begin, before, after in run.transitions():
-		if before != noContact:
-			first.setdefault((before, after), begin)
-	first = dict(list(first.items())[:columns])
-	if not first:
-		return False
-	figure = Figure(figsize=(2.9 * len(first) + 1, 8))
-	grid = figure.subplots(3, len(first), squeeze=False, sharex='col')
-	for axes, ((before, after), begin) in zip(grid.T, first.items(), strict=True):
-		window = slice(max(begin - half, 0), min(begin + half, len(record.time)))
-		time = 1e3 * (record.time[window] - record.time[begin])
-		point = 1e3 * (record.point[window] - np.nanmean(record.point[window], axis=0))
-		for axis, lines in zip(axes, (point, record.normal[window], 1e-3 * record.contactForce[window]), strict=True):
-			for values, name, color in zip(lines.T, 'xyz', axisColors, strict=True):
-				axis.plot(time, values, color=color, marker='.', ms=2, lw=0.8, label=name)
-			axis.axvline(0, color='#999999', lw=0.8)
-		axes[0].set_title(f'{_shown(before)}\n→ {_shown(after)}\n{record.time[begin]:.3f} s', fontsize=10)
-		axes[-1].set_xlabel('time [ms]')
-	for axis, label in zip(grid[:, 0], ('contact point [mm, from mean]', 'normal [-]', 'contact force [kN]'), strict=True):
-		axis.set_ylabel(label)
-	grid[0, 0].legend(frameon=False)
-	_save(figure, path)
-	return True
 
 
 def _shown(kind):

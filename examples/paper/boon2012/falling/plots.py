@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Plots of simulation A: what a contact problem costs (the paper's Fig. 6), energies, and the scatter between seeds."""
+"""Plot of simulation A: what a contact problem costs (Fig. 6 of the paper)."""
 
-import statistics
 
 from matplotlib.figure import Figure
 
-from .run import quantities
-
-__all__ = ['plotCosts', 'plotEnergies', 'plotSeeds']
+__all__ = ['plotCosts']
 
 styles = {
 	'ipoptMicroseconds': ('#8a4f9e', '-'),
@@ -41,39 +38,6 @@ def plotCosts(path, timed, curves, paperBands):
 	ax.set_xticks(planes, [str(n) for n in planes])
 	ax.minorticks_off()
 	ax.legend(frameon=False, loc='upper left', bbox_to_anchor=(0, -0.13), ncols=2, fontsize='small')
-	figure.savefig(path, dpi=150)
-
-
-def plotEnergies(path, results):
-	"""Kinetic energy against step, one curve a run."""
-	figure, ax = _axes((8, 4), xlabel='step', ylabel='kinetic energy / (N m g L)', yscale='log')
-	for k, r in enumerate(results):
-		if r['energies']:
-			ax.plot(*zip(*r['energies'], strict=True), label=r['shape'], color=f'C{k}', lw=1.2)
-	ax.legend(frameon=False)
-	figure.savefig(path, dpi=150)
-
-
-def plotSeeds(path, ofSolid, ranges):
-	"""Each quantity of each run, and the medians.
-
-	:param dict ofSolid: name → results of its runs
-	:param dict ranges: of the reference, name in the results → (from, to); may be empty
-	"""
-	figure = Figure(figsize=(11, 6), layout='constrained')
-	panels = figure.subplots(2, 3)
-	for ax, (key, label) in zip(panels.flat, quantities.items(), strict=True):
-		if key in ranges:
-			ax.axhspan(*ranges[key], color=band, zorder=0)
-		for k, runs in enumerate(ofSolid.values()):
-			values = [r[key] for r in runs]
-			ax.plot([k] * len(values), values, 'o', ms=4, alpha=0.6, color=f'C{k}')
-			ax.plot([k - 0.25, k + 0.25], [statistics.median(values)] * 2, color=f'C{k}', lw=2)
-		ax.set_title(label, fontsize='medium')
-		ax.set_xticks(range(len(ofSolid)), [name[:5] + '.' if len(name) > 5 else name for name in ofSolid], fontsize='small')
-		if key.startswith('energy'):
-			ax.set_yscale('log')
-		ax.spines[['top', 'right']].set_visible(False)
 	figure.savefig(path, dpi=150)
 
 

@@ -10,7 +10,6 @@ import statistics
 
 from scipy.stats import chi2, norm
 
-from .plots import plotEnergies, plotSeeds
 from .run import halfStep, quantities
 
 __all__ = ['FallingPolyhedraReport', 'rounded']
@@ -114,7 +113,7 @@ class FallingPolyhedraReport:
 		)
 
 	def seeds(self):
-		"""Table and plot of all quantities, over the seeds."""
+		"""Table of all quantities, over the seeds."""
 		rows = []
 		for key, label in quantities.items():
 			for name, runs in self.ofSolid.items():
@@ -122,19 +121,12 @@ class FallingPolyhedraReport:
 				rows.append([label, name, len(runs), *figures, *self.ranges.get(key, ('', ''))])
 		columns = ['', 'solid', 'seeds', 'median', 'least', 'largest', 'reference, from', 'reference, to']
 		self.findings.table('settled', 'How each solid came to rest, over the seeds.', columns, rows)
-		if not self.given.no_pictures and self.given.seeds > 1:
-			plotSeeds(self.given.output / 'seeds.png', self.ofSolid, self.ranges)
-			caption = 'Each dot a run of another seed; bars: medians. Grey: the range of the independent program, one run of each solid.'
-			self.findings.figure('seeds.png', caption)
 
 	def figures(self):
-		"""Energies, and the pictures of the first seed's runs."""
+		"""The pictures of the first seed's runs."""
 		given = self.given
 		if given.no_pictures:
 			return
-		plotEnergies(given.output / 'energies.png', self.firsts)
-		caption = 'Kinetic energy during the run, first seed: free fall, impacts, then the heap comes to rest.'
-		self.findings.figure('energies.png', caption)
 		steps = f'at the start, at step {min(halfStep, given.steps)} and at step {given.steps}'
 		for r in self.firsts if not given.quick else ():
 			caption = f"As the paper's Fig. 5, {r['shape']}: {given.number} bodies {steps}. The walls are not drawn."

@@ -107,13 +107,14 @@ class Decreasing(argparse.Action):
 		setattr(namespace, self.dest, values)
 
 
-def paperParser(text, quick, geometry=None):
+def paperParser(text, quick, geometry=None, noPictures='no pictures and no plots'):
 	"""An argparse parser with the options that all scripts of the paper have: --quick, --output, --no-pictures.
 
 	:param str text: the script's docstring, the first line of which describes it
 	:param str quick: what --quick does
 	:param str geometry: name of the default geometry file in the folder geometry/ beside the script, for the option --geometry;
 	    None: no such option
+	:param str noPictures: what --no-pictures does
 	"""
 	parser = argparse.ArgumentParser(description=text.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 	script = scriptFile()
@@ -122,7 +123,7 @@ def paperParser(text, quick, geometry=None):
 		parser.add_argument('--geometry', type=existingFile, default=default, metavar='FILE', help='as JSON, see geometry/README.md')
 	parser.add_argument('--quick', action='store_true', help=quick)
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output') / script.stem, help='folder for all files')
-	parser.add_argument('--no-pictures', action='store_true', help='no pictures and no plots')
+	parser.add_argument('--no-pictures', action='store_true', help=noPictures)
 	return parser
 
 

@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Plots and pictures of simulation E."""
 
-import math
-
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patches import Polygon
 from yade.polytope.pictures.still import picture
 
-from .study import prismTypes
 from .theory import centroid
 
-__all__ = ['drawBlocks', 'plotFailure', 'plotMechanism', 'plotReduction', 'sideBySide']
-
-typeColors = dict(zip(prismTypes.values(), ('#3380a8', '#86bcbb', '#f2a541'), strict=True))
-innerColor = '#c8451b'
+__all__ = ['drawBlocks', 'plotMechanism', 'sideBySide']
 
 
 def drawBlocks(path, scene, **settings):
@@ -60,48 +53,6 @@ def plotMechanism(path, slope, limit, motion, length=0.8):
 	axes[0].set_xlim(corners[:, 0].min() - 2, corners[:, 0].max() + 1)
 	axes[0].set_ylim(corners[:, 1].min() - 1, corners[:, 1].max() + 1)
 	axes[0].set_ylabel('y [m]')
-	_save(figure, path)
-
-
-def plotReduction(path, result, limit):
-	"""Largest motion at the end of each stage, but for the settling."""
-	figure = Figure(figsize=(7.5, 4.5))
-	axis = figure.subplots()
-	for outcome, mark, color in (('stable', 'o', '#1d4e79'), ('failed', 'x', '#c8451b'), ('creeping', '+', '#f2a541')):
-		stages = [stage for stage in result.stages[1:] if stage.outcome == outcome]
-		if stages:
-			angles = [math.degrees(stage.angle) for stage in stages]
-			axis.semilogy(angles, [1e3 * stage.displacement for stage in stages], mark, color=color, label=outcome)
-	axis.axvline(math.degrees(limit.angle), color='#222222', lw=0.8, ls='--', label='limit analysis')
-	axis.set_xlabel('friction angle [°]')
-	axis.set_ylabel('largest motion since settling [mm]')
-	axis.legend(frameon=False)
-	_save(figure, path)
-
-
-def plotFailure(path, failure, layers):
-	"""Motion and rotation of the blocks, and the numbers of contacts of each type, while the slope fails."""
-	outer = np.array(layers) == 0
-	figure = Figure(figsize=(9, 12))
-	moved, turned, contacts, friction = figure.subplots(4, 1, sharex=True)
-	shades = colormaps['viridis'](np.linspace(0, 0.9, outer.sum()))
-	for k, (block, color) in enumerate(zip(np.flatnonzero(outer), shades, strict=True)):
-		moved.plot(failure.time, 1e3 * failure.displacement[:, block], color=color, label=f'outer block {k + 1}')
-		turned.plot(failure.time, failure.rotation[:, block], color=color)
-	inner = 1e3 * failure.displacement[:, ~outer].max(axis=1, initial=0)
-	moved.plot(failure.time, inner, color=innerColor, ls='--', label='inner blocks, most')
-	for block in np.flatnonzero(~outer):
-		turned.plot(failure.time, failure.rotation[:, block], color=innerColor, ls='--', lw=0.6)
-	moved.set_ylabel('motion since settling [mm]')
-	moved.legend(frameon=False, ncol=2)
-	turned.set_ylabel('rotation [°]\n(negative: backward)')
-	for (name, color), counts in zip(typeColors.items(), failure.contacts.T, strict=True):
-		contacts.plot(failure.time, counts, color=color, label=name, lw=1.8)
-	contacts.set_ylabel('contacts')
-	contacts.legend(frameon=False, ncol=3)
-	friction.plot(failure.time, np.degrees(failure.angle), color='#222222', drawstyle='steps-pre')
-	friction.set_ylabel('friction angle [°]')
-	friction.set_xlabel('time since the last stable state [s]')
 	_save(figure, path)
 
 
