@@ -43,7 +43,7 @@ def divideStrengths(factor, reduce=strengths):
 	angles, tangents, pressures = _names(reduce)
 
 	def divide(one, names):
-		for name in names:
+		for name in names if factor < 1 else names[::-1]:  # residual values are never above the peak's
 			if getattr(one, name, -1) > 0:  # -1: none of its own
 				setattr(one, name, getattr(one, name) / factor)
 

@@ -7,6 +7,7 @@
 #include <src/bolt/BoltTolerances.hpp>
 
 #include "bolt/PolytopeBolts.hpp"
+#include "host/CheckedAttributes.hpp"
 #include "shape/Polytope.hpp"
 
 #include <map>
@@ -17,42 +18,35 @@ namespace {
 
 	[[noreturn]] void refuseBolt(const std::string& message) { throw std::invalid_argument(message); }
 
-	void require(bool good, const char* name, Real value, const char* rule)
-	{
-		if (good) return;
-		std::ostringstream message;
-		message << name << ": must be " << rule << ", got " << value;
-		refuseBolt(message.str());
-	}
-
 	void checkSteel(const PolytopeBolt& bolt)
 	{
 		const auto positive = [](Real value) { return value > 0 && math::isfinite(value); };
-		require(positive(bolt.area), "area", bolt.area, "positive and finite [m²]");
-		require(positive(bolt.youngsModulus), "youngsModulus", bolt.youngsModulus, "positive and finite [Pa]");
-		require(bolt.yieldForce > 0, "yieldForce", bolt.yieldForce, "above 0 [N] (infinity: no yield)");
-		require(bolt.ruptureStrain > 0, "ruptureStrain", bolt.ruptureStrain, "above 0 (infinity: no rupture)");
-		require(bolt.pretension >= 0 && math::isfinite(bolt.pretension), "pretension", bolt.pretension,
+		requireValue(positive(bolt.area), "area", bolt.area, "positive and finite [m²]");
+		requireValue(positive(bolt.youngsModulus), "youngsModulus", bolt.youngsModulus, "positive and finite [Pa]");
+		requireValue(bolt.yieldForce > 0, "yieldForce", bolt.yieldForce, "above 0 [N] (infinity: no yield)");
+		requireValue(bolt.ruptureStrain > 0, "ruptureStrain", bolt.ruptureStrain, "above 0 (infinity: no rupture)");
+		requireValue(bolt.pretension >= 0 && math::isfinite(bolt.pretension), "pretension", bolt.pretension,
 		        "at least 0 and finite [N]");
-		require(bolt.pretension == 0 || bolt.pretension <= bolt.yieldForce, "pretension", bolt.pretension,
+		requireValue(bolt.pretension == 0 || bolt.pretension <= bolt.yieldForce, "pretension", bolt.pretension,
 		        "at most the yieldForce");
-		require(bolt.pretension == 0 || bolt.pretension < bolt.ruptureStrain * bolt.area * bolt.youngsModulus, "pretension",
+		requireValue(bolt.pretension == 0 || bolt.pretension < bolt.ruptureStrain * bolt.area * bolt.youngsModulus, "pretension",
 		        bolt.pretension, "less than that at which the steel reaches its ruptureStrain");
 		if (bolt.pretension > 0 && !bolt.plate) refuseBolt("pretension: needs a plate to pull against, take plate=True");
 	}
 
 	void checkGrout(const PolytopeBolt& bolt)
 	{
-		require(bolt.groutStiffness >= 0 && math::isfinite(bolt.groutStiffness), "grout", bolt.groutStiffness,
+		requireValue(bolt.groutStiffness >= 0 && math::isfinite(bolt.groutStiffness), "grout", bolt.groutStiffness,
 		        "of a stiffness per length that is positive and finite [N/m²]");
-		require(bolt.freeLength == -1 || (bolt.freeLength > 0 && math::isfinite(bolt.freeLength)), "freeLength", bolt.freeLength,
-		        "positive and finite [m]");
-		require(bolt.dowelStiffness >= 0 && math::isfinite(bolt.dowelStiffness), "dowel", bolt.dowelStiffness,
+		requireValue(bolt.freeLength == -1 || (bolt.freeLength > 0 && math::isfinite(bolt.freeLength)), "freeLength",
+		        bolt.freeLength, "positive and finite [m]");
+		requireValue(bolt.dowelStiffness >= 0 && math::isfinite(bolt.dowelStiffness), "dowel", bolt.dowelStiffness,
 		        "of a stiffness that is positive and finite [N/m]");
 		if (bolt.groutStiffness > 0) {
-			require(bolt.groutStrength > 0, "grout", bolt.groutStrength,
+			requireValue(bolt.groutStrength > 0, "grout", bolt.groutStrength,
 			        "of a strength per length above 0 [N/m] (infinity: no slip)");
-			require(bolt.groutedLength == -1 || bolt.groutedLength > 0, "grout", bolt.groutedLength, "of a length above 0 [m]");
+			requireValue(
+			        bolt.groutedLength == -1 || bolt.groutedLength > 0, "grout", bolt.groutedLength, "of a length above 0 [m]");
 		} else {
 			if (!bolt.plate)
 				refuseBolt(
@@ -60,7 +54,7 @@ namespace {
 			if (bolt.dowelStiffness > 0) refuseBolt("dowel: a bolt without grout has room in its hole; give grout, too");
 		}
 		if (bolt.dowelStiffness > 0)
-			require(bolt.dowelStrength > 0, "dowel", bolt.dowelStrength, "of a strength above 0 [N] (infinity: no yield)");
+			requireValue(bolt.dowelStrength > 0, "dowel", bolt.dowelStrength, "of a strength above 0 [N] (infinity: no yield)");
 	}
 
 	std::string textOf(const Vector3r& point)
@@ -190,6 +184,8 @@ long PolytopeBolts::make(const PolytopeBolt& pattern)
 	const auto                passages = goodPassages(pattern, where, carriers);
 	const auto                bolt     = shared_ptr<PolytopeBolt>(new PolytopeBolt(pattern));
 	const Real                length   = (bolt->end - bolt->head).norm();
+	requireValue(bolt->groutedLength <= length * (1 + polytope::tolerance::leastPassage), "grout", bolt->groutedLength,
+	        "of a length at most the bolt's own, from head to end [m] (without one: all of it)");
 	if (bolt->freeLength < 0) bolt->freeLength = polytope::tolerance::freeLengthOverDiameter * math::sqrt(4 * bolt->area / Mathr::PI);
 	auto layout        = polytope::layOut(passages, designOf(*bolt, length), length);
 	bolt->chain        = layout.chain;

@@ -8,6 +8,7 @@
 #include <src/bond/CommonFace.hpp>
 
 #include "bonding/PolytopeBonds.hpp"
+#include "host/CheckedAttributes.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
 #include "shape/Polytope.hpp"
@@ -127,30 +128,24 @@ namespace {
 
 	void checkPattern(const PolytopeBond& pattern, const Real& angle)
 	{
-		const auto require = [](bool good, const char* name, Real value, const char* rule) {
-			if (good) return;
-			std::ostringstream message;
-			message << name << ": must be " << rule << ", got " << value;
-			refuseBond(message.str());
-		};
 		const auto                         unset  = [](Real value) { return value == -1; };
 		const auto                         finite = [](Real value) { return math::isfinite(value); };
 		const std::pair<const char*, Real> stiffnesses[]
 		        = { { "normalStiffness", pattern.normalStiffness }, { "shearStiffness", pattern.shearStiffness } };
 		for (const auto& [name, value] : stiffnesses)
-			require(unset(value) || (value > 0 && finite(value)), name, value, "positive and finite [Pa/m]");
+			requireValue(unset(value) || (value > 0 && finite(value)), name, value, "positive and finite [Pa/m]");
 		const std::pair<const char*, Real> turning[]
 		        = { { "bendingStiffness", pattern.bendingStiffness }, { "twistingStiffness", pattern.twistingStiffness } };
 		for (const auto& [name, value] : turning)
-			require(unset(value) || (value >= 0 && finite(value)), name, value, "at least 0 and finite [Pa/m]");
-		require(unset(pattern.tensileStrength) || pattern.tensileStrength > 0, "tensileStrength", pattern.tensileStrength,
+			requireValue(unset(value) || (value >= 0 && finite(value)), name, value, "at least 0 and finite [Pa/m]");
+		requireValue(unset(pattern.tensileStrength) || pattern.tensileStrength > 0, "tensileStrength", pattern.tensileStrength,
 		        "above 0 [Pa] (infinity: none)");
-		require(unset(pattern.cohesion) || pattern.cohesion > 0, "cohesion", pattern.cohesion,
+		requireValue(unset(pattern.cohesion) || pattern.cohesion > 0, "cohesion", pattern.cohesion,
 		        "above 0 [Pa] (infinity: no failure in shear)");
-		require(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < double(Mathr::HALF_PI)),
+		requireValue(unset(pattern.frictionAngle) || (pattern.frictionAngle >= 0 && pattern.frictionAngle < double(Mathr::HALF_PI)),
 		        "frictionAngle", pattern.frictionAngle, "an angle in radians, at least 0 and below pi/2 (use radians(degrees))");
-		require(pattern.bendingShare >= 0 && pattern.bendingShare <= 1, "bendingShare", pattern.bendingShare, "from 0 to 1");
-		require(angle >= 0 && angle < 0.5, "angle", angle, "an angle in radians, from 0 to below 0.5");
+		requireValue(pattern.bendingShare >= 0 && pattern.bendingShare <= 1, "bendingShare", pattern.bendingShare, "from 0 to 1");
+		requireValue(angle >= 0 && angle < 0.5, "angle", angle, "an angle in radians, from 0 to below 0.5");
 	}
 
 	shared_ptr<PolytopeBond> bondAt(

@@ -45,15 +45,10 @@ polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::checkedSettings() 
 
 void Ig2_Polytope_Polytope_PolytopeGeom::postLoad(Ig2_Polytope_Polytope_PolytopeGeom&)
 {
-	auto options = std::tie(contactModel, contactPoint, solver, tolerance, newtonTolerance);
-	try {
+	checked_.check(std::tie(contactModel, contactPoint, solver, tolerance, newtonTolerance), [&] {
 		settings_    = checkedSettings();
 		byStiffness_ = contactModel == "surface";
-	} catch (...) {
-		options = goodOptions_;
-		throw;
-	}
-	goodOptions_ = options;
+	});
 }
 
 } // namespace yade

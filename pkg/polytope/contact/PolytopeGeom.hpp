@@ -5,6 +5,7 @@
 #include "contact/ContactCounters.hpp"
 #include "contact/StoredOutline.hpp"
 #include "contact/StoredVertices.hpp"
+#include "host/CheckedAttributes.hpp"
 #include "host/FlatArchive.hpp"
 #include "host/Seldom.hpp"
 #include "material/StiffnessRules.hpp"
@@ -21,7 +22,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 
 namespace yade {
 
@@ -206,9 +206,8 @@ private:
 	BondsInStep                  bonds_;
 	CandidateMemory              candidates_;
 	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	/// contactModel, contactPoint, solver, tolerance, newtonTolerance, as they were last accepted.
-	std::tuple<std::string, std::string, std::string, Real, Real> goodOptions_ { contactModel, contactPoint, solver, tolerance,
-		newtonTolerance };
+	CheckedAttributes<std::string, std::string, std::string, Real, Real> checked_ { std::tie(
+		contactModel, contactPoint, solver, tolerance, newtonTolerance) };
 };
 REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
 

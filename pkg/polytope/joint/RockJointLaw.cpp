@@ -169,19 +169,14 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts() const
 
 void Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::postLoad(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb&)
 {
-	const auto require = [&](const char* name, Real value) {
-		if (value >= 0 && math::isfinite(value)) return;
-		normalDamping  = good_[0];
-		shearDamping   = good_[1];
-		rockingDamping = good_[2];
-		std::ostringstream message;
-		message << name << ": must be a fraction of critical damping, at least 0 and finite, got " << value;
-		throw std::invalid_argument(message.str());
+	const auto fraction = [](const char* name, Real value) {
+		requireValue(value >= 0 && math::isfinite(value), name, value, "a fraction of critical damping, at least 0 and finite");
 	};
-	require("normalDamping", normalDamping);
-	require("shearDamping", shearDamping);
-	require("rockingDamping", rockingDamping);
-	good_ = { { normalDamping, shearDamping, rockingDamping } };
+	checked_.check(std::tie(normalDamping, shearDamping, rockingDamping), [&] {
+		fraction("normalDamping", normalDamping);
+		fraction("shearDamping", shearDamping);
+		fraction("rockingDamping", rockingDamping);
+	});
 }
 
 } // namespace yade

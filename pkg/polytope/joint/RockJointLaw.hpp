@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "host/CheckedAttributes.hpp"
 #include "joint/StiffnessSums.hpp"
 
 #include <core/Dispatching.hpp>
@@ -76,11 +77,11 @@ private:
 	void     book(const Pair& pair, RockJointPhys& phys, const Last& last, const StepWork& work);
 
 	enum Energy { elastic, plastic, normalViscosity, shearViscosity, fracture, nonconservative, energyCount };
-	std::array<int, energyCount> energyIds_ { { -1, -1, -1, -1, -1, -1 } };
-	std::atomic<bool>            energiesNamed_ { false };
-	std::atomic<long>            nonFinite_ { 0 };
-	mutable std::atomic<bool>    stiffened_ { false };
-	std::array<Real, 3>          good_ { { 0, 0, 0 } };
+	std::array<int, energyCount>        energyIds_ { { -1, -1, -1, -1, -1, -1 } };
+	std::atomic<bool>                   energiesNamed_ { false };
+	std::atomic<long>                   nonFinite_ { 0 };
+	mutable std::atomic<bool>           stiffened_ { false };
+	CheckedAttributes<Real, Real, Real> checked_ { std::tie(normalDamping, shearDamping, rockingDamping) };
 };
 REGISTER_SERIALIZABLE(Law2_PolytopeGeom_RockJointPhys_MohrCoulomb);
 

@@ -7,7 +7,7 @@
 #include <src/joint/ClosureLaw.hpp>
 #include <src/joint/ContinuouslyYielding.hpp>
 
-#include <array>
+#include "host/CheckedAttributes.hpp"
 
 /// Laws that a RockJointMat has in place of a linear spring and of Mohr-Coulomb strength: parameters as scripts see them. What a contact keeps of them is in
 /// joint/LawsOfJoint.hpp.
@@ -41,7 +41,7 @@ public:
 	// clang-format on
 
 private:
-	Real good_ = maximumClosure;
+	CheckedAttributes<Real> checked_ { std::tie(maximumClosure) };
 };
 REGISTER_SERIALIZABLE(HyperbolicClosure);
 
@@ -62,7 +62,7 @@ public:
 	// clang-format on
 
 private:
-	std::array<Real, 2> good_ { { exponent, referenceStress } };
+	CheckedAttributes<Real, Real> checked_ { std::tie(exponent, referenceStress) };
 };
 REGISTER_SERIALIZABLE(PowerClosure);
 
@@ -94,7 +94,7 @@ public:
 	// clang-format on
 
 private:
-	std::array<Real, 4> good_ { { JRC, JCS, sampleLength, jointLength } };
+	CheckedAttributes<Real, Real, Real, Real> checked_ { std::tie(JRC, JCS, sampleLength, jointLength) };
 };
 REGISTER_SERIALIZABLE(BartonBandisStrength);
 
@@ -118,7 +118,8 @@ public:
 	// clang-format on
 
 private:
-	std::array<Real, 4> good_ { { initialFrictionAngle, roughness, stiffnessExponent, referenceStress } };
+	CheckedAttributes<Real, Real, Real, Real> checked_ { std::tie(
+		initialFrictionAngle, roughness, stiffnessExponent, referenceStress) };
 };
 REGISTER_SERIALIZABLE(ContinuouslyYieldingStrength);
 

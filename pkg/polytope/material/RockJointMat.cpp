@@ -8,66 +8,93 @@ namespace yade {
 
 YADE_PLUGIN((RockJointMat));
 
-RockJointMat::Values RockJointMat::values() const
-{
-	return { { normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle,
-		dilationLimit, residualCohesion, residualTensileStrength, reduction } };
-}
+namespace {
 
-void RockJointMat::setValues(const Values& v)
+	/// Puts Boost's own message, which lists C++ types, into words.
+	template <class Law> shared_ptr<Law> lawOf(const boost::python::object& given, const char* name, const char* rule)
+	{
+		const boost::python::extract<shared_ptr<Law>> law(given);
+		const auto                                    type
+		        = [&] { return std::string(boost::python::extract<std::string>(given.attr("__class__").attr("__name__"))); };
+		if (!law.check()) throw std::invalid_argument(std::string(name) + ": must be " + rule + ", got " + type());
+		return law();
+	}
+
+	shared_ptr<JointClosure> closureOf(const boost::python::object& given)
+	{
+		return lawOf<JointClosure>(
+		        given, "closure", "a normal law, HyperbolicClosure or PowerClosure, or None for a linear spring");
+	}
+
+	shared_ptr<JointStrength> strengthOf(const boost::python::object& given)
+	{
+		return lawOf<JointStrength>(
+		        given, "strength", "a shear law, BartonBandisStrength or ContinuouslyYieldingStrength, or None for Mohr-Coulomb");
+	}
+
+} // namespace
+
+RockJointMat::Checked::References RockJointMat::checkedOnes()
 {
-	normalStiffness         = v[0];
-	shearStiffness          = v[1];
-	frictionAngle           = v[2];
-	cohesion                = v[3];
-	tensileStrength         = v[4];
-	residualFrictionAngle   = v[5];
-	dilationAngle           = v[6];
-	dilationLimit           = v[7];
-	residualCohesion        = v[8];
-	residualTensileStrength = v[9];
-	reduction               = v[10];
+	return std::tie(normalStiffness, shearStiffness, frictionAngle, cohesion, tensileStrength, residualFrictionAngle, dilationAngle,
+	        dilationLimit, residualCohesion, residualTensileStrength, reduction, closure, strength);
 }
 
 void RockJointMat::postLoad(RockJointMat&)
 {
-	const auto require = [&](bool good, const char* name, Real value, const char* rule) {
-		if (good) return;
-		setValues(good_);
-		closure        = goodClosure_;
-		this->strength = goodStrength_;
-		std::ostringstream message;
-		message << name << ": must be " << rule << ", got " << value;
-		throw std::invalid_argument(message.str());
-	};
+	checked_.check(checkedOnes(), [&] {
+		refuseValues();
+		refuseForLaws();
+		refuseResidualsAbovePeak();
+	});
+}
+
+void RockJointMat::setClosure(const boost::python::object& given)
+{
+	closure = closureOf(given);
+	postLoad(*this);
+}
+
+void RockJointMat::setStrength(const boost::python::object& given)
+{
+	strength = strengthOf(given);
+	postLoad(*this);
+}
+
+void RockJointMat::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& keywords)
+{
+	if (keywords.has_key("closure")) closureOf(keywords["closure"]);
+	if (keywords.has_key("strength")) strengthOf(keywords["strength"]);
+}
+
+void RockJointMat::refuseValues() const
+{
 	const char* const angleRule = "an angle in radians, at least 0 and below pi/2 (use radians(degrees))";
+	const char* const pressure  = "at least 0 and finite [Pa]";
 	const auto        positive  = [](Real v) { return v > 0 && math::isfinite(v); };
-	const auto        strength  = [](Real v) { return v >= 0 && math::isfinite(v); };
+	const auto        bears     = [](Real v) { return v >= 0 && math::isfinite(v); };
 	// in wider precisions, too, Python's pi/2 is a double, and below the true one
 	const auto angle = [](Real v) { return v >= 0 && v < double(Mathr::HALF_PI); };
-	require(positive(normalStiffness), "normalStiffness", normalStiffness, "positive and finite [Pa/m, or N/m for each contact]");
-	require(positive(shearStiffness), "shearStiffness", shearStiffness, "positive and finite [Pa/m, or N/m for each contact]");
-	require(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);
-	require(strength(cohesion), "cohesion", cohesion, "at least 0 and finite [Pa]");
-	require(strength(residualCohesion), "residualCohesion", residualCohesion, "at least 0 and finite [Pa]");
-	require(strength(residualTensileStrength), "residualTensileStrength", residualTensileStrength, "at least 0 and finite [Pa]");
-	require(strength(tensileStrength), "tensileStrength", tensileStrength, "at least 0 and finite [Pa]");
-	require(angle(residualFrictionAngle) || residualFrictionAngle == -1, "residualFrictionAngle", residualFrictionAngle,
+	requireValue(positive(normalStiffness), "normalStiffness", normalStiffness, "positive and finite [Pa/m, or N/m for each contact]");
+	requireValue(positive(shearStiffness), "shearStiffness", shearStiffness, "positive and finite [Pa/m, or N/m for each contact]");
+	requireValue(angle(frictionAngle), "frictionAngle", frictionAngle, angleRule);
+	requireValue(bears(cohesion), "cohesion", cohesion, pressure);
+	requireValue(bears(residualCohesion), "residualCohesion", residualCohesion, pressure);
+	requireValue(bears(residualTensileStrength), "residualTensileStrength", residualTensileStrength, pressure);
+	requireValue(bears(tensileStrength), "tensileStrength", tensileStrength, pressure);
+	requireValue(angle(residualFrictionAngle) || residualFrictionAngle == -1, "residualFrictionAngle", residualFrictionAngle,
 	        "-1 (the same as frictionAngle) or an angle in radians, at least 0 and below pi/2");
-	require(angle(dilationAngle), "dilationAngle", dilationAngle, angleRule);
-	require(positive(reduction), "reduction", reduction, "positive and finite (what tan φ of the shear law is divided by)");
-	require(dilationLimit >= 0, "dilationLimit", dilationLimit, "at least 0 [m] (infinity: no limit)");
-	try {
-		refuseForLaws();
-	} catch (...) {
-		setValues(good_);
-		closure        = goodClosure_;
-		this->strength = goodStrength_;
-		throw;
-	}
-	good_         = values();
-	goodClosure_  = closure;
-	goodStrength_ = this->strength;
+	requireValue(angle(dilationAngle), "dilationAngle", dilationAngle, angleRule);
+	requireValue(positive(reduction), "reduction", reduction, "positive and finite (what tan φ of the shear law is divided by)");
+	requireValue(dilationLimit >= 0, "dilationLimit", dilationLimit, "at least 0 [m] (infinity: no limit)");
+}
+
+void RockJointMat::refuseResidualsAbovePeak() const
+{
+	requireValue(residualCohesion <= cohesion, "residualCohesion", residualCohesion,
+	        "at most the cohesion, and where both become smaller this one first");
+	requireValue(residualTensileStrength <= tensileStrength, "residualTensileStrength", residualTensileStrength,
+	        "at most the tensileStrength, and where both become smaller this one first");
 }
 
 void RockJointMat::refuseForLaws() const

@@ -83,13 +83,12 @@ string PolytopeVTKRecorder::snapshotName(const string& recorder, long step, cons
 
 void PolytopeVTKRecorder::postLoad(PolytopeVTKRecorder&)
 {
-	for (const string& recorder : recorders)
-		if (recorder != "bodies" && recorder != "contacts" && recorder != "bonds" && recorder != "bolts") {
-			const string message = "recorders: must be among 'bodies', 'contacts', 'bonds' and 'bolts', not '" + recorder + "'";
-			recorders            = goodRecorders_;
-			throw std::invalid_argument(message);
-		}
-	goodRecorders_ = recorders;
+	checked_.check(std::tie(recorders), [&] {
+		for (const string& recorder : recorders)
+			if (recorder != "bodies" && recorder != "contacts" && recorder != "bonds" && recorder != "bolts")
+				throw std::invalid_argument(
+				        "recorders: must be among 'bodies', 'contacts', 'bonds' and 'bolts', not '" + recorder + "'");
+	});
 }
 
 void PolytopeVTKRecorder::action()

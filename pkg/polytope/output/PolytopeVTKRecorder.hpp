@@ -5,6 +5,8 @@
 
 #include <pkg/common/PeriodicEngines.hpp>
 
+#include "host/CheckedAttributes.hpp"
+
 namespace yade {
 
 class PolytopeVTKRecorder : public PeriodicEngine {
@@ -42,15 +44,15 @@ In a periodic scene, bodies and contact points are moved into the cell. Called a
 	DECLARE_LOGGER;
 
 private:
-	bool           has(const string& recorder) const;
-	bool           recorded(const Body& body) const;
-	void           writeBodies(const string& file) const;
-	void           writeContacts(const string& file) const;
-	void           writeBonds(const string& file) const;
-	void           writeBolts(const string& file) const;
-	void           writeSeries(const string& recorder, const string& extension) const;
-	string         snapshotName(const string& recorder, long step, const string& extension) const;
-	vector<string> goodRecorders_ = recorders;
+	bool                              has(const string& recorder) const;
+	bool                              recorded(const Body& body) const;
+	void                              writeBodies(const string& file) const;
+	void                              writeContacts(const string& file) const;
+	void                              writeBonds(const string& file) const;
+	void                              writeBolts(const string& file) const;
+	void                              writeSeries(const string& recorder, const string& extension) const;
+	string                            snapshotName(const string& recorder, long step, const string& extension) const;
+	CheckedAttributes<vector<string>> checked_ { std::tie(recorders) };
 };
 REGISTER_SERIALIZABLE(PolytopeVTKRecorder);
 

@@ -94,25 +94,17 @@ void PolytopeTimeStepper::setTimeStepUpdateInterval(long interval)
 
 void PolytopeTimeStepper::postLoad(PolytopeTimeStepper&)
 {
-	const auto require = [&](bool good, const char* name, Real value, const char* rule) {
-		if (good) return;
-		timestepSafetyCoefficient = good_[0];
-		motionLimit               = good_[1];
-		maxDt                     = good_[2];
-		std::ostringstream message;
-		message << name << ": must be " << rule << ", got " << value;
-		throw std::invalid_argument(message.str());
-	};
-	require(timestepSafetyCoefficient > 0 && timestepSafetyCoefficient <= 2, "timestepSafetyCoefficient", timestepSafetyCoefficient,
-	        "above 0 and at most 2, the limit of one body between fixed ones");
-	require(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit,
-	        "above 0 and finite (a fraction of a body's inscribed radius)");
-	require(maxDt > 0, "maxDt", maxDt, "above 0 [s] (infinity: no limit)");
+	checked_.check(std::tie(timestepSafetyCoefficient, motionLimit, maxDt), [&] {
+		requireValue(timestepSafetyCoefficient > 0 && timestepSafetyCoefficient <= 2, "timestepSafetyCoefficient",
+		        timestepSafetyCoefficient, "above 0 and at most 2, the limit of one body between fixed ones");
+		requireValue(motionLimit > 0 && math::isfinite(motionLimit), "motionLimit", motionLimit,
+		        "above 0 and finite (a fraction of a body's inscribed radius)");
+		requireValue(maxDt > 0, "maxDt", maxDt, "above 0 [s] (infinity: no limit)");
+	});
 	if (timeStepUpdateInterval < 1) {
 		timeStepUpdateInterval = 1;
 		setTimeStepUpdateInterval(0);
 	}
-	good_ = { { timestepSafetyCoefficient, motionLimit, maxDt } };
 }
 
 } // namespace yade

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "host/CheckedAttributes.hpp"
 #include "host/FindsTimeStep.hpp"
 #include "step/PotentialContacts.hpp"
 
@@ -49,12 +50,12 @@ Bodies that cannot move limit nothing, blocked degrees of freedom do not count, 
 private:
 	bool isErased(Body::id_t body, const Scene& ofScene) const { return body != Body::ID_NONE && !ofScene.bodies->exists(body); }
 
-	PotentialContacts   potential_;
-	TimeStepLimit       material_;    ///< of the last evaluation of potential_
-	unsigned            updates_ = 0; ///< since then
-	bool                hasRun_  = false;
-	std::size_t         bodies_ = 0, springs_ = 0; ///< that there were
-	std::array<Real, 3> good_ { { timestepSafetyCoefficient, motionLimit, maxDt } };
+	PotentialContacts                   potential_;
+	TimeStepLimit                       material_;    ///< of the last evaluation of potential_
+	unsigned                            updates_ = 0; ///< since then
+	bool                                hasRun_  = false;
+	std::size_t                         bodies_ = 0, springs_ = 0; ///< that there were
+	CheckedAttributes<Real, Real, Real> checked_ { std::tie(timestepSafetyCoefficient, motionLimit, maxDt) };
 };
 REGISTER_SERIALIZABLE(PolytopeTimeStepper);
 

@@ -121,7 +121,7 @@ def meanwhile(settings):
 	try:
 		yield
 	finally:
-		for one, name, value in before:
+		for one, name, value in reversed(before):
 			setattr(one, name, value)
 
 

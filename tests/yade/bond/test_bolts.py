@@ -245,6 +245,7 @@ refused = [
 	('grout: its stiffness must be positive', dict(grout=Grout(nan, 1e5))),
 	('grout: must be of a strength', dict(grout=Grout(1e9, 0))),
 	('grout: must be of a length', dict(grout=Grout(1e9, 1e5, length=-2))),
+	("grout: must be of a length at most the bolt's own, from head to end", dict(grout=Grout(1e9, 1e5, length=20))),
 	('grout: holds the bolt in one block alone', dict(grout=Grout(1e9, 1e5, length=0.3), plate=False)),
 	('dowel: a bolt without grout', dict(dowel=Dowel(1e8, 1e5))),
 	('dowel: must be of a strength', dict(grout=Grout(1e9, 1e5), dowel=Dowel(1e8, nan))),

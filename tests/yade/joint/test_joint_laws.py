@@ -458,10 +458,27 @@ def testWhatBelongsToMohrCoulombIsRefused(strength, name, value):
 	with pytest.raises(ValueError, match=f'^{name}: belongs to Mohr-Coulomb'):
 		setattr(material, name, value)
 	assert getattr(material, name) == getattr(RockJointMat(), name)
-	plain = RockJointMat(**{name: value})
+	plain = RockJointMat(**{name: value, name.replace('residualC', 'c').replace('residualT', 't'): value})
+	name = name.replace('residualC', 'c').replace('residualT', 't')  # the peak is named first
 	with pytest.raises(ValueError, match=f'^{name}: belongs to Mohr-Coulomb'):
 		plain.strength = strength
 	assert plain.strength is None
+
+
+@pytest.mark.parametrize('wrong', [BartonBandisStrength(), 3, 'stiff'])
+def testALawOfTheWrongKindIsNamed(wrong):
+	material = RockJointMat(closure=PowerClosure(), strength=None)
+	with pytest.raises(ValueError, match=f'^closure: must be a normal law, HyperbolicClosure.* got {type(wrong).__name__}$'):
+		RockJointMat(closure=wrong)
+	with pytest.raises(ValueError, match='^closure: must be a normal law'):
+		material.closure = wrong
+	assert isinstance(material.closure, PowerClosure)
+	material.closure = None
+	with pytest.raises(ValueError, match='^strength: must be a shear law, BartonBandisStrength.* got HyperbolicClosure$'):
+		material.strength = HyperbolicClosure()
+	with pytest.raises(ValueError, match='^strength: must be a shear law'):
+		RockJointMat(strength=HyperbolicClosure())
+	assert material.strength is None and material.closure is None
 
 
 def testWhatElseDoesNotGoTogether():

@@ -223,17 +223,34 @@ def testALoadedSceneGoesOnYielding(archive, tmp_path):
 	assert ends[0] == pytest.approx(ends[1], abs=1e-13)
 
 
-@pytest.mark.parametrize('name', ['residualTensileStrength', 'residualCohesion'])
+@pytest.mark.parametrize('name, peak', [('residualTensileStrength', 'tensileStrength'), ('residualCohesion', 'cohesion')])
 @pytest.mark.parametrize('value', [-1, float('nan'), float('inf')])
-def testBadValuesAreRefused(name, value):
+def testBadValuesAreRefused(name, peak, value):
 	with pytest.raises(ValueError, match=f'^{name}'):
 		RockJointMat(**{name: value})
-	material = RockJointMat(**{name: 5})
+	material = RockJointMat(**{peak: 6, name: 5})
 	with pytest.raises(ValueError, match=f'^{name}'):
 		setattr(material, name, value)
 	assert getattr(material, name) == 5
 
 
-def testItCountsUpToTheTensileStrength():
-	hung(residual=3 * strength)
-	assert O.interactions[0, 1].phys.residualTensileStrength == strength
+def testItIsNotAboveThePeak():
+	with pytest.raises(ValueError, match='^residualTensileStrength: must be at most the tensileStrength'):
+		RockJointMat(tensileStrength=6, residualTensileStrength=7)
+	material = RockJointMat(tensileStrength=6, residualTensileStrength=5)
+	with pytest.raises(ValueError, match='^residualTensileStrength: must be at most the tensileStrength'):
+		material.tensileStrength = 4
+	assert (material.tensileStrength, material.residualTensileStrength) == (6, 5)
+
+
+def testBetweenTwoMaterialsItCountsUpToTheSmallerPeak():
+	weak, tough = dict(cohesion=1e6, tensileStrength=1e3), dict(cohesion=1e6, tensileStrength=9e3, residualTensileStrength=9e3)
+	for residual in (0, 1e3):
+		O.reset()
+		O.materials.append([RockJointMat(**weak, residualTensileStrength=residual), RockJointMat(**tough)])
+		for k in (0, 1):
+			O.bodies.append(polytope.cuboid((0, 0, k * (1 - 1e-9)), (0.5, 0.5, 0.5), fixed=k == 0, material=k))
+		O.engines = polytope.engines(gravity=(0, 0, 0))
+		O.step()
+		phys = O.interactions[0, 1].phys
+		assert (phys.tensileStrength, phys.residualTensileStrength) == (1e3, residual)

@@ -56,7 +56,7 @@ def inSitu(stress, gradient=None, bodies=None):
 def _makeContacts():
 	"""Joints with tensile strength get it when they have their force: their own bond takes it up as it is then."""
 	materials = [one for one in O.materials if isinstance(one, RockJointMat) and one.tensileStrength > 0]
-	with meanwhile([(material, 'tensileStrength', 0) for material in materials]):
+	with meanwhile([(material, name, 0) for material in materials for name in ('residualTensileStrength', 'tensileStrength')]):
 		_act()
 
 
@@ -82,9 +82,11 @@ def _shear(field, faces):
 		if contact is None:
 			continue
 		_setShear(contact, face, field)
-		tensile = min(materialOf(face, k).tensileStrength for k in (face.id1, face.id2))
+		sides = [materialOf(face, k) for k in (face.id1, face.id2)]
+		tensile = min(material.tensileStrength for material in sides)
 		if tensile > 0:
 			contact.phys.tensileStrength, contact.phys.intact = tensile, mayBeIntact
+			contact.phys.residualTensileStrength = min(tensile, *(material.residualTensileStrength for material in sides))
 		count += 1
 	return count
 
