@@ -111,6 +111,45 @@ def testWhatComesToRestSlowlyIsNotGivenUp():
 	assert polytope.settle(unbalanced=1e-6, damping=0.01) > 5000
 
 
+@pytest.mark.parametrize('stiffness, dip', [(1e10, 17), (1e11, 17.3)])
+def testASlenderColumnOnASlopeIsWaitedFor(stiffness, dip):
+	"""Three times as high as wide, it topples at 18.4°: near that it swings so slowly that its force does not fade between 2500 and 10000 steps."""
+	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=math.radians(40))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (6, 6, 0.5), fixed=True))
+	column = O.bodies.append(polytope.cuboid((0, 0, 1.5), (0.5, 0.5, 1.5)))
+	O.engines = polytope.engines(gravity=(9.81 * math.sin(math.radians(dip)), 0, -9.81 * math.cos(math.radians(dip))))
+	assert polytope.settle() > 2 * patience
+	assert 0 < O.bodies[column].state.pos[0] < 0.005
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testWhatSlidesAwayIsToldBesideWhatMoves(flat):
+	"""Another block is pushed up and down its slope as long as it is run."""
+	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=math.radians(60))
+	turn = floor(60, math.radians(30), flat)
+	moves = block(turn, 55, flat)
+	joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=math.radians(20))
+	slides = block(turn, -55, flat)
+	O.bodies[slides].material = O.materials[1]
+	engines(flat)
+	push = 0.6 * 9.81 * O.bodies[moves].state.mass * (turn * Vector3(-1, 0, 0))
+	command = f'O.forces.addF({moves}, Vector3({push[0]}, {push[1]}, {push[2]})) if O.iter % 3000 < 1500 else None'
+	O.engines = O.engines[:3] + [PyRunner(command=command, iterPeriod=1)] + O.engines[3:]
+	error = settleFails(elastic=False)
+	assert [(one.id, one.kind) for one in error.bodies] == [(slides, 'slides')]
+	assert O.iter <= patience and O.bodies[slides].state.vel.norm() > 0.1
+
+
+def testWhatFallsOverAnEdgeIsToldThen():
+	"""A block that slides off its base, with nothing below: not at the end of the span, after 20000 steps."""
+	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=math.radians(20))
+	slides = block(floor(3, math.radians(30)), 2.9)
+	engines()
+	error = settleFails(elastic=False)
+	assert [(one.id, one.kind) for one in error.bodies] == [(slides, 'falls')]
+	assert 10000 < O.iter < 18000
+
+
 def testClumpsAreToldByTheirOwnId():
 	joint(normalStiffness=1e7, shearStiffness=1e7)
 	floor()
