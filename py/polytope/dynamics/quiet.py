@@ -15,6 +15,8 @@ __all__ = ['quietBoundary']
 
 outward = np.cos(0.01)
 """Cosine of the largest angle between the normal of the boundary and that of a face which belongs to it: what settling turns bodies by."""
+unheld = 0.01
+"""Of a free body's weight: the force that it may lack to be at rest."""
 
 
 @namedArguments
@@ -35,7 +37,8 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 	:param history: what *velocityHistory* returns: velocity of a wave that comes in through the boundary, half of what it gives a free surface of the same
 	    rock; None: none does
 	:returns: the engine *QuietBoundary*, which stands before NewtonIntegrator in O.engines and is saved with the scene
-	:raises ValueError: naming the argument: bodies that are not there, without such a face, or in another quiet boundary of this normal, or moved by *baseMotion*; a history that has begun
+	:raises ValueError: naming the argument: bodies that are not there, without such a face or with a neighbour on it, free bodies that are not at rest, bodies in another quiet
+	    boundary of this normal, or moved by *baseMotion*; a history that has begun
 	    already; no NewtonIntegrator
 	"""
 	ids, history = bodiesOf(ids), None if history is None else historyOf(history)
@@ -57,7 +60,9 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 		)
 	gravity = integrator().gravity
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
+	_refuseLoadedFaces(ids, normal)
 	borne = _contactForces(ids)
+	_refuseUnheld(ids, gravity, borne)
 	supports = [_support(O.bodies[k], gravity, borne[k]) for k in ids]
 	impedances = [
 		[real(area * float(speed) * float(O.bodies[k].material.density)) for k, area in zip(ids, areas, strict=True)] for speed in speeds
@@ -119,6 +124,34 @@ def _contactForces(ids):
 		if one.id2 in borne:
 			borne[one.id2] += force
 	return borne
+
+
+def _refuseLoadedFaces(ids, normal):
+	"""A face that a neighbour presses on is no end of the model."""
+	for one in O.interactions:
+		if not one.isReal or not float(one.phys.normalForce.norm()) > 0:
+			continue
+		along = float(np.array(one.geom.normal, float) @ normal)  # from body 1 to body 2
+		for k, other, towards in ((one.id1, one.id2, along), (one.id2, one.id1, -along)):
+			if k in ids and towards > outward:
+				raise ValueError(
+					f'ids: body {other} presses on the face of body {k} that looks along the normal; a quiet boundary is where the model ends: name the last '
+					'bodies alone, or the normal that points out of the rock'
+				)
+
+
+def _refuseUnheld(ids, gravity, borne):
+	"""Dashpots hold no weight: a free body would sink with a steady speed."""
+	for k in ids:
+		state = O.bodies[k].state
+		free = [axis not in state.blockedDOFs for axis in 'xyz']
+		weight = state.mass * gravity
+		force = np.array(borne[k] + permanentLoads().get(k, (Vector3.Zero,))[0] + weight, float) * free
+		if np.linalg.norm(force) > unheld * float(weight.norm()) > 0:
+			raise ValueError(
+				f'ids: body {k} can move and is not at rest ({np.linalg.norm(force):.3g} N): dashpots hold no load. Fix it (fixed=True), so that what it bears '
+				'is held from now on, or polytope.settle() first'
+			)
 
 
 def _support(body, gravity, borne):

@@ -32,6 +32,8 @@ class Face(NamedTuple):
 	"""[m²]"""
 
 
+attributesOfWater = 'points', 'values', 'gradients', 'sides', 'sideOffsets', 'someFaces', 'wetBodies', 'wetPlanes'
+"""Of PolytopeWater."""
 least = 100.0
 """Density [kg/m³] below which it is taken for one in t/m³: no liquid in rock has it."""
 sameMass = 1e-6
@@ -52,7 +54,8 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	:param pressures: in place of *level*: [(point, pressure [Pa]), …] in order along a joint: linear between the points, constant across their line and beyond its ends
 	:param faces: function of a *Face* (body, plane, normal, centre, area), called once for each: whether it has this water; default all faces of all polytopes, of later ones too
 	:returns: the engine; ``engine.load(id)`` has force and moment on a body, ``engine.dead = True`` takes the water away
-	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, clumps of parts that overlap
+	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, the same water a second time, clumps of
+	    parts that overlap
 	"""
 	place = placeOfForces('water acts')
 	if O.periodic:
@@ -67,6 +70,7 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	pieces = _along(pressures) if level is None else _below(level, density, bodies, faces is not None)
 	wet, corners = _chosen(faces, bodies)
 	engine = PolytopeWater(**_attributes(pieces), **wet)
+	_refuseTheSame(engine, name)
 	if not (_anyPressure(pieces, corners) or any(float(engine.load(body.id)[0].norm()) > 0 for body in bodies)):
 		low, high = _reach(bodies, np.eye(3))
 		raise ValueError(f'{name}: no face gets any pressure; the bodies reach from {_text(low)} to {_text(high)} m')
@@ -85,6 +89,20 @@ def _refuseOverlappingParts():
 			raise ValueError(
 				f'O.bodies: the parts of clump {clump.id} weigh {of:g} kg and the clump {float(clump.state.mass):g} kg, so they overlap, and water would press on '
 				'what is inside; make it of parts that only touch'
+			)
+
+
+def _refuseTheSame(engine, name):
+	"""The same call twice would press twice."""
+	for other in O.engines:
+		if (
+			isinstance(other, PolytopeWater)
+			and not other.dead
+			and all(getattr(other, key) == getattr(engine, key) for key in attributesOfWater)
+		):
+			raise ValueError(
+				f'{name}: this water presses on these faces already, by an engine PolytopeWater in O.engines, and would a second time; leave this call out, or '
+				'take the other away first (its dead=True)'
 			)
 
 

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import Box, Ip2_RockJointMat_RockJointMat_RockJointPhys, MatchMaker, O, RockJointMat, Vector3, polytope, utils
+from yade import Box, HyperbolicClosure, Ip2_RockJointMat_RockJointMat_RockJointPhys, MatchMaker, O, RockJointMat, Vector3, polytope, utils
 from yade.polytope.rest.unbalanced import unbalancedForce
 from yade.polytope.rock.stress.commonFaces import commonFaces
 from yade.polytope.rock.stress.field import StressField
@@ -214,12 +214,22 @@ def staysAtRestAfter(field):
 	return polytope.settle(unbalanced=1e-6, elastic=False) <= 500 and error(field) < 0.002
 
 
-@pytest.mark.parametrize('strength', [{'cohesion': 1e6, 'tensileStrength': 1e6}, {'tensileStrength': 1e6}, {'cohesion': 1e6}])
+@pytest.mark.parametrize(
+	'strength',
+	[
+		{'cohesion': 1e6, 'tensileStrength': 1e6},
+		{'tensileStrength': 1e6, 'residualTensileStrength': 5e5},
+		{'tensileStrength': 1e6},
+		{'cohesion': 1e6},
+	],
+)
 def testJointsKeepTheirStrength(strength):
 	material(residualFrictionAngle=math.radians(20), **strength)
 	masonry()
 	polytope.inSitu(general)
-	assert O.materials[0].tensileStrength == strength.get('tensileStrength', 0)
+	for name in ('tensileStrength', 'residualTensileStrength'):
+		assert getattr(O.materials[0], name) == strength.get(name, 0)
+		assert all(getattr(O.interactions[face].phys, name) == strength.get(name, 0) for face in commonFacesBefore)
 	assert staysAtRest(StressField(general), 0.002)
 	for face in commonFacesBefore:
 		phys = O.interactions[face].phys
@@ -416,6 +426,46 @@ def testScenesThatCannotHaveAStress(what):
 		polytope.inSitu(uniform(1e6), **arguments)
 
 
+def testWhereNothingCanMoveThereIsNoStress():
+	material()
+	with pytest.raises(ValueError, match='^bodies: there is no Polytope; append the blocks first'):
+		polytope.inSitu(uniform(1e6))
+	masonry(2)
+	fixed = [body.id for body in O.bodies if not body.dynamic]
+	with pytest.raises(ValueError, match='^bodies: none of them can move'):
+		polytope.inSitu(uniform(1e6), bodies=fixed)
+	for body in O.bodies:
+		body.dynamic = False
+	with pytest.raises(ValueError, match='^bodies: all Polytopes are fixed.*fix only those around the mass'):
+		polytope.inSitu(uniform(1e6))
+
+
+@pytest.mark.parametrize('asked', ['body', 'face'])
+def testTheMaterialsOfFacesAreAskedFirst(asked):
+	"""A body's own material does not count where all of its faces have another one."""
+	material()
+	masonry(2)
+	refused = dict(normalStiffness=2e10, shearStiffness=1e10, frictionAngle=0.5)
+	perContact = O.materials.append(RockJointMat(**refused, stiffnessPerArea=False))
+	closing = O.materials.append(RockJointMat(**refused, closure=HyperbolicClosure(maximumClosure=1e-3)))
+	own, blocks = O.bodies[0].material.id, [body for body in O.bodies if body.dynamic]
+	if asked == 'body':
+		for body in blocks:
+			body.shape.faceMaterials = [own] * len(body.shape.normals)
+			body.material = O.materials[perContact]
+		assert polytope.inSitu(uniform(1e6)) > 0
+		assert error(StressField(uniform(1e6))) < 0.005
+		return
+	for bad, words in (
+		(perContact, 'has a stiffness per contact.*stiffnessPerArea=True'),
+		(closing, r'has a closure of its own \(HyperbolicClosure\).*linear springs'),
+	):
+		blocks[0].shape.faceMaterials = [bad] * len(blocks[0].shape.normals)
+		with pytest.raises(ValueError, match=f'^bodies: the joint between .* {words}'):
+			polytope.inSitu(uniform(1e6))
+		assert not list(O.interactions)
+
+
 def testAClumpGetsIt():
 	"""Of three blocks in an L, and one that fills the corner. Parts get other centres and axes with their size, and stay where they are."""
 	material()
@@ -484,7 +534,14 @@ def testJointsWhoseFacesAreTooWeakAreRefused():
 	box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 	dip = polytope.Joint(math.radians(30), math.radians(90), (0, 0, 0))
 	ids = polytope.jointedRock(box, [1, 1, 1, 1, 1, 1], [dip]).append(material='rock', jointMaterials=['weak'])
-	walls = [((2, 0, 0), (1, 1, 1)), ((-2, 0, 0), (1, 1, 1)), ((0, 2, 0), (3, 1, 1)), ((0, -2, 0), (3, 1, 1)), ((0, 0, 2), (3, 3, 1)), ((0, 0, -2), (3, 3, 1))]
+	walls = [
+		((2, 0, 0), (1, 1, 1)),
+		((-2, 0, 0), (1, 1, 1)),
+		((0, 2, 0), (3, 1, 1)),
+		((0, -2, 0), (3, 1, 1)),
+		((0, 0, 2), (3, 3, 1)),
+		((0, 0, -2), (3, 3, 1)),
+	]
 	O.bodies.append([polytope.cuboid(*wall, fixed=True, material='rock') for wall in walls])
 	O.engines = polytope.engines(gravity=(0, 0, 0))
 	with pytest.raises(ValueError, match=r'needs 21.8° of friction and has 20.0°'):

@@ -214,6 +214,30 @@ def testArgumentsThatCannotBeAreNamed():
 		polytope.quietBoundary(base, (0, 0, -1), pWave, sWave)
 
 
+def testAFaceThatANeighbourPressesOnIsNoBoundary():
+	base = column()
+	engines = len(O.engines)
+	for ids, normal, other in (([base], (0, 0, 1), 1), ([3], (0, 0, -1), 2), ([3, 6], (0, 0, 1), 4)):
+		with pytest.raises(ValueError, match=f'^ids: body {other} presses on the face of body {ids[0]} .*where the model ends'):
+			polytope.quietBoundary(ids, normal, pWave, sWave)
+	assert len(O.engines) == engines
+	polytope.quietBoundary(6, (0, 0, 1), pWave, sWave)  # the free surface
+
+
+def testAFreeBodyThatIsNotAtRestIsRefused():
+	"""Dashpots would let it sink with a steady speed."""
+	O.materials.append(RockJointMat(density=density, normalStiffness=kn, shearStiffness=ks, frictionAngle=1.0))
+	blocks = [O.bodies.append(polytope.cuboid((0, 0, k), (0.6, 0.5, 0.5))) for k in range(3)]
+	O.engines = polytope.engines(damping=0)
+	engines = len(O.engines)
+	with pytest.raises(ValueError, match=rf'^ids: body {blocks[0]} can move and is not at rest .*Fix it'):
+		polytope.quietBoundary(blocks[0], (0, 0, -1), pWave, sWave)
+	assert len(O.engines) == engines and O.bodies[blocks[0]].state.blockedDOFs == ''
+	O.bodies[blocks[0]].dynamic = False
+	polytope.settle()
+	polytope.quietBoundary(blocks[0], (0, 0, -1), pWave, sWave)
+
+
 def testADashpotIsStableHoweverStrongItIs():
 	"""c A Δt/m of 100 and more: what moves stops, and nothing grows."""
 	row(ends=(0.5, 0.5))

@@ -397,6 +397,22 @@ def testAClumpOfPartsThatOverlapIsRefused():
 	assert len(O.engines) == engines
 
 
+@pytest.mark.parametrize('arguments', [dict(level=1), dict(pressures=[((0, 0, 0), 1e5), ((1, 0, 0), 0)])])
+def testTheSameWaterTwiceIsRefused(arguments):
+	rock()
+	block = O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	O.engines = polytope.engines()
+	first = polytope.water(**arguments)
+	name = next(iter(arguments))
+	with pytest.raises(ValueError, match=f'^{name}: this water presses on these faces already.*dead=True'):
+		polytope.water(**arguments)
+	assert sum(isinstance(engine, PolytopeWater) for engine in O.engines) == 1
+	polytope.water(**arguments, faces=lambda face: face.normal[2] > 0.9 or face.normal[0] < -0.9)  # another water: it adds up
+	force = first.load(block)[0]
+	first.dead = True
+	assert polytope.water(**arguments).load(block)[0] == force
+
+
 def testADensityInOtherUnitsIsTold():
 	rock()
 	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))

@@ -10,9 +10,10 @@ from ...bonding.bonds import madeBonds
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove, moverOf
 from ...scene.namedBodies import namedBodies
-from ...scene.present import geometryFunctors, interactionLoops, isPerArea, jointMakers, jointMaterials, laws
+from ...scene.present import geometryFunctors, interactionLoops, jointMakers, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
+from ..faceMaterials import materialsOf
 from ..faces import areaOfFace
 from .commonFaces import contactOf, materialOf, planesOf
 
@@ -34,12 +35,24 @@ def massOf(bodies):
 		named = [body.id for body in O.bodies if body is not None and isinstance(body.shape, Polytope) and canMove(body)]
 	else:
 		named = [part for k in namedBodies(bodies, name='bodies') for part in (O.bodies[k].shape.members if O.bodies[k].isClump else (k,))]
-	if not named:
-		raise ValueError('bodies: there is no free Polytope; append the blocks first')
 	for k in named:
 		if not isinstance(O.bodies[k].shape, Polytope):
 			raise ValueError(f'bodies: body {k} is a {type(O.bodies[k].shape).__name__}, no Polytope')
+	if not any(canMove(O.bodies[k]) for k in named):
+		_refuseNoBlocks(bodies is not None)
 	return set(named)
+
+
+def _refuseNoBlocks(areNamed):
+	if areNamed:
+		raise ValueError(
+			'bodies: none of them can move, and a stress is that of blocks that can; name those, without the fixed ones around them'
+		)
+	if any(body is not None and isinstance(body.shape, Polytope) for body in O.bodies):
+		raise ValueError(
+			'bodies: all Polytopes are fixed, and a stress is that of blocks that can move; fix only those around the mass (fixed=True)'
+		)
+	raise ValueError('bodies: there is no Polytope; append the blocks first')
 
 
 def refuseScene(chosen):
@@ -52,7 +65,7 @@ def refuseScene(chosen):
 	if not laws() or not makers:
 		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
 	models = {functor.contactModel for functor in geometryFunctors()}
-	if not all(isPerArea(material, makers) for material in jointMaterials(O.bodies)) or not models <= {'surface', 'foundation'}:
+	if not all(one.stiffnessPerArea for one in makers) or not models <= {'surface', 'foundation'}:
 		raise ValueError(
 			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
 		)
@@ -64,8 +77,9 @@ def refuseScene(chosen):
 			'O.engines: a MatchMaker sets stiffnesses by pairs; a block has the closure of its own material, so give materials theirs'
 		)
 	for k in chosen:
-		if not isinstance(O.bodies[k].material, RockJointMat):
-			raise ValueError(f'bodies: body {k} is of a {type(O.bodies[k].material).__name__}; a stress needs joints between RockJointMat')
+		others = [material for material in materialsOf(O.bodies[k]) if not isinstance(material, RockJointMat)]
+		if others:
+			raise ValueError(f'bodies: body {k} is of a {type(others[0]).__name__}; a stress needs joints between RockJointMat')
 	if any(contact.isReal for contact in O.interactions):
 		raise ValueError('O.interactions: there are contacts already; call inSitu before the first step, or O.interactions.clear() first')
 	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)} & chosen
@@ -78,6 +92,7 @@ def refuseScene(chosen):
 def refuseField(field, faces, chosen):
 	if not faces:
 		raise ValueError('bodies: no two faces touch; blocks must lie face on face as polytope.jointedRock makes them')
+	_refuseMaterials(faces)
 	stresses = [field.at(face.corners) for face in faces]
 	largest = max(float(np.abs(several).max()) for several in stresses)
 	if largest == 0:
@@ -96,6 +111,24 @@ def refuseField(field, faces, chosen):
 	_refuseCover(field, faces, chosen)
 
 
+def _refuseMaterials(faces):
+	"""Of faces where they have one of their own, else of bodies."""
+	for face in faces:
+		joint, materials = f'bodies: the joint between {face.id1} and {face.id2}', [materialOf(face, k) for k in (face.id1, face.id2)]
+		if not all(isinstance(material, RockJointMat) for material in materials):
+			raise ValueError(f'{joint} is not between two RockJointMat')
+		if not all(material.stiffnessPerArea for material in materials):
+			raise ValueError(
+				f'{joint} has a stiffness per contact, and a stress needs one per area; give its material, or that of its face, stiffnessPerArea=True'
+			)
+		closure = next((material.closure for material in materials if material.closure), None)
+		if closure:
+			raise ValueError(
+				f'{joint} has a closure of its own ({type(closure).__name__}). Joints get their stress by blocks that are larger by pressure/normalStiffness, as it '
+				'is for linear springs; another closure would make another pressure of it. Give such joints closure=None and the normalStiffness that the closure has at this stress'
+			)
+
+
 def _refuseStrength(field, faces, largest):
 	weak = []
 	for face in faces:
@@ -103,13 +136,6 @@ def _refuseStrength(field, faces, largest):
 		normal = -float(traction @ face.normal)
 		shear = float(np.linalg.norm(traction + normal * face.normal))
 		materials = [materialOf(face, k) for k in (face.id1, face.id2)]
-		if not all(isinstance(material, RockJointMat) for material in materials):
-			raise ValueError(f'bodies: the joint between {face.id1} and {face.id2} is not between two RockJointMat')
-		if any(material.closure for material in materials):
-			raise ValueError(
-				f'bodies: the joint between {face.id1} and {face.id2} has a closure of its own; a stress is given by linear springs '
-				'(RockJointMat.closure=None)'
-			)
 		cohesion = min(float(material.cohesion) for material in materials)
 		friction = min(float(material.frictionAngle) for material in materials)
 		if shear > cohesion + normal * math.tan(friction) + rounding * largest:
