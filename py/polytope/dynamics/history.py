@@ -9,6 +9,7 @@ from yade import O, Vector3, VelocityHistory
 
 from ..arguments import flag, namedArguments, number, vector
 from ..precision import real
+from .peer import peerRecord
 
 __all__ = ['velocityHistory']
 
@@ -16,20 +17,21 @@ kinds = ('velocity', 'acceleration')
 
 
 @namedArguments
-def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction=None, baseline=True, start=None):
+def velocityHistory(record, times=None, kind=None, unit=None, direction=None, baseline=True, start=None):
 	"""The velocity over time that a record tells, for *baseMotion* and *quietBoundary*::
 
 		quake = polytope.velocityHistory('record.txt', unit=9.81)                                     # time [s], acceleration [g]
 		pulse = polytope.velocityHistory([0, 1, 0], times=[0, 0.1, 0.2], kind='velocity')             # [m/s]
+		north = polytope.velocityHistory('RSN6_180.AT2', direction=(0, 1, 0))                         # PEER's; the file tells interval and unit
 
 	The record is linear between its instants. An acceleration is integrated by the trapezoidal rule, from rest. Records do not end at rest, as their
 	zero is not exact: the baseline correction takes away the straight line from the first velocity to the last one, as one constant acceleration would give it.
 
 	:param record: name of a text file, or values: n numbers, or n rows of three, the components along x, y, z. A file has a column of times [s] and one of values, or three;
-	    lines that begin with # are left out, and columns are separated by blanks or commas
+	    lines that begin with # are left out, and columns are separated by blanks or commas. Or it is a file of the PEER database (.AT2, .VT2), with NPTS and DT at its head
 	:param times: n instants [s], or the interval between them; not for a file
-	:param str kind: 'acceleration' or 'velocity'
-	:param float unit: of the values, in m/s² or m/s: 9.81 for a record in g, 0.01 for one in cm
+	:param str kind: 'acceleration', the default, or 'velocity'; of a PEER file what it says itself
+	:param float unit: of the values, in m/s² or m/s: 9.81 for a record in g, 0.01 for one in cm; default 1, of a PEER file what it says itself
 	:param direction: of a record with one component, of any length but zero; default along x
 	:param bool baseline: whether the baseline is corrected
 	:param float start: O.time [s] at which the record begins; default: now
@@ -37,15 +39,18 @@ def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction
 	:raises ValueError: naming the argument: times that do not increase, values that are not finite, too few or too many columns, a direction for three of them; of a file with the line
 	:raises FileNotFoundError: if there is no such file
 	"""
-	if kind not in kinds:
+	if kind is not None and kind not in kinds:
 		raise ValueError(f'kind: must be one of {kinds}, got {kind!r}')
-	unit, baseline = number(unit, 'unit'), flag(baseline, 'baseline')
-	if not 0 < abs(unit) < np.inf:
+	baseline = flag(baseline, 'baseline')
+	if unit is not None and not 0 < abs(number(unit, 'unit')) < np.inf:
 		raise ValueError(f'unit: must be finite and not zero, got {unit!r}')
 	start = O.time if start is None else number(start, 'start')
-	times, values = _fromFile(record, times) if isinstance(record, (str, os.PathLike)) else _fromValues(record, times)
-	velocities = float(unit) * _components(values, direction)
-	if kind == 'acceleration':
+	if isinstance(record, (str, os.PathLike)):
+		times, values, kind, itsUnit = _fromFile(record, times, kind)
+	else:
+		(times, values), itsUnit = _fromValues(record, times), 1.0
+	velocities = float(itsUnit if unit is None else unit) * _components(values, direction)
+	if kind != 'velocity':
 		velocities = cumulative_trapezoid(velocities, times, axis=0, initial=0)
 	if baseline:
 		part = (times - times[0]) / (times[-1] - times[0])
@@ -54,23 +59,35 @@ def velocityHistory(record, times=None, kind='acceleration', unit=1.0, direction
 	return VelocityHistory(times=[real(t) for t in instants], velocities=[Vector3(*map(real, v)) for v in velocities.tolist()])
 
 
-def _fromFile(name, times):
+def _fromFile(name, times, kind):
+	"""(times, values, kind, unit)"""
 	if times is not None:
 		raise ValueError('times: the file has them in its first column')
 	if not os.path.isfile(name):
 		raise FileNotFoundError(f'record: there is no file {os.fspath(name)!r}; its place is relative to {os.getcwd()!r}')
-	table = _table(os.fspath(name))
-	return _checked(table[:, 0], table[:, 1:], 'record')
+	lines = _linesOf(os.fspath(name))
+	peer = peerRecord(os.fspath(name), lines)
+	if peer is None:
+		table = _table(os.fspath(name), lines)
+		return *_checked(table[:, 0], table[:, 1:], 'record'), kind, 1.0
+	times, values, itsKind, unit = peer
+	if kind not in (None, itsKind):
+		raise ValueError(f'kind: {os.fspath(name)!r} says that it is of {itsKind}, got {kind!r}; leave it out')
+	return *_checked(times, values, 'record'), itsKind, unit
 
 
-def _table(name):
-	"""Rows of two or four numbers."""
+def _linesOf(name):
 	try:
 		with open(name, encoding='utf-8-sig') as file:
-			lines = [(number, line.split('#')[0].replace(',', ' ').split()) for number, line in enumerate(file, 1)]
+			return list(file)
 	except UnicodeDecodeError:
 		raise ValueError(f'record: {name!r} is no text; must have columns of numbers, time and one or three values') from None
-	rows = [(number, words) for number, words in lines if words]
+
+
+def _table(name, lines):
+	"""Rows of two or four numbers."""
+	split = [(number, line.split('#')[0].replace(',', ' ').split()) for number, line in enumerate(lines, 1)]
+	rows = [(number, words) for number, words in split if words]
 	if not rows:
 		raise ValueError(f'record: {name!r} has no numbers')
 	columns = len(rows[0][1])
@@ -79,7 +96,11 @@ def _table(name):
 		try:
 			values.append([float(word) for word in words])
 		except ValueError:
-			hint = 'put # before lines of words' if not values else 'columns are separated by blanks or commas, and decimals begin with a point'
+			hint = (
+				'put # before lines of words'
+				if not values
+				else 'columns are separated by blanks or commas, and decimals begin with a point'
+			)
 			raise ValueError(f'record: {name!r}, line {number}: must have numbers, got {' '.join(words)[:60]!r}; {hint}') from None
 		if len(words) != columns:
 			raise ValueError(f'record: {name!r}, line {number}: has {len(words)} columns, the lines before have {columns}')

@@ -254,6 +254,54 @@ def testAFileThatIsNoTextIsNamed(tmp_path):
 		polytope.velocityHistory(tmp_path / 'record.txt')
 
 
+peerHead = 'PEER NGA STRONG MOTION DATABASE RECORD\nImperial Valley-02, 5/19/1940, El Centro Array #9, 180\n'
+
+
+@pytest.mark.parametrize(
+	'line, counts, kind, unit',
+	[
+		('ACCELERATION TIME SERIES IN UNITS OF G', 'NPTS=    7, DT=   .0100 SEC,', 'acceleration', 9.80665),
+		('ACCELERATION TIME HISTORY IN UNITS OF G', '  7    0.0100   NPTS, DT', 'acceleration', 9.80665),
+		('', 'NPTS= 7, DT= 1E-2', 'acceleration', 9.80665),
+		('VELOCITY TIME SERIES IN UNITS OF CM/S', 'NPTS=   7, DT=   0.01 SEC', 'velocity', 0.01),
+	],
+)
+def testARecordOfThePeerDatabase(line, counts, kind, unit, tmp_path):
+	values = [0, 0.1e-2, -0.2e-2, 0.4e-2, 0.3e-2, -0.1e-2, 0.05e-2]
+	rows = '  .0000000E+00  .1000000E-02 -.2000000E-02  .4000000E-02  .3000000E-02\n -.1000000E-02  .5000000E-03\n'
+	(tmp_path / 'RSN6.AT2').write_text(f'{peerHead}{line}\n{counts}\n{rows}')
+	expected = polytope.velocityHistory(values, times=0.01, kind=kind, unit=unit, direction=(0, 2, 0))
+	for options in (dict(), dict(kind=kind), dict(unit=unit)):
+		made = polytope.velocityHistory(tmp_path / 'RSN6.AT2', direction=(0, 2, 0), **options)
+		assert made.times == pytest.approx(expected.times) and len(made.times) == 7
+		assert np.array(made.velocities, float) == pytest.approx(np.array(expected.velocities, float), abs=1e-15)
+	assert max(velocity[1] for velocity in made.velocities) > 1e-6
+
+
+@pytest.mark.parametrize(
+	'line, counts, rows, message',
+	[
+		('ACCELERATION TIME SERIES IN UNITS OF G', 'NPTS= 4, DT= .01', '1 2 3', 'has 3 values, and NPTS=4 in line 4; is it complete'),
+		('ACCELERATION TIME SERIES IN UNITS OF G', 'NPTS= 2, DT= .01', '1 2 3', 'has 3 values, and NPTS=2'),
+		('DISPLACEMENT TIME SERIES IN UNITS OF CM', 'NPTS= 3, DT= .01', '1 2 3', 'has displacements; take the file of accelerations'),
+		('ACCELERATION TIME SERIES IN UNITS OF FT', 'NPTS= 3, DT= .01', '1 2 3', "in units of 'ft', known are g"),
+		('ACCELERATION TIME SERIES IN UNITS OF G', 'NPTS= 3, DT= .01', '1 2\nend 3', 'line 6: must have numbers'),
+		('ACCELERATION TIME SERIES IN UNITS OF G', 'NPTS= 3, DT= 0', '1 2 3', 'times must increase'),
+	],
+)
+def testPeerFilesThatCannotBeAreNamed(line, counts, rows, message, tmp_path):
+	path = tmp_path / 'RSN6.AT2'
+	path.write_text(f'{peerHead}{line}\n{counts}\n{rows}\n')
+	with pytest.raises(ValueError, match='^record: .*' + message):
+		polytope.velocityHistory(path)
+
+
+def testAPeerFileOfAnotherKindThanAskedForIsNamed(tmp_path):
+	(tmp_path / 'RSN6.AT2').write_text(f'{peerHead}ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .01\n1 2 3\n')
+	with pytest.raises(ValueError, match='^kind: .*says that it is of acceleration'):
+		polytope.velocityHistory(tmp_path / 'RSN6.AT2', kind='velocity')
+
+
 def testFilesOfOtherSystems(tmp_path):
 	"""A mark of the byte order, line ends of DOS, comments behind values."""
 	(tmp_path / 'record.csv').write_bytes('\ufefftime'.encode('utf-8')[:3] + b'0,1\r\n0.5,2 # peak\r\n1,3\r\n')
