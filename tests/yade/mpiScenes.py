@@ -129,12 +129,12 @@ def clumpedSettled():
 	return settled('startClumps')
 
 
-def sliding(pieces, number, waterTable=None):
+def sliding(pieces, number, waterTable=None, **joint):
 	mpi.merge()
 	O.reset()
 	if master:
 		O.materials.append(
-			yade.RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3, dilationAngle=0.05)
+			yade.RockJointMat(**{**dict(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3), **(joint or dict(dilationAngle=0.05))})
 		)
 		half = 6 / pieces
 		O.bodies.append([polytope.cuboid((half * (2 * k + 1) - 4, 0, -0.5), (half, 1, 0.5), fixed=True) for k in range(pieces)])
@@ -214,6 +214,27 @@ def wet():
 
 def joints():
 	return sliding(24, 80)
+
+
+def rough():
+	"""Barton-Bandis on joints that stiffen as they close."""
+	return ownLaws(
+		strength=yade.BartonBandisStrength(JRC=10, JCS=1e7, sampleLength=0.1, jointLength=0.4), closure=yade.HyperbolicClosure(maximumClosure=1e-3)
+	)
+
+
+def yielding():
+	return ownLaws(
+		strength=yade.ContinuouslyYieldingStrength(initialFrictionAngle=0.7, roughness=1e-2), closure=yade.PowerClosure(exponent=0.4, referenceStress=1e4)
+	)
+
+
+def ownLaws(**laws):
+	"""The same on one piece, so that joints keep what they have from one rank to the other; how far each has slipped in all."""
+	found = sliding(1, 250, **laws)
+	if master:
+		found['slipped'] = {f'{i.id1} {i.id2}': float(i.phys.slipLength).hex() for i in O.interactions if i.isReal}
+	return found
 
 
 def bonded():

@@ -36,7 +36,8 @@ sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
 """The same of the heap of clumps."""
 sessions = tempfile.TemporaryDirectory(prefix='mpi')
 """Of the runs' own files, a folder each: mpirun names its by its process number and does not start where one that was killed left the same."""
-moving = ['smooth', 'wet', 'joints', 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
+ownLaws = ['rough', 'yielding']
+moving = ['smooth', 'wet', 'joints', *ownLaws, 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
 
 def launch(ranks, *command):
@@ -64,7 +65,7 @@ def found(tmp_path_factory):
 	folder = tmp_path_factory.mktemp('mpi')
 	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'crossing', *moving)
 	under(0, sys.executable, scenes, str(folder), 'startClumps', 'clumpedSettled', 'clumped')
-	under(2, sys.executable, scenes, str(folder), 'heap', 'clumped', 'clumpedSliding')
+	under(2, sys.executable, scenes, str(folder), 'heap', 'clumped', 'clumpedSliding', *ownLaws)
 	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'clumped', *sameAsClumped, 'recorded', *moving, 'searched', 'refused')
 	under(3, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap', 'Smooth', 'Bonded')))
 	under(4, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap')))
@@ -173,6 +174,21 @@ def testBlocksThatSlideFromOneRanksPartToTheOthers(found, name, moved):
 	places = [float.fromhex(body[0]) for body in one['bodies'].values()]
 	assert min(place - (0.7 * k - 3) for k, place in enumerate(places)) > 3e-4 * moved
 	assert max(abs(float.fromhex(contact[10])) for contact in one['contacts'].values()) > 1e-4  # slip
+
+
+@pytest.mark.parametrize('ranks', [2, 3])
+@pytest.mark.parametrize('name', ownLaws)
+def testJointsWithLawsOfTheirOwn(found, name, ranks):
+	"""Closure and shear law, and how far asperities are worn, are those of one process where blocks slide from one rank's part to the other's."""
+	one, several = found(name, 1), found(name, ranks)
+	assert one['contacts'].keys() == several['contacts'].keys() == one['slipped'].keys() and len(one['contacts']) >= 8
+	assert max(farthest(one['bodies'][k][:7], several['bodies'][k][:7]) for k in one['bodies']) < agreement * 0.4
+	force = max(abs(float.fromhex(x)) for contact in one['contacts'].values() for x in contact[3:6])
+	assert max(farthest(contact[3:9], several['contacts'][k][3:9]) for k, contact in one['contacts'].items()) < sameForce * force
+	for k, slipped in one['slipped'].items():
+		assert float.fromhex(several['slipped'][k]) == pytest.approx(float.fromhex(slipped), abs=agreement * 0.4)
+	assert max(map(float.fromhex, one['slipped'].values())) > 0.02
+	assert max(float.fromhex(contact[12]) for contact in one['contacts'].values()) > 1e-3  # dilation
 
 
 def testOpenJointsOfTwoRanksRememberTheirSlip(found):
