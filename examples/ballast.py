@@ -19,16 +19,14 @@ for number, stone in enumerate(stones):
 	stone.shape.color = [(0.42, 0.42, 0.44), (0.52, 0.5, 0.48), (0.6, 0.58, 0.55)][number % 3]
 ballast = O.bodies.append(polytope.cloud((0, 0, 0), (long, wide, high), stones, seed=1))
 O.engines = polytope.engines(integrator=NewtonIntegrator(damping=0.4, gravity=(0, 0, -9.81)))
-while O.time < 0.5:
-	O.run(100, wait=True)
+polytope.run(until=0.5)
 
 top = max(O.bodies[k].state.pos[2] + O.bodies[k].shape.circumscribedRadius for k in ballast)
 place, half = (long / 2, wide / 2, top + 0.04), (0.09, 0.095, 0.04)
 sleeper = O.bodies.append(polytope.cuboid(place, half, color=(0.55, 0.4, 0.28)))
 state = O.bodies[sleeper].state
 state.blockedDOFs = 'xyXYZ'  # it moves along z alone
-while O.time < 0.65:
-	O.run(100, wait=True)
+polytope.run(until=0.65)
 
 began, first, settlement = O.time, state.pos[2], []
 for cycle in range(1, cycles + 1):

@@ -15,8 +15,7 @@ for number in cells:
 
 O.engines = polytope.engines()
 made = polytope.bond(ids=cells, tensileStrength=2e6, cohesion=4e6)
-while O.time < 0.15:
-	O.run(100, wait=True)
+polytope.run(until=0.15)
 
 failures = [bond.failure for bond in polytope.bonds().bonds]
 print(made, 'bonds:', polytope.bonds().intactCount, 'intact,', failures.count('tension'), 'failed in tension,', failures.count('shear'), 'in shear')

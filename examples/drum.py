@@ -27,12 +27,11 @@ def inclination():
 	return degrees(atan2(-x, -z))
 
 
-while O.time < 0.3:
-	O.run(100, wait=True)
+polytope.run(until=0.3)
 drum.angularVelocity = speed
 angles = []
 while O.time < 2.3:
-	O.run(100, wait=True)
+	polytope.run(100)
 	angles.append(inclination())
 print(f'{len(inside)} grains; inclination of the heap at the end {np.mean(angles[len(angles) // 2 :]):.0f}°')
 for number, stave in enumerate(staves):

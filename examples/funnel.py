@@ -32,8 +32,7 @@ for k, grain in enumerate(grains):
 O.bodies.append(polytope.cloud((-0.055, -0.055, 0.21), (0.055, 0.055, 0.5), grains, seed=2))
 
 O.engines = polytope.engines()
-while O.time < 0.45:
-	O.run(200, wait=True)
+polytope.run(until=0.45)
 heights = [body.state.pos[2] for body in O.bodies if body.dynamic]
 print(sum(height < 0.09 for height in heights), 'of', len(heights), 'grains have left the funnel')
 polytope.picture(

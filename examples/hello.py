@@ -14,8 +14,7 @@ O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=
 block = O.bodies.append(polytope.cuboid(center=(0, 0, 0.55), extents=(0.5, 0.4, 0.5)))
 
 O.engines = polytope.engines()  # the usual ones, gravity 9.81 m/s² along −z; sets O.dt
-while O.time < 2:
-        O.run(100, wait=True)
+polytope.run(until=2)
 
 contact = O.interactions[0, block]
 weight = 9.81 * O.bodies[block].state.mass

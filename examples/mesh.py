@@ -20,7 +20,6 @@ for k in range(20):
 	O.bodies.append(polytope.fromMesh(pebble, scale=0.007 + 0.0002 * k, center=place, color=(0.80, 0.70 - 0.015 * k, 0.55 - 0.02 * k)))
 
 O.engines = polytope.engines()
-while O.time < 1.5:
-	O.run(1000, wait=True)
+polytope.run(until=1.5)
 print('volume of the smallest pebble:', O.bodies[5].shape.volume, 'm³, with', len(O.bodies[5].shape.normals), 'planes')
 picture('output/pebbles.png', view=(-0.5, -1, 1.1))

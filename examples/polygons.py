@@ -22,6 +22,5 @@ for k in range(72):
 	O.bodies.append(polytope.polygon([(x + 0.12 * cos(a), y + 0.12 * sin(a)) for a in angles]))
 
 O.engines = polytope.engines()
-while O.time < 2:
-	O.run(1000, wait=True)
+polytope.run(until=2)
 picture('output/polygons.png', colorBy='speed', legend='speed [m/s]')

@@ -21,7 +21,6 @@ def lag():
 
 
 before, end = lag(), O.time + 1.2
-while O.time < end:
-	O.run(100, wait=True)
+polytope.run(until=end)
 closed = velocity**2 / (2 * friction * g) * (1 - friction / acceleration)
 print(f'slides by {lag() - before:.4f} m, closed form {closed:.4f} m')

@@ -18,7 +18,7 @@ topics = {
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'support': ('Rock bolts, cables, linings', 'bolt Grout Dowel bolts boltArrays lining Adhesion'),
-	'scene': ('Scenes', 'engines check settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
+	'scene': ('Scenes', 'engines check run settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),

@@ -15,6 +15,9 @@ sample = polytope.pack(cubes, (0, 0, 0), (0.5, 0.5, 0.5), porosity=0.85, seed=1)
 polytope.triaxial(sample, 1e4).run(0.001)
 polytope.voronoi(((0, 0, 0), (1, 1, 1)), 5, seed=1)
 polytope.grains([(0.1, 0), (0.2, 1)], 200, seed=1)
+end = O.time + 0.01
+polytope.run(until=end)
+polytope.run(20)
 """
 
 
@@ -43,7 +46,7 @@ def testPackAndLoadingTestsShowTheirProgressInATerminalAlone():
 	command = [sys.executable, '-c', script]
 	code, said = saidInATerminal(command)
 	assert code == 0, said
-	for part in 'placing', ' bodies', 'compressing', 'porosity 0.', ' for 0.850', 'settling', 'unbalanced force', 'loading', ' rows', ' cells', ' shapes', ' grains':
+	for part in 'placing', ' bodies', 'compressing', 'porosity 0.', ' for 0.850', 'settling', 'unbalanced force', 'loading', ' rows', ' cells', ' shapes', ' grains', ' of ', ' steps':
 		assert part in said, part
 	done = subprocess.run(command, capture_output=True, text=True, timeout=300)
 	assert done.returncode == 0 and 'placing' not in done.stderr + done.stdout and '%|' not in done.stderr + done.stdout, done.stderr

@@ -62,7 +62,7 @@ def testExamplesCanBeInterrupted():
 
 
 def testBondedCubeBreaksInPart(runs, capsys):
-	runs('bondedCube', shorter={'O.time < 0.15': 'O.time < 0.01'})
+	runs('bondedCube', shorter={'until=0.15': 'until=0.01'})
 	made, intact, tension, shear = map(int, re.findall(r'\d+', capsys.readouterr().out)[:4])
 	assert made == intact + tension + shear and 0 < intact < made and isPicture('output/bondedCube.png') and noFailures()
 
@@ -152,7 +152,7 @@ def testJointNetworkCutsWhatWasAskedFor(runs, capsys):
 
 
 def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
-	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.45': 'O.time < 0.35'})
+	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'until=0.45': 'until=0.35'})
 	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
 	grains = [body.state.pos for body in O.bodies if body.dynamic]
 	assert 0 < out and number == len(grains) > 8 and isPicture('output/funnel.png') and noFailures()
@@ -164,7 +164,7 @@ def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
 
 
 def testPebblesLieInTheTray(runs, capsys):
-	names = runs('mesh', shorter={'O.time < 1.5': 'O.time < 0.25'})
+	names = runs('mesh', shorter={'until=1.5': 'until=0.25'})
 	hull = O.bodies[5].shape
 	assert f'{hull.volume} m³, with {len(hull.normals)} planes' in capsys.readouterr().out
 	assert len(hull.normals) > 20 and O.bodies[24].shape.volume / hull.volume == pytest.approx(((0.007 + 0.0002 * 19) / 0.007) ** 3, rel=1e-5)
@@ -175,7 +175,7 @@ def testPebblesLieInTheTray(runs, capsys):
 
 
 def testPolygonsSlideOutOfTheHopper(runs):
-	runs('polygons', shorter={'O.time < 2': 'O.time < 1'})
+	runs('polygons', shorter={'until=2': 'until=1'})
 	free = [body.state for body in O.bodies if body.dynamic]
 	assert len(free) == 72 and isPicture('output/polygons.png') and noFailures()
 	assert all(state.pos[2] == 0 and state.angVel[0] == state.angVel[1] == 0 for state in free)
