@@ -36,6 +36,13 @@ polytope_public_headers(
 	AFTER polytope_kit_core
 	FINGERPRINT "${kit_include}/yade-polytope/Fingerprint.hpp")
 
+# YADE's headers, which no package of Debian has: installed beside ours for machines without YADE's sources
+option(POLYTOPE_YADE_HEADERS "Install YADE's headers with what extensions are built with (component extension)" OFF)
+set(kit_yade_sources "${YADE_SOURCE_DIR}")
+if(POLYTOPE_YADE_HEADERS)
+	set(kit_yade_sources "\${YADE_POLYTOPE_INCLUDE_DIR}/yade")
+endif()
+
 set(kit_cmake "${CMAKE_INSTALL_LIBDIR}/cmake/yade-polytope")
 set(extension_dir "${YADE_LIBRARY_PATH}/yade-polytope/${POLYTOPE_PRECISION}") # beside YADE's library folder: Plugin.cpp
 include(CMakePackageConfigHelpers)
@@ -57,3 +64,10 @@ install(
 	FILES ${modules} "${PROJECT_BINARY_DIR}/cmake/yade-polytope-config.cmake" "${PROJECT_BINARY_DIR}/cmake/yade-polytope-config-version.cmake"
 	DESTINATION "${kit_cmake}"
 	COMPONENT extension EXCLUDE_FROM_ALL)
+if(POLYTOPE_YADE_HEADERS)
+	set(kit_yade "${CMAKE_INSTALL_INCLUDEDIR}/yade-polytope-${POLYTOPE_PRECISION}/yade")
+	install(FILES "${YADE_SOURCE_DIR}/RELEASE" DESTINATION "${kit_yade}" COMPONENT extension EXCLUDE_FROM_ALL)
+	foreach(folder core lib pkg)
+		install(DIRECTORY "${YADE_SOURCE_DIR}/${folder}" DESTINATION "${kit_yade}" COMPONENT extension EXCLUDE_FROM_ALL FILES_MATCHING REGEX "\\.(h|hpp|ipp|tpp)$")
+	endforeach()
+endif()

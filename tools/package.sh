@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash disable=SC2154
 #
-# `./run package`: Debian packages for the YADE that is installed here, the plug-in and its documentation, into output/package. Part of inside.sh. debian/ has the rules.
+# `./run package`: Debian packages for the YADE that is installed here, of the plug-in, its documentation, its headers and its core, into output/package. Part of inside.sh. debian/ has the rules.
 
 # Of the sources: debian/changelog's, and unless this is the tagged release, before it, by time and commit. Then the YADE it is for.
 packageVersion() {
@@ -34,7 +34,8 @@ buildPackage() {
 		step "building the package $name" "Debian's rules are in debian/." dpkg-buildpackage --build=binary --no-sign "${profile[@]}"
 	)
 	step "checking it with lintian" "lintian-explain-tags TAG explains an error." lintian --allow-root --fail-on error "$folder"/*.changes
-	rm -f "$output/$name"_*.deb "$output/$name"-doc_*.deb
+	rm -f "$output/$name"_*.deb
+	[ "$name" != yade-polytope ] || rm -f "$output/$name"-d{oc,ev}_*.deb "$output"/libpolytope-core*.deb
 	mv "$folder"/*.deb "$output"
 	rm -rf "$folder"
 	echo "  Install it, on a Debian with YADE $(dpkg-query -W -f '${Version}' libyade): sudo apt install $(compgen -G "$output/$name"_*.deb)"

@@ -15,7 +15,7 @@ package() {
 		return
 	fi
 	(inside package "${kind[@]}")
-	[ -z "$try" ] || testPackage "$name" "$(compgen -G "$project/output/package/$name"_*.deb)" "$(compgen -G "$project/output/package/$name-doc"_*.deb)"
+	[ -z "$try" ] || testPackage "$name"
 }
 
 # Why no package can be installed in a root here; nothing if one can.
@@ -45,24 +45,32 @@ setUpCleanRoot() { # MIRROR
 # In the copy, with apt's way to the mirror, which is no command line's to show.
 inCopy() { APT_WAY=$(aptWay) inNamespace bash "$project/tools/aptInRoot.sh" "$copy" "$@"; } # COMMAND ARGUMENTS…
 
-testPackage() { # NAME FILE [FILE of its documentation]
+# The file of a package in the copy.
+inTry() { basename "$(compgen -G "$project/output/package/$1"_*.deb)" | sed "s#^#$try/#"; } # NAME
+
+testPackage() { # NAME
 	local try=/root/try
 	setUpCleanRoot "$(debianMirror)"
 	copy=$(mktemp -d --suffix=.partial "$cache/debian13Package-XXXXXX")
 	trap 'removeDebianRoot "$copy"' EXIT
 	step "copying the clean root" "Is there room on the disk?" inNamespace cp -a --reflink=auto "$clean/." "$copy"
 	inNamespace mkdir "$copy$try"
-	inNamespace cp "$2" ${3:+"$3"} "$project/debian/tests/first-scene" "$project/tests/package/inRoot.sh" "$project/tools/site/links.py" "$copy$try"
+	inNamespace cp "$project"/output/package/*.deb "$project/debian/tests/first-scene" "$project/tests/package/inRoot.sh" "$project/tools/site/links.py" "$copy$try"
 	step "reading the package lists" "Check the network; then call again." inCopy apt-get update
 	local install=(inCopy apt-get install -y --no-install-recommends -o Dpkg::Options::=--force-unsafe-io) # unsafe: the copy is thrown away
-	step "apt install of $1 with YADE" "Does the mirror have the very YADE that the package was built for?" "${install[@]}" "$try/${2##*/}"
+	step "apt install of $1 with YADE" "Does the mirror have the very YADE that the package was built for?" "${install[@]}" "$(inTry "$1")"
 	step "the installed package at work" "debian/tests/first-scene says what is tried." inCopy bash $try/first-scene
-	if [ -n "${3:-}" ]; then
-		step "apt install of its documentation" "Call again." "${install[@]}" "$try/${3##*/}"
+	if [ "$1" = yade-polytope ]; then
+		step "apt install of its documentation" "Call again." "${install[@]}" "$(inTry "$1-doc")"
 		step "the installed documentation, and its removal" "tests/package/inRoot.sh says what is tried." inCopy bash $try/inRoot.sh documentation "$1-doc"
 	fi
 	step "the installed package beside another YADE" "tests/package/inRoot.sh says what is tried." inCopy bash $try/inRoot.sh otherYade "$1"
 	step "removing the package" "tests/package/inRoot.sh says what may be left." inCopy bash $try/inRoot.sh remove "$1"
-	step "apt install of $1 where YADE is" "Call again." "${install[@]}" "$try/${2##*/}"
+	step "apt install of $1 where YADE is" "Call again." "${install[@]}" "$(inTry "$1")"
+	if [ "$1" = yade-polytope ]; then
+		# last: it brings compilers
+		step "apt install of its headers and library" "Call again." "${install[@]}" cmake g++ "$(inTry "$1-dev")" "$(inTry 'libpolytope-core*')"
+		step "programs and extensions with them, and their removal" "tests/package/inRoot.sh says what is tried." inCopy bash $try/inRoot.sh headers "$1-dev"
+	fi
 	echo "  $1: installed, tried and removed in a clean Debian 13 root"
 }

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# inRoot.sh documentation|otherYade|remove PACKAGE: what `./run package --test` tries in a clean root beside debian/tests/first-scene.
+# inRoot.sh documentation|otherYade|remove|headers PACKAGE: what `./run package --test` tries in a clean root beside debian/tests/first-scene.
 set -euo pipefail
 
 fault() { echo "FAULT: $*" >&2 && exit 1; }
@@ -67,6 +67,38 @@ remove() {
 	dpkg --verify libyade python3-yade
 	echo 'O.bodies.append(sphere((0, 0, 0), 1)); O.step()' >/root/try/stock.py
 	yade -n -x /root/try/stock.py || fault "YADE does not run"
+}
+
+# Its examples, built with what is installed: a program with the core alone, which then runs without the headers; a law that YADE finds in its
+# folder, with a block at rest on it; a shape. Once the packages are gone no file of them is left.
+headers() {
+	local example said
+	cp -r "/usr/share/doc/$1/examples" /root/try
+	cd /root/try/examples
+	for example in coreAlone hyperbolicJoint roundedPolytope; do
+		cmake -S $example -B $example/build -DCMAKE_BUILD_TYPE=Release
+		cmake --build $example/build
+	done
+	cmake --install hyperbolicJoint/build
+	cat >law.py <<'END'
+from yade import polytope
+O.materials.append(OwnJointMat(density=2600, initialStiffness=1e8, maximumClosure=1e-3, shearStiffness=1e8, frictionAngle=0.6, largestStress=1e5))
+O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+O.bodies.append(polytope.cuboid(center=(0, 0, 0.5), extents=(0.5, 0.4, 0.5)))
+O.engines = polytope.engines(physics=Ip2_OwnJointMat_OwnJointMat_OwnJointPhys(), law=Law2_PolytopeGeom_OwnJointPhys_Hyperbolic())
+while O.time < 1:
+	O.run(200, wait=True)
+assert abs(O.interactions[0, 1].phys.normalForce.norm() / (9.81 * O.bodies[1].state.mass) - 1) < 1e-3
+polytope.load('/root/try/examples/roundedPolytope/build/roundedPolytope.so')
+print('at rest,', RoundedPolytope().__class__.__name__)
+END
+	said=$(yade -n -x law.py 2>&1) || fault "the extension does not run: $said"
+	grep -q 'at rest, RoundedPolytope' <<<"$said" || fault "the extension says: $said"
+	apt-get purge -y "$1"
+	[ ! -e /usr/include/yade-polytope-double ] && [ -z "$(compgen -G '/usr/lib/*/cmake/*polytope*')" ] || fault "$1 left files"
+	said=$(coreAlone/build/coreAlone)
+	grep -q '^normal .* 1$' <<<"$said" || fault "the program with the core says: $said"
+	apt-get purge -y 'libpolytope-core*'
 }
 
 "$@"

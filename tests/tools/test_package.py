@@ -18,7 +18,7 @@ def field(paragraph, name):
 	return {part.split()[0] for part in found.split(',') if part.strip()}
 
 
-source, plain, withIpopt, documentation = control.split('\n\n')
+source, plain, withIpopt, documentation, headers, library = control.split('\n\n')
 
 
 def testVersionsAgree():
@@ -46,6 +46,17 @@ def testDocumentationNeedsNoYade():
 	assert field(documentation, 'Architecture') == {'all'} and not any('yade' in name for name in field(documentation, 'Depends'))
 	(index,) = re.findall(r'^Index: (.*)$', (project / 'debian/yade-polytope-doc.doc-base').read_text(), re.MULTILINE)
 	assert index.removeprefix('/').removesuffix('/index.html') in (project / 'debian/rules').read_text()
+
+
+def testHeadersComeWithWhatTheyInclude():
+	"""Of the very version of plug-in and core: all that the plug-in is built from but what it alone needs. The library's package has its number in its name."""
+	assert {'libpolytope-core1', 'yade-polytope'} <= field(headers, 'Depends')
+	included = {name for name in field(source, 'Build-Depends') if name.endswith('-dev') or 'qt5' in name or name == 'qtbase5-dev'}
+	ofOurOwn = {'coinor-libipopt-dev', 'dpkg-dev', 'libcgal-dev', 'libdeflate-dev', 'libgmp-dev'}
+	assert included - ofOurOwn <= field(headers, 'Depends')
+	abi = re.search(r'set\(polytope_abi (\d+)\)', (project / 'src/CMakeLists.txt').read_text())[1]
+	assert library.startswith(f'Package: libpolytope-core{abi}\n')
+	assert f'library = libpolytope-core{abi}\n' in (project / 'debian/rules').read_text()
 
 
 def testEveryModuleThatIsImportedHasItsPackage():
