@@ -6,7 +6,7 @@ from yade import O, RockJointPhys, Wall
 
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
-from ..scene.namedBodies import partsOf
+from ..scene.movers import partsOf
 from ..scene.present import integrators
 
 __all__ = ['anythingBelow', 'isHeld', 'isThin', 'touched']
