@@ -38,7 +38,7 @@ template <class Visit> void forFibres(const std::vector<Vector3>& corners, const
 /// Number of them.
 inline std::size_t fibreCount(std::size_t corners) { return corners * std::size_t(3 * fibreTriangles * fibreTriangles); }
 
-/// Of all fibres. Force positive in tension; moments ∫ σ z dA and −∫ σ y dA, which go with the rotations θ₁ and θ₂ about the axes y and z.
+/// Sums over all fibres: force, positive in tension; moments ∫ σ z dA and −∫ σ y dA, which go with the rotations θ₁ and θ₂ about the axes y and z.
 struct FibreSum {
 	Real force = 0, moment1 = 0, moment2 = 0; ///< [N], [N m]
 	Real energy = 0;                          ///< stored [J]

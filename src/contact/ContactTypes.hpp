@@ -74,7 +74,7 @@ struct ContactSettings {
 	Real newtonTolerance = tolerance::newton;
 	/// Start from the last query's basis and point, kept in PairMemory.
 	bool warmStart = true;
-	/// Also the contact section's area and centroid (length in 2-D).
+	/// Whether to compute the contact section's area and centroid, too (length in 2-D).
 	bool section = false;
 	/// 3-D: also the outline of what the area is of.
 	bool outline = false;
@@ -87,7 +87,7 @@ struct ContactSettings {
 	bool geometryAcrossGap = false;
 	/// Models with a surface: planes left out, or null.
 	const InternalPlanes* internal = nullptr;
-	/// The same: where the planes that bound a touching pair's overlap are written to, or null.
+	/// Models with a surface: where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
 	/// Models with a surface: of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;

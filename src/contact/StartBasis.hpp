@@ -68,7 +68,7 @@ POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R,
 	return true;
 }
 
-/// The same of either body, the smaller ball's first, solved in the frame: the other one, where turning a basis of nearly parallel planes
+/// A start basis of either body, the smaller ball's first, solved in the frame: the other one, where turning a basis of nearly parallel planes
 /// has made it singular. False if both are.
 template <class R, int D>
 POLYTOPE_INLINE bool startFromBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)

@@ -24,7 +24,7 @@ struct HalfSpaces {
 	std::size_t size() const { return normals.size(); }
 };
 
-/// The same set with unit normals. Refuses (std::invalid_argument, naming `normals`, `offsets` or `dimension` and the
+/// A set with unit normals. Refuses (std::invalid_argument, naming `normals`, `offsets` or `dimension` and the
 /// remedy): lengths that differ, NaN or infinite values, a zero normal, fewer than dimension + 1 planes, in 2-D a
 /// normal that leaves the xy plane, a dimension other than 2 or 3.
 POLYTOPE_API HalfSpaces normalised(const HalfSpaces& input);

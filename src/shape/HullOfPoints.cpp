@@ -162,7 +162,7 @@ namespace {
 		return all;
 	}
 
-	/// The same with the normal away from `inner`.
+	/// A fit whose normal points away from `inner`.
 	Fit outwardFit(const std::vector<Vector3>& points, const Indices& members, const Vector3& inner)
 	{
 		Fit fit = planeFit(points, members);

@@ -47,7 +47,7 @@ public:
 		return true;
 	}
 
-	/// The same with twice the digits, where solve() has failed.
+	/// Solves with twice the digits, where solve() has failed.
 	bool solveWithMoreDigits()
 	{
 		int pivots    = 0;

@@ -17,7 +17,8 @@ constexpr double shearPole = 1e-14;
 /// fourth power of the distance. Here both agree to 1e-10 of the strength; what jumped by more would have motions that differ by rounding part.
 constexpr double shearPoleFar = 16;
 
-/// The same: beyond, three points do in place of five, whose error falls with the third power of the distance.
+/// Times the outline's size: for a centre of rotation farther than this three points do in place of five; their error falls with the third power of the
+/// distance.
 constexpr double shearPoleFarther = 500;
 
 /// Times an outline's half width: from a centre of rotation farther than this the sums over edges lose digits with the square of distance over width, and

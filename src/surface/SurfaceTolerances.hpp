@@ -32,7 +32,7 @@ constexpr int feasibleVertices = 64, feasiblePlanes = 64;
 /// Least volume of the parallelepiped of a vertex' planes over that of their lengths: below, they are too nearly parallel to say where they meet.
 constexpr Real vertexVolume = 1e-8;
 
-/// The same: below, it matters for the digits of a vertex which plane is subtracted from the others.
+/// Volume of that parallelepiped over the product of the lengths below which it matters for the digits of a vertex which plane is subtracted from the others.
 constexpr Real sharpVertex = 1e-2;
 
 /// × size: offsets of planes are changed by no more than this, each by its own part, to say which four of several planes that meet belong together. Far

@@ -61,10 +61,13 @@ public:
 		((polytope::BoltChain, chain, , (Attr::readonly | Attr::hidden), "Steel and grout"))
 		, /*ctor*/
 		, /*py*/
-		.add_property("crossings", &PolytopeBolt::crossingList, "Where it goes over from block to block (:yref:`PolytopeBoltCrossing`), in their order from the head.")
-		.add_property("stations", &PolytopeBolt::stations, "Distances of plate, nodes and anchor from the head [m]; element $k$ lies between stations $k$ and $k+1$.")
+		.add_property("crossings", &PolytopeBolt::crossingList, "Where it goes over from block to block (:yref:`PolytopeBoltCrossing`), in "
+		        "their order from the head.")
+		.add_property("stations", &PolytopeBolt::stations, "Distances of plate, nodes and anchor from the head [m]; element $k$ lies "
+		        "between stations $k$ and $k+1$.")
 		.add_property("elementForces", &PolytopeBolt::elementForces, "Tension of each element of steel [N].")
-		.add_property("elementStrains", &PolytopeBolt::elementStrains, "Strain of each element of steel [-], plastic strain and that of the pretension included.")
+		.add_property("elementStrains", &PolytopeBolt::elementStrains, "Strain of each element of steel [-], plastic strain and that of the "
+		        "pretension included.")
 		.add_property("slips", &PolytopeBolt::slips, "Displacement of each node against its block, towards the end [m].")
 		.add_property("groutForces", &PolytopeBolt::groutForces, "Force of each node on its block, towards the end [N].")
 		.add_property("headForce", &PolytopeBolt::headForce, "Force of the plate on its block [N]; 0 without a plate.")

@@ -33,16 +33,20 @@ public:
 
 With O.trackEnergy: *elastPotential* (stored), *plastDissip* (yield of steel, slip of grout, yield of dowels) and *fractureDissip* (where steel broke). One engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBolt>>, bolts, , (Attr::hidden | Attr::triggerPostLoad), "All bolts"))
-		((bool, unbreakable, false, Attr::noSave, "Steel does not yield or break, grout does not slip: for coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
+		((bool, unbreakable, false, Attr::noSave, "Steel does not yield or break, grout does not slip: for coming to rest under loads that "
+		        "begin at once, see *polytope.settle*. Not saved."))
 		((long, dropped, 0, Attr::readonly, "Crossings of bolts from block to block that ended because a block was erased."))
-		((long, unsolved, 0, Attr::readonly, "Times that no equilibrium along a bolt was found to the last digits; the blocks' forces are opposite pairs even so."))
+		((long, unsolved, 0, Attr::readonly, "Times that no equilibrium along a bolt was found to the last digits; the blocks' forces are "
+		        "opposite pairs even so."))
 		, /*ctor*/
 		, /*py*/
 		.add_property("bolts", &PolytopeBolts::boltList, "All bolts (:yref:`PolytopeBolt`), in the order in which they were made.")
 		.add_property("actingCount", &PolytopeBolts::actingCount, "Number of bolts that still hold blocks together.")
-		.add_property("actingInScene", &PolytopeBolts::actingInScene, "The same of those whose blocks are in the present scene, whether or not this engine is in O.engines.")
+		.add_property("actingInScene", &PolytopeBolts::actingInScene, "The same of those whose blocks are in the present scene, whether or "
+		        "not this engine is in O.engines.")
 		.def("_meetBodies", &PolytopeBolts::meetBodies)
-		.def("make", &PolytopeBolts::make, (boost::python::arg("pattern")), "Make a bolt with the values of a *PolytopeBolt*; see *polytope.bolt*, which calls it.")
+		.def("make", &PolytopeBolts::make, (boost::python::arg("pattern")), "Make a bolt with the values of a *PolytopeBolt*; see "
+		        "*polytope.bolt*, which calls it.")
 	);
 	// clang-format on
 

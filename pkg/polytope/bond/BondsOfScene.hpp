@@ -44,7 +44,7 @@ inline const KnowsBonds* bondsOf(const Scene& scene)
 	return nullptr;
 }
 
-/// The same, looked for once a step by whichever thread comes first, and anew when such an engine was made or destroyed: what it returns is never
+/// The engine that knows bonds, looked for once a step by whichever thread comes first, and anew when such an engine was made or destroyed: what it returns is never
 /// one that is gone.
 class BondsInStep {
 public:

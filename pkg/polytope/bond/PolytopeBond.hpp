@@ -51,34 +51,43 @@ public:
 	R"""(One bond between two :yref:`Polytopes<Polytope>`, made by *polytope.bond(…)* and kept by :yref:`PolytopeBonds` (docs/bonds.md). Its area and frames are those in which it was made and do not follow the bodies' overlap. Axis 0 of its frame is its normal, from body 1 to body 2, axes 1 and 2 are the principal axes of its area. Stiffnesses and strengths may be changed in a run and take effect in the next step.)""",
 		((Body::id_t, id1, Body::ID_NONE, Attr::readonly, "First body."))
 		((Body::id_t, id2, Body::ID_NONE, Attr::readonly, "Second body."))
-		((Vector3i, cellDist, Vector3i::Zero(), Attr::readonly, "Periodic scenes: by how many cells body 2 is shifted, as :yref:`Interaction.cellDist`."))
+		((Vector3i, cellDist, Vector3i::Zero(), Attr::readonly, "Periodic scenes: by how many cells body 2 is shifted, as "
+		        ":yref:`Interaction.cellDist`."))
 		((Vector3r, point1, Vector3r::Zero(), Attr::readonly, "Centroid of the area in body 1's axes, from its centre [m]."))
 		((Vector3r, point2, Vector3r::Zero(), Attr::readonly, "The same point in body 2's."))
 		((Quaternionr, frame1, Quaternionr::Identity(), Attr::readonly, "The bond's frame in body 1's axes."))
 		((Quaternionr, frame2, Quaternionr::Identity(), Attr::readonly, "The same frame in body 2's."))
 		((Real, area, 0, Attr::readonly, "Area $A$ [m²]."))
-		((Vector2r, secondMoments, Vector2r::Zero(), Attr::readonly, "$\\int y^2dA$ and $\\int z^2dA$ along axes 1 and 2, from the centroid [m⁴]."))
+		((Vector2r, secondMoments, Vector2r::Zero(), Attr::readonly, "$\\int y^2dA$ and $\\int z^2dA$ along axes 1 and 2, from the centroid "
+		        "[m⁴]."))
 		((vector<Vector3r>, corners, , Attr::readonly, "Corners $(0, y, z)$ of the area in the bond's frame [m]."))
-		((Real, overlap, 0, Attr::readonly, "Overlap of the faces when the bond was made [m], 0 across a gap: what the joint that follows the bond has no force at."))
+		((Real, overlap, 0, Attr::readonly, "Overlap of the faces when the bond was made [m], 0 across a gap: what the joint that follows "
+		        "the bond has no force at."))
 		((Real, normalStiffness, -1, , "Normal stiffness per area $k_n$ [Pa/m]."))
 		((Real, shearStiffness, -1, , "Shear stiffness per area $k_s$ [Pa/m]."))
 		((Real, bendingStiffness, -1, , "Normal stiffness per area in bending $k_b$ [Pa/m]: the moment per rotation is $k_b\\int z^2dA$."))
-		((Real, twistingStiffness, -1, , "Shear stiffness per area in twisting $k_t$ [Pa/m]: the moment per rotation is $k_t\\int(y^2+z^2)dA$."))
+		((Real, twistingStiffness, -1, , "Shear stiffness per area in twisting $k_t$ [Pa/m]: the moment per rotation is "
+		        "$k_t\\int(y^2+z^2)dA$."))
 		((Real, tensileStrength, -1, , "Tensile strength $\\sigma_t$ [Pa]; infinite: none."))
 		((Real, cohesion, -1, , "Cohesion $c$ [Pa]; infinite: no failure in shear."))
 		((Real, frictionAngle, -1, , "Friction angle $\\phi$ of the strength [rad]."))
-		((Real, bendingShare, 1, , "Part $\\beta$ of the stresses by bending and twisting that counts against the strengths [-]: 1: the beam formula's stress at the edge; 0: mean stresses alone."))
+		((Real, bendingShare, 1, , "Part $\\beta$ of the stresses by bending and twisting that counts against the strengths [-]: 1: the "
+		        "beam formula's stress at the edge; 0: mean stresses alone."))
 		((bool, intact, true, Attr::readonly, "Whether the bond acts."))
 		((string, failure, "", Attr::readonly, "How it ended: *tension*, *shear*, *erased* (with a body); empty while it is intact."))
 		((long, failedAt, -1, Attr::readonly, "Last step in which it acted; -1: intact."))
-		((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Present force on body 2 [N]; the opposite one acts on body 1, at the same point."))
+		((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Present force on body 2 [N]; the opposite one acts on body 1, at the same "
+		        "point."))
 		((Vector3r, moment, Vector3r::Zero(), Attr::readonly, "Present moment on body 2 [N·m]; the opposite one acts on body 1."))
 		((Vector3r, point, Vector3r::Zero(), Attr::readonly, "Where the force acts, in the period of body 1 [m]."))
 		((Real, energy, 0, Attr::readonly, "Elastic energy [J]."))
 		((Real, normalStress, 0, Attr::readonly, "Mean normal stress $\\sigma$ [Pa], tension positive."))
-		((Real, edgeStress, 0, Attr::readonly, "Largest normal stress over the area with the share of bending [Pa], tension positive: fails at $\\sigma_t$."))
-		((Real, shearStress, 0, Attr::readonly, "Mean shear stress plus the share of the largest one of twisting [Pa]: fails at $c-\\sigma\\tan\\phi$."))
-		((vector<Real>, lastingOpenings, , (Attr::readonly | Attr::hidden), "Of the fibres of a joint that yields in tension [m]; none: it does not"))
+		((Real, edgeStress, 0, Attr::readonly, "Largest normal stress over the area with the share of bending [Pa], tension positive: fails "
+		        "at $\\sigma_t$."))
+		((Real, shearStress, 0, Attr::readonly, "Mean shear stress plus the share of the largest one of twisting [Pa]: fails at "
+		        "$c-\\sigma\\tan\\phi$."))
+		((vector<Real>, lastingOpenings, , (Attr::readonly | Attr::hidden), "Of the fibres of a joint that yields in tension [m]; none: it "
+		        "does not"))
 		((Vector3r, arm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the point in the last step"))
 		((Vector3r, arm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
 	);

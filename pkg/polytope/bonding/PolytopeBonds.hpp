@@ -47,7 +47,8 @@ public:
 
 With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
-		((bool, unbreakable, false, Attr::noSave, "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
+		((bool, unbreakable, false, Attr::noSave, "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*. "
+		        "Not saved."))
 		, /*ctor*/
 		, /*py*/
 		.def_readwrite("_divided", &PolytopeBonds::divided)
@@ -56,10 +57,14 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.def("_takeStates", &PolytopeBonds::takeStates)
 		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.def("_meetBodies", &PolytopeBonds::meetBodies)
-		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they were made.")
+		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they "
+		        "were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")
-		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, whether or not this engine is in O.engines.")
-		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")), "Make bonds between faces of these bodies (empty: all), with the values of a *PolytopeBond*; see *polytope.bond*, which calls it.")
+		.add_property("intactInScene", &PolytopeBonds::intactInScene, "Number of intact bonds whose bodies are in the present scene, "
+		        "whether or not this engine is in O.engines.")
+		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
+		        "Make bonds between faces of these bodies (empty: all), with the values of a *PolytopeBond*; see *polytope.bond*, which "
+		        "calls it.")
 	);
 	// clang-format on
 

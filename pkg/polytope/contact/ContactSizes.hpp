@@ -23,7 +23,7 @@ struct ContactSizes {
 /// A sphere's radius, half the edge of the cube (square) of a polytope's volume (a polygon's area); 0 for a wall, a box or a facet.
 Real sizeOf(const Shape& shape);
 
-/// The same of a body that forces move, or whose clump they move; 0 for one that counts as large as what it touches.
+/// sizeOf() of a body that forces move, or whose clump they move; 0 for one that counts as large as what it touches.
 Real sizeIfMoved(const Body& body, const Scene& scene);
 
 ContactSizes contactSizes(const Body& body1, const Body& body2, const Scene& scene);

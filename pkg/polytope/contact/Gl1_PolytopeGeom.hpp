@@ -18,7 +18,10 @@ public:
 	RENDERS(PolytopeGeom);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Gl1_PolytopeGeom, GlIGeomFunctor,
-	"Draws contacts of a :yref:`Polytope` in YADE's 3-D view, over the bodies, where the box *Interaction geometry* is ticked (``yade.qt.Renderer().intrGeom = True``): the contact point, the normal from body 1 to body 2 as long as the smaller body's size, and the :yref:`outline<PolytopeGeom.outline>` of the contact area, where it is known and the scene is not running. *Interaction physics* (``intrPhys``) draws forces, by :yref:`Gl1_NormPhys`."
+	"Draws contacts of a :yref:`Polytope` in YADE's 3-D view, over the bodies, where the box *Interaction geometry* is ticked "
+	        "(``yade.qt.Renderer().intrGeom = True``): the contact point, the normal from body 1 to body 2 as long as the smaller body's size, "
+	        "and the :yref:`outline<PolytopeGeom.outline>` of the contact area, where it is known and the scene is not running. *Interaction "
+	        "physics* (``intrPhys``) draws forces, by :yref:`Gl1_NormPhys`."
 	);
 	// clang-format on
 };

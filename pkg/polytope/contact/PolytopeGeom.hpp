@@ -77,31 +77,52 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
 	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: point, :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2), :yref:`penetrationDepth<ScGeom.penetrationDepth>` and :yref:`contactArea<PolytopeGeom.contactArea>` by the :yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`. Models with a surface: a force of stiffness times depth (per area: times area, too) along the normal through the point is the gradient of an elastic energy; on faces its point is the centre of the pressure (docs/contact-force.md). Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2*, which YADE's physics take their stiffness from, are the bodies' sizes when the contact began: half the edge of the cube (polygons: square) of the same volume (area), a sphere's radius; a wall, a box, a facet and a body that cannot move count as large as the other body.)""",
-		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
-		((Real, contactArea, 0, Attr::readonly, "Of the contact surface as seen along the normal, or, *boon2012*, in which the plane through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. With *boon2012* computed where a law needs it, as those of rock joints do, or if :yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
+		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball "
+		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
+		((Real, contactArea, 0, Attr::readonly, "Of the contact surface as seen along the normal, or, *boon2012*, in which the plane "
+		        "through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. With "
+		        "*boon2012* computed where a law needs it, as those of rock joints do, or if "
+		        ":yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
 		((std::int8_t, statusCode, 0, (Attr::readonly | Attr::hidden), "Outcome of the last query as a number"))
 		((bool, hasBasis, false, (Attr::readonly | Attr::hidden), "Whether the basis is known"))
 		((bool, hasPoint, false, (Attr::readonly | Attr::hidden), "Whether the points are known"))
-		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as those of rock joints do; set when they are made."))
+		((bool, needsArea, false, Attr::readonly, "Whether this contact's physics use :yref:`contactArea<PolytopeGeom.contactArea>`, as "
+		        "those of rock joints do; set when they are made."))
 		((bool, atOnePoint, false, (Attr::readonly | Attr::hidden), "Whether shear acts at the contact point, as in the paper"))
-		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a number (FaceForce)"))
+		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a "
+		        "number (FaceForce)"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
-		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a stiffness per area or one per contact (StiffnessRule)"))
-		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; :yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
-		((Real, normalWeight, 0.5, Attr::readonly, "*boon2012*: weight of body 1's normal against body 2's (1 minus it), from the bodies' stiffnesses: the normal is closer to that of the stiffer body."))
-		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ at this depth [m²], *foundation*: while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; -1 where it is not known, and with *boon2012*, where it is half the square of the depth."))
-		((Real, turningArm, 0, Attr::readonly, "Contacts *foundation* and *spring*: moment about the normal that a force at the contact point leaves out, over that force [m]; positive: it turns body 2 about the normal."))
-		((Vector3r, direction, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program if the points are known, otherwise the weights of the basis' first planes"))
-		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's warm-start point"))
+		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a "
+		        "stiffness per area or one per contact (StiffnessRule)"))
+		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several "
+		        "pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie "
+		        "flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; "
+		        ":yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
+		((Real, normalWeight, 0.5, Attr::readonly, "*boon2012*: weight of body 1's normal against body 2's (1 minus it), from the bodies' "
+		        "stiffnesses: the normal is closer to that of the stiffer body."))
+		((Real, energyPerStiffness, -1, Attr::readonly, "Elastic energy of the normal force over $k_n$ at this depth [m²], *foundation*: "
+		        "while O.trackEnergy is on or :yref:`computeEnergy<Ig2_Polytope_Polytope_PolytopeGeom.computeEnergy>` asks for it; -1 where "
+		        "it is not known, and with *boon2012*, where it is half the square of the depth."))
+		((Real, turningArm, 0, Attr::readonly, "Contacts *foundation* and *spring*: moment about the normal that a force at the contact "
+		        "point leaves out, over that force [m]; positive: it turns body 2 about the normal."))
+		((Vector3r, direction, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last dual direction of the linear program if the points "
+		        "are known, otherwise the weights of the basis' first planes"))
+		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's "
+		        "warm-start point"))
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
-		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, by their planes"))
-		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + body"))
-		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each the plane through which the support ends beyond it: normal and offset in the body's own axes"))
+		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, "
+		        "by their planes"))
+		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + "
+		        "body"))
+		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each the plane through which the support ends beyond it: normal "
+		        "and offset in the body's own axes"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
-		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and until the next step after loading a scene.")
+		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] "
+		        "in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and "
+		        "until the next step after loading a scene.")
 		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (*boon2012*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies, and bodies that pierce each other); *failed* (last step's geometry is kept); *surfaceIncomplete* (*foundation*, *spring*: a part of the surface was not found).)""")
 	);
 	// clang-format on
@@ -144,18 +165,42 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
 	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
-		((string, contactModel, "surface", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], *spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them for all contacts: point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear program's feasible set (docs/contact-surface.md). *boon2012*: the paper as printed [Boon2012]_, stiffness times the chord through the contact point along the average of the gradients of both bodies' inner potential particles with their :yref:`cornerRadius<Polytope.cornerRadius>` (Eqs 13-17), shear at this point; no gradient of an energy, inclined by up to 45° where an edge lies on a face and at every seam of a floor: to reproduce the paper."))
-		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "*boon2012*, contact point: *analyticCentre* (of all half-spaces of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it is not unique) or *centroid* (of the overlap, of highest cost)."))
-		((string, solver, "newton", Attr::triggerPostLoad, "*boon2012*, solver of the analytic centre: *newton* (where it does not converge, Ipopt is used if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores :yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
+		((string, contactModel, "surface", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], "
+		        "*spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them "
+		        "for all contacts: point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear "
+		        "program's feasible set (docs/contact-surface.md). *boon2012*: the paper as printed [Boon2012]_, stiffness times the chord "
+		        "through the contact point along the average of the gradients of both bodies' inner potential particles with their "
+		        ":yref:`cornerRadius<Polytope.cornerRadius>` (Eqs 13-17), shear at this point; no gradient of an energy, inclined by up to "
+		        "45° where an edge lies on a face and at every seam of a floor: to reproduce the paper."))
+		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "*boon2012*, contact point: *analyticCentre* (of all half-spaces "
+		        "of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it "
+		        "is not unique) or *centroid* (of the overlap, of highest cost)."))
+		((string, solver, "newton", Attr::triggerPostLoad, "*boon2012*, solver of the analytic centre: *newton* (where it does not "
+		        "converge, Ipopt is used if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, "
+		        "for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores "
+		        ":yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
 		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
-		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's circumradius [-]."))
-		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "*boon2012*: the analytic centre is accepted when what remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in double) to 0.1."))
-		((bool, computeArea, false, , "*boon2012*: compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this is done automatically; the other models always have it)."))
-		((bool, computeEnergy, false, , "*foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes half as long again; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
-		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of the clock a pair."))
+		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's "
+		        "circumradius [-]."))
+		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "*boon2012*: the analytic centre is accepted when what "
+		        "remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in "
+		        "double) to 0.1."))
+		((bool, computeArea, false, , "*boon2012*: compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this "
+		        "is done automatically; the other models always have it)."))
+		((bool, computeEnergy, false, , "*foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes half as "
+		        "long again; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
+		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of "
+		        "the clock a pair."))
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts *foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, *lpSeconds*, *centreSeconds*.")
+		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* "
+		        "queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, "
+		        "*surfacesKept* (contacts *foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* "
+		        "and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), "
+		        "*failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, "
+		        "*roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, "
+		        "or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* "
+		        "*timedPairs*, *lpSeconds*, *centreSeconds*.")
 		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
 	);
 	// clang-format on

@@ -59,7 +59,7 @@ private:
 		}                                                                                                                          \
 	}
 
-/// The same for a class whose objects belong to one other object each, by which they are found: the archive does not note them at all.
+/// POLYTOPE_SAVED_FLAT for a class whose objects belong to one other object each, by which they are found: the archive does not note them at all.
 #define POLYTOPE_SAVED_FLAT_WITH_ITS_OWNER(Class)                                                                                          \
 	BOOST_CLASS_TRACKING(yade::Class, boost::serialization::track_never)                                                               \
 	POLYTOPE_SAVED_FLAT(Class)

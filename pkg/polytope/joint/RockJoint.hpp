@@ -68,7 +68,7 @@ public:
 		const Real force = kn * (overlap + dilation - restOverlap);
 		return force < 0 ? math::min(Real(0), Real(force + kn * lastingOpening)) : force;
 	}
-	/// The same of a joint with laws of its own (RockJointOwnLaws.cpp), while kn is that of its linear spring.
+	/// Force of the normal spring of a joint with laws of its own (RockJointOwnLaws.cpp), while kn is that of its linear spring.
 	Real ownSpring(Real overlap) const;
 	/// Whether such a joint has slipped, or is worn.
 	bool ownHistory() const;
@@ -120,44 +120,72 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointPhys, FrictPhys,
 	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses [N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present friction, peak or residual.)""",
-		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` in each step; 0: stiffness per contact."))
+		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` "
+		        "in each step; 0: stiffness per contact."))
 		((Real, shearStiffness, 0, , "Shear stiffness per area [Pa/m], in the same way for $k_s$."))
-		((Real, normalStiffnessPerContact, 0, , "$k_n$ of a joint with stiffness per contact [N/m]; 0: *kn* stays as it is. A script that sets *kn* of such a joint sets this."))
+		((Real, normalStiffnessPerContact, 0, , "$k_n$ of a joint with stiffness per contact [N/m]; 0: *kn* stays as it is. A script that "
+		        "sets *kn* of such a joint sets this."))
 		((Real, shearStiffnessPerContact, 0, , "$k_s$ of such a joint [N/m], in the same way."))
-		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
+		((Real, contactArea, 0, , "Area the stiffnesses and strengths act on [m²]: :yref:`PolytopeGeom.contactArea`, that of the last "
+		        "overlap while the bodies are apart (the joint is open, or its dilation keeps it closed across the gap). For other "
+		        "geometries set once, see :yref:`stiffnessPerArea<Ip2_RockJointMat_RockJointMat_RockJointPhys.stiffnessPerArea>`."))
 		((Real, cohesion, 0, , "Cohesion while :yref:`intact<RockJointPhys.intact>` [Pa]."))
 		((Real, residualCohesion, 0, , "Cohesion once the joint has failed [Pa]."))
-		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]; from where it was reached on the residual one."))
+		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]; from where it was reached on the "
+		        "residual one."))
 		((Real, residualTensileStrength, 0, , "Tensile strength once it was reached, or the joint has failed [Pa]."))
-		((Real, lastingOpening, 0, Attr::readonly, "By which a joint with residual tensile strength has been torn open [m]: within it, it bears nothing. Of a :yref:`bond<RockJointPhys.bond>` fibres have their own."))
-		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the joint fails [-]; negative: friction does not change."))
+		((Real, lastingOpening, 0, Attr::readonly, "By which a joint with residual tensile strength has been torn open [m]: within it, it "
+		        "bears nothing. Of a :yref:`bond<RockJointPhys.bond>` fibres have their own."))
+		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the "
+		        "joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))
 		((Real, dilationLimit, std::numeric_limits<Real>::infinity(), , "Largest :yref:`dilation<RockJointPhys.dilation>` [m]."))
-		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to :yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
-		((Real, restOverlap, 0, Attr::readonly, "Overlap at which the joint has no normal force [m], taken from :yref:`penetrationDepth<ScGeom.penetrationDepth>`: where a bond has failed (:yref:`PolytopeBonds`) the overlap with which it was made, else 0."))
-		((Vector3r, shearPoint, Vector3r::Zero(), Attr::readonly, "Point through which the shear force acts [m]: the centroid of the contact area, a joint being a bed of shear springs over it. The normal force acts at the contact point, the centroid of the pressure."))
-		((Real, twistingMoment, 0, , "Moment of the shear bed on body 2 about the normal at :yref:`shearPoint<RockJointPhys.shearPoint>`, viscous part included [N·m]; body 1 gets the opposite."))
+		((Real, dilation, 0, Attr::readonly, "Present widening of the joint by dilation [m], added to "
+		        ":yref:`penetrationDepth<ScGeom.penetrationDepth>`."))
+		((Real, restOverlap, 0, Attr::readonly, "Overlap at which the joint has no normal force [m], taken from "
+		        ":yref:`penetrationDepth<ScGeom.penetrationDepth>`: where a bond has failed (:yref:`PolytopeBonds`) the overlap with which "
+		        "it was made, else 0."))
+		((Vector3r, shearPoint, Vector3r::Zero(), Attr::readonly, "Point through which the shear force acts [m]: the centroid of the "
+		        "contact area, a joint being a bed of shear springs over it. The normal force acts at the contact point, the centroid of "
+		        "the pressure."))
+		((Real, twistingMoment, 0, , "Moment of the shear bed on body 2 about the normal at :yref:`shearPoint<RockJointPhys.shearPoint>`, "
+		        "viscous part included [N·m]; body 1 gets the opposite."))
 		((Real, twistingViscous, 0, Attr::readonly, "Viscous part of :yref:`twistingMoment<RockJointPhys.twistingMoment>` [N·m]."))
-		((Real, twistingStiffness, 0, Attr::readonly, "Stiffness of the bed against turning about the normal, :yref:`ks<NormShearPhys.ks>` times the mean square of the distance from the area's centroid [N·m/rad]; 0 for polygons and spheres."))
+		((Real, twistingStiffness, 0, Attr::readonly, "Stiffness of the bed against turning about the normal, :yref:`ks<NormShearPhys.ks>` "
+		        "times the mean square of the distance from the area's centroid [N·m/rad]; 0 for polygons and spheres."))
 		((Layers, shearLayers, , (Attr::readonly | Attr::hidden), "Displacement of the bed's springs by when they joined; none: all alike"))
-		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than the bodies have moved."))
+		((Vector3r, slip, Vector3r::Zero(), Attr::readonly, "Plastic slip of body 2 relative to body 1 since the contact was made [m], "
+		        "turned with the normal: net motion along the joint without the elastic part, also while the joint is open. Never more than "
+		        "the bodies have moved."))
 		((Vector3r, normalViscous, Vector3r::Zero(), Attr::readonly, "Viscous part of :yref:`normalForce<NormPhys.normalForce>` [N]."))
-		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
-		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the opposite."))
-		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the joint."))
+		((Vector3r, shearViscous, Vector3r::Zero(), , "Viscous part of :yref:`shearForce<NormShearPhys.shearForce>` [N]. The law's memory "
+		        "is *shearForce* without it: a script that sets *shearForce* sets this to zero."))
+		((Vector3r, rockingMoment, Vector3r::Zero(), Attr::readonly, "Moment of the rocking damper on body 2 [N·m]; body 1 gets the "
+		        "opposite."))
+		((shared_ptr<PolytopeBond>, bond, , Attr::readonly, "The :yref:`bond<PolytopeBond>` as which an intact joint with tensile strength "
+		        "and stiffness per area acts, with its forces and stresses; None for others. Its stiffnesses and strengths are those of the "
+		        "joint."))
 		((LastStep, lastStep, , (Attr::readonly | Attr::hidden), "Kept with O.trackEnergy; none: was not tracked"))
-		((Real, dampedStiffness, 0, (Attr::readonly | Attr::hidden), "Stiffness with which the contact was part of the last step's sums, for dampers (StiffnessSums); 0: it was not"))
-		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without residual friction, tensile strength and cohesion above the residual one have none and are never intact."))
+		((Real, dampedStiffness, 0, (Attr::readonly | Attr::hidden), "Stiffness with which the contact was part of the last step's sums, "
+		        "for dampers (StiffnessSums); 0: it was not"))
+		((bool, intact, false, , "Whether the joint still has its peak strength. Joints without residual friction, tensile strength and "
+		        "cohesion above the residual one have none and are never intact."))
 		((bool, isSliding, false, Attr::readonly, "Whether the shear force is at the strength in this step."))
 		((Laws, laws, , (Attr::readonly | Attr::hidden), "Closure and shear law of its own; none: linear spring and Mohr-Coulomb"))
-		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step (PolytopeBonds)"))
+		((bool, followsBond, false, (Attr::readonly | Attr::hidden), "Forces are those of a bond that failed in the last step "
+		        "(PolytopeBonds)"))
 		, /*ctor*/ createIndex();
 		, /*py*/
 		.add_property("kn", &RockJointPhys::getKn, &RockJointPhys::setKn, "Present normal stiffness [N/m].")
-		.add_property("hasOwnStrength", &RockJointPhys::hasOwnStrength, "Whether the joint has a shear law of its own (:yref:`RockJointMat.strength`): then :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is what it gives at the present stress and displacement.")
-		.add_property("slipLength", &RockJointPhys::slipLength, "Of a joint with a shear law of its own (:yref:`RockJointMat.strength`) the length of all its slip so far, back and forth [m]; of others that of :yref:`slip<RockJointPhys.slip>`.")
-		.add_property("reduction", &RockJointPhys::getReduction, &RockJointPhys::setReduction, "What tan φ of a shear law of its own is divided by [-]; 1 for Mohr-Coulomb, whose values are divided themselves (polytope.factorOfSafety).")
-		.def("energyPerStiffness", &RockJointPhys::energyPerStiffness, boost::python::arg("closure"), "Energy of the normal spring over :yref:`kn<NormPhys.kn>`, when it is closed that far [m²].")
+		.add_property("hasOwnStrength", &RockJointPhys::hasOwnStrength, "Whether the joint has a shear law of its own "
+		        "(:yref:`RockJointMat.strength`): then :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is what it gives at "
+		        "the present stress and displacement.")
+		.add_property("slipLength", &RockJointPhys::slipLength, "Of a joint with a shear law of its own (:yref:`RockJointMat.strength`) the "
+		        "length of all its slip so far, back and forth [m]; of others that of :yref:`slip<RockJointPhys.slip>`.")
+		.add_property("reduction", &RockJointPhys::getReduction, &RockJointPhys::setReduction, "What tan φ of a shear law of its own is "
+		        "divided by [-]; 1 for Mohr-Coulomb, whose values are divided themselves (polytope.factorOfSafety).")
+		.def("energyPerStiffness", &RockJointPhys::energyPerStiffness, boost::python::arg("closure"),
+		        "Energy of the normal spring over :yref:`kn<NormPhys.kn>`, when it is closed that far [m²].")
 		.add_property("shearEnergy", &RockJointPhys::shearEnergy, "Elastic energy of the shear bed [J]; viscous forces are left out.")
 		.add_property("ks", &RockJointPhys::getKs, &RockJointPhys::setKs, "Present shear stiffness [N/m].")
 	);

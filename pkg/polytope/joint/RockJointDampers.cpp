@@ -48,7 +48,7 @@ namespace {
 		return shown > area ? area / shown : Real(1);
 	}
 
-	/// The same with a stiffness per contact: as if the body came down at once on all that it may touch.
+	/// s of a contact that was in no sum, with a stiffness per contact: as if the body came down at once on all that it may touch.
 	Real partOfCount(const Body& body, const Body& mover, Real share)
 	{
 		return math::min(share, 1 / Real(math::max(std::size_t(1), countOfParts(mover) * body.intrs.size())));

@@ -13,7 +13,7 @@
 /// the contacts do. A contact that begins has not been in a sum: its part is that of the area that a body shows in this direction, so a face that
 /// comes down on many pieces at once is damped as on one.
 ///
-/// And no damper takes more than the motion that there is: with w₁, w₂ the velocity that an impulse of one gives to either body at the contact point, rotation
+/// No damper takes more than the motion that there is: with w₁, w₂ the velocity that an impulse of one gives to either body at the contact point, rotation
 /// included, c Δt ≤ 1/(w₁/s₁ + w₂/s₂). The parts sum to one, so this holds for all dampers of a body together, too.
 namespace yade {
 

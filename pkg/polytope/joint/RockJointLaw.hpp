@@ -42,15 +42,21 @@ public:
 * Rocking damping: a normal damper at one contact point carries no moment, so it leaves rocking about that point undamped. With :yref:`rockingDamping<Law2_PolytopeGeom_RockJointPhys_MohrCoulomb.rockingDamping>` the bodies' relative rotation about the contact's tangents is resisted by the moment of dampers spread over the contact area, $\vec m=-2\zeta\sqrt{m k_n}\,\rho^2\vec\omega_t$ with $\rho^2=A/12$ (that of a square; polygons: length²/12), at most $\sqrt3\rho f_n$, where the force's line leaves that square. It vanishes at vertices and edges.
 
 With O.trackEnergy: *elastPotential* (stored, normal and shear), *plastDissip* (friction, and shear energy of springs that leave or join the area, less the work of dilation), *normDampDissip* (viscous, normal and rocking) and *shearDampDissip*, *fractureDissip* (lost when a joint fails in tension), and *nonconservative*: what the contact forces took from the bodies (negative: gave to them) beyond all these. For joints with the default normal the normal force is the gradient of an energy where a face, an edge or a vertex lies on a face, as long as stiffness goes by area or the whole face is in contact; the term is then zero to second order in the time step. Elsewhere (crossing edges; a stiffness per contact at a face that lifts off; the averaged normal) energy can be created, and is counted here. Work is taken over each step with the mean of the forces at both ends; the sum of all terms is constant to rounding with the kinetic energy $\frac12 m\vec v_{n-1/2}\cdot\vec v_{n+1/2}$, from which :yref:`NewtonIntegrator`'s own, $\frac12 m v_{n-1/2}^2$, differs by half a step's work, $\frac12\vec f\cdot\vec v\Delta t$.)""",
-		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at least 0."))
-		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at least 0."))
-		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal damper, spread over that area [-], at least 0."))
-		((bool, unbreakable, false, Attr::noSave, "Joints that touch do not slip, and intact ones do not fail and bear any tension: for coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
+		((Real, normalDamping, 0, Attr::triggerPostLoad, "Viscous damping in the normal direction, fraction $\\zeta$ of critical [-], at "
+		        "least 0."))
+		((Real, shearDamping, 0, Attr::triggerPostLoad, "Viscous damping in the shear direction, fraction $\\zeta$ of critical [-], at "
+		        "least 0."))
+		((Real, rockingDamping, 0, Attr::triggerPostLoad, "Damping of rocking on a contact area: fraction $\\zeta$ of the critical normal "
+		        "damper, spread over that area [-], at least 0."))
+		((bool, unbreakable, false, Attr::noSave, "Joints that touch do not slip, and intact ones do not fail and bear any tension: for "
+		        "coming to rest under loads that begin at once, see *polytope.settle*. Not saved."))
 		((StiffnessSums, stiffnessSums, , (Attr::readonly | Attr::hidden), "What contacts each body has, for dampers"))
 		, /*ctor*/
 		, /*py*/
-		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts, "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
-		.def("nonFiniteForces", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nonFiniteForces, "How often a contact gave a force that is not a number (from such a value set in a script) and was left out.")
+		.def("ratioSlidingContacts", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::ratioSlidingContacts,
+		        "Fraction of the contacts of this law that slide in this step [-]; 0 without contacts.")
+		.def("nonFiniteForces", &Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::nonFiniteForces, "How often a contact gave a force that is "
+		        "not a number (from such a value set in a script) and was left out.")
 	);
 	// clang-format on
 

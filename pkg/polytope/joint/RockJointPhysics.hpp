@@ -26,7 +26,9 @@ public:
 
 Where faces have materials of their own (:yref:`faceMaterials<Polytope.faceMaterials>`), that of the face which lies closest to the plane of the contact is the joint's; of two faces that lie on each other both count, like two materials. A contact that ends and is made again is one of the face that it then lies on. Stiffnesses of faces should not be above those of the bodies' own materials, by which :yref:`PolytopeTimeStepper` chooses the step before bodies touch.)""",
 		((bool, stiffnessPerArea, true, , R"""(False: as if all materials had :yref:`stiffnessPerArea<RockJointMat.stiffnessPerArea>` = False. With a stiffness per area, contacts whose geometry is not a :yref:`PolytopeGeom` have no contact area: a :yref:`ScGeom` (two spheres) gets $A=\pi\min(R_1,R_2)^2$ once and for all, anything else 1 m². Their law is YADE's own :yref:`Law2_ScGeom_FrictPhys_CundallStrack`, which takes a :yref:`RockJointPhys` as any :yref:`FrictPhys` and has to be in the loop besides this plug-in's.)"""))
-		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later are not bonded."))
+		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with "
+		        "residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later "
+		        "are not bonded."))
 		((shared_ptr<MatchMaker>, kn, , , ":yref:`MatchMaker` for the joint's normal stiffness instead of the rule above."))
 		((shared_ptr<MatchMaker>, ks, , , ":yref:`MatchMaker` for the joint's shear stiffness instead of the rule above."))
 		((shared_ptr<MatchMaker>, frictAngle, , , ":yref:`MatchMaker` for the friction angle [rad] instead of the smaller one."))

@@ -60,7 +60,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 		if (scene->isPeriodic) velocity += scene->cell->intrShiftVel(contact.cellDist);
 		return velocity;
 	}
-	/// The same at the contact point.
+	/// Velocity of body 2 against body 1 at the contact point.
 	Vector3r velocity() const { return centreVelocity() + state2.angVel.cross(arm2) - state1.angVel.cross(arm1); }
 	Vector3r spin() const { return state2.angVel - state1.angVel; }
 	/// Moment on body 2 about the contact point, without the rocking damper's.

@@ -68,9 +68,9 @@ public:
 	}
 	/// Whether there is a sum of the last step. Not where nothing was damped in it, or the law is a new one.
 	bool lastKnown() const { return lastKnown_; }
-	/// Of the last step [N/m].
+	/// Sum of the last step [N/m].
 	StiffnessSum last(Body::id_t body) const { return ofBody(last_, body); }
-	/// The same of the newest step; for use between two loops over the contacts.
+	/// Sum of the newest step [N/m]; for use between two loops over the contacts.
 	StiffnessSum newest(Body::id_t body) const { return ofBody(newest_, body); }
 	void         add(Body::id_t body, Across across, Real stiffness, const Vector3r& normal);
 

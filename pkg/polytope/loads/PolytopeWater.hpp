@@ -22,7 +22,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeWater, GlobalEngine,
 	R"""(Presses on the faces of :yref:`Polytopes<Polytope>` with the pressure of water, after the :yref:`InteractionLoop` and before :yref:`NewtonIntegrator` (*polytope.water(…)* makes it and puts it there; docs/water.md). The pressure is a field in space that is linear in pieces and does not change; in each step it is integrated exactly over the faces where they are. Several engines of this kind add up. Other shapes have no water.)""",
 		((vector<Vector3r>, points, , Attr::readonly, "Of each piece: the point at which it has its value [m]."))
-		((vector<Real>, values, , Attr::readonly, "Of each piece: pressure at its point [Pa]. Where value and gradient make it negative there is none."))
+		((vector<Real>, values, , Attr::readonly, "Of each piece: pressure at its point [Pa]. Where value and gradient make it negative "
+		        "there is none."))
 		((vector<Vector3r>, gradients, , Attr::readonly, "Of each piece [Pa/m]."))
 		((vector<Vector3r>, sides, , Attr::readonly, "Three for each piece: unit outward normals of what bounds it; zero: none."))
 		((vector<Real>, sideOffsets, , Attr::readonly, "Of each side, from the piece's point [m]."))
@@ -31,7 +32,8 @@ public:
 		((vector<int>, wetPlanes, , Attr::readonly, "Of each such face: the index of its half-space in :yref:`Polytope.normals`."))
 		, /*ctor*/
 		, /*py*/
-		.def("load", &PolytopeWater::load, boost::python::arg("id"), "Force [N] of the water on a body as it is now, and its moment about the body's position [N m], as a tuple; of a clump that of its members together. Zero while the engine is dead.")
+		.def("load", &PolytopeWater::load, boost::python::arg("id"), "Force [N] of the water on a body as it is now, and its moment about "
+		        "the body's position [N m], as a tuple; of a clump that of its members together. Zero while the engine is dead.")
 	);
 	// clang-format on
 

@@ -22,7 +22,8 @@ public:
 		((vector<Real>, shearDashpots, , , "$A\\rho c_s$ [N·s/m]."))
 		((vector<Vector3r>, faces, , , "Centroid of the outer faces in the body's axes, from its centre [m]."))
 		((vector<Vector3r>, supports, , , "Force that held the body at rest [N], at the body's centre."))
-		((shared_ptr<VelocityHistory>, history, , , "Velocity $v_i$ of the wave that comes in: half of that of a free surface of the same rock. None: no wave."))
+		((shared_ptr<VelocityHistory>, history, , , "Velocity $v_i$ of the wave that comes in: half of that of a free surface of the same "
+		        "rock. None: no wave."))
 	);
 	// clang-format on
 

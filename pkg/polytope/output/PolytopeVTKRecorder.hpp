@@ -31,12 +31,15 @@ public:
 
 In a periodic scene, bodies and contact points are moved into the cell. Called as a function, ``recorder()`` writes a snapshot at once. :yref:`PeriodicEngine.initRun` is ``True`` here.)""",
 		((string, fileName, "", , "Beginning of all file names; may contain folders, which are created where they are missing."))
-		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad, "What to record: *bodies*, *contacts*, *bonds*, *bolts*."))
-		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts, bonds and bolts that have such a body; 0: all."))
+		((vector<string>, recorders, vector<string>({ "bodies", "contacts" }), Attr::triggerPostLoad,
+		        "What to record: *bodies*, *contacts*, *bonds*, *bolts*."))
+		((int, mask, 0, , "Record bodies compatible with this :yref:`mask<Body.mask>` only, and contacts, bonds and bolts that have such a "
+		        "body; 0: all."))
 		((bool, skipNondynamic, false, , "Leave out bodies that cannot move (floors, walls); their contacts are kept."))
 		((bool, compress, true, , "Compress the data."))
 		((bool, ascii, false, , "Data as readable text."))
-		((vector<int>, steps, , (Attr::readonly), "Steps recorded so far: the series. Steps not before the present one are dropped when a snapshot is written, so that a simulation begun again starts its series again."))
+		((vector<int>, steps, , (Attr::readonly), "Steps recorded so far: the series. Steps not before the present one are dropped when a "
+		        "snapshot is written, so that a simulation begun again starts its series again."))
 		((vector<Real>, times, , (Attr::readonly), "Times of these steps [s]."))
 		, /*ctor*/ initRun = true;
 	);

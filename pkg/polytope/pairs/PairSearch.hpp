@@ -22,7 +22,7 @@ class PairSearch {
 public:
 	explicit PairSearch(const BoxRoom& room) : room_(room) { }
 
-	/// Of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
+	/// Finds the pairs of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
 	/// last digits of sums.
 	void ofAll(Scene& scene, Collider& collider, bool judge, bool sort);
 	/// Of these, whose boxes are new.

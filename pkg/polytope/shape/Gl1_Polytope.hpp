@@ -18,7 +18,8 @@ public:
 	RENDERS(Polytope);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_Polytope, GlShapeFunctor,
-	"Draws a :yref:`Polytope` in YADE's 3-D view: its faces, flat-shaded, with their edges; a polygon as a prism of its :yref:`thickness<Polytope.thickness>`.",
+	"Draws a :yref:`Polytope` in YADE's 3-D view: its faces, flat-shaded, with their edges; a polygon as a prism of its "
+	        ":yref:`thickness<Polytope.thickness>`.",
 		((bool, wire, false, , "Edges alone, whatever the body's own :yref:`wire<Shape.wire>` says."))
 		((bool, edges, true, , "Edges on top of the faces, in a darker shade of the body's colour."))
 	);

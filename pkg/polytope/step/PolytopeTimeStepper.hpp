@@ -36,14 +36,20 @@ and no more than what *motion* allows: in a step no two bodies that may meet bef
 In a scene in which nothing can move it takes a hundredth of the smallest *virtPeriod* of O.engines (*period*), if there is a :yref:`PolytopeCollider`: what such an engine puts into the scene gets its own step before it moves.
 
 Bodies that cannot move limit nothing, blocked degrees of freedom do not count, a clump has the contacts of its members. O.dt stays as it is in a scene where nothing limits it. Not for MPI, where each process has its own bodies only.)""",
-		((Real, timestepSafetyCoefficient, 0.4, Attr::triggerPostLoad, "Fraction of $\\tau$ that is taken [-], above 0, at most 2. Up to 1 any heap is stable as long as its contacts do not change; the default leaves a margin for those that appear until the next update, and lets slopes of jointed rock come to rest. As *fraction* of *polytope.stableTimeStep*."))
-		((Real, motionLimit, 0.1, Attr::triggerPostLoad, "Largest way of two bodies that may meet against each other in a step, over the smaller one's inscribed radius [-], above 0."))
+		((Real, timestepSafetyCoefficient, 0.4, Attr::triggerPostLoad, "Fraction of $\\tau$ that is taken [-], above 0, at most 2. Up to 1 "
+		        "any heap is stable as long as its contacts do not change; the default leaves a margin for those that appear until the next "
+		        "update, and lets slopes of jointed rock come to rest. As *fraction* of *polytope.stableTimeStep*."))
+		((Real, motionLimit, 0.1, Attr::triggerPostLoad, "Largest way of two bodies that may meet against each other in a step, over the "
+		        "smaller one's inscribed radius [-], above 0."))
 		((Real, maxDt, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Largest time step [s], above 0."))
 		((Body::id_t, limitingBody, Body::ID_NONE, Attr::readonly, "Body that limits the time step; -1: none."))
-		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it contributes more than half of that body's $\\omega^2$), *motion*, *period* or *maxDt*; empty: nothing limits it, O.dt is not changed."))
+		((string, limitedBy, "", Attr::readonly, "What limits the time step: *material*, *contacts*, *rocking* (of contacts, where it "
+		        "contributes more than half of that body's $\\omega^2$), *motion*, *period* or *maxDt*; empty: nothing limits it, O.dt is "
+		        "not changed."))
 		, /*ctor*/ timeStepUpdateInterval = 50;
 		, /*py*/
-		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval, "Steps from one update of O.dt to the next, at least 1.")
+		.add_property("timeStepUpdateInterval", &PolytopeTimeStepper::getTimeStepUpdateInterval, &PolytopeTimeStepper::setTimeStepUpdateInterval,
+		        "Steps from one update of O.dt to the next, at least 1.")
 	);
 	// clang-format on
 

@@ -20,7 +20,7 @@ namespace yade {
 class PotentialContacts {
 public:
 	TimeStepLimit limit(Scene& scene);
-	/// The same of each body, by id [s]; infinite where nothing limits it.
+	/// Limit of each body, by id [s]; infinite where nothing limits it.
 	std::vector<Real> steps(Scene& scene);
 
 private:

@@ -47,7 +47,7 @@ struct ContactLimit : TimeStepLimit {
 /// \param below limits longer than this need not be found
 ContactLimit contactLimit(const Scene& scene, Real below = std::numeric_limits<Real>::infinity());
 
-/// The same of each body, by id [s]; infinite for those without contacts.
+/// Limit of each body's contacts, by id [s]; infinite for those without contacts.
 std::vector<Real> contactSteps(const Scene& scene);
 
 /// Time in which two bodies that may meet move against each other by `fraction` of the smaller one's inscribed radius, gravity included
