@@ -71,7 +71,7 @@ for k, planes in zip(ids, rock.bodies, strict=True):  # blocks at the bottom and
 told(f'{len(ids)} blocks of {len(joints)} joints, {sum(not O.bodies[k].dynamic for k in ids)} of them fixed')
 
 O.engines = polytope.engines(damping=0.4)
-steps = polytope.settle(unbalanced=1e-4, elastic=False)  # joints have friction alone, which comes back after a swing
+steps = polytope.settle(unbalanced=1e-4, elastic=False, densityScaling=True)  # joints have friction alone, which comes back after a swing
 told(f'at rest after {steps} steps of {O.dt:.2g} s')
 found = polytope.factorOfSafety(tolerance=options.tolerance)
 told(found)

@@ -12,7 +12,7 @@ from ..scene.permanentLoads import permanentLoads
 from ..scene.present import integrators, meanwhile
 from ..scene.timeStep import safeTimeStep
 
-__all__ = ['scaledMasses']
+__all__ = ['scaledMasses', 'scaledMassesIfPossible']
 
 weights = 'GravityEngine', 'CentralGravityEngine', 'CentralConstantAccelerationEngine', 'AxialGravityEngine', 'HdapsGravityEngine'
 """YADE's engines whose forces go by the mass."""
@@ -42,6 +42,21 @@ def scaledMasses():
 		finally:
 			scaled.restore()
 			O.dt = _ownStep(stepBefore)
+
+
+@contextlib.contextmanager
+def scaledMassesIfPossible():
+	"""The same where masses may be scaled and a time stepper sets the time step; elsewhere nothing is changed, and the value is None."""
+	try:
+		_refuse()
+		possible = bool(_steppers())
+	except ValueError:
+		possible = False
+	if not possible:
+		yield None
+		return
+	with scaledMasses() as made:
+		yield made
 
 
 def _refuse():

@@ -12,6 +12,7 @@ from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..pictures.films import filmEngines
 from ..pictures.still import picture
+from ..rest.scaledMasses import scaledMassesIfPossible
 from ..rest.unrest import Unrest
 from ..scene.movers import canMove, moverOf
 from ..scene.namedBodies import namedBodies
@@ -20,6 +21,7 @@ from ..scene.present import integrators
 from ..scene.relaxing import relaxing
 from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
+from .bracket import Bracket
 from .faceMaterials import materialsOf
 from .history import histories
 
@@ -31,8 +33,6 @@ between, looks = 50, 3
 """Steps between two looks, and looks in a row at which all must be at rest."""
 damping = 0.4
 """Damping of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
-growth = 1.5
-"""Growth of the factor from one trial to the next, until one fails."""
 gently = 1.02
 """Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
 partOfMode = 0.1
@@ -104,10 +104,12 @@ class FactorOfSafety:
 def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps=200000):
 	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
 
-	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. From there each trial begins, with strengths divided by a number that is bisected. It
+	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. From there each trial begins, with strengths divided by a number between what stood and what failed. It
 	is stable when no body has an unbalanced force, or only such as tremble in place for good, and has failed when a body has moved by a fiftieth of its size. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
 	time, each from rest. Then the scene is what it was, time and
 	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
+
+	Where a time stepper sets the time step, bodies that need a smaller one than half of all bodies do are heavier in the trials, with the weight that they have (as by *polytope.settle*, densityScaling).
 
 	Other engines of O.engines run in the trials, too: those that write files should be dead meanwhile.
 
@@ -136,7 +138,8 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	O.saveTmp(before, quiet=True)
 	loads = permanentLoads()
 	try:
-		return _Search(watched, reduce, int(steps), loads).run(tolerance, most)
+		with scaledMassesIfPossible() as scaled:  # what stands and what does not is the same
+			return _Search(watched, reduce, int(steps), scaled).run(tolerance, most)
 	finally:
 		_load(before, loads)
 
@@ -166,8 +169,12 @@ def _load(name, loads):
 
 
 class _Search:
-	def __init__(self, watched, reduce, steps, loads):
-		self.watched, self.reduce, self.steps, self.loads = watched, tuple(reduce), steps, loads
+	def __init__(self, watched, reduce, steps, scaled):
+		self.watched, self.reduce, self.steps = watched, tuple(reduce), steps
+		self.loads = permanentLoads()
+		"""With those that scaled masses come with."""
+		self.masses = scaled and scaled[1]
+		"""True ones by id, where those of the scene are scaled."""
 		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
 		# what bears only after some motion: slack bolts, joints whose roughness slip mobilises
@@ -176,6 +183,10 @@ class _Search:
 		)
 		self.reached = 1.0
 		"""Factor of the state from which trials begin."""
+		self.lacked = 0.0, None
+		"""Mean unbalanced force of the body that moved farthest in the last trial [-], and its id."""
+		self.left = 1
+		"""Trials that are expected, with the present one: for the time left in the bar."""
 
 	def run(self, tolerance, most):
 		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
@@ -188,15 +199,18 @@ class _Search:
 				)
 			O.saveTmp(standing, quiet=True)
 			self.origin = self._places()
-			stable, failed = self._enclose(most)
-			while failed / stable - 1 > tolerance:
-				trial = self._trialFromRest((stable + failed) / 2)
-				if trial.outcome == 'stable':
-					stable = trial.factor
-				else:
-					stable, failed = max(stable, self.reached), trial.factor
+			bracket = Bracket(tolerance, most)
+			while not bracket.isNarrow:
+				self.left = bracket.halvings
+				trial = self._trialFromRest(bracket.next())
+				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked)
+				bracket.stable = max(bracket.stable, self.reached)
+				if bracket.stable >= most:
+					raise RuntimeError(
+						f'stable with strengths divided by {bracket.stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
+					)
 		self._tellTrembling()
-		return FactorOfSafety(stable, failed, *self.mode, self.trials)
+		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)
 
 	def _tellTrembling(self):
 		ones = sorted({k for trial in self.trials for k in trial.trembling})
@@ -204,17 +218,6 @@ class _Search:
 			warn(
 				f'bodies: {", ".join(map(str, ones[:3]))}{" …" if len(ones) > 3 else ""} tremble in place by more than {atRest:g} of what they bear; their trials count as stable'
 			)
-
-	def _enclose(self, most):
-		stable = 1.0
-		while stable < most:
-			trial = self._trialFromRest(min(stable * growth, most))
-			if trial.outcome != 'stable':
-				return max(stable, self.reached), trial.factor
-			stable = trial.factor
-		raise RuntimeError(
-			f'stable with strengths divided by {stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
-		)
 
 	def _trialFromRest(self, factor):
 		_load(standing, self.loads)
@@ -239,7 +242,7 @@ class _Search:
 			integrator.damping = damping
 		for engine in [*histories(), *filmEngines()]:
 			engine.dead = True  # what happens in a trial is none of the scene's history
-		trial, quiet, unrest = Trial(factor, 'creeping', 0, 0.0, 0.0), 0, Unrest(atRest, self.watched)
+		trial, quiet, unrest = Trial(factor, 'creeping', 0, 0.0, 0.0), 0, Unrest(atRest, self.watched, self.masses)
 		self.trials.append(trial)
 		while trial.steps < self.steps:
 			for _ in range(between):
@@ -255,11 +258,14 @@ class _Search:
 				trial.outcome = 'stable'
 				break
 		farthest = int(np.argmax(self._ways() / self.limits))
+		self.lacked = float(unrest.mean[self.watched[farthest]]), self.watched[farthest]
 		trial.displacement = float(self._ways()[farthest])
 		return trial
 
 	def _show(self, factor):
 		"""Largest way over what counts as failure."""
+		steps = [trial.steps for trial in self.trials]
+		self.bar.total = sum(steps[:-1]) + self.left * max(steps)
 		self.bar.set_postfix_str(f'strengths over {factor:.4g}', refresh=False)
 		self.bar.update(between)
 		return float((self._ways() / self.limits).max())

@@ -3,6 +3,7 @@
 
 import os
 import pty
+import re
 import subprocess
 import sys
 import threading
@@ -50,3 +51,25 @@ def testPackAndLoadingTestsShowTheirProgressInATerminalAlone():
 		assert part in said, part
 	done = subprocess.run(command, capture_output=True, text=True, timeout=300)
 	assert done.returncode == 0 and 'placing' not in done.stderr + done.stdout and '%|' not in done.stderr + done.stdout, done.stderr
+
+
+slope = """
+from math import cos, radians, sin
+from yade import O, RockJointMat, polytope
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(45)))
+O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+O.bodies.append(polytope.cuboid((0, 0, 0.1), (0.5, 0.5, 0.1)))
+O.engines = polytope.engines(gravity=(9.81 * sin(radians(30)), 0, -9.81 * cos(radians(30))))
+polytope.settle()
+print(polytope.factorOfSafety())
+"""
+
+
+def testTheFactorOfSafetyTellsTheTimeLeftInATerminalAlone():
+	command = [sys.executable, '-c', slope]
+	code, said = saidInATerminal(command)
+	assert code == 0, said
+	assert re.search(r'\d+%.* \d+/\d+ \[\d\d:\d\d<\d\d:\d\d, .*strengths over 1\.', said), said
+	done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+	assert done.returncode == 0 and 'factor of safety 1.7' in done.stdout, done.stderr
+	assert 'strengths over' not in done.stderr + done.stdout and '%|' not in done.stderr + done.stdout

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 from yade import FrictMat, O, PyRunner, RockJointMat, Vector3, polytope
+from yade.polytope.scene.permanentLoads import permanentLoads
 
 gravity = 9.81
 
@@ -281,3 +282,33 @@ def testBodiesWithoutStrengthsToReduceAreRefused():
 		polytope.factorOfSafety()
 	with pytest.raises(ValueError, match=f'body {floor} cannot move'):
 		polytope.factorOfSafety(bodies=[floor])
+
+
+def onAThinPlate(ownStep):
+	"""A block on a plate of a fiftieth of its height; it and the plate slide on a plane of 20°."""
+	O.reset()
+	steep = math.radians(20)
+	material()
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 3, 0.5), fixed=True))
+	for low, high in ((0, 0.02), (0.02, 1.02)):
+		O.bodies.append(polytope.cuboid((0, 0, (low + high) / 2), (1, 1, (high - low) / 2)))
+	O.engines = polytope.engines(
+		gravity=(gravity * math.sin(steep), 0, -gravity * math.cos(steep)), **({'timeStepper': False} if ownStep else {})
+	)
+	O.dt = 0.4 * polytope.stableTimeStep(1)
+	polytope.settle()
+	return math.tan(friction) / math.tan(steep)
+
+
+def testBodiesThatLimitTheStepAreHeavierInTrials():
+	"""Where the scene's step is the script's own they are not: the same factor in more steps."""
+	steps = {}
+	for ownStep in (False, True):
+		theory = onAThinPlate(ownStep)
+		step, masses, places = O.dt, [body.state.mass for body in O.bodies], [body.state.pos for body in O.bodies]
+		found = polytope.factorOfSafety()
+		assert found.factor == pytest.approx(theory, rel=0.01) and found.stable < theory < found.failed
+		assert [body.state.mass for body in O.bodies] == masses and [body.state.pos for body in O.bodies] == places
+		assert not permanentLoads() and O.dt == step
+		steps[ownStep] = sum(trial.steps for trial in found.trials)
+	assert steps[False] < 0.6 * steps[True]

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Which factor to try next, between one at which a scene stands and one at which it fails."""
+
+import math
+
+__all__ = ['Bracket']
+
+growth = 1.5
+"""Growth of the factor from one trial to the next, until one fails."""
+beside = 0.4
+"""Distance of trials from the estimated limit over the tolerance, on either side: the nearer, the longer they take, and both together must be within the tolerance."""
+
+near = 0.5
+"""How far beyond the lower of two factors that failed an estimate counts, over their distance, in 1/F: far above the limit a mass fails in other modes."""
+
+
+class Bracket:
+	"""Divisors of strength between which the limit lies: *stable* and *failed*.
+
+	Where a body slides, the force that it lacks to stand is linear in tan φ/F and c/F: the two lowest factors that failed tell by a straight line in 1/F where it is zero, if the same body moved
+	farthest in both. A trial on either side of this estimate ends the search if it is right. Where it is not the bracket is halved next.
+
+	:param float tolerance: width over the factor that is asked for
+	:param float most: largest factor to try
+	"""
+
+	def __init__(self, tolerance, most):
+		self.tolerance, self.most = tolerance, most
+		self.stable, self.failed = 1.0, math.inf
+		self._lacks = []
+		"""(1/F, force that was missing, body) of trials that failed."""
+		self._expected = None
+		"""Whether the trial that was asked for last should stand, by the estimate; None: that was no estimate."""
+		self._wrong = False
+
+	@property
+	def isNarrow(self):
+		return self.failed / self.stable - 1 <= self.tolerance
+
+	@property
+	def halvings(self):
+		"""Trials until it is narrow, if each halves it."""
+		wide = self.failed / self.stable if math.isfinite(self.failed) else growth
+		return (not math.isfinite(self.failed)) + max(0, math.ceil(math.log2((wide - 1) / self.tolerance)))
+
+	def next(self):
+		"""Factor of the next trial."""
+		self._expected = None
+		if math.isinf(self.failed):
+			return min(growth * self.stable, self.most)
+		limit = None if self._wrong else self._estimate()
+		self._wrong = False
+		if limit is not None:
+			low, high = limit * (1 - beside * self.tolerance), limit * (1 + beside * self.tolerance)
+			for factor, stands in ((low, True), (high, False)):
+				if self.stable < factor < self.failed:
+					self._expected = stands
+					return factor
+		return (self.stable + self.failed) / 2
+
+	def tell(self, factor, stands, lacks=0.0, body=None):
+		"""The outcome of a trial.
+
+		:param float lacks: of one that failed: force that the body lacked which moved farthest, over any constant measure
+		:param body: which that was
+		"""
+		if stands:
+			self.stable = max(self.stable, factor)
+		else:
+			self.failed = min(self.failed, factor)
+			self._lacks.append((1 / factor, lacks, body))
+		self._wrong = self._expected not in (None, stands)
+
+	def _estimate(self):
+		if len(self._lacks) < 2:
+			return None
+		(x1, y1, body1), (x2, y2, body2) = sorted(self._lacks, key=lambda one: one[0])[-2:]  # of the lowest factors
+		if body1 != body2 or not y1 > y2 > 0 or y2 / (y1 - y2) > near:
+			return None
+		limit = 1 / (x2 + y2 * (x2 - x1) / (y1 - y2))
+		return limit if self.stable < limit < self.failed else None
