@@ -127,7 +127,7 @@ def testReadmeIsShortAndHasTheCommandsOfContinuousIntegration():
 	shell = [body for _, kind, body in fence.findall(readme.read_text()) if kind == 'sh']
 	commands = [line.split('#')[0].strip() for body in shell for line in body.splitlines()]
 	assert commands == ['./run demo', './run test']
-	assert '/../run" test' in (project / '.ci/run').read_text()
+	assert '/run" test "$@"' in (project / '.ci/run').read_text()
 
 
 def testIndexHasEveryPage():
