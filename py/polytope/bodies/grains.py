@@ -16,6 +16,8 @@ __all__ = ['cloud', 'grains', 'randomGrain']
 
 curveError = 0.01
 """Deviation from the sieve curve, over the whole mass, above which a sample is refused."""
+inMillimetres = 2
+"""Opening [m] of the largest sieve above which the curve's sizes were perhaps meant in mm: no sieve is so large."""
 mostGrains = 10_000_000
 """Of one call: of so many kilograms a script asks by a mistake in its units."""
 tries = 500
@@ -85,6 +87,8 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, shapes
 	off = np.abs(masses.cumsum() - float(mass) * np.array(passing)).max() / float(mass)
 	if off > curveError:
 		heavy = f'a grain of {sizes[-1]:.3g} m has about {density * sizes[-1] ** 3 / 2:.2g} kg'
+		if sizes[-1] > inMillimetres:
+			heavy += ' (sizes are in m: were mm meant?)'
 		raise ValueError(f'mass: {float(mass):.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %): {heavy}; take more')
 	return made
 

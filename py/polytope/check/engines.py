@@ -16,6 +16,7 @@ from yade import (
 	QuietBoundary,
 	Sphere,
 	TriaxialStressController,
+	VTKRecorder,
 )
 
 from ..bonding.bolting import removedBolts
@@ -26,7 +27,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface, recorders):
 		yield from one(scene)
 
 
@@ -166,3 +167,12 @@ def unitOfSurface(scene):
 		models = {one.contactModel for one in loop.geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)}
 		for seen, advice in wrongUnit(models, stiffnessesPerArea([loop])):
 			yield 'damping and energy', seen, advice
+
+
+def recorders(scene):
+	"""YADE's recorder knows spheres, boxes and facets; by default contacts of spheres with each other alone (skipFacetIntr)."""
+	if not any(isinstance(body.shape, Polytope) for body in scene.bodies):
+		return
+	if any({'intr', 'all'} & set(recorder.recorders) for recorder in scene.those(VTKRecorder)):
+		seen = "YADE's VTKRecorder writes no polytopes, and with 'intr' the contacts of spheres with each other alone"
+		yield 'recorder', seen, "PolytopeVTKRecorder(fileName='output/', recorders=['bodies', 'contacts']), beside it or in its place"

@@ -25,8 +25,8 @@ half = 0.5
 """Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
 
 
-deep = 0.3
-"""Overlap over the smaller inscribed diameter above which two bodies were placed into each other: their contact shoots them apart."""
+deep = 0.1
+"""Overlap over the smaller inscribed diameter, some ten times what is usual, above which two bodies were placed into each other: their contact shoots them apart."""
 
 larger = 2.0
 """Circumscribed radius over another body's above which the other is looked for anywhere in the body, not about its middle alone."""

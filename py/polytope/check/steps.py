@@ -28,6 +28,9 @@ usual, safe = 0.2, 1.0
 yadesDt = 1e-8
 """YADE's own O.dt, until something sets it [s]."""
 
+forgotten = 0.1
+"""Share of the usual step below which YADE's own was not meant: somebody who wants so many steps would have set another number."""
+
 
 def stepFindings(scene):
 	for one in (steppers, timeStep, emptyAtFirst, nothingMoves, farInAStep, turningUnnoticed):
@@ -71,6 +74,9 @@ def timeStep(scene):
 	if limit is not None and dt > safe * limit:
 		share = dt / float(limit)
 		seen = f"O.dt is {dt:.3g} s, {share:.2g} of the largest step that is stable for any heap (YADE's PWaveTimeStep is for spheres)"
+		yield 'time step', seen, f'{remedy}, or O.dt = {usual * float(limit):.2g} (polytope.stableTimeStep({usual}))'
+	elif limit is not None and dt == yadesDt and dt < forgotten * usual * limit:
+		seen = f'O.dt is {dt:.1g} s, as YADE begins, and nothing sets it: {usual * float(limit) / dt:.2g} times as many steps as are needed'
 		yield 'time step', seen, f'{remedy}, or O.dt = {usual * float(limit):.2g} (polytope.stableTimeStep({usual}))'
 
 

@@ -82,6 +82,8 @@ def testNumbersFollowTheMasses():
 
 
 def testTooFewGrainsForTheCurveAreRefused():
+	with pytest.raises(ValueError, match=r'^mass: .* too few grains .*\(sizes are in m: were mm meant\?\); take more'):
+		polytope.grains([(31.5, 0), (63, 1)], mass=3, seed=1)
 	with pytest.raises(ValueError, match=r'^mass: .* too few grains .*: a grain of 0.016 m has about 0.0053 kg; take more'):
 		polytope.grains(curve, 0.001, seed=1)
 	with pytest.raises(ValueError, match=r'a grain of 16 m has about 5.3e\+06 kg'):  # a curve in millimetres
