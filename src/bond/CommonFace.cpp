@@ -2,6 +2,7 @@
 #include "bond/CommonFace.hpp"
 
 #include "bond/BondTolerances.hpp"
+#include "shape/Rings.hpp"
 #include "shear/ContactOutline.hpp"
 
 #include <algorithm>
@@ -50,51 +51,18 @@ namespace {
 	/// What of a convex ring lies left of the line from `from` to `to`.
 	Ring leftOf(const Ring& ring, const Vector2& from, const Vector2& to)
 	{
-		Ring       kept;
-		const auto side = [&](const Vector2& x) { return cross(to - from, x - from); };
-		for (std::size_t k = 0; k < ring.size(); ++k) {
-			const Vector2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-			const Real     atA = side(a), atB = side(b);
-			if (atA >= 0) kept.push_back(a);
-			if ((atA > 0 && atB < 0) || (atA < 0 && atB > 0)) kept.push_back(a + atA / (atA - atB) * (b - a));
-		}
+		Ring kept;
+		keepAbove(ring, [&](const Vector2& x) { return cross(to - from, x - from); }, kept);
 		return kept;
 	}
 
-	Real areaOf(const Ring& ring)
-	{
-		Real twice = 0;
-		for (std::size_t k = 2; k < ring.size(); ++k)
-			twice += cross(ring[k - 1] - ring[0], ring[k] - ring[0]);
-		return twice / 2;
-	}
-
-	Vector2 centroidOf(const Ring& ring, const Real& area)
-	{
-		Vector2 sum = Vector2::Zero();
-		for (std::size_t k = 2; k < ring.size(); ++k)
-			sum += cross(ring[k - 1] - ring[0], ring[k] - ring[0]) * (ring[k - 1] + ring[k] - 2 * ring[0]);
-		return ring[0] + sum / (6 * area);
-	}
-
-	/// ∫ y², ∫ y z and ∫ z² over a ring about the origin.
-	Vector3 secondMoments(const Ring& ring)
-	{
-		Vector3 sum = Vector3::Zero();
-		for (std::size_t k = 0; k < ring.size(); ++k) {
-			const Vector2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-			sum += cross(a, b)
-			        * Vector3(a[0] * a[0] + a[0] * b[0] + b[0] * b[0],
-			                (a[0] * b[1] + 2 * a[0] * a[1] + 2 * b[0] * b[1] + b[0] * a[1]) / 2,
-			                a[1] * a[1] + a[1] * b[1] + b[1] * b[1]);
-		}
-		return sum / 12;
-	}
+	OutlineMoments momentsOf(const Ring& ring) { return polytope::momentsOf(ring.data(), int(ring.size())); }
 
 	/// Turns u, v and the ring to the principal axes of the ring's area.
 	void turnToPrincipalAxes(CommonFace& face, Ring& ring, Vector3& u, Vector3& v)
 	{
-		Vector3 moments = secondMoments(ring);
+		OutlineMoments now      = momentsOf(ring);
+		const Real(&moments)[3] = now.second;
 		// of a square or circle all axes are principal: as they are
 		const Real difference = moments[0] - moments[2], mixed = 2 * moments[1], size = moments[0] + moments[2];
 		if (abs(mixed) > tolerance::isotropicArea * size || abs(difference) > tolerance::isotropicArea * size) {
@@ -104,7 +72,7 @@ namespace {
 			v                   = other;
 			for (Vector2& x : ring)
 				x = Vector2(c * x[0] + s * x[1], c * x[1] - s * x[0]);
-			moments = secondMoments(ring);
+			now = momentsOf(ring);
 		}
 		face.second = { moments[0], moments[2] };
 	}
@@ -127,13 +95,14 @@ std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape&
 			Ring          ring = seen(face1, first, origin, u, v);
 			Ring          clip = seen(face2, second, origin, u, v);
 			std::reverse(clip.begin(), clip.end());
-			const Real smaller = std::min(areaOf(ring), areaOf(clip));
+			const Real smaller = std::min(momentsOf(ring).area, momentsOf(clip).area);
 			for (std::size_t k = 0; k < clip.size() && ring.size() > 2; ++k)
 				ring = leftOf(ring, clip[k], clip[(k + 1) % clip.size()]);
-			common.area = ring.size() > 2 ? areaOf(ring) : Real(0);
+			const OutlineMoments moments = momentsOf(ring);
+			common.area                  = moments.area;
 			if (!(common.area > tolerance::leastBondArea * smaller)) continue;
 
-			const Vector2 middle = centroidOf(ring, common.area);
+			const Vector2 middle = moments.centroid;
 			const Vector3 point  = middle[0] * u + middle[1] * v; // to both faces along the normal
 			const Real    to1    = (face1.offset - face1.normal.dot(point)) / face1.normal.dot(normal),
 			           to2       = (face2.offset - face2.normal.dot(point)) / face2.normal.dot(normal);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/FiniteJoint.hpp"
 
+#include "shape/Rings.hpp"
+
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/Numbers.hpp"
 
@@ -80,21 +82,13 @@ namespace {
 
 Real areaOfPolygon(const Polygon& polygon, const Vector3& normal)
 {
-	Real twice = 0;
-	for (std::size_t k = 2; k < polygon.size(); ++k)
-		twice += normal.dot((polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]));
-	return twice / 2;
+	return normal.dot(areaVector(polygon.size(), [&](std::size_t k) -> const Vector3& { return polygon[k]; }));
 }
 
 Polygon clipped(const Polygon& polygon, const Plane& halfSpace)
 {
 	Polygon part;
-	for (std::size_t k = 0; k < polygon.size(); ++k) {
-		const Vector3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-		const Real     above = halfSpace.normal.dot(a) - halfSpace.offset, next = halfSpace.normal.dot(b) - halfSpace.offset;
-		if (above <= 0) part.push_back(a);
-		if ((above < 0 && next > 0) || (above > 0 && next < 0)) part.push_back(a + Real(above / (above - next)) * (b - a));
-	}
+	keepAbove(polygon, [&](const Vector3& x) { return Real(halfSpace.offset - halfSpace.normal.dot(x)); }, part);
 	if (part.size() < 3) part.clear();
 	return part;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape/WaterPressure.hpp"
 
+#include "shape/Rings.hpp"
+
 #include <algorithm>
 
 namespace polytope {
@@ -14,15 +16,7 @@ namespace {
 	void keepWhere(const Real& value, const Vector3& slope, ClippedFace& face)
 	{
 		face.rest.clear();
-		const std::size_t count = face.corners.size();
-		for (std::size_t k = 0; k < count; ++k) {
-			const Vector3& here  = face.corners[k];
-			const Vector3& next  = face.corners[k + 1 < count ? k + 1 : 0];
-			const Real     atOne = value + slope.dot(here), atOther = value + slope.dot(next);
-			if (atOne >= 0) face.rest.push_back(here);
-			if ((atOne > 0 && atOther < 0) || (atOne < 0 && atOther > 0))
-				face.rest.push_back(here + atOne / (atOne - atOther) * (next - here));
-		}
+		keepAbove(face.corners, [&](const Vector3& x) { return Real(value + slope.dot(x)); }, face.rest);
 		face.corners.swap(face.rest);
 	}
 

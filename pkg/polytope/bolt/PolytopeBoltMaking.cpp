@@ -8,7 +8,8 @@
 
 #include "bolt/PolytopeBolts.hpp"
 #include "host/CheckedAttributes.hpp"
-#include "shape/Polytope.hpp"
+#include "host/PartsOfBodies.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 #include <map>
 
@@ -73,15 +74,14 @@ namespace {
 		const Real                         length = line.norm();
 		std::vector<polytope::BoltPassage> found;
 		for (const auto& body : *scene.bodies) {
-			const auto* shape = body ? dynamic_cast<const Polytope*>(body->shape.get()) : nullptr;
-			if (!shape || !shape->convex()) continue;
+			const Polytope* shape = body ? polytopeOf(*body) : nullptr;
+			if (!shape) continue;
 			const State&   state = *body->state;
 			const Vector3r apart = state.pos - bolt.head;
 			if (shape->dimension == 3 && (apart - direction * direction.dot(apart)).norm() > shape->convex()->boundingRadius())
 				continue;
-			const int  owner  = body->isClumpMember() ? body->clumpId : body->id;
-			const auto inside = polytope::passageThrough(
-			        { *shape->convex(), state.pos, state.ori.toRotationMatrix() }, owner, bolt.head, direction, length);
+			const int  owner  = moverOf(*body, scene).id;
+			const auto inside = polytope::passageThrough(placed(*shape->convex(), state), owner, bolt.head, direction, length);
 			if (!inside) continue;
 			if (shape->dimension == 2 && math::abs(line[2]) > polytope::tolerance::leastPassage * length)
 				refuseBolt("head, end: a bolt through polygons must lie in their plane, with the same z at both");

@@ -15,6 +15,21 @@ void PolytopeBond::adoptBodies(const BodyContainer& bodies, bool anew)
 	body2_.adopt(id2, bodies, anew);
 }
 
+void PolytopeBond::takeArea(const polytope::CommonFace& face)
+{
+	area          = face.area;
+	secondMoments = face.second;
+	corners.clear();
+	for (const polytope::Vector2& x : face.corners)
+		corners.push_back(Vector3r(0, x[0], x[1]));
+}
+
+void PolytopeBond::attach(int which, const State& state, const Vector3r& shift, const Vector3r& where, const Quaternionr& axes)
+{
+	(which == 1 ? point1 : point2) = state.ori.conjugate() * (where - state.pos - shift);
+	(which == 1 ? frame1 : frame2) = (state.ori.conjugate() * axes).normalized();
+}
+
 polytope::BondMotion PolytopeBond::follow(const State& state1, const State& state2, const Vector3r& shift)
 {
 	const Vector3r             to1 = state1.ori * point1, to2 = state2.ori * point2;

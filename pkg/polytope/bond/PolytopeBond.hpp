@@ -4,6 +4,7 @@
 #include "bond/AttachedBody.hpp"
 
 #include <src/bond/BondSprings.hpp>
+#include <src/bond/CommonFace.hpp>
 
 namespace yade {
 
@@ -19,6 +20,10 @@ public:
 		return Vector3r(twistingStiffness * (secondMoments[0] + secondMoments[1]), bendingStiffness * secondMoments[1],
 		        bendingStiffness * secondMoments[0]);
 	}
+	/// Area, moments and corners of the face.
+	void takeArea(const polytope::CommonFace& face);
+	/// Its point and its axes are these in the world, where body `which`, 1 or 2, is now, moved by `shift`.
+	void attach(int which, const State& state, const Vector3r& shift, const Vector3r& point, const Quaternionr& axes);
 	/// Sets force, moment, energy, their arms and the stresses from where the bodies are, body 2 in the period of body 1 by `shift`.
 	polytope::BondMotion follow(const State& state1, const State& state2, const Vector3r& shift);
 	/// From now on its fibres bear no more than the tensile strength each (src/bond/TensionFibres.hpp).

@@ -6,13 +6,16 @@
 
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
+#include <src/neighbours/BoxGrid.hpp>
 
 #include "bonding/PolytopeBonds.hpp"
 #include "host/CheckedAttributes.hpp"
+#include "host/PartsOfBodies.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
 
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -26,24 +29,16 @@ namespace {
 		Real                         radius;
 	};
 
-	bool movesByItself(const Body& body, const Scene& scene)
-	{
-		if (body.isClumpMember() && scene.bodies->exists(body.clumpId)) return (*scene.bodies)[body.clumpId]->isDynamic();
-		return body.isDynamic();
-	}
-
 	bool mayBeBonded(const Bondable& one, const Bondable& other)
 	{
-		if (one.shape->dimension() != other.shape->dimension()) return false;
-		return !one.body->isClumpMember() || one.body->clumpId != other.body->clumpId;
+		return one.shape->dimension() == other.shape->dimension() && !inOneClump(*one.body, *other.body);
 	}
 
 	std::vector<Bondable> bondablesOf(const std::vector<int>& ids, const Scene& scene)
 	{
 		std::vector<Bondable> all;
 		const auto            add = [&](const Body& body) {
-                        const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
-                        if (shape && shape->convex()) all.push_back({ &body, shape->convex().get(), shape->convex()->boundingRadius() });
+                        if (const auto* shape = convexShapeOf(body)) all.push_back({ &body, shape, shape->boundingRadius() });
 		};
 		if (ids.empty()) {
 			for (const auto& body : *scene.bodies)
@@ -54,34 +49,61 @@ namespace {
 		return all;
 	}
 
-	/// Calls visit(i, j, shift by cells) for pairs whose balls are within the gap.
-	template <class Visit> void forNeighbours(std::vector<Bondable>& all, const Scene& scene, const Real& gap, const Visit& visit)
+	/// A box about its ball and half of the gap, `at` its centre; corners rounded outwards.
+	polytope::BoxGrid::Box boxOf(const Bondable& one, const Vector3r& at, const Real& gap, std::size_t number)
 	{
-		const auto low  = [&](const Bondable& one) { return one.body->state->pos[0] - one.radius; };
-		const auto near = [&](const Bondable& a, const Bondable& b, const Vector3r& shift) {
-			const Real reach = a.radius + b.radius + gap;
-			return (b.body->state->pos + shift - a.body->state->pos).squaredNorm() <= reach * reach;
+		constexpr double       far = std::numeric_limits<double>::infinity();
+		polytope::BoxGrid::Box box;
+		for (int k = 0; k < 3; ++k) {
+			box.low[std::size_t(k)]  = std::nextafter(double(at[k] - one.radius - gap / 2), -far);
+			box.high[std::size_t(k)] = std::nextafter(double(at[k] + one.radius + gap / 2), far);
+		}
+		box.id = std::int32_t(number);
+		return box;
+	}
+
+	/// Calls visit(a, b, shift of b by cells) for pairs whose balls are within the gap.
+	template <class Visit> void forNeighbours(const std::vector<Bondable>& all, const Scene& scene, const Real& gap, const Visit& visit)
+	{
+		// all in one period, each in the cells around it
+		const auto cellOf = [&](const Bondable& one) {
+			Vector3i cell = Vector3i::Zero();
+			if (!scene.isPeriodic) return cell;
+			const Vector3r place = scene.cell->hSize.inverse() * one.body->state->pos;
+			for (int k = 0; k < 3; ++k)
+				cell[k] = int(math::floor(place[k]));
+			return cell;
 		};
-		std::sort(all.begin(), all.end(), [&](const Bondable& a, const Bondable& b) { return low(a) < low(b); });
-		for (std::size_t i = 0; i < all.size(); ++i)
-			for (std::size_t j = i + 1; j < all.size(); ++j) {
-				if (!scene.isPeriodic) {
-					if (low(all[j]) > low(all[i]) + 2 * all[i].radius + gap) break;
-					if (near(all[i], all[j], Vector3r::Zero())) visit(all[i], all[j], Vector3i(Vector3i::Zero()));
-					continue;
-				}
-				const Vector3r cells = scene.cell->hSize.inverse() * (all[i].body->state->pos - all[j].body->state->pos);
-				for (int n = 0; n < 27; ++n) {
-					const Vector3i by(int(math::round(cells[0])) + n % 3 - 1,
-					        int(math::round(cells[1])) + n / 3 % 3 - 1, int(math::round(cells[2])) + n / 9 - 1);
-					if (near(all[i], all[j], scene.cell->intrShiftPos(by))) visit(all[i], all[j], by);
-				}
-			}
+		const auto shiftBy = [&](const Vector3i& cells) {
+			return scene.isPeriodic ? scene.cell->intrShiftPos(cells) : Vector3r(Vector3r::Zero());
+		};
+		std::vector<polytope::BoxGrid::Box> boxes;
+		for (std::size_t k = 0; k < all.size(); ++k)
+			boxes.push_back(boxOf(all[k], all[k].body->state->pos - shiftBy(cellOf(all[k])), gap, k));
+		polytope::BoxGrid grid;
+		grid.reset(boxes);
+		const int around = scene.isPeriodic ? 1 : 0;
+		for (std::size_t k = 0; k < all.size(); ++k) {
+			const Bondable& b    = all[k];
+			const Vector3i  back = -cellOf(b);
+			Vector3i        by;
+			for (by[0] = -around; by[0] <= around; ++by[0])
+				for (by[1] = -around; by[1] <= around; ++by[1])
+					for (by[2] = -around; by[2] <= around; ++by[2]) {
+						const Vector3r moved = b.body->state->pos + shiftBy(back + by);
+						grid.forOverlaps(boxOf(b, moved, gap, k), [&](const polytope::BoxGrid::Box& other) {
+							if (std::size_t(other.id) >= k) return;
+							const Bondable& a     = all[std::size_t(other.id)];
+							const Vector3i  cells = back + by + cellOf(a);
+							const Real      reach = a.radius + b.radius + gap;
+							const Vector3r  way   = b.body->state->pos + shiftBy(cells) - a.body->state->pos;
+							if (way.squaredNorm() <= reach * reach) visit(a, b, cells);
+						});
+					}
+		}
 	}
 
 	[[noreturn]] void refuseBond(const std::string& message) { throw std::invalid_argument(message); }
-
-	Real inSeries(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
 
 	/// Those of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
 	void takeStrengths(PolytopeBond& bond, const RockJointMat* m1, const RockJointMat* m2)
@@ -114,7 +136,7 @@ namespace {
 				if (!a.stiffnessPerArea || !b.stiffnessPerArea)
 					refuseBond(std::string(name)
 					        + ": must be given per area [Pa/m], that of the RockJointMat is per contact [N/m]");
-				return inSeries(a.*of, b.*of);
+				return stiffnessInSeries(a.*of, b.*of);
 			});
 		};
 		stiffness(bond.normalStiffness, "normalStiffness", &Mat::normalStiffness);
@@ -151,21 +173,15 @@ namespace {
 	shared_ptr<PolytopeBond> bondAt(
 	        const polytope::CommonFace& face, const PolytopeBond& pattern, const Body& body1, const Body& body2, const Vector3r& shift)
 	{
-		auto              bond   = shared_ptr<PolytopeBond>(new PolytopeBond(pattern));
-		const State &     state1 = *body1.state, &state2 = *body2.state;
-		const Quaternionr frame(face.axes);
-		bond->id1           = body1.id;
-		bond->id2           = body2.id;
-		bond->point         = face.centroid;
-		bond->point1        = state1.ori.conjugate() * (face.centroid - state1.pos);
-		bond->point2        = state2.ori.conjugate() * (face.centroid - state2.pos - shift);
-		bond->frame1        = (state1.ori.conjugate() * frame).normalized();
-		bond->frame2        = (state2.ori.conjugate() * frame).normalized();
-		bond->area          = face.area;
-		bond->secondMoments = face.second;
-		bond->overlap       = math::max(-face.gap, Real(0));
-		for (const polytope::Vector2& x : face.corners)
-			bond->corners.push_back(Vector3r(0, x[0], x[1]));
+		auto              bond = shared_ptr<PolytopeBond>(new PolytopeBond(pattern));
+		const Quaternionr axes(face.axes);
+		bond->id1 = body1.id;
+		bond->id2 = body2.id;
+		bond->takeArea(face);
+		bond->attach(1, *body1.state, Vector3r::Zero(), face.centroid, axes);
+		bond->attach(2, *body2.state, shift, face.centroid, axes);
+		bond->point   = face.centroid;
+		bond->overlap = math::max(-face.gap, Real(0));
 		takeFromMaterials(*bond, body1, body2);
 		return bond;
 	}
@@ -177,20 +193,19 @@ long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Rea
 	checkPattern(pattern, angle);
 	Scene& where = *Omega::instance().getScene();
 	endErased(where);
-	auto                                  all = bondablesOf(ids, where);
+	const auto                            all = bondablesOf(ids, where);
 	std::vector<shared_ptr<PolytopeBond>> found;
 	forNeighbours(all, where, math::max(gap, Real(0)), [&](const Bondable& a, const Bondable& b, const Vector3i& cells) {
 		// fixed bodies are moved by a script, if at all: they are bonded if it names them
-		if (ids.empty() && !movesByItself(*a.body, where) && !movesByItself(*b.body, where)) return;
+		if (ids.empty() && isFixed(*a.body, where) && isFixed(*b.body, where)) return;
 		if (!mayBeBonded(a, b) || joins(a.body->id, b.body->id)) return;
 		const bool      ordered = a.body->id < b.body->id;
 		const Bondable &one = ordered ? a : b, &two = ordered ? b : a;
 		const Vector3i  by     = ordered ? cells : Vector3i(-cells);
 		const Vector3r  shift  = where.isPeriodic ? where.cell->intrShiftPos(by) : Vector3r(Vector3r::Zero());
 		const Real      within = gap >= 0 ? gap : Real(polytope::tolerance::touchingFaces) * math::min(one.radius, two.radius);
-		const State &   state1 = *one.body->state, &state2 = *two.body->state;
-		for (const polytope::CommonFace& face : polytope::commonFaces({ *one.shape, state1.pos, state1.ori.toRotationMatrix() },
-		             { *two.shape, state2.pos + shift, state2.ori.toRotationMatrix() }, within, angle)) {
+		for (const polytope::CommonFace& face : polytope::commonFaces(
+		             placed(*one.shape, *one.body->state), placed(*two.shape, *two.body->state, shift), within, angle)) {
 			found.push_back(bondAt(face, pattern, *one.body, *two.body, shift));
 			found.back()->cellDist = by;
 		}

@@ -16,12 +16,7 @@ Real sizeOf(const Shape& shape)
 	return convex.dimension() == 2 ? math::sqrt(convex.mass().volume / convex.thickness()) / 2 : math::cbrt(convex.mass().volume) / 2;
 }
 
-Real sizeIfMoved(const Body& body, const Scene& scene)
-{
-	const bool  part  = body.isClumpMember() && scene.bodies->exists(body.clumpId);
-	const Body& mover = part ? *(*scene.bodies)[body.clumpId] : body;
-	return isMovedByForces(mover) ? sizeOf(*body.shape) : Real(0);
-}
+Real sizeIfMoved(const Body& body, const Scene& scene) { return isMovedByForces(moverOf(body, scene)) ? sizeOf(*body.shape) : Real(0); }
 
 ContactSizes contactSizes(const Body& body1, const Body& body2, const Scene& scene)
 {

@@ -3,6 +3,7 @@
 
 #include "contact/PieceTolerances.hpp"
 #include "host/Partners.hpp"
+#include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 
 #include <lib/high-precision/Constants.hpp>
@@ -35,7 +36,7 @@ namespace {
 		forPartners(sphere, piece.id, scene, [&](const Body& other, const Vector3r& shift) {
 			const auto* polytope = dynamic_cast<const Polytope*>(other.shape.get());
 			if (!polytope || !polytope->convex()) return;
-			if (other.isClumpMember() && other.clumpId == sphere.clumpId) return; // they never touch
+			if (inOneClump(other, sphere)) return; // they never touch
 			const polytope::ConvexShape& solid  = *polytope->convex();
 			const Vector3r               centre = other.state->pos + shift - sphere.state->pos;
 			if (centre.norm() > radius + solid.boundingRadius()) return;

@@ -61,19 +61,6 @@ bool contains(const Planes& planes, const Vector3r& point)
 	return !planes.empty();
 }
 
-bool isFixed(const Body& body, Scene& scene)
-{
-	if (!body.isClumpMember()) return !body.isDynamic();
-	const shared_ptr<Body>& clump = Body::byId(body.clumpId, &scene);
-	return clump && !clump->isDynamic();
-}
-
-bool rigidTogether(const Body& one, const Body& other, Scene& scene)
-{
-	if (one.isClumpMember() && other.isClumpMember() && one.clumpId == other.clumpId) return true;
-	return isFixed(one, scene) && isFixed(other, scene);
-}
-
 Real flushStep(const TouchingPair& pair)
 {
 	const Real larger = math::max(pair.convex[0]->boundingRadius(), pair.convex[1]->boundingRadius());

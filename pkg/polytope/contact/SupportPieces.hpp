@@ -8,6 +8,7 @@
 #include <src/shape/PlacedShape.hpp>
 
 #include "host/Partners.hpp"
+#include "host/PartsOfBodies.hpp"
 
 #include <vector>
 
@@ -52,15 +53,6 @@ void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vecto
 
 /// Whether a point lies in all half-spaces.
 bool contains(const Planes& planes, const Vector3r& point);
-
-/// Whether it does not move: a body that is not dynamic, or a member of a clump that is not.
-bool isFixed(const Body& body, Scene& scene);
-
-/// Whether two bodies move as one, or not at all: they never touch.
-bool rigidTogether(const Body& one, const Body& other, Scene& scene);
-
-/// Fixed, or a member of a clump: it may be a piece of a larger solid.
-inline bool isPiece(const Body& body) { return body.isClumpMember() || !body.isDynamic(); }
 
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);

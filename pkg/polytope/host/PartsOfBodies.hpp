@@ -5,8 +5,29 @@
 #include <core/Clump.hpp>
 #include <core/Scene.hpp>
 
-/// Bodies that move by themselves, and the parts of clumps.
+/// Which bodies move, and what moves with what: bodies by themselves, and the parts of clumps.
 namespace yade {
+
+/// The body itself, or the clump that it is a part of.
+inline const Body& moverOf(const Body& body, const Scene& scene)
+{
+	return body.isClumpMember() && scene.bodies->exists(body.clumpId) ? *(*scene.bodies)[body.clumpId] : body;
+}
+
+/// Whether both are parts of one clump.
+inline bool inOneClump(const Body& one, const Body& other) { return one.isClumpMember() && one.clumpId == other.clumpId; }
+
+/// Whether it does not move: a body that is not dynamic, or a part of a clump that is not.
+inline bool isFixed(const Body& body, const Scene& scene) { return !moverOf(body, scene).isDynamic(); }
+
+/// Whether two bodies move as one, or not at all: they never touch.
+inline bool rigidTogether(const Body& one, const Body& other, const Scene& scene)
+{
+	return inOneClump(one, other) || (isFixed(one, scene) && isFixed(other, scene));
+}
+
+/// Fixed, or a part of a clump: it may be a piece of a larger solid.
+inline bool isPiece(const Body& body) { return body.isClumpMember() || !body.isDynamic(); }
 
 /// Whether forces move the body; members of clumps are moved by their clump.
 inline bool isMovedByForces(const Body& body) { return body.state && body.isDynamic() && !body.isClumpMember(); }

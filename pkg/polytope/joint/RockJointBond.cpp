@@ -8,21 +8,15 @@
 // in compression. While all of it is pressed, both are the same.
 #include "joint/RockJointStep.hpp"
 
-#include <optional>
-
 #include <src/bond/BondTolerances.hpp>
 #include <src/bond/CommonFace.hpp>
 
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
+
+#include <optional>
 
 namespace yade {
 namespace {
-
-	const polytope::ConvexShape* convexOf(const Body& body)
-	{
-		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
-		return shape ? shape->convex().get() : nullptr;
-	}
 
 	/// Unstrained where the faces are flush, but for `slide`, the displacement of body 2 along them from there.
 	shared_ptr<PolytopeBond> bondOf(const polytope::CommonFace& face, const Interaction& contact, const State& state1,
@@ -30,19 +24,14 @@ namespace {
 	{
 		auto              bond   = shared_ptr<PolytopeBond>(new PolytopeBond);
 		const Vector3r    normal = face.axes.col(0), half = (face.gap * normal + slide) / 2;
-		const Quaternionr frame(face.axes);
-		bond->id1           = contact.getId1();
-		bond->id2           = contact.getId2();
-		bond->cellDist      = contact.cellDist;
-		bond->point1        = state1.ori.conjugate() * (face.centroid - half - state1.pos);
-		bond->point2        = state2.ori.conjugate() * (face.centroid + half - state2.pos - shift);
-		bond->frame1        = (state1.ori.conjugate() * Quaternionr::FromTwoVectors(normal, face.normal1) * frame).normalized();
-		bond->frame2        = (state2.ori.conjugate() * Quaternionr::FromTwoVectors(normal, -face.normal2) * frame).normalized();
-		bond->area          = face.area;
-		bond->secondMoments = face.second;
+		const Quaternionr axes(face.axes);
+		bond->id1      = contact.getId1();
+		bond->id2      = contact.getId2();
+		bond->cellDist = contact.cellDist;
+		bond->takeArea(face);
+		bond->attach(1, state1, Vector3r::Zero(), face.centroid - half, Quaternionr::FromTwoVectors(normal, face.normal1) * axes);
+		bond->attach(2, state2, shift, face.centroid + half, Quaternionr::FromTwoVectors(normal, -face.normal2) * axes);
 		bond->frictionAngle = 0; // the joint has it
-		for (const polytope::Vector2& x : face.corners)
-			bond->corners.push_back(Vector3r(0, x[0], x[1]));
 		return bond;
 	}
 
@@ -58,13 +47,13 @@ namespace {
 	shared_ptr<PolytopeBond> bondOfFaces(const Interaction& contact, const Body& body1, const Body& body2, const Vector3r& shift,
 	        const Vector3r& normal, const RockJointPhys& phys, const Vector3r& shear)
 	{
-		const auto *shape1 = convexOf(body1), *shape2 = convexOf(body2);
+		const auto *shape1 = convexShapeOf(body1), *shape2 = convexShapeOf(body2);
 		if (!shape1 || !shape2) return nullptr;
 		const State &state1 = *body1.state, &state2 = *body2.state;
 		const Real   touching
 		        = Real(polytope::tolerance::touchingFaces) * math::min(shape1->boundingRadius(), shape2->boundingRadius());
-		const auto                  faces   = polytope::commonFaces({ *shape1, state1.pos, state1.ori.toRotationMatrix() },
-		                           { *shape2, state2.pos + shift, state2.ori.toRotationMatrix() }, touching, polytope::tolerance::facingOfJoints);
+		const auto faces = polytope::commonFaces(
+		        placed(*shape1, state1), placed(*shape2, state2, shift), touching, polytope::tolerance::facingOfJoints);
 		const polytope::CommonFace* largest = nullptr;
 		for (const auto& face : faces)
 			if (face.axes.col(0).dot(normal) > 0 && (!largest || face.area > largest->area)) largest = &face;

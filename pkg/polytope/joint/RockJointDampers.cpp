@@ -6,14 +6,12 @@
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
 
+#include <src/shape/Rings.hpp>
+
+#include "host/PartsOfBodies.hpp"
 #include "joint/RockJointStep.hpp"
 
 namespace yade {
-
-const Body& moverOf(const Body& body, const Scene& scene)
-{
-	return body.isClumpMember() && scene.bodies->exists(body.clumpId) ? *(*scene.bodies)[body.clumpId] : body;
-}
 
 namespace {
 
@@ -25,17 +23,13 @@ namespace {
 			const Vector3r& e = box->extents;
 			return 4 * Vector3r(e[1] * e[2], e[2] * e[0], e[0] * e[1]).dot(direction.cwiseAbs());
 		}
-		const auto* polytope = dynamic_cast<const Polytope*>(&shape);
-		if (!polytope || !polytope->convex()) return 0;
-		const auto& hull = polytope->convex()->polyhedron();
-		Real        four = 0;
-		for (const auto& face : hull.faces)
-			for (std::size_t k = 2; k < face.size(); ++k) {
-				const Vector3r &a = hull.vertices[std::size_t(face[0])], &b = hull.vertices[std::size_t(face[k - 1])],
-				               &c = hull.vertices[std::size_t(face[k])];
-				four += math::abs((b - a).cross(c - a).dot(direction));
-			}
-		return four / 4;
+		const auto* solid = dynamic_cast<const Polytope*>(&shape);
+		if (!solid || !solid->convex()) return 0;
+		const auto& hull  = solid->convex()->polyhedron();
+		Real        twice = 0;
+		for (std::size_t k = 0; k < hull.faces.size(); ++k)
+			twice += math::abs(polytope::faceArea(hull, k).dot(direction));
+		return twice / 2;
 	}
 
 	/// Of a clump; 1: of a body alone.
@@ -57,7 +51,7 @@ namespace {
 	/// s of a contact that had this stiffness when the sum, along its normal, was made.
 	Real partOfSum(Real stiffness, Real sum) { return sum > stiffness ? stiffness / sum : Real(1); }
 
-	bool movesByForces(const Body& mover) { return mover.isDynamic() && mover.state->mass > 0; }
+	bool movesByForces(const Body& mover) { return isMovedByForces(mover) && mover.state->mass > 0; }
 
 	/// What a body of a contact is for the other one.
 	Across across(const Body& body, const Scene& scene)

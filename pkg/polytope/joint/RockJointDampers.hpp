@@ -23,9 +23,6 @@ class RockJointPhys;
 class Scene;
 class StiffnessSums;
 
-/// The body itself, or the clump that it is a part of.
-const Body& moverOf(const Body& body, const Scene& scene);
-
 /// 1/(s₁ m₁) + 1/(s₂ m₂) of a contact between two steps, from the newest sums [1/kg]; 0 where neither body can move.
 Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& normal, const RockJointPhys& phys, const StiffnessSums& sums,
         const Scene& scene);

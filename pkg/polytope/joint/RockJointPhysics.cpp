@@ -15,9 +15,6 @@ YADE_PLUGIN((Ip2_RockJointMat_RockJointMat_RockJointPhys));
 
 namespace {
 
-	/// Joint stiffness of two materials, each giving half of the compliance.
-	Real seriesStiffness(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
-
 	Real residualAngle(const RockJointMat& material)
 	{
 		return material.residualFrictionAngle < 0 ? material.frictionAngle : material.residualFrictionAngle;
@@ -155,8 +152,9 @@ void Ip2_RockJointMat_RockJointMat_RockJointPhys::make(
 	const bool          differ = stiffnessPerArea && m1.stiffnessPerArea != m2.stiffnessPerArea;
 	const RockJointMat &side1 = differ && m1.stiffnessPerArea ? m2 : m1, &side2 = differ && m2.stiffnessPerArea ? m1 : m2;
 	const Real          normal
-	        = of(kn, side1.normalStiffness, side2.normalStiffness, seriesStiffness(side1.normalStiffness, side2.normalStiffness));
-	const Real shear = of(ks, side1.shearStiffness, side2.shearStiffness, seriesStiffness(side1.shearStiffness, side2.shearStiffness));
+	        = of(kn, side1.normalStiffness, side2.normalStiffness, stiffnessInSeries(side1.normalStiffness, side2.normalStiffness));
+	const Real shear
+	        = of(ks, side1.shearStiffness, side2.shearStiffness, stiffnessInSeries(side1.shearStiffness, side2.shearStiffness));
 
 	auto       phys              = boost::make_shared<RockJointPhys>(); // with its counts in one piece of memory
 	const Real angle             = of(frictAngle, m1.frictionAngle, m2.frictionAngle, math::min(m1.frictionAngle, m2.frictionAngle));

@@ -6,7 +6,7 @@
 #include <core/State.hpp>
 
 #include "host/PartsOfBodies.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 #include <algorithm>
 
@@ -15,13 +15,6 @@ namespace yade {
 YADE_PLUGIN((PolytopeWater));
 
 namespace {
-
-	/// Null for bodies of other shapes.
-	const polytope::ConvexShape* convexShapeOf(const Body& body)
-	{
-		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
-		return shape ? shape->convex().get() : nullptr;
-	}
 
 	/// In a divided scene each rank loads its own bodies, of which it hands on the forces; otherwise all.
 	bool isOwn(const Body& body, const Scene& scene)
@@ -79,8 +72,7 @@ polytope::WaterLoad PolytopeWater::loadOn(const Body& body, polytope::ClippedFac
 	const polytope::ConvexShape* const shape = convexShapeOf(body);
 	const std::size_t                  id    = std::size_t(body.id);
 	if (!shape || (someFaces && (id >= wet_.size() || wet_[id].empty()))) return polytope::WaterLoad();
-	const State& state = *body.state;
-	return polytope::waterLoad({ *shape, state.pos, state.ori.toRotationMatrix() }, pieces_, someFaces ? &wet_[id] : nullptr, memory);
+	return polytope::waterLoad(placed(*shape, *body.state), pieces_, someFaces ? &wet_[id] : nullptr, memory);
 }
 
 void PolytopeWater::action()

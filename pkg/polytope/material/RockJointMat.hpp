@@ -94,4 +94,7 @@ private:
 };
 REGISTER_SERIALIZABLE(RockJointMat);
 
+/// Joint stiffness of two materials, each giving half of the compliance.
+inline Real stiffnessInSeries(Real k1, Real k2) { return k1 == k2 ? k1 : 2 * k1 * k2 / (k1 + k2); }
+
 } // namespace yade

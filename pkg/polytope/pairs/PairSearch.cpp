@@ -5,6 +5,7 @@
 
 #include <src/contact/PairApart.hpp>
 
+#include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 
 #include <algorithm>
@@ -122,8 +123,7 @@ bool PairSearch::staysApart(const Body& one, const Body& other) const
 	const auto &reference1 = room_.references()[one.id], &reference2 = room_.references()[other.id];
 	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
 		return false;
-	for (const Body* body : { &one, &other })
-		if (body->isClumpMember() || !body->isDynamic()) return false;
+	if (isPiece(one) || isPiece(other)) return false;
 	// along each axis a body moves by less than its sweep length
 	const Real sweep = math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep),
 	           way   = sweep + math::max(room_.rooms()[one.id], room_.rooms()[other.id]) + reference1.margin + reference2.margin;

@@ -4,7 +4,7 @@
 #include "shape/Construction.hpp"
 
 #include "host/Vectors.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 #include <core/Body.hpp>
 #include <core/Clump.hpp>
@@ -122,11 +122,9 @@ namespace {
 		std::vector<polytope::UnionPart> parts;
 		const Vector3r                   origin = given.at(0)->state->pos; // numbers are small about it
 		for (const auto& body : given) {
-			const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
-			if (!shape || !shape->convex() || shape->dimension != 3) throw std::invalid_argument("parts: must be polyhedra");
-			const State& state = *body->state;
-			parts.push_back(
-			        { { *shape->convex(), state.pos - origin, state.ori.toRotationMatrix() }, state.mass / shape->volume() });
+			const Polytope* const shape = polytopeOf(*body);
+			if (!shape || shape->dimension != 3) throw std::invalid_argument("parts: must be polyhedra");
+			parts.push_back({ placed(*shape->convex(), *body->state, -origin), body->state->mass / shape->volume() });
 		}
 		const auto all = polytope::unionOf(parts);
 		py::list   tensor;

@@ -6,6 +6,7 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 
+#include <src/shape/Rings.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -14,25 +15,11 @@
 #include "joint/RockJointLaw.hpp"
 #include "joint/RockJointPhysics.hpp"
 #include "material/StiffnessRules.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 namespace yade {
 
 namespace {
-
-	const Polytope* polytopeOf(const Body& body)
-	{
-		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
-		return shape && shape->convex() ? shape : nullptr;
-	}
-
-	/// Area vector of a face, outwards.
-	Vector3r areaOf(const std::vector<Vector3r>& vertices, const std::vector<int>& face)
-	{
-		Vector3r twice = Vector3r::Zero();
-		for (std::size_t k = 2; k < face.size(); ++k)
-			twice += (vertices[face[k - 1]] - vertices[face[0]]).cross(vertices[face[k]] - vertices[face[0]]);
-		return twice / 2;
-	}
 
 	/// ∫ r rᵀ dA / A of a face, r from a point in it.
 	Matrix3r secondMoment(const std::vector<Vector3r>& vertices, const std::vector<int>& face, const Vector3r& point)
@@ -54,7 +41,7 @@ namespace {
 		const auto& hull = shape.polyhedron();
 		Real        area = 0;
 		for (std::size_t k = 0; k < hull.faces.size(); ++k)
-			if (hull.planeOfFace[k] >= 0) area = math::max(area, Real(areaOf(hull.vertices, hull.faces[k]).norm()));
+			if (hull.planeOfFace[k] >= 0) area = math::max(area, Real(polytope::faceArea(hull, k).norm()));
 		return area;
 	}
 
@@ -207,7 +194,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	std::array<Real, 3> worst { { 0, 0, 0 } };
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
-		const Vector3r area   = axes * areaOf(hull.vertices, hull.faces[k]);
+		const Vector3r area   = axes * polytope::faceArea(hull, k);
 		Vector3r       middle = Vector3r::Zero();
 		for (int vertex : hull.faces[k])
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());

@@ -15,6 +15,7 @@
 #include "joint/RockJoint.hpp"
 #include "joint/RockJointDampers.hpp"
 #include "joint/RockJointLaw.hpp"
+#include "shape/ShapeOfBody.hpp"
 
 namespace yade {
 
@@ -82,19 +83,12 @@ namespace {
 
 	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
 
-	const polytope::ConvexShape* shapeOf(const Body& body)
-	{
-		const auto* shape = dynamic_cast<const Polytope*>(body.shape.get());
-		return shape ? shape->convex().get() : nullptr;
-	}
-
 	/// Moment per tilt of a pressure over the area seen along the normal, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
 	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
 	{
 		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, normal, reach, dimension);
 		if (!(seen.area > 0)) return Matrix3r::Zero();
-		Matrix3r turn;
-		turn << 0, -normal[2], normal[1], normal[2], 0, -normal[0], -normal[1], normal[0], 0;
+		const Matrix3r turn = polytope::crossMatrix(normal);
 		return kn / seen.area * turn * seen.second * turn.transpose();
 	}
 
@@ -103,8 +97,8 @@ namespace {
 	{
 		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
 		const Real                   force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
-		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : shapeOf(pair.body1);
-		const polytope::ConvexShape* shape2  = shapeOf(pair.body2);
+		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : convexShapeOf(pair.body1);
+		const polytope::ConvexShape* shape2  = convexShapeOf(pair.body2);
 		if (!shape1 || !shape2 || !(geom.penetrationDepth > 0 && force > 0)) return Matrix3r::Zero(); // a sphere's point stays
 		const State &  state1 = *pair.body1.state, &state2 = *pair.body2.state;
 		const bool     wall      = !(shape1->boundingRadius() < std::numeric_limits<Real>::infinity()); // in the world's axes
