@@ -16,7 +16,7 @@ set(plugin_headers
 	contact/ContactCounters.hpp
 	contact/StoredOutline.hpp
 	contact/StoredVertices.hpp
-	host/CheckedAttributes.hpp # PolytopeGeom.hpp: the options of the functor
+	host/FoundInStep.hpp
 	host/Seldom.hpp
 	host/SpringsOfScene.hpp
 	pairs/CandidateMemory.hpp

@@ -65,7 +65,7 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
-	:param geometry: an Ig2_Polytope_Polytope_PolytopeGeom, whose settings the functors of the other pairs get, or a list of all contact
+	:param geometry: an Ig2_Polytope_Polytope_PolytopeGeom, whose settings hold for the contacts of all pairs, or a list of all contact
 	    functors; default the plug-in's default contact
 	:param physics: Ip2 functor or a list of them; default by the materials there are: Ip2_RockJointMat_RockJointMat_RockJointPhys() with
 	    stiffnesses per area for RockJointMat, Ip2_FrictMat_FrictMat_FrictPhys() for FrictMat
@@ -139,15 +139,19 @@ def _shapes(scene):
 
 
 def _geometry(scene, given):
-	"""Contact functors of all pairs of these shapes for which there are any, those of polytopes with the settings of *given*."""
+	"""Contact functors of all pairs of these shapes for which there are any, *given* among them."""
 	if given is not None and type(given) is not Ig2_Polytope_Polytope_PolytopeGeom:
-		return _several(given, IGeomFunctor, 'geometry')
+		functors = _several(given, IGeomFunctor, 'geometry')
+		kinds = [type(functor).__name__ for functor in functors]
+		twice = next((kind for kind in kinds if kinds.count(kind) > 1), None)
+		if twice:
+			raise ValueError(f'geometry: has {twice} twice; all contacts of a scene have the same settings, so one of each pair is enough')
+		return functors
 	shapes = _shapes(scene)
-	settings = {key: value for key, value in given.dict().items() if key != 'label'} if given else {}
 	functors = []
 	if 'Polytope' in shapes:
 		functors.append(given or Ig2_Polytope_Polytope_PolytopeGeom())
-		functors += [getattr(yade, f'Ig2_{name}_Polytope_PolytopeGeom')(**settings) for name in shapes if name != 'Polytope']
+		functors += [getattr(yade, f'Ig2_{name}_Polytope_PolytopeGeom')() for name in shapes if name != 'Polytope']
 	if 'Sphere' in shapes:
 		functors += [getattr(yade, f'Ig2_{name}_Sphere_ScGeom')() for name in shapes if name != 'Polytope']
 	return functors

@@ -23,7 +23,7 @@ from yade import O
 from . import _builds
 from ._timing import meansSoFar, resetTimes, timed
 from .arguments import number, numbersOf
-from .scene.present import geometryFunctors
+from .scene.present import contactSettings, geometryFunctors
 
 __all__ = ['Row', 'TradeoffTable', 'tradeoff']
 
@@ -174,12 +174,15 @@ def answerTo():
 
 def _answer(build, measure, changes, timedSeconds):
 	_load(*build)(**{name: value for name, value in changes.items() if name not in ownNames})
-	for name, functor in ((name, functor) for name in ofTheContact if name in changes for functor in geometryFunctors()):
-		setattr(functor, name, changes[name])
+	named = [name for name in ofTheContact if name in changes]
+	if named and not contactSettings():
+		raise ValueError(f'build: left no Ig2_Polytope_Polytope_PolytopeGeom in O.engines, which {", ".join(named)} would be set in')
+	for name in named:
+		setattr(contactSettings(), name, changes[name])
 	O.dt = step = changes.get('timeStep', float(O.dt)) * changes.get('timeStepFactor', 1)
 	resetTimes()
 	answer = _load(*measure)()
-	lost = [name for name in ofTheContact if name in changes and {getattr(one, name) for one in geometryFunctors()} != {changes[name]}]
+	lost = [name for name in named if not contactSettings() or getattr(contactSettings(), name) != changes[name]]
 	lost += [name for name in ('timeStep', 'timeStepFactor') if name in changes and not math.isclose(float(O.dt), step, rel_tol=1e-9)]
 	if lost:
 		return {'note': f'{", ".join(lost)} not in effect after measure(): O.saveTmp() belongs in measure(), engines and O.dt in build()'}

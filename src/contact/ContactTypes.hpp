@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-/// Input (ContactSettings), memory from step to step (PairMemory), buffers (ContactWorkspace) and output (ContactResult) of a contact
+/// Input (ContactOptions, ContactSettings), memory from step to step (PairMemory), buffers (ContactWorkspace) and output (ContactResult) of a contact
 /// query. Lengths in metres, world axes and from body 1's centre unless said otherwise; the normal points from body 1 to body 2.
 namespace polytope {
 
@@ -64,7 +64,8 @@ struct InternalPlanes {
 
 struct ContactResult;
 
-struct ContactSettings {
+/// What a user chooses, for all pairs of a scene alike.
+struct ContactOptions {
 	ContactModel contactModel = ContactModel::Boon2012;
 	ContactPoint contactPoint = ContactPoint::AnalyticCentre; ///< of Boon2012
 	CentreSolver solver       = CentreSolver::Newton;         ///< of Boon2012
@@ -74,7 +75,15 @@ struct ContactSettings {
 	Real newtonTolerance = tolerance::newton;
 	/// Start from the last query's basis and point, kept in PairMemory.
 	bool warmStart = true;
-	/// Whether to compute the contact section's area and centroid, too (length in 2-D).
+	/// Foundation: also the energy, which takes half as long again; else it is −1.
+	bool energy = true;
+	/// Measure the LP's and the centre's time.
+	bool timed = false;
+};
+
+/// What is asked about one pair, with these options.
+struct ContactSettings : ContactOptions {
+	/// Whether to compute also the contact section's area and centroid (length in 2-D).
 	bool section = false;
 	/// 3-D: also the outline of what the area is of.
 	bool outline = false;
@@ -91,10 +100,9 @@ struct ContactSettings {
 	BoundingPlanes* bounding = nullptr;
 	/// Models with a surface: of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;
-	/// Foundation: also the energy, which takes half as long again; else it is −1.
-	bool energy = true;
-	/// Measure the LP's and the centre's time.
-	bool timed = false;
+
+	ContactSettings() = default;
+	explicit ContactSettings(const ContactOptions& options) : ContactOptions(options) { }
 };
 
 /// What one pair remembers from step to step. Values, no pointers: copied and saved with the interaction. Any value is safe, also of another pair.

@@ -34,28 +34,28 @@ namespace {
 
 } // namespace
 
-std::string faultOf(const ContactSettings& settings)
+std::string faultOf(const ContactOptions& options)
 {
-	if (settings.solver == CentreSolver::Ipopt && !ipoptVersion())
+	if (options.solver == CentreSolver::Ipopt && !ipoptVersion())
 		return "solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
 		       "-DPOLYTOPE_IPOPT=ON";
-	if (!(settings.tolerance >= 0 && settings.tolerance < 1))
+	if (!(options.tolerance >= 0 && options.tolerance < 1))
 		return "tolerance: must be at least 0 and below 1 (a fraction of the smaller body's circumradius)";
 	const Real least = tolerance::rounding, most = tolerance::coarsestNewton;
-	if (!(settings.newtonTolerance >= least && settings.newtonTolerance <= most))
+	if (!(options.newtonTolerance >= least && options.newtonTolerance <= most))
 		return "newtonTolerance: must lie between " + numberText(least) + " (the rounding of this precision's numbers) and "
 		        + numberText(most) + " (a fraction of the overlap's own size)";
-	const Real sum = settings.normalWeight[0] + settings.normalWeight[1];
-	if (!(settings.normalWeight[0] >= 0 && settings.normalWeight[1] >= 0 && sum > 0 && isfinite(sum)))
-		return "normalWeight: must be two finite numbers of at least 0, not both 0";
 	return "";
 }
 
 std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
         const Vector3& centre2, const ContactSettings& settings)
 {
-	std::string fault = faultOf(settings);
+	const std::string fault = faultOf(settings);
 	if (!fault.empty()) return fault;
+	const Real sum = settings.normalWeight[0] + settings.normalWeight[1];
+	if (!(settings.normalWeight[0] >= 0 && settings.normalWeight[1] >= 0 && sum > 0 && isfinite(sum)))
+		return "normalWeight: must be two finite numbers of at least 0, not both 0";
 	const int dimension = shape1.dimension();
 	if (dimension != shape2.dimension()) return "shape2: a polygon and a polyhedron cannot touch; both must have the same dimension";
 	if (!isfinite(shape1.boundingRadius()) && !isfinite(shape2.boundingRadius()))

@@ -10,10 +10,10 @@
 /// ContactSettings::internal are read. For code under development, and for input from outside; not for each query of a loop.
 namespace polytope {
 
-/// A sentence that names the setting that is out of range, or nothing.
-POLYTOPE_API std::string faultOf(const ContactSettings& settings);
+/// A sentence that names the option that is out of range, or nothing.
+POLYTOPE_API std::string faultOf(const ContactOptions& options);
 
-/// A sentence that names the first argument of a query that is not as it must be, or nothing: the settings as above and internal planes that the bodies have; both
+/// A sentence that names the first argument of a query that is not as it must be, or nothing: options as above, weights, and internal planes that the bodies have; both
 /// shapes of one dimension, not both half-spaces; rotations that are rotations (tolerance::orthogonal), in 2-D about z; a finite position.
 /// The memory may be any.
 POLYTOPE_API std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,

@@ -22,7 +22,7 @@ public:
 REGISTER_SERIALIZABLE(RoundedPolytope);
 
 /// The contact of two bodies with margins, whatever their classes.
-class Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom : public Ig2_Polytope_Polytope_PolytopeGeom {
+class Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom : public PolytopeGeomFunctor {
 public:
 	bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override
@@ -40,8 +40,7 @@ public:
 	}
 	FUNCTOR2D(RoundedPolytope, RoundedPolytope);
 	DEFINE_FUNCTOR_ORDER_2D(RoundedPolytope, RoundedPolytope);
-	YADE_CLASS_BASE_DOC(
-	        Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom, Ig2_Polytope_Polytope_PolytopeGeom, "Contact of two rounded polyhedra.");
+	YADE_CLASS_BASE_DOC(Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom, PolytopeGeomFunctor, "Contact of two rounded polyhedra.");
 
 protected:
 	/// Of planes with a margin each; `margin1`: the first body's of both `margins`.

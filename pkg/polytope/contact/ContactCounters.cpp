@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/PolytopeGeom.hpp"
+#include "contact/ContactOptions.hpp"
 
 namespace yade {
 
-ContactCounters& Ig2_Polytope_Polytope_PolytopeGeom::counters()
+ContactCounters& PolytopeGeomFunctor::counters()
 {
 	const int thread = omp_get_thread_num();
 	return counters_[thread < int(counters_.size()) ? thread : 0];
 }
 
-void Ig2_Polytope_Polytope_PolytopeGeom::count(const polytope::ContactResult& result)
+void PolytopeGeomFunctor::count(const polytope::ContactResult& result)
 {
 	ContactCounters& count = counters();
 	++count.pairs;
@@ -21,14 +21,14 @@ void Ig2_Polytope_Polytope_PolytopeGeom::count(const polytope::ContactResult& re
 	count.ipoptSolves += result.ipoptSolved;
 	count.ipoptIterations += result.ipoptIterations;
 	count.surfacesKept += result.surfaceKept;
-	if (timing) {
+	if (ofScene().timing) {
 		count.lpNanoseconds += result.lpNanoseconds;
 		count.centreNanoseconds += result.centreNanoseconds;
 		count.timedPairs += result.newtonIterations > 0 || result.ipoptSolved;
 	}
 }
 
-boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
+boost::python::dict PolytopeGeomFunctor::stats() const
 {
 	ContactCounters sum;
 	for (const ContactCounters& one : counters_) {
@@ -66,7 +66,7 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	all["fallbacks"]        = unanswered - of(ContactStatus::Failed);
 	all["failures"]         = unanswered;
 	all["statuses"]         = statuses;
-	if (timing) {
+	if (Ig2_Polytope_Polytope_PolytopeGeom::orDefault(*Omega::instance().getScene()).timing) {
 		all["timedPairs"]    = sum.timedPairs;
 		all["lpSeconds"]     = 1e-9 * double(sum.lpNanoseconds);
 		all["centreSeconds"] = 1e-9 * double(sum.centreNanoseconds);
@@ -74,7 +74,7 @@ boost::python::dict Ig2_Polytope_Polytope_PolytopeGeom::stats() const
 	return all;
 }
 
-void Ig2_Polytope_Polytope_PolytopeGeom::resetStats()
+void PolytopeGeomFunctor::resetStats()
 {
 	for (ContactCounters& one : counters_)
 		one = ContactCounters();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/MixedPairs.hpp"
 
+#include "contact/ContactOptions.hpp"
 #include "contact/FacetPrism.hpp"
 #include "contact/SphereOnPieces.hpp"
 #include "contact/StiffnessShare.hpp"
@@ -113,7 +114,7 @@ bool Ig2_Sphere_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const
 
 	NearestOfSphere         nearest = nearestOfSphere(*convex, centre2, state2.ori);
 	polytope::ContactResult result;
-	result.inContact     = radius - nearest.distance > tolerance * radius;
+	result.inContact     = radius - nearest.distance > ofScene().tolerance * radius;
 	result.hasGeometry   = true;
 	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
 	const Real share     = result.inContact

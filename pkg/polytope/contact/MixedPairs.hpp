@@ -18,7 +18,7 @@ namespace yade {
 
 // The dispatcher calls with pairs in either order; body 1 is always YADE's shape, body 2 the polytope.
 #define POLYTOPE_MIXED_FUNCTOR(KLASS, SHAPE, DOC)                                                                                          \
-	class KLASS : public Ig2_Polytope_Polytope_PolytopeGeom {                                                                          \
+	class KLASS : public PolytopeGeomFunctor {                                                                                         \
 	public:                                                                                                                            \
 		bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,        \
 		        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override;                             \
@@ -30,7 +30,7 @@ namespace yade {
 		}                                                                                                                          \
 		FUNCTOR2D(SHAPE, Polytope);                                                                                                \
 		DEFINE_FUNCTOR_ORDER_2D(SHAPE, Polytope);                                                                                  \
-		YADE_CLASS_BASE_DOC(KLASS, Ig2_Polytope_Polytope_PolytopeGeom, DOC);                                                       \
+		YADE_CLASS_BASE_DOC(KLASS, PolytopeGeomFunctor, DOC);                                                                      \
 	};                                                                                                                                 \
 	REGISTER_SERIALIZABLE(KLASS);
 

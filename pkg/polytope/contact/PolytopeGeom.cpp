@@ -6,6 +6,7 @@
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
 
+#include "contact/ContactOptions.hpp"
 #include "contact/ContactSizes.hpp"
 #include "contact/InternalFaces.hpp"
 #include "contact/StiffnessShare.hpp"
@@ -18,7 +19,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeGeom)(Ig2_Polytope_Polytope_PolytopeGeom));
+YADE_PLUGIN((PolytopeGeom)(PolytopeGeomFunctor)(Ig2_Polytope_Polytope_PolytopeGeom));
 
 polytope::PairMemory PolytopeGeom::memory() const
 {
@@ -140,7 +141,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, con
 	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
 }
 
-PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Interaction>& c)
+PolytopeGeom& PolytopeGeomFunctor::geometry(const shared_ptr<Interaction>& c)
 {
 	if (!c->geom) {
 		auto geom          = boost::make_shared<PolytopeGeom>(); // with its counts in one piece of memory
@@ -150,31 +151,8 @@ PolytopeGeom& Ig2_Polytope_Polytope_PolytopeGeom::geometry(const shared_ptr<Inte
 	return static_cast<PolytopeGeom&>(*c->geom);
 }
 
-polytope::ContactModel Ig2_Polytope_Polytope_PolytopeGeom::modelFor(StiffnessRule rule) const
-{
-	return byStiffness_ && rule != StiffnessRule::PerArea ? polytope::ContactModel::Spring : settings_.contactModel;
-}
-
-polytope::FaceForce Ig2_Polytope_Polytope_PolytopeGeom::faceForce(StiffnessRule rule) const
-{
-	using polytope::FaceForce;
-	const polytope::ContactModel model = modelFor(rule);
-	return model == polytope::ContactModel::Spring ? FaceForce::Spring : hasSurface(model) ? FaceForce::Pressure : FaceForce::AtCentre;
-}
-
-polytope::ContactSettings Ig2_Polytope_Polytope_PolytopeGeom::settings(StiffnessRule rule) const
-{
-	polytope::ContactSettings settings = settings_;
-	settings.contactModel              = modelFor(rule);
-	settings.warmStart                 = warmStart;
-	settings.timed                     = timing;
-	settings.energy                    = computeEnergy || scene->trackEnergy;
-	return settings;
-}
-
-bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
-        const polytope::ConvexShape& convex2, const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace,
-        const Interaction& c)
+bool PolytopeGeomFunctor::isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
+        const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace, const Interaction& c)
 {
 	polytope::PairMemory      memory   = candidates_.recall(c, scene->iter);
 	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
@@ -187,9 +165,8 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::isApart(const polytope::ConvexShape& co
 	return true;
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1,
-        const polytope::ConvexShape& convex2, const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
-        const shared_ptr<Interaction>& c)
+bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
+        const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	prefetchAfter(*c, *scene, sizeof(PolytopeGeom), sizeof(Polytope));
 	const KnowsBonds* const bonds = bonds_.in(*scene);
@@ -206,7 +183,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
 	polytope::ContactSettings settings = this->settings(StiffnessRule(geom.stiffnessRule));
 	const bool                surface  = hasSurface(settings.contactModel);
-	settings.section                   = computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
+	settings.section                   = ofScene().computeArea || geom.needsArea || !wasReal; // a new contact's physics may need it now
 	settings.outline                   = surface && (geom.needsArea || !wasReal);
 	geom.atOnePoint                    = !surface;
 	settings.normalWeight[0]           = geom.normalWeight;
@@ -242,15 +219,14 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::query(const polytope::ConvexShape& conv
 	return apply(result, frame1.origin, state1, state2, shift2, force, c);
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::findInternalFaces(
-        const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
+bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
 {
 	geom.internalKnown = true;
 	return geom.setInternalPlanes(internalPlanes(pair, bounding));
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1,
-        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+bool PolytopeGeomFunctor::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
+        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	count(result);
 	if (auto* const known = static_cast<PolytopeGeom*>(c->geom.get())) {
@@ -268,7 +244,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	geom.contactArea   = result.area;
 	geom.turningArm    = result.turningArm;
 	geom.outline.set(result.outline, result.outlineCount);
-	geom.faceForceCode      = std::int8_t(faceForce(StiffnessRule(geom.stiffnessRule)));
+	geom.faceForceCode      = std::int8_t(ofScene().faceForce(StiffnessRule(geom.stiffnessRule)));
 	geom.energyPerStiffness = geom.faceForce() != polytope::FaceForce::AtCentre ? result.energy : Real(-1);
 	ContactSizes sizes { geom.refR1, geom.refR2 };
 	if (!wasReal) sizes = contactSizes(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
@@ -277,7 +253,7 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::apply(const polytope::ContactResult& re
 	return true;
 }
 
-bool Ig2_Polytope_Polytope_PolytopeGeom::failed(const shared_ptr<Interaction>& c)
+bool PolytopeGeomFunctor::failed(const shared_ptr<Interaction>& c)
 {
 	ContactCounters& count = counters();
 	++count.pairs;

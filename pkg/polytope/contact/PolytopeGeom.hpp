@@ -5,8 +5,8 @@
 #include "contact/ContactCounters.hpp"
 #include "contact/StoredOutline.hpp"
 #include "contact/StoredVertices.hpp"
-#include "host/CheckedAttributes.hpp"
 #include "host/FlatArchive.hpp"
+#include "host/FoundInStep.hpp"
 #include "host/Seldom.hpp"
 #include "material/StiffnessRules.hpp"
 #include "pairs/CandidateMemory.hpp"
@@ -139,70 +139,44 @@ namespace yade {
 /// Weight of body 1's normal against body 2's, from the stiffnesses of their materials: 0.5 for equal ones.
 Real normalWeightOfFirst(const Body* body1, const Body* body2);
 
-class Ig2_Polytope_Polytope_PolytopeGeom : public IGeomFunctor {
+class Ig2_Polytope_Polytope_PolytopeGeom;
+
+/// What makes the geometry of contacts with a Polytope. Its settings are those of the scene's one Ig2_Polytope_Polytope_PolytopeGeom (ContactOptions.hpp).
+class PolytopeGeomFunctor : public IGeomFunctor {
 public:
-	bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
-	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override;
-	bool goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
-	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override
-	{
-		return go(shape1, shape2, state1, state2, shift2, force, c); // symmetric: the dispatcher never reverses it
-	}
-
-	/// Refuses unknown names and settings out of range, naming the attribute, and restores the last good value.
-	void postLoad(Ig2_Polytope_Polytope_PolytopeGeom&);
-
-	/// Of a contact whose stiffness has this unit.
+	/// Of the scene, for a contact whose stiffness has this unit.
 	polytope::ContactSettings settings(StiffnessRule rule) const;
-	/// What the normal force of a contact depends on, whose stiffness has this unit.
-	polytope::FaceForce faceForce(StiffnessRule rule) const;
-	boost::python::dict stats() const;
-	void                resetStats();
+	boost::python::dict       stats() const;
+	void                      resetStats();
 
-	FUNCTOR2D(Polytope, Polytope);
-	DEFINE_FUNCTOR_ORDER_2D(Polytope, Polytope);
+	/// Refuses settings, which other functors than that of two polytopes do not have.
+	void pyHandleCustomCtorArgs(boost::python::tuple& arguments, boost::python::dict& named) override;
+	/// Names of the settings.
+	static constexpr std::array<const char*, 9>    names { { "contactModel", "contactPoint", "solver", "warmStart", "tolerance",
+		   "newtonTolerance", "computeArea", "computeEnergy", "timing" } };
+	template <std::size_t k> boost::python::object setting() const { return settingOfScene(names[k]); }
+	template <std::size_t k> void                  set(const boost::python::object&) { refuse(names[k]); }
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ig2_Polytope_Polytope_PolytopeGeom, IGeomFunctor,
-	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
-		((string, contactModel, "surface", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], "
-		        "*spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them "
-		        "for all contacts: point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear "
-		        "program's feasible set (docs/contact-surface.md). *boon2012*: the paper as printed [Boon2012]_, stiffness times the chord "
-		        "through the contact point along the average of the gradients of both bodies' inner potential particles with their "
-		        ":yref:`cornerRadius<Polytope.cornerRadius>` (Eqs 13-17), shear at this point; no gradient of an energy, inclined by up to "
-		        "45° where an edge lies on a face and at every seam of a floor: to reproduce the paper."))
-		((string, contactPoint, "analyticCentre", Attr::triggerPostLoad, "*boon2012*, contact point: *analyticCentre* (of all half-spaces "
-		        "of both bodies, Eq. 10 of [Boon2012]_), *chebyshevCentre* (the linear program's own point, of lowest cost; jumps where it "
-		        "is not unique) or *centroid* (of the overlap, of highest cost)."))
-		((string, solver, "newton", Attr::triggerPostLoad, "*boon2012*, solver of the analytic centre: *newton* (where it does not "
-		        "converge, Ipopt is used if the build has it, see *polytope.buildInfo()['ipopt']*) or *ipopt* (section 2.6 of [Boon2012]_, "
-		        "for every contact: a hundred to a thousand times slower, independent of the other; takes no warm start and ignores "
-		        ":yref:`newtonTolerance<Ig2_Polytope_Polytope_PolytopeGeom.newtonTolerance>`). A ValueError where the build has no Ipopt."))
-		((bool, warmStart, true, , "Start each pair from its last step's basis and contact point."))
-		((Real, tolerance, polytope::tolerance::contact, Attr::triggerPostLoad, "Contact when $s^*<-$ *tolerance* times the smaller body's "
-		        "circumradius [-]."))
-		((Real, newtonTolerance, polytope::tolerance::newton, Attr::triggerPostLoad, "*boon2012*: the analytic centre is accepted when what "
-		        "remains is below this fraction of the overlap's own size (Dikin norm) [-]; from the rounding of the numbers (2.2e-16 in "
-		        "double) to 0.1."))
-		((bool, computeArea, false, , "*boon2012*: compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this "
-		        "is done automatically; the other models always have it)."))
-		((bool, computeEnergy, false, , "*foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes half as "
-		        "long again; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
-		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of "
-		        "the clock a pair."))
+#define POLYTOPE_SETTING(k) .add_property(names[k], &PolytopeGeomFunctor::setting<k>, &PolytopeGeomFunctor::set<k>, "That of the scene's :yref:`Ig2_Polytope_Polytope_PolytopeGeom`, where it is set for all contacts.")
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeomFunctor, IGeomFunctor,
+	"What the functors have in common that create or update a :yref:`PolytopeGeom`. Their settings are those of the scene's "
+	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`, or the defaults where it has none: to be read here, and set there.",
 		, /*ctor*/
 		, /*py*/
-		.def("stats", &Ig2_Polytope_Polytope_PolytopeGeom::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* "
-		        "queried, *contacts*, *dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, "
-		        "*surfacesKept* (contacts *foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* "
-		        "and *ipoptIterations* (calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), "
-		        "*failures* (queries without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, "
-		        "*roundingLimited*, *centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, "
-		        "or for coincident bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* "
-		        "*timedPairs*, *lpSeconds*, *centreSeconds*.")
-		.def("resetStats", &Ig2_Polytope_Polytope_PolytopeGeom::resetStats, "Set all counters to zero.")
+		POLYTOPE_SETTING(0) POLYTOPE_SETTING(1) POLYTOPE_SETTING(2) POLYTOPE_SETTING(3) POLYTOPE_SETTING(4) POLYTOPE_SETTING(5)
+		POLYTOPE_SETTING(6) POLYTOPE_SETTING(7) POLYTOPE_SETTING(8)
+		.def("stats", &PolytopeGeomFunctor::stats, "Counters since the last *resetStats()*, as a dictionary: *pairs* queried, *contacts*, "
+		        "*dismissed* (separated at once by the last basis), *simplexPivots*, *newtonIterations*, *surfacesKept* (contacts "
+		        "*foundation* and *spring* whose feasible set has the vertices of the step before), *ipoptSolves* and *ipoptIterations* "
+		        "(calls of Ipopt), *rescued* (contacts for which Newton did not converge and Ipopt found the point), *failures* (queries "
+		        "without an answer: not one of *contact*, *separated*, *normalFromOneBody*, *normalFromDual*, *roundingLimited*, "
+		        "*centreByIpopt*), *fallbacks* (those of them that go on with a substitute: the linear program's point, or for coincident "
+		        "bodies an arbitrary direction), *statuses* (count by name of *PolytopeGeom.status*), and with *timing* *timedPairs*, "
+		        "*lpSeconds*, *centreSeconds*.")
+		.def("resetStats", &PolytopeGeomFunctor::resetStats, "Set all counters to zero.")
 	);
+#undef POLYTOPE_SETTING
 	// clang-format on
 
 protected:
@@ -212,7 +186,7 @@ protected:
 		Matrix3r rotation;
 	};
 
-	// Steps of go(), shared with the mixed pairs (MixedPairs.hpp).
+	// Steps of go().
 
 	/// The pair's geometry, made where it has none.
 	PolytopeGeom& geometry(const shared_ptr<Interaction>& c);
@@ -233,8 +207,8 @@ protected:
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
-	/// Settings from the attributes. Refuses unknown names and numbers out of range with std::invalid_argument naming the attribute.
-	polytope::ContactSettings checkedSettings() const;
+	/// The scene's; the defaults where it has no functor of two polytopes.
+	const Ig2_Polytope_Polytope_PolytopeGeom& ofScene() const;
 
 	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron).
 	bool failed(const shared_ptr<Interaction>& c);
@@ -243,17 +217,15 @@ protected:
 	void             count(const polytope::ContactResult& result);
 
 private:
-	/// Of a contact whose stiffness has this unit.
-	polytope::ContactModel modelFor(StiffnessRule rule) const;
+	boost::python::object settingOfScene(const char* name) const;
+	/// Says where that setting is set.
+	[[noreturn]] void refuse(const std::string& name) const;
 
-	polytope::ContactSettings    settings_    = checkedSettings();
-	bool                         byStiffness_ = true; ///< *surface*: *foundation* or *spring*, by the unit of the contact's stiffness
-	BondsInStep                  bonds_;
-	CandidateMemory              candidates_;
-	std::vector<ContactCounters> counters_ = std::vector<ContactCounters>(omp_get_max_threads());
-	CheckedAttributes<std::string, std::string, std::string, Real, Real> checked_ { std::tie(
-		contactModel, contactPoint, solver, tolerance, newtonTolerance) };
+	mutable FoundInStep<Ig2_Polytope_Polytope_PolytopeGeom> settings_;
+	BondsInStep                                             bonds_;
+	CandidateMemory                                         candidates_;
+	std::vector<ContactCounters>                            counters_ = std::vector<ContactCounters>(omp_get_max_threads());
 };
-REGISTER_SERIALIZABLE(Ig2_Polytope_Polytope_PolytopeGeom);
+REGISTER_SERIALIZABLE(PolytopeGeomFunctor);
 
 } // namespace yade

@@ -5,7 +5,7 @@
 // It lives in the same library as the classes (_polytope.so). Plugin.cpp has loaded that at YADE's start; the first
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
-#include "contact/PolytopeGeom.hpp"
+#include "contact/ContactOptions.hpp"
 #include "host/Extensions.hpp"
 #include "host/Vectors.hpp"
 #include "joint/RockJoint.hpp"
@@ -176,29 +176,34 @@ yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 	return joint1->stiffnessPerArea && joint2->stiffnessPerArea ? yade::StiffnessRule::PerArea : yade::StiffnessRule::PerContact;
 }
 
-Contact contact(const py::object& b1, const py::object& b2, const std::string& contactPoint, yade::Real tolerance,
-        yade::Real newtonTolerance, const std::string& solver, const std::string& contactModel)
+/// What is given, and for None what the scene has.
+template <class Value> Value given(const py::object& value, const Value& ofScene)
+{
+	return value.is_none() ? ofScene : py::extract<Value>(value)();
+}
+
+Contact contact(const py::object& b1, const py::object& b2, const py::object& contactPoint, const py::object& tolerance,
+        const py::object& newtonTolerance, const py::object& solver, const py::object& contactModel)
 {
 	const auto  body1 = bodyOf(b1, "b1"), body2 = bodyOf(b2, "b2");
 	const auto& convex1 = convexOf(body1, "b1");
 	const auto& convex2 = convexOf(body2, "b2");
 	if (convex1.dimension() != convex2.dimension())
 		throw std::invalid_argument("b2: a polygon and a polyhedron cannot touch; both must have the same dimension");
-	// the functor validates the settings and gives the weights of the normals
-	yade::Ig2_Polytope_Polytope_PolytopeGeom functor;
-	functor.contactPoint    = contactPoint;
-	functor.tolerance       = tolerance;
-	functor.newtonTolerance = newtonTolerance;
-	functor.solver          = solver;
-	functor.contactModel    = contactModel;
+	const auto& ofScene = yade::Ig2_Polytope_Polytope_PolytopeGeom::orDefault(*yade::Omega::instance().getScene());
+	yade::Ig2_Polytope_Polytope_PolytopeGeom functor; // which checks them
+	functor.contactPoint    = given(contactPoint, ofScene.contactPoint);
+	functor.tolerance       = given(tolerance, ofScene.tolerance);
+	functor.newtonTolerance = given(newtonTolerance, ofScene.newtonTolerance);
+	functor.solver          = given(solver, ofScene.solver);
+	functor.contactModel    = given(contactModel, ofScene.contactModel);
 	functor.callPostLoad();
-	functor.scene                      = yade::Omega::instance().getScene().get();
-	polytope::ContactSettings settings = functor.settings(ruleOf(*body1, *body2));
-	settings.energy                    = true;
-	settings.section                   = true;
-	settings.geometryAcrossGap         = true;
-	settings.normalWeight[0]           = yade::normalWeightOfFirst(body1.get(), body2.get());
-	settings.normalWeight[1]           = 1 - settings.normalWeight[0];
+	polytope::ContactSettings settings(functor.options(ruleOf(*body1, *body2)));
+	settings.energy            = true;
+	settings.section           = true;
+	settings.geometryAcrossGap = true;
+	settings.normalWeight[0]   = yade::normalWeightOfFirst(body1.get(), body2.get());
+	settings.normalWeight[1]   = 1 - settings.normalWeight[0];
 
 	polytope::PairMemory       memory;
 	polytope::ContactWorkspace workspace;
@@ -333,15 +338,16 @@ BOOST_PYTHON_MODULE(_polytope)
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear program.");
 	py::def("contact", &contact,
-	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = "analyticCentre",
-	                py::arg("tolerance")       = Real(polytope::tolerance::contact),
-	                py::arg("newtonTolerance") = Real(polytope::tolerance::newton), py::arg("solver") = "newton",
-	                py::arg("contactModel") = "surface"),
-	        "Contact of two bodies with Polytope shapes at their present poses, without a scene (periodic images are not searched).\n\n"
+	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = py::object(), py::arg("tolerance") = py::object(),
+	                py::arg("newtonTolerance") = py::object(), py::arg("solver") = py::object(),
+	                py::arg("contactModel") = py::object()),
+	        "Contact of two bodies with Polytope shapes at their present poses, in the scene or not: that which they have with the "
+	        "scene's "
+	        "settings, but for what is given here (periodic images are not searched).\n\n"
 	        ":param Body b1: first body\n"
 	        ":param Body b2: second body; the normal points towards it\n"
 	        ":param str contactPoint, float tolerance, float newtonTolerance, str solver, str contactModel: as on "
-	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`; with 'surface' the contact that the bodies have in the scene\n"
+	        ":yref:`Ig2_Polytope_Polytope_PolytopeGeom`; default those of the scene's, without engines its defaults\n"
 	        ":returns: object with inContact, status, infeasibility, point, normal, depth, area, sectionCentroid, dualDirection, "
 	        "newtonIterations, "
 	        "ipoptIterations, simplexPivots\n"

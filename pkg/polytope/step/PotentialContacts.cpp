@@ -10,8 +10,8 @@
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
+#include "contact/ContactOptions.hpp"
 #include "contact/ContactSizes.hpp"
-#include "contact/PolytopeGeom.hpp"
 #include "joint/RockJointLaw.hpp"
 #include "joint/RockJointPhysics.hpp"
 #include "material/StiffnessRules.hpp"
@@ -70,22 +70,12 @@ namespace {
 		return sum.stiffness();
 	}
 
-	/// Of the scene's geometry functors, that which rocks most stiffly on a square face. YADE's own physics, whose stiffness may be any: not less than at the
-	/// analytic centre.
+	/// As the scene's contacts have it. YADE's own physics, whose stiffness may be any: not less than at the analytic centre.
 	polytope::FaceForce faceForce(const Scene& scene, StiffnessRule rule)
 	{
 		using polytope::FaceForce;
-		FaceForce stiffest = rule == StiffnessRule::Unknown ? FaceForce::AtCentre : FaceForce::Pressure;
-		for (const auto& engine : scene.engines)
-			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get()))
-				for (const auto& functor : loop->geomDispatcher->functors) {
-					const auto* ours = dynamic_cast<const Ig2_Polytope_Polytope_PolytopeGeom*>(functor.get());
-					if (!ours) continue;
-					const FaceForce own = ours->faceForce(rule);
-					if (own == FaceForce::Spring) return own;
-					if (own == FaceForce::AtCentre) stiffest = own;
-				}
-		return stiffest;
+		const FaceForce found = Ig2_Polytope_Polytope_PolytopeGeom::orDefault(scene).faceForce(rule);
+		return found == FaceForce::Pressure && rule == StiffnessRule::Unknown ? FaceForce::AtCentre : found;
 	}
 
 	/// To the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.

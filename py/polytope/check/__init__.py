@@ -19,7 +19,7 @@ def check(O, costs=False):
 	"""Checks the present scene for what is wrong. Most of it YADE would not tell.
 
 	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
-	apply forces as for spheres, functors of one loop that disagree in contactModel, contact models whose unit of stiffness is another, contacts
+	apply forces as for spheres, contact models whose unit of stiffness is another, contacts
 	without any damping whose model does not conserve energy, polygons that meet what they cannot touch, positions and velocities that are not
 	numbers, polytopes in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres
 	only, YADE's density scaling, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a

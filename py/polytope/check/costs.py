@@ -17,7 +17,7 @@ from yade import Polytope, PolytopeCollider, PolytopeGeom, Sphere
 from .. import _builds
 from ..pictures.faces import worldVertices
 from ..scene.permanentLoads import permanentLoads
-from ..scene.present import geometryFunctors
+from ..scene.present import contactSettings, geometryFunctors
 from ..scene.timeStep import safeTimeStep
 from .plane import dimension
 from .steps import usual, yadesDt
@@ -43,7 +43,7 @@ switches = {
 	'timing': (False, 'leave it on if you read lpSeconds and centreSeconds of stats()'),
 	'warmStart': (True, 'the answer is the same to rounding'),
 }
-"""Attribute of the contact functors → (value that costs less, why)."""
+"""Setting of the contacts → (value that costs less, why)."""
 
 
 def costFindings(scene):
@@ -52,11 +52,11 @@ def costFindings(scene):
 
 
 def functorSwitches(scene):
-	for name, (cheaper, why) in switches.items():
-		functors = [functor for functor in geometryFunctors() if getattr(functor, name) != cheaper]
+	settings = contactSettings()
+	for name, (cheaper, why) in switches.items() if settings else ():
 		if name == 'computeArea' and _contacts(scene) and all(one.geom.needsArea for one in _contacts(scene)):
 			continue
-		if functors:
+		if getattr(settings, name) != cheaper:
 			yield name, f'{name} is {not cheaper}', f'{name} = {cheaper}: {why}', (name, cheaper)
 
 

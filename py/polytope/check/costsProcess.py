@@ -15,7 +15,7 @@ from yade import O, PeriodicEngine
 
 from .._timing import timed
 from ..scene.permanentLoads import givePermanentLoads
-from ..scene.present import colliders, geometryFunctors
+from ..scene.present import colliders, contactSettings
 from .plane import makePolygons
 
 __all__ = ['change', 'stepTimes']
@@ -36,8 +36,7 @@ def change(name, value):
 	elif name == 'dimension':
 		makePolygons()
 	else:
-		for functor in geometryFunctors():
-			setattr(functor, name, value)
+		setattr(contactSettings(), name, value)
 
 
 def load(scene, loads):

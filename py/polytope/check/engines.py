@@ -6,7 +6,6 @@ from yade import (
 	ForceResetter,
 	GlobalStiffnessTimeStepper,
 	Ig2_Polytope_Polytope_PolytopeGeom,
-	Ig2_Sphere_Polytope_PolytopeGeom,
 	InteractionLoop,
 	NewtonIntegrator,
 	Polytope,
@@ -27,7 +26,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, contactModels, unitOfSurface, recorders):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders):
 		yield from one(scene)
 
 
@@ -146,27 +145,12 @@ def erasedForces(scene):
 			yield what, seen, 'put it after the InteractionLoop'
 
 
-def contactModels(scene):
-	"""The sphere's functor has one contact, whatever its contactModel."""
-	for loop in scene.loops:
-		models = {}
-		for functor in loop.geomDispatcher.functors:
-			if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and not isinstance(functor, Ig2_Sphere_Polytope_PolytopeGeom):
-				models.setdefault(functor.contactModel, []).append(type(functor).__name__)
-		if len(models) > 1:
-			seen = '; '.join(f'{model!r} in {", ".join(names)}' for model, names in models.items())
-			yield (
-				'contactModel',
-				f'contact functors of one loop differ: {seen}',
-				'give all of them the same contactModel (settings are not shared)',
-			)
-
-
 def unitOfSurface(scene):
 	for loop in scene.loops:
-		models = {one.contactModel for one in loop.geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)}
-		for seen, advice in wrongUnit(models, stiffnessesPerArea([loop])):
-			yield 'damping and energy', seen, advice
+		for functor in loop.geomDispatcher.functors:
+			wrong = isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and wrongUnit(functor.contactModel, stiffnessesPerArea([loop]))
+			if wrong:
+				yield 'damping and energy', *wrong
 
 
 def recorders(scene):

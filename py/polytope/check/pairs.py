@@ -7,6 +7,8 @@ For each pair of shapes and materials that can meet, the dispatchers themselves 
 import yade
 from yade import PolytopeGeom, _polytope
 
+from ..scene.present import contactSettings
+
 __all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
 yadesOwn = ('Box', 'Facet', 'Sphere', 'Wall')
@@ -186,7 +188,7 @@ def forces(scene, loop, functor, one, other):
 				seen,
 				'take Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False) or Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()',
 			)
-	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, functor, maker, law, phys, one, other):
+	if law is not None and isinstance(geom, PolytopeGeom) and undamped(scene, maker, law, phys, one, other):
 		damper = 'normalDamping of the law' if isinstance(phys, yade.RockJointPhys) else 'RockJointMat'
 		yield (
 			'damping and energy',
@@ -195,9 +197,10 @@ def forces(scene, loop, functor, one, other):
 		)
 
 
-def undamped(scene, functor, maker, law, phys, one, other):
+def undamped(scene, maker, law, phys, one, other):
 	"""Contacts on two flat-faced bodies without loss in the normal direction, by the model whose force is no gradient of an energy. A sphere has none of it."""
-	if 'Sphere' in (one.shape, other.shape) or functor.contactModel != 'boon2012':
+	settings = contactSettings(scene.loops)
+	if 'Sphere' in (one.shape, other.shape) or not settings or settings.contactModel != 'boon2012':
 		return False
 	if not scene.integrators or any(float(engine.damping) > 0 for engine in scene.integrators):
 		return False

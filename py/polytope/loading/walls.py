@@ -118,13 +118,12 @@ def withoutEachOther():
 
 
 def meetWalls():
-	"""Engines that were made before there were walls get the functors for them, with the settings of the functor of polytopes."""
+	"""Engines that were made before there were walls get the functors for them."""
 	for collider in colliders():
 		if not any(isinstance(functor, Bo1_Wall_Aabb) for functor in collider.boundDispatcher.functors):
 			collider.boundDispatcher.functors = [*collider.boundDispatcher.functors, Bo1_Wall_Aabb()]
 	for loop in interactionLoops():
 		functors = list(loop.geomDispatcher.functors)
-		own = next((functor for functor in functors if type(functor) is Ig2_Polytope_Polytope_PolytopeGeom), None)
-		if own and not any(isinstance(functor, Ig2_Wall_Polytope_PolytopeGeom) for functor in functors):
-			settings = {key: value for key, value in own.dict().items() if key != 'label'}
-			loop.geomDispatcher.functors = [*functors, Ig2_Wall_Polytope_PolytopeGeom(**settings)]
+		kinds = [type(functor) for functor in functors]
+		if Ig2_Polytope_Polytope_PolytopeGeom in kinds and Ig2_Wall_Polytope_PolytopeGeom not in kinds:
+			loop.geomDispatcher.functors = [*functors, Ig2_Wall_Polytope_PolytopeGeom()]

@@ -6,7 +6,7 @@ from yade import O, Vector3
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..scene.movers import canMove, movers
-from ..scene.present import geometryFunctors, integrators, meanwhile
+from ..scene.present import contactSettings, geometryFunctors, integrators, meanwhile
 
 __all__ = ['mechanicalEnergy']
 
@@ -23,12 +23,15 @@ def mechanicalEnergy():
 	Contacts count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
 
 	:returns: [J]
-	:raises ValueError: if O.engines has no NewtonIntegrator
+	:raises ValueError: if O.engines has no NewtonIntegrator, or contact functors of polytopes without Ig2_Polytope_Polytope_PolytopeGeom
 	"""
 	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, whose gravity counts')
 	moving = [(body.state, *_motion(body.state)) for body in movers() if body.state.mass > 0]
-	with meanwhile([(geometry, 'computeEnergy', True) for geometry in geometryFunctors()]):
+	settings = contactSettings()
+	if settings is None and geometryFunctors():
+		raise ValueError('O.engines: the InteractionLoop needs an Ig2_Polytope_Polytope_PolytopeGeom(), which has the settings of all contacts')
+	with meanwhile([(settings, 'computeEnergy', True)] if settings else []):
 		O.step()
 	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(one.energy for one in madeBonds() + madeBolts())
 	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored

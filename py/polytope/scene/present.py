@@ -11,12 +11,14 @@ from yade import (
 	Law2_PolytopeGeom_RockJointPhys_MohrCoulomb,
 	NewtonIntegrator,
 	O,
+	PolytopeGeomFunctor,
 	RockJointMat,
 )
 
 __all__ = [
 	'EngineOfScene',
 	'colliders',
+	'contactSettings',
 	'geometryFunctors',
 	'integrators',
 	'interactionLoops',
@@ -39,10 +41,16 @@ def interactionLoops():
 	return [engine for engine in O.engines if isinstance(engine, InteractionLoop)]
 
 
-def geometryFunctors():
-	"""The scene's contact functors of polytopes, mixed pairs included."""
-	functors = (functor for loop in interactionLoops() for functor in loop.geomDispatcher.functors)
-	return [functor for functor in functors if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)]
+def geometryFunctors(loops=None):
+	"""The contact functors of polytopes of these loops, default the scene's, mixed pairs included."""
+	functors = (functor for loop in (interactionLoops() if loops is None else loops) for functor in loop.geomDispatcher.functors)
+	return [functor for functor in functors if isinstance(functor, PolytopeGeomFunctor)]
+
+
+def contactSettings(loops=None):
+	"""The functor whose attributes are the settings of all contacts of a scene with these loops, default the present one; None where it has none, and the
+	defaults hold."""
+	return next((functor for functor in geometryFunctors(loops) if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom)), None)
 
 
 def integrators():
@@ -82,18 +90,16 @@ def stiffnessesPerArea(loops):
 	return bool(makers) and (any(isPerArea(one, makers) for one in joints) if joints else all(one.stiffnessPerArea for one in makers))
 
 
-def wrongUnit(models, perArea):
-	"""(seen, advice) for each contact model whose force is no gradient of an energy with stiffnesses of this unit."""
-	for model in sorted(set(models) & set(unitOfModel)):
-		if unitOfModel[model] == perArea:
-			continue
-		made = 'stiffnesses per area' if perArea else 'stiffnesses per contact'
-		other = next(name for name, unit in unitOfModel.items() if unit == perArea)
-		yield (
-			f'contactModel {model!r} with {made}: the force is no gradient of an energy',
-			f"contactModel='surface', which goes by the unit, or {other!r}, or stiffnessPerArea={not perArea} and stiffnesses in "
-			f'{"N/m" if perArea else "Pa/m"}',
-		)
+def wrongUnit(model, perArea):
+	"""(seen, advice) for a contact model whose force is no gradient of an energy with stiffnesses of this unit; None for others."""
+	if unitOfModel.get(model, perArea) == perArea:
+		return None
+	made = 'stiffnesses per area' if perArea else 'stiffnesses per contact'
+	other = next(name for name, unit in unitOfModel.items() if unit == perArea)
+	return (
+		f'contactModel {model!r} with {made}: the force is no gradient of an energy',
+		f"contactModel='surface', which goes by the unit, or {other!r}, or stiffnessPerArea={not perArea} and stiffnesses in {'N/m' if perArea else 'Pa/m'}",
+	)
 
 
 def placeOfForces(what):

@@ -174,17 +174,6 @@ def testForceResetterAfterTheLoop():
 	assert 'put ForceResetter first' in onlyFinding('order of engines').advice
 
 
-def testContactModelsThatDiffer():
-	scene(otherShapes, physics=[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)])
-	loop().geomDispatcher.functors[0].contactModel = 'spring'
-	found = onlyFinding('contactModel')
-	assert "'spring' in Ig2_Polytope_Polytope_PolytopeGeom" in found.seen and 'Ig2_Wall_Polytope_PolytopeGeom' in found.seen
-	for functor in loop().geomDispatcher.functors:
-		if isinstance(functor, Ig2_Polytope_Polytope_PolytopeGeom) and not isinstance(functor, Ig2_Sphere_Polytope_PolytopeGeom):
-			functor.contactModel = 'spring'
-	assert not polytope.check(O), 'a sphere has one contact'
-
-
 def testSpringWithStiffnessPerArea():
 	scene()
 	loop().geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring')]

@@ -17,6 +17,7 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	PolytopeCollider,
+	PolytopeGeomFunctor,
 	PolytopeTimeStepper,
 	RockJointMat,
 	polytope,
@@ -123,11 +124,11 @@ def testEveryPartIsReplaceable():
 	assert len(polytope.engines(timeStepper=False)) == 4
 
 
-def testSettingsGoToAllPairs():
+def testSettingsHoldForAllPairs():
 	blockOnFloor(lambda: [utils.wall((0, 0, -3), axis=2), utils.sphere((0, 0, 2), 0.3)])
 	geometry = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='spring', newtonTolerance=1e-9)
-	made = polytope.engines(geometry=geometry, physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
-	mixed = [one for one in made[2].geomDispatcher.functors if isinstance(one, Ig2_Polytope_Polytope_PolytopeGeom)]
+	made = O.engines = polytope.engines(geometry=geometry, physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+	mixed = [one for one in made[2].geomDispatcher.functors if isinstance(one, PolytopeGeomFunctor)]
 	assert len(mixed) == 3 and all(one.contactModel == 'spring' and one.newtonTolerance == 1e-9 for one in mixed)
 	O.bodies.erase(3)
 	wall = next(one for one in mixed if 'Wall' in type(one).__name__)

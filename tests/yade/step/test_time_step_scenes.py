@@ -113,7 +113,7 @@ def testSupportsOfYadeAreAsPolytopes(support, model, perArea):
 		loop(perArea=perArea, normalDamping=0.3, ig2=ig2)
 		if functor:
 			O.engines[1].boundDispatcher.functors = [one() for one in bounds]
-			O.engines[2].geomDispatcher.functors = [functor(**ig2)]
+			O.engines[2].geomDispatcher.functors = [Ig2_Polytope_Polytope_PolytopeGeom(**ig2), functor()]
 		engine = stepper()
 		O.bodies.append([make(), polytope.cuboid((0.1, 0.2, 0.4999), (0.5, 0.5, 0.5))])
 		O.step()

@@ -10,7 +10,7 @@ from ...bonding.bonds import madeBonds
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove, moverOf
 from ...scene.namedBodies import namedBodies
-from ...scene.present import geometryFunctors, interactionLoops, jointMakers, laws
+from ...scene.present import contactSettings, interactionLoops, jointMakers, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
 from ..faceMaterials import materialsOf
@@ -64,8 +64,8 @@ def refuseScene(chosen):
 	makers = jointMakers(interactionLoops())
 	if not laws() or not makers:
 		raise ValueError('O.engines: set them first, with the law of rock joints: O.engines = polytope.engines()')
-	models = {functor.contactModel for functor in geometryFunctors()}
-	if not all(one.stiffnessPerArea for one in makers) or not models <= {'surface', 'foundation'}:
+	model = contactSettings().contactModel if contactSettings() else 'surface'
+	if not all(one.stiffnessPerArea for one in makers) or model not in ('surface', 'foundation'):
 		raise ValueError(
 			"O.engines: a stress needs joints with stiffness per area and contactModel='surface', the defaults of polytope.engines()"
 		)

@@ -39,8 +39,7 @@ from .floors import Floor
 
 __all__ = ['SurfaceScene']
 
-ourPairs = (
-	Ig2_Polytope_Polytope_PolytopeGeom,
+otherPairs = (
 	Ig2_Sphere_Polytope_PolytopeGeom,
 	Ig2_Wall_Polytope_PolytopeGeom,
 	Ig2_Box_Polytope_PolytopeGeom,
@@ -141,7 +140,7 @@ class SurfaceScene:
 
 	def _engines(self):
 		pull = self.gravity * (math.sin(self.incline) * self.along - math.cos(self.incline) * self.up)
-		self.functors = [kind(**self.contact) for kind in ourPairs]
+		self.functors = [Ig2_Polytope_Polytope_PolytopeGeom(**self.contact), *(kind() for kind in otherPairs)]
 		self.newton = NewtonIntegrator(gravity=self.turn * Vector3(*pull), damping=0)
 		self.lawFunctor = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**self.law)
 		# YADE's own pairs, for the sphere on facets, boxes and walls
