@@ -16,7 +16,11 @@ namespace {
 		Vector3r face;         ///< its normal
 		Real     faceOffset;   ///< from the contact point
 		int      slidingPlane; ///< of the other body's plane below it
-		bool     internal;
+		bool     internal    = false;
+		bool     faceCovered = false; ///< a neighbour fills the place above the face, too: nothing slides on it
+
+		/// From the contact point, beyond the face by the diameter of the largest ball in the overlap.
+		Vector3r aboveFace(const TouchingPair& pair) const { return (faceOffset + 2 * pair.ball) * face; }
 
 		/// Whether the neighbour's face continues the one that is slid on, to within `step`.
 		bool continuedBy(const Solid& neighbour, Real step) const
@@ -82,7 +86,7 @@ namespace {
 				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
 				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
-				        bounding.slack[piece][j], chord.plane, false });
+				        bounding.slack[piece][j], chord.plane });
 			}
 		}
 		return all;
@@ -156,8 +160,10 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 			Solid solid;
 			setBody(solid, neighbour, centre, mover, near);
 			if (solid.planes.empty()) return;
-			for (Candidate& one : candidates[piece])
-				one.internal = one.internal || (contains(solid.planes, one.outside) && one.continuedBy(solid, step));
+			for (Candidate& one : candidates[piece]) {
+				one.internal    = one.internal || (contains(solid.planes, one.outside) && one.continuedBy(solid, step));
+				one.faceCovered = one.faceCovered || contains(solid.planes, one.aboveFace(pair));
+			}
 			others[piece].push_back(std::move(solid));
 		});
 	}
@@ -170,7 +176,8 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 	for (int piece = 0; piece < 2; ++piece) {
 		const int& count = result.count[piece];
 		for (const Candidate& one : candidates[piece]) {
-			if (!one.internal || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane)) continue;
+			if (!one.internal || one.faceCovered || covered(piece, one.facePlane) || covered(1 - piece, one.slidingPlane))
+				continue;
 			const int* const first = result.plane[piece];
 			if (std::find(first, first + count, one.plane) == first + count)
 				result.add(piece, one.plane, endBeyond(pair, piece, one, others[piece]));

@@ -433,3 +433,33 @@ def testASlabOnSupportsThatAreNotFlushIsNotThrown(gap):
 		O.step()
 		fastest = max(fastest, slab.state.vel[2])
 	assert fastest < .5 * math.sqrt(2 * 9.81 * .01)
+
+
+def spike(tip, way):
+	"""A tetrahedron whose sharp corner is at *tip* and points that way."""
+	back = -Vector3(*way) / Vector3(*way).norm()
+	u = back.cross(Vector3(0, 0, 1))
+	u /= u.norm()
+	base = [Vector3(*tip) + .2 * back + .05 * (math.cos(turn) * u + math.sin(turn) * back.cross(u)) for turn in (.3, 2.4, 4.5)]
+	return polytope.fromVertices([tip, *map(tuple, base)])
+
+
+@pytest.mark.parametrize('way', [(1, -1, -1), (.4, -.7, -.6), (.3, -.3, -.9)])
+def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
+	"""A tip in the corner of a floor and two walls, one of which ends at the other: where it is behind both, the one covers the other's face. The energy
+	is that of the depth: 0.5 of its square for a face, 4 for this tip, some ten where it cuts an edge; 10⁸ and more where the wall had no face."""
+	for z in (-1e-5, 1e-5, 1e-4, 1e-3):
+		for x in (1e-4, 4e-4, 2e-3):
+			for y in (-1e-3, -4e-3):
+				O.reset()
+				physics = joints('perContact', 0)
+				floor = polytope.cuboid((0, 0, -.05), (.9, .9, .05), fixed=True)
+				wall = polytope.cuboid((.05, 0, .8), (.05, .9, .8), fixed=True)
+				ending = polytope.cuboid((-.45, -.05, .8), (.45, .05, .8), fixed=True)
+				O.bodies.append([floor, wall, ending, spike((x, y, z), way)])
+				O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, physics=physics)
+				O.dt = 1e-9
+				O.step()
+				touching = [contact.geom for contact in O.interactions if contact.isReal]
+				assert touching
+				assert all(geom.energyPerStiffness < 100 * geom.penetrationDepth**2 for geom in touching), (x, y, z)
