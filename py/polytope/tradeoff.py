@@ -39,7 +39,7 @@ class CalledAgain(RuntimeError):
 
 @dataclasses.dataclass
 class Row:
-	"""One setting: *answer* of measure(), *error* |answer − reference| over |reference| (or as it is, for a reference of 0), *timeStep* [s] when measure()
+	"""One setting: *answer* of measure(), *error*: its distance from the reference, over the size of that (but for a reference of 0), *timeStep* [s] when measure()
 	ended, *cost*: µs for as much simulated time as the first setting's step, *failures* of contact queries, *note*: why there is no answer."""
 
 	name: str

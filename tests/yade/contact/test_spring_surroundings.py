@@ -149,17 +149,17 @@ def testAcrossAPeriodicBoundary():
 
 
 def loopWith(functor):
-	"""With the law's engines, but one mixed functor."""
+	"""With the law's engines, and the functor of a mixed pair beside that of two polytopes, which has the settings."""
 	loop(ig2=spring, gravity=(0, 0, -gravity))
 	O.engines[1].boundDispatcher.functors = [one() for one in bounds]
-	O.engines[2].geomDispatcher.functors = [functor]
+	O.engines[2].geomDispatcher.functors = [*O.engines[2].geomDispatcher.functors, functor]
 
 
 @pytest.mark.parametrize('other', supports)
 def testMixedPairsShareTheModel(other):
 	joint(normalStiffness=stiffness, frictionAngle=0)
 	functor, support = supports[other]
-	loopWith(functor(contactModel='spring'))
+	loopWith(functor())
 	O.bodies.append(support())
 	block = polytope.cuboid((0, 0, 0.499), (0.5, 0.5, 0.5))
 	O.bodies.append(block)
@@ -173,7 +173,7 @@ def testMixedPairsShareTheModel(other):
 def testAnEdgeBouncesOnMixedPairsWithoutLoss(other):
 	joint(normalStiffness=stiffness, frictionAngle=0)
 	functor, support = supports[other]
-	loopWith(functor(contactModel='spring'))
+	loopWith(functor())
 	O.trackEnergy = True
 	O.bodies.append(support())
 	block = polytope.cuboid((0, 0, 0.75), (0.5, 0.35, 0.25), Quaternion((1, 2, 3), 1))

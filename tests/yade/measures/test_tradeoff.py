@@ -149,7 +149,7 @@ def testATimeStepOfMeasure():
 
 def testAttributesThatNothingTakes():
 	table = run({'as it is': {}, 'Ipopt': {'solver': 'ipopt'}}, [8000], measureMass, buildPlain)
-	assert 'solver not in effect' in table['Ipopt'].note and table['Ipopt'].cost is None and not table['as it is'].note
+	assert 'which solver would be set in' in table['Ipopt'].note and table['Ipopt'].cost is None and not table['as it is'].note
 
 
 def testVectors():

@@ -76,7 +76,7 @@ def testFigure6IsRedrawn(quick):
 	assert all(int(row['pairs, cold']) > 5000 and int(row['contacts, cold']) > 2000 for row in sample)
 	assert (quick / 'fig6.png').stat().st_size > 20000
 	kinds = [part['kind'] for part in json.loads((quick / 'findings.json').read_text())['parts']]
-	assert kinds.count('figure') == 2 and kinds.count('table') == 4 and 'text' in kinds
+	assert kinds.count('figure') == 1 and kinds.count('table') == 4 and 'text' in kinds
 
 
 def testRunsWithinYadeToo(tmp_path):
