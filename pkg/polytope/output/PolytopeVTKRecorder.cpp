@@ -179,7 +179,8 @@ void PolytopeVTKRecorder::writeContacts(const string& file) const
 
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
-		const auto* const geom = exactly<PolytopeGeom>(interaction->geom.get()); // no class is derived from it
+		const auto* const   polytopes = exactly<PolytopeGeom>(interaction->geom.get()); // no class is derived from it
+		const ScGeom* const geom      = polytopes ? polytopes : dynamic_cast<const ScGeom*>(interaction->geom.get());
 		if (!geom) continue;
 		const auto &body1 = Body::byId(interaction->getId1(), scene), &body2 = Body::byId(interaction->getId2(), scene);
 		if (!body1 || !body2 || !(recorded(*body1) || recorded(*body2))) continue;
@@ -194,9 +195,9 @@ void PolytopeVTKRecorder::writeContacts(const string& file) const
 		append(normalForce, phys ? phys->normalForce : Vector3r::Zero());
 		append(shearForce, phys ? phys->shearForce : Vector3r::Zero());
 		depth->InsertNextValue(double(geom->penetrationDepth));
-		area->InsertNextValue(double(geom->contactArea));
-		infeasibility->InsertNextValue(double(geom->infeasibility));
-		status->InsertNextValue(geom->statusCode);
+		area->InsertNextValue(polytopes ? double(polytopes->contactArea) : 0);
+		infeasibility->InsertNextValue(polytopes ? double(polytopes->infeasibility) : 0);
+		status->InsertNextValue(polytopes ? int(polytopes->statusCode) : int(polytope::ContactStatus::Contact));
 	}
 	data->SetPoints(points);
 	data->SetVerts(vertices);

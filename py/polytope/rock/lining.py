@@ -93,7 +93,7 @@ def lining(
 	``polytope.lining([(0, 0), (4, 0)], thickness=0.2, youngsModulus=3e10, segmentLength=0.25)``.
 
 	It is put into O.bodies, and touches blocks as any body does: density, friction and the stiffness of contacts with blocks are those of its material.
-	With *adhesion* it is also bonded to all blocks that touch it. It is without force as it is made. Set O.engines first: its bonds are in the engine
+	No segment is fixed: ``O.bodies[lining.ids[0]].dynamic = False`` holds the first one. With *adhesion* it is also bonded to all blocks that touch it. It is without force as it is made. Set O.engines first: its bonds are in the engine
 	PolytopeBonds. docs/support.md has the equations.
 
 	:param points: (n, 2) corners of the line, a lining of polygons; or (n, 3), one of polyhedra, all in one plane normal to *axis* [m]

@@ -6,9 +6,21 @@ import xml.etree.ElementTree
 import numpy as np
 import pytest
 import vtk
-from scenes import joint, loop
+from scenes import joint, loop, withPolytopes
 from vtk.util.numpy_support import vtk_to_numpy
-from yade import FrictMat, O, PolytopeVTKRecorder, Quaternion, polytope
+from yade import (
+	FrictMat,
+	Ig2_Box_Sphere_ScGeom,
+	Ig2_Facet_Sphere_ScGeom,
+	Ig2_Sphere_Sphere_ScGeom,
+	Ig2_Wall_Sphere_ScGeom,
+	O,
+	PolytopeGeom,
+	PolytopeVTKRecorder,
+	Quaternion,
+	polytope,
+	utils,
+)
 
 
 def readBodies(path):
@@ -129,6 +141,46 @@ def testContactsComeBackWithTheirForces(tmp_path):
 		assert arrays['area'][k] == pytest.approx(contact.geom.contactArea)
 		assert arrays['infeasibility'][k] == pytest.approx(contact.geom.infeasibility)
 		assert names.GetValue(int(arrays['status'][k])) == contact.geom.status
+
+
+def testContactsOfSpheresAndOfPolytopesStandInOneFile(tmp_path):
+	"""A sphere on a sphere, on a facet, a box and a wall, and one on a cuboid: the forces that YADE keeps, its weight each, in the same columns."""
+	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
+	O.bodies.append(utils.sphere((0, 0, 0), 0.5, fixed=True))
+	O.bodies.append(utils.facet([(3, -1, 0.4), (6, -1, 0.4), (4, 3, 0.4)], fixed=True))
+	O.bodies.append(utils.box((8, 0, 0), (1, 1, 0.4), fixed=True))
+	O.bodies.append(utils.wall(-2, 2, sense=1))
+	O.bodies.append(polytope.cuboid((16, 0, 0), (1, 1, 0.4), fixed=True))
+	supports = len(O.bodies)
+	for place in ((0, 0, 1), (4, 0, 0.9), (8, 0, 0.9), (12, 0, -1.5), (16, 0, 0.9)):
+		O.bodies.append(utils.sphere(place, 0.5))
+	own = [Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Box_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()]
+	mixed = [functor() for functor in withPolytopes]
+	O.engines = polytope.engines(geometry=own + mixed, damping=0.6)
+	polytope.run(until=0.5)
+	recorder = PolytopeVTKRecorder(fileName=f'{tmp_path}/')
+	recorder()
+	data = readContacts(tmp_path / f'contacts.{O.iter}.vtp')
+	arrays = arraysOf(data.GetPointData())
+	names = data.GetFieldData().GetAbstractArray('statusNames')
+	assert sorted(zip(arrays['id1'].tolist(), arrays['id2'].tolist())) == sorted((i.id1, i.id2) for i in O.interactions)
+	assert {max(pair) for pair in zip(arrays['id1'], arrays['id2'])} == set(range(supports, len(O.bodies)))
+	for k in range(data.GetNumberOfPoints()):
+		contact = O.interactions[int(arrays['id1'][k]), int(arrays['id2'][k])]
+		assert list(data.GetPoint(k)) == pytest.approx(list(contact.geom.contactPoint))
+		assert list(arrays['normal'][k]) == pytest.approx(list(contact.geom.normal))
+		assert list(arrays['normalForce'][k]) == pytest.approx(list(contact.phys.normalForce))
+		assert list(arrays['shearForce'][k]) == pytest.approx(list(contact.phys.shearForce))
+		assert arrays['depth'][k] == pytest.approx(contact.geom.penetrationDepth) and arrays['depth'][k] > 0
+		up = 1 if contact.id2 >= supports else -1  # forces are those on the second body
+		weight = 9.81 * O.bodies[max(contact.id1, contact.id2)].state.mass
+		assert list(up * arrays['normalForce'][k]) == pytest.approx([0, 0, weight], rel=1e-3, abs=1e-3 * weight)
+		ofPolytope = type(contact.geom) is PolytopeGeom
+		assert arrays['area'][k] == (contact.geom.contactArea if ofPolytope else 0)
+		assert arrays['infeasibility'][k] == (contact.geom.infeasibility if ofPolytope else 0)
+		assert names.GetValue(int(arrays['status'][k])) == 'contact'
+	PolytopeVTKRecorder(fileName=f'{tmp_path}/none-', mask=4)()
+	assert readContacts(tmp_path / f'none-contacts.{O.iter}.vtp').GetNumberOfPoints() == 0
 
 
 def testBlocksOfALargeSceneComeBackBitForBit(tmp_path):
