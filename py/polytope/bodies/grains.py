@@ -20,6 +20,8 @@ inMillimetres = 2
 """Opening [m] of the largest sieve above which the curve's sizes were perhaps meant in mm: no sieve is so large."""
 mostGrains = 10_000_000
 """Of one call: of so many kilograms a script asks by a mistake in its units."""
+trialShapes = 200
+"""Of which the mean volume is taken, for a sample of so many grains: its error is a percent or so."""
 tries = 500
 """Random places for each body of a cloud."""
 fewestVertices, mostVertices = 4, 200
@@ -47,36 +49,40 @@ def randomGrain(size, elongation=1, flatness=1, vertices=14, seed=None, **body):
 
 
 @builder(lacks=('center', 'orientation'))
-def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, shapes=None, **body):
+def grains(curve, mass=None, elongation=1, flatness=1, vertices=14, seed=None, shapes=None, number=None, **body):
 	"""Random grains after a sieve curve, in random orientations at the origin: ``O.bodies.append(polytope.cloud(lower, upper, grains))``.
 
 	Between two sieves passing mass grows with the logarithm of the size: a straight line in the usual diagram. The sample meets the curve
 	at each sieve to 1 % of its mass.
 
 	:param curve: [(size, passing), …]: openings of sieves [m], ascending, and the part of the mass that passes, from 0 to 1
-	:param float mass: of all grains [kg]
+	:param float mass: of all grains [kg]; or *number*
 	:param elongation, flatness: as of randomGrain; or (least, largest), between which they are uniform
 	:param int vertices: of each grain
 	:param int seed: of the random numbers
 	:param shapes: list of bodies whose shapes the grains have, larger or smaller, one or the other at random, in place of *elongation*, *flatness* and
 	    *vertices*: ``[polytope.fromMesh(path) for path in …]``. Their size is the intermediate extent along the principal axes. A list of parts
 	    (``fromMesh(path, parts=8)``) in place of a body is one that is not convex
+	:param int number: of grains, in place of *mass*: that of a sample which has about so many, to some percent
 	:returns: list of bodies; of a shape in parts a list of these in a body's place, as *cloud* and *pack* take it
-	:raises ValueError: naming the argument; *mass* where so few grains cannot meet the curve
+	:raises ValueError: naming the argument; *mass* or *number* where so few grains cannot meet the curve
 	"""
 	sizes, passing = _curve(curve)
-	mass, count = number(mass, 'mass'), _vertices(vertices)
-	if not 0 < mass < math.inf:
-		raise ValueError(f'mass: must be positive and finite, got {mass!r}')
+	count = _vertices(vertices)
 	ranges = [_range(value, name) for value, name in ((elongation, 'elongation'), (flatness, 'flatness'))]
 	density = float(materialOf(body.get('material', -1)).density)
 	if not density > 0:
 		raise ValueError('material: needs a density above 0')
-	_notTooMany(sizes, passing, float(mass), density)
+
+	def shapeBy(random):
+		return shapesOf(shapes, random, lambda: pointsOnAnEllipsoid(random, count, *(random.uniform(*one) for one in ranges)))
+
+	what, total = _massOf(mass, number, lambda: _massOfOne(sizes, passing, density, shapeBy(randomOf(seed))))
+	_notTooMany(sizes, passing, total, density)
 	random, made, owed, masses = randomOf(seed), [], 0.0, np.zeros(len(sizes))
-	shape = shapesOf(shapes, random, lambda: pointsOnAnEllipsoid(random, count, *(random.uniform(*one) for one in ranges)))
+	shape = shapeBy(random)
 	for k, (least, largest) in enumerate(zip(sizes, sizes[1:], strict=False)):
-		owed += float(mass) * (passing[k + 1] - passing[k])
+		owed += total * (passing[k + 1] - passing[k])
 		drawn, diameters = _fraction(random, least, largest, owed / density, shape)
 		each = tqdm(zip(drawn, diameters, strict=True), desc='grains', total=len(drawn), unit=' grains', disable=None, leave=False)
 		for one, diameter in each:
@@ -84,13 +90,41 @@ def grains(curve, mass, elongation=1, flatness=1, vertices=14, seed=None, shapes
 			made.append(parts[0] if len(parts) == 1 else parts)
 			masses[k + 1] += density * one.volume * diameter**3
 		owed -= masses[k + 1]
-	off = np.abs(masses.cumsum() - float(mass) * np.array(passing)).max() / float(mass)
+	off = np.abs(masses.cumsum() - total * np.array(passing)).max() / total
 	if off > curveError:
 		heavy = f'a grain of {sizes[-1]:.3g} m has about {density * sizes[-1] ** 3 / 2:.2g} kg'
 		if sizes[-1] > inMillimetres:
 			heavy += ' (sizes are in m: were mm meant?)'
-		raise ValueError(f'mass: {float(mass):.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %): {heavy}; take more')
+		raise ValueError(
+			f'{what}: {total:.3g} kg are too few grains for this curve ({len(made)}, off by {100 * off:.2g} %): {heavy}; take more'
+		)
 	return made
+
+
+def _massOf(mass, howMany, massOfOne):
+	"""(the argument that was given, mass of all grains)"""
+	if (mass is None) == (howMany is None):
+		raise ValueError('mass: give the mass of all grains [kg], or their number (number=…), one of the two')
+	if mass is not None:
+		mass = number(mass, 'mass')
+		if not 0 < mass < math.inf:
+			raise ValueError(f'mass: must be positive and finite, got {mass!r}')
+		return 'mass', float(mass)
+	if isinstance(howMany, bool) or not isinstance(howMany, numbers.Integral) or not 0 < howMany <= mostGrains:
+		raise ValueError(f'number: must be a whole number from 1 to {mostGrains:,}, got {howMany!r}')
+	return 'number', int(howMany) * massOfOne()
+
+
+def _massOfOne(sizes, passing, density, shape):
+	"""Mean mass of the grains of this curve, by the mean volume of some shapes."""
+	volume = sum(shape().volume for _ in range(trialShapes)) / trialShapes
+	fractions = zip(sizes, sizes[1:], passing, passing[1:], strict=False)
+	return density * volume / sum((high - low) / _meanCube(least, largest) for least, largest, low, high in fractions)
+
+
+def _meanCube(least, largest):
+	"""Of the sizes between two sieves: where mass is uniform over the logarithm of the size, numbers fall with its cube."""
+	return 3 * math.log(largest / least) / (least**-3 - largest**-3)
 
 
 def _notTooMany(sizes, passing, mass, density):
@@ -117,7 +151,9 @@ def cloud(lower, upper, bodies, seed=None):
 	except TypeError:
 		raise ValueError(f'bodies: must be a list of polyhedra, got {bodies!r}') from None
 	groups = [partsOfLoose(one) for one in bodies]
-	if not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in groups for part in parts):
+	if not all(
+		isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in groups for part in parts
+	):
 		raise ValueError('bodies: must be a list of polyhedra, or of lists of the parts of one')
 	middles = [sum((part.state.pos for part in parts), Vector3.Zero) / len(parts) for parts in groups]
 	offsets = [[part.state.pos - middle for part in parts] for parts, middle in zip(groups, middles, strict=True)]
@@ -182,9 +218,7 @@ def _touch(place, radius, parts, other):
 
 def _fraction(random, least, largest, volume, shape):
 	"""(shapes of size 1, sizes) between two sieves, together of this volume as nearly as there are grains."""
-	# where mass is uniform over the logarithm of the size, numbers fall with its cube
-	steep = least**-3 - largest**-3
-	meanCube = 3 * math.log(largest / least) / steep
+	steep, meanCube = least**-3 - largest**-3, _meanCube(least, largest)
 	shapes, volumes, total = [], [], 0.0  # not summed anew for each grain: there may be 100 000
 	with tqdm(desc='shapes of grains', unit=' shapes', disable=None, leave=False) as progress:
 		while total * meanCube < volume:
@@ -213,7 +247,9 @@ def _curve(curve):
 		correct and len(sizes) > 1 and sizes[0] > 0 and all(a < b for a, b in zip(sizes, sizes[1:], strict=False)) and sizes[-1] < math.inf
 	)
 	if not rising or passing[0] != 0 or passing[-1] != 1 or not all(a <= b for a, b in zip(passing, passing[1:], strict=False)):
-		raise ValueError('curve: must be [(size, passing), …] with sizes above 0 that ascend, and passing from 0 to 1 that does not fall')
+		raise ValueError(
+			'curve: must be [(size, passing), …] with sizes above 0 that ascend, and passing from 0 to 1 (not percent) that does not fall'
+		)
 	return sizes, passing
 
 

@@ -137,6 +137,26 @@ def testGrainsOfPartsMakeClumps():
 	assert sum(float(O.bodies[number].state.mass) for number in numbers) == pytest.approx(0.2, rel=0.01)
 
 
+@pytest.mark.parametrize('sieves', [curve, [(0.01, 0), (0.012, 1)]])
+@pytest.mark.parametrize('shapes', [None, [brick(3, 2, 1, (0, 0, 0)), brick(1, 1.5, 4, (0, 0, 9))]])
+def testSampleOfANumberOfGrainsMeetsTheCurve(sieves, shapes, monkeypatch):
+	sizes, masses, sample = sieved(monkeypatch, sieves, number=2000, seed=1, shapes=shapes, elongation=(0.6, 1))
+	assert len(sample) == pytest.approx(2000, rel=0.05)
+	for opening, passing in sieves if shapes is None else ():
+		assert masses[sizes <= opening * (1 + 1e-9)].sum() / masses.sum() == pytest.approx(passing, abs=0.01)
+
+
+def testMassOrNumberOneOfThem():
+	for given in ({}, {'mass': 1, 'number': 10}):
+		with pytest.raises(ValueError, match='^mass: give the mass of all grains'):
+			polytope.grains(curve, **given)
+	for wrong in (0, -1, 2.5, True, 10**8, '3'):
+		with pytest.raises(ValueError, match='^number: must be a whole number from 1 to 10,000,000, got '):
+			polytope.grains(curve, number=wrong)
+	with pytest.raises(ValueError, match='^number: .* too few grains .*; take more'):
+		polytope.grains(curve, number=3, seed=1)
+
+
 def testMoreGrainsThanAnyMemoryHoldsAreRefused():
 	"""A mass in milligrams, sizes in metres: it went on without end."""
 	with pytest.raises(

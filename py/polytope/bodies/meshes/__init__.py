@@ -49,7 +49,7 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 	    each of these the pieces that are closed by themselves, which may share corners, edges and faces. Of one that is not convex or
 	    not closed the hull is taken, with a warning; a single one is refused.
 	    Or the number of convex parts at most, into which CoACD cuts the mesh, approximately: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``.
-	    CoACD is optional: ``pip install coacd``. *center* and *orientation* are of the whole. A mesh is cut once: further calls, also
+	    CoACD is optional: ``pip install --no-deps --target ~/coacd coacd``, and PYTHONPATH=~/coacd. *center* and *orientation* are of the whole. A mesh is cut once: further calls, also
 	    with another *scale*, make copies of the same parts.
 	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file

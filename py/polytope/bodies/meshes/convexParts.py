@@ -69,7 +69,7 @@ def decomposed(points, triangles, most, volume):
 	try:
 		import coacd
 	except ImportError as error:
-		remedy = "install it with 'pip install coacd' (it is optional), or cut the mesh with another program and take parts='objects'"
+		remedy = "install it (it is optional) with 'pip install --no-deps --target ~/coacd coacd' and set PYTHONPATH=~/coacd, or cut the mesh with another program and take parts='objects'"
 		raise ImportError(f"parts: needs CoACD, which is not installed; {remedy}") from error
 	coacd.set_log_level('error')
 	low, high = points.min(axis=0), points.max(axis=0)
