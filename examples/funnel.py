@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Grains run out of a funnel that is read from an STL file; prints how many have left it, draws them.
+"""Grains run out of a funnel that is read from an STL file; prints how many have left it, draws them and the curve of their number.
 
-./run python examples/funnel.py          writes output/funnel.stl and output/funnel.png
+./run python examples/funnel.py          writes output/funnel.stl, output/funnel.png and output/funnelCurve.png
+./run yade examples/funnel.py            the same, with a window in which the curve grows during the run
 """
 
 import os
 from math import cos, pi, radians, sin
 
 import trimesh
-from yade import O, RockJointMat, polytope
+from matplotlib import pyplot
+from yade import O, RockJointMat, plot, polytope
 
 # the funnel, as a program for drawing would write it: rings of points, and two triangles between neighbours
 profile = [(0.08, 0.32), (0.08, 0.22), (0.02, 0.12), (0.02, 0.09)]  # radius and height [m]
@@ -32,9 +34,23 @@ for k, grain in enumerate(grains):
 O.bodies.append(polytope.cloud((-0.055, -0.055, 0.21), (0.055, 0.055, 0.5), grains, seed=2))
 
 O.engines = polytope.engines()
-polytope.run(until=0.45)
-heights = [body.state.pos[2] for body in O.bodies if body.dynamic]
-print(sum(height < 0.09 for height in heights), 'of', len(heights), 'grains have left the funnel')
+
+
+def addPoint():
+	"""Of the curve: how many grains have left the funnel."""
+	heights = [body.state.pos[2] for body in O.bodies if body.dynamic]
+	plot.addData(t=O.time, left=sum(height < 0.09 for height in heights))
+	pyplot.pause(0.01)  # lets the window draw itself
+
+
+plot.plots = {'t': 'left'}
+addPoint()
+plot.plot()  # a window that follows the data; without a screen nothing
+while O.time < 0.45:
+	polytope.run(100)
+	addPoint()
+print(plot.data['left'][-1], 'of', len(grains), 'grains have left the funnel')
+plot.plot(noShow=True).savefig('output/funnelCurve.png')
 polytope.picture(
 	'output/funnel.png', fixed=lambda body: 'glass' if body.id < 2 * len(quads) else 'solid', view=(-0.3, -1, 0.25), size=(1000, 1000)
 )

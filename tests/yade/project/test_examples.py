@@ -152,7 +152,7 @@ def testJointNetworkCutsWhatWasAskedFor(runs, capsys):
 
 
 def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
-	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'until=0.45': 'until=0.35'})
+	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.45': 'O.time < 0.35'})
 	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
 	grains = [body.state.pos for body in O.bodies if body.dynamic]
 	assert 0 < out and number == len(grains) > 8 and isPicture('output/funnel.png') and noFailures()
