@@ -9,6 +9,8 @@ from ..scene.present import geometryFunctors
 
 __all__ = ['contactFindings']
 
+answers = ('separated', 'contact', 'normalFromOneBody', 'normalFromDual', 'roundingLimited', 'centreByIpopt')
+"""Statuses of queries that have one."""
 sameFace = 1 - 1e-6
 """Cosine between normals of two contacts of one face."""
 
@@ -16,15 +18,30 @@ sameFace = 1 - 1e-6
 def contactFindings(scene):
 	"""Of the scene's own engines: nothing is known yet of the contacts that others make."""
 	if scene.ownEngines:
-		yield from failures()
+		yield from failures(scene)
 		yield from severalPieces(scene)
 
 
-def failures():
-	"""Queries without an answer, since the start or the last resetStats()."""
+def failures(scene):
+	"""Queries without an answer, since the start or the last resetStats(), and a pair that has none now."""
 	failed = sum(functor.stats()['failures'] for functor in geometryFunctors())
-	if failed:
-		yield 'failures', f'{failed} contact queries had no answer', 'find out which: docs/statuses.md says why a query may have none'
+	if not failed:
+		return
+	seen, advice = f'{failed} contact queries had no answer', 'find out which: docs/statuses.md says why a query may have none'
+	now = [one for one in scene.O.interactions if one.isReal and isinstance(one.geom, PolytopeGeom) and one.geom.status not in answers]
+	if now:
+		one = min(now, key=lambda one: not _fixed(scene, one))  # those of fixed bodies come back in each step
+		seen += f', now {len(now)}: body {one.id1} and body {one.id2} have {one.geom.status}'
+		if _fixed(scene, one):
+			seen += ', and are both fixed'
+			advice = (
+				'set them apart; or have no contacts among fixed bodies: mask=3 for each, and avoidSelfInteractionMask=2 for the collider'
+			)
+	yield 'failures', seen, advice
+
+
+def _fixed(scene, pair):
+	return not any(scene.moves(scene.O.bodies[key]) for key in (pair.id1, pair.id2))
 
 
 def severalPieces(scene):

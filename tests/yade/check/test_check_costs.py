@@ -25,6 +25,7 @@ from yade import (
 	O,
 	PolytopeCollider,
 	PyRunner,
+	Quaternion,
 	RockJointMat,
 	polytope,
 	utils,
@@ -224,6 +225,26 @@ def testQueriesWithoutAnAnswerAreTold():
 	O.step()
 	failed = functor().stats()['failures']
 	assert failed > 0 and f'{failed} contact queries' in polytope.check(O)['failures'].seen
+
+
+def testFixedBodiesThatPierceAreNamed():
+	"""Two plates cross, as walls of a valley do below its line: each step has one query without an answer, until they have no contact."""
+	O.materials.append(RockJointMat(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.5, density=1000))
+	cross = [polytope.cuboid((0, 0, 0), (1, 1, 0.1), orientation=Quaternion((1, 0, 0), turn), fixed=True) for turn in (0.7, -0.7)]
+	O.bodies.append([polytope.cuboid((0, 0, 3), (0.1, 0.1, 0.1)), *cross])
+	O.engines = polytope.engines()
+	O.dt = 1e-6
+	O.run(3, True)
+	finding = polytope.check(O)['failures']
+	assert finding.seen == '3 contact queries had no answer, now 1: body 1 and body 2 have noDirection, and are both fixed'
+	assert 'mask=3 for each, and avoidSelfInteractionMask=2' in finding.advice
+	O.interactions.clear()
+	for body in cross:
+		body.mask = 3
+	O.engines[1].avoidSelfInteractionMask = 2
+	O.engines[2].geomDispatcher.functors[0].resetStats()
+	O.run(3, True)
+	assert 'failures' not in [one.what for one in polytope.check(O)] and O.interactions.countReal() == 0
 
 
 def testUndampedPaperModel():
