@@ -10,7 +10,7 @@ from ..measures.arrays import arrays
 from ..scene.movers import movers
 from ..scene.present import integrators
 
-__all__ = ['unbalancedForce', 'unbalancedForces']
+__all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
 
 def unbalancedForce(watched=None):
@@ -27,38 +27,67 @@ def unbalancedForces(watched=None, masses=None):
 	:param masses: true masses by id, where those of the scene are scaled [kg]
 	"""
 	bodies, contacts = arrays()
-	last = len(O.bodies)
-	owner = np.arange(last)
-	owner[bodies.ids] = np.where(bodies.clumpIds >= 0, bodies.clumpIds, bodies.ids)  # a clump moves as one
-	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts
-	resultant = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	last, owner = len(O.bodies), _owners(bodies)
 	pressing = np.linalg.norm(np.nan_to_num(contacts.forces), axis=1) / 2
 	borne = sum(np.bincount(owner[contacts.ids[:, side]], pressing, last) for side in (0, 1))
 	forces = [(bond, bond.force.norm()) for bond in madeBonds() if bond.intact]
-	forces += [(crossing, abs(crossing.tension) + crossing.shearForce.norm()) for one in madeBolts() for crossing in one.crossings if not crossing.failure]
+	forces += [
+		(crossing, abs(crossing.tension) + crossing.shearForce.norm())
+		for one in madeBolts()
+		for crossing in one.crossings
+		if not crossing.failure
+	]
 	for link, force in forces:
 		for key in (link.id1, link.id2):
 			borne[owner[key]] += float(force) / 2
-	gravity, present, true = np.array(integrators()[0].gravity, float), np.zeros(last), np.zeros(last)
-	present[bodies.ids] = true[bodies.ids] = bodies.masses
-	for key, mass in (masses or {}).items():
-		true[key] = float(mass)
-	# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
-	present[bodies.ids[~single]] = true[bodies.ids[~single]]
-	weight = np.outer(present, gravity)
-	scale = np.maximum(true * np.linalg.norm(gravity), borne)
-	moving, free = _movers()
-	resultant[moving] = free * (resultant + weight)[moving]  # what is held bears any force
+	scale = np.maximum(_trueMasses(bodies, masses) * np.linalg.norm(np.array(integrators()[0].gravity, float)), borne)
+	moving = np.flatnonzero(scale > 0)
 	if watched is not None:
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
-	moving = moving[scale[moving] > 0]
 	found = np.zeros(last)
-	found[moving] = np.linalg.norm(resultant[moving], axis=1) / scale[moving]
+	found[moving] = np.linalg.norm(resultants(masses)[moving], axis=1) / scale[moving]
 	return found
+
+
+def resultants(masses=None):
+	"""(n, 3) by id: force on each body with its weight, along what it can move; 0 of those that cannot, and of parts of clumps [N].
+
+	:param masses: true masses by id, where those of the scene are scaled [kg]
+	"""
+	bodies = arrays().bodies
+	last, owner = len(O.bodies), _owners(bodies)
+	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts
+	found = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	present = np.zeros(last)
+	present[bodies.ids] = bodies.masses
+	# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
+	present[bodies.ids[~single]] = _trueMasses(bodies, masses)[bodies.ids[~single]]
+	found += np.outer(present, np.array(integrators()[0].gravity, float))
+	moving, free = _movers()
+	held = np.zeros((last, 3))
+	held[moving] = free * found[moving]  # what is held bears any force
+	return held
+
+
+def _owners(bodies):
+	"""By id the body itself, or the clump that it is part of, which moves as one."""
+	owner = np.arange(len(O.bodies))
+	owner[bodies.ids] = np.where(bodies.clumpIds >= 0, bodies.clumpIds, bodies.ids)
+	return owner
+
+
+def _trueMasses(bodies, masses):
+	true = np.zeros(len(O.bodies))
+	true[bodies.ids] = bodies.masses
+	for key, mass in (masses or {}).items():
+		true[key] = float(mass)
+	return true
 
 
 def _movers():
 	"""(ids of the bodies that forces move, of clumps their own; (n, 3) 1 for x, y, z along which they do, else 0)"""
 	moving = movers()
 	held = [body.state.blockedDOFs for body in moving]
-	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in 'xyz'] for one in held], float).reshape(-1, 3)
+	return np.array([body.id for body in moving], int), np.array([[axis not in one for axis in 'xyz'] for one in held], float).reshape(
+		-1, 3
+	)

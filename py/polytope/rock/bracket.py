@@ -9,7 +9,8 @@ growth = 1.5
 """Growth of the factor from one trial to the next, until one fails."""
 beside = 0.4
 """Distance of trials from the estimated limit over the tolerance, on either side: the nearer, the longer they take, and both together must be within the tolerance."""
-
+patience = 2
+"""Estimates on end that may be wrong."""
 near = 0.5
 """How far beyond the lower of two factors that failed an estimate counts, over their distance, in 1/F: far above the limit a mass fails in other modes."""
 
@@ -17,8 +18,9 @@ near = 0.5
 class Bracket:
 	"""Divisors of strength between which the limit lies: *stable* and *failed*.
 
-	Where a body slides, the force that it lacks to stand is linear in tan φ/F and c/F: the two lowest factors that failed tell by a straight line in 1/F where it is zero, if the same body moved
-	farthest in both. A trial on either side of this estimate ends the search if it is right. Where it is not the bracket is halved next.
+	The motion in the trial that failed by the lowest factor tells where the limit is (*Motion*). Where it does not: if a body slides, the force that it lacks to stand is linear in tan φ/F and c/F, and the two
+	lowest factors that failed tell by a straight line in 1/F where it is zero, if the same body moved farthest in both. A trial on either side of this estimate ends the search if it is right. If it is wrong
+	and failed, its own motion tells better; else, and after the second one on end, the bracket is halved next.
 
 	:param float tolerance: width over the factor that is asked for
 	:param float most: largest factor to try
@@ -28,10 +30,11 @@ class Bracket:
 		self.tolerance, self.most = tolerance, most
 		self.stable, self.failed = 1.0, math.inf
 		self._lacks = []
-		"""(1/F, force that was missing, body) of trials that failed."""
+		"""(1/F, force that was missing, body, limit by the motion) of trials that failed."""
 		self._expected = None
 		"""Whether the trial that was asked for last should stand, by the estimate; None: that was no estimate."""
-		self._wrong = False
+		self._wrong = 0
+		"""Estimates on end that were wrong."""
 
 	@property
 	def isNarrow(self):
@@ -48,8 +51,9 @@ class Bracket:
 		self._expected = None
 		if math.isinf(self.failed):
 			return min(growth * self.stable, self.most)
-		limit = None if self._wrong else self._estimate()
-		self._wrong = False
+		limit = None if self._wrong >= patience else self._estimate()
+		if limit is None:
+			self._wrong = 0
 		if limit is not None:
 			low, high = limit * (1 - beside * self.tolerance), limit * (1 + beside * self.tolerance)
 			for factor, stands in ((low, True), (high, False)):
@@ -58,23 +62,29 @@ class Bracket:
 					return factor
 		return (self.stable + self.failed) / 2
 
-	def tell(self, factor, stands, lacks=0.0, body=None):
+	def tell(self, factor, stands, lacks=0.0, body=None, limit=None):
 		"""The outcome of a trial.
 
 		:param float lacks: of one that failed: force that the body lacked which moved farthest, over any constant measure
 		:param body: which that was
+		:param limit: of one that failed: the factor at which it would have stood, by its motion; None: it does not tell
 		"""
 		if stands:
 			self.stable = max(self.stable, factor)
 		else:
 			self.failed = min(self.failed, factor)
-			self._lacks.append((1 / factor, lacks, body))
-		self._wrong = self._expected not in (None, stands)
+			self._lacks.append((1 / factor, lacks, body, limit))
+		wrong = self._expected not in (None, stands)
+		self._wrong = self._wrong + (patience if stands else 1) if wrong else 0
 
 	def _estimate(self):
-		if len(self._lacks) < 2:
+		lowest = sorted(self._lacks, key=lambda one: one[0])[-2:]
+		limit = lowest[-1][3]
+		if limit is not None and self.stable < limit < self.failed:
+			return limit
+		if len(lowest) < 2:
 			return None
-		(x1, y1, body1), (x2, y2, body2) = sorted(self._lacks, key=lambda one: one[0])[-2:]  # of the lowest factors
+		(x1, y1, body1, _), (x2, y2, body2, _) = lowest
 		if body1 != body2 or not y1 > y2 > 0 or y2 / (y1 - y2) > near:
 			return None
 		limit = 1 / (x2 + y2 * (x2 - x1) / (y1 - y2))

@@ -24,11 +24,14 @@ from ..strengthReduction import divideStrengths, strengths
 from .bracket import Bracket
 from .faceMaterials import materialsOf
 from .history import histories
+from .motion import Motion
 
 __all__ = ['FactorOfSafety', 'Trial', 'factorOfSafety']
 
-atRest = 1e-4
-"""Unbalanced force, as of *settle*, below which bodies stand [-]: one that slides has the part by which its strength is too small, so this is far below any tolerance."""
+atRest, loosest = 0.05, 1e-3
+"""Unbalanced force, as of *settle*, below which bodies stand, over the tolerance [-]: one that slides has about the part by which its strength is too small, so this is far below it; and the largest such force, whatever the tolerance."""
+still = 1e-3
+"""Way of a body in these looks, over that which counts as failure, below which it stands: what swings slowly has no unbalanced force for a moment."""
 between, looks = 50, 3
 """Steps between two looks, and looks in a row at which all must be at rest."""
 damping = 0.4
@@ -38,7 +41,7 @@ gently = 1.02
 partOfMode = 0.1
 """Of the largest displacement: bodies that move more are part of the mode."""
 before, standing = 'factorOfSafety', 'factorOfSafety.standing'
-"""Names of states in memory: as the scene was, and at rest with its own strengths."""
+"""Names of states in memory: as the scene was, and the last one at rest."""
 
 
 @dataclasses.dataclass
@@ -47,12 +50,12 @@ class Trial:
 
 	factor: float
 	outcome: str
-	"""'stable': at rest; 'failed': a body has moved too far; 'creeping': neither by the last step, which counts as failure."""
+	"""'stable': at rest; 'failed': a body has moved too far, or does so faster and faster; 'creeping': neither by the last step, which counts as failure."""
 	steps: int
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved farthest for its size [m]."""
+	"""Way of the body that has moved farthest for its size, since the trial began [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 
@@ -104,9 +107,11 @@ class FactorOfSafety:
 def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps=200000):
 	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
 
-	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. From there each trial begins, with strengths divided by a number between what stood and what failed. It
-	is stable when no body has an unbalanced force, or only such as tremble in place for good, and has failed when a body has moved by a fiftieth of its size. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
-	time, each from rest. Then the scene is what it was, time and
+	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. Then strengths are divided by a number between what stood and what failed, trial by trial. A trial begins
+	at the last state that stood: strengths are only ever lowered from there, so its forces are in equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It
+	is stable when no body has an unbalanced force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a body has moved by a fiftieth of its size, or by a
+	quarter of that faster and faster, with nothing ahead that could stop it. A body that moves and comes to rest before is stable. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
+	time. Then the scene is what it was, time and
 	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
 
 	Where a time stepper sets the time step, bodies that need a smaller one than half of all bodies do are heavier in the trials, with the weight that they have (as by *polytope.settle*, densityScaling).
@@ -139,7 +144,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	loads = permanentLoads()
 	try:
 		with scaledMassesIfPossible() as scaled:  # what stands and what does not is the same
-			return _Search(watched, reduce, int(steps), scaled).run(tolerance, most)
+			return _Search(watched, reduce, int(steps), scaled, tolerance).run(most)
 	finally:
 		_load(before, loads)
 
@@ -169,8 +174,9 @@ def _load(name, loads):
 
 
 class _Search:
-	def __init__(self, watched, reduce, steps, scaled):
-		self.watched, self.reduce, self.steps = watched, tuple(reduce), steps
+	def __init__(self, watched, reduce, steps, scaled, tolerance):
+		self.watched, self.reduce, self.steps, self.tolerance = watched, tuple(reduce), steps, tolerance
+		self.bound = min(atRest * tolerance, loosest)
 		self.loads = permanentLoads()
 		"""With those that scaled masses come with."""
 		self.masses = scaled and scaled[1]
@@ -182,13 +188,15 @@ class _Search:
 			getattr(material, 'strength', None) is not None for body in O.bodies for material in materialsOf(body)
 		)
 		self.reached = 1.0
-		"""Factor of the state from which trials begin."""
+		"""Factor of the state from which trials begin, the last one that stood."""
 		self.lacked = 0.0, None
 		"""Mean unbalanced force of the body that moved farthest in the last trial [-], and its id."""
+		self.limit = None
+		"""Factor that the motion in the last trial tells."""
 		self.left = 1
 		"""Trials that are expected, with the present one: for the time left in the bar."""
 
-	def run(self, tolerance, most):
+	def run(self, most):
 		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
 			self.origin = self._places()
 			first = self._trial(1.0)
@@ -197,13 +205,11 @@ class _Search:
 					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps; '
 					f'{_told(*self._motion()[:2])}; polytope.settle() first, more strength, or a support'
 				)
-			O.saveTmp(standing, quiet=True)
-			self.origin = self._places()
-			bracket = Bracket(tolerance, most)
+			bracket = Bracket(self.tolerance, most)
 			while not bracket.isNarrow:
 				self.left = bracket.halvings
 				trial = self._trialFromRest(bracket.next())
-				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked)
+				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked, self.limit)
 				bracket.stable = max(bracket.stable, self.reached)
 				if bracket.stable >= most:
 					raise RuntimeError(
@@ -216,18 +222,16 @@ class _Search:
 		ones = sorted({k for trial in self.trials for k in trial.trembling})
 		if ones:
 			warn(
-				f'bodies: {", ".join(map(str, ones[:3]))}{" …" if len(ones) > 3 else ""} tremble in place by more than {atRest:g} of what they bear; their trials count as stable'
+				f'bodies: {", ".join(map(str, ones[:3]))}{" …" if len(ones) > 3 else ""} tremble in place by more than {self.bound:g} of what they bear; their trials count as stable'
 			)
 
 	def _trialFromRest(self, factor):
-		_load(standing, self.loads)
-		if self.gently:
-			while self.reached * gently < factor:
-				trial = self._weaken(self.reached * gently)
-				if trial.outcome != 'stable':
-					return trial
-				self.reached, self.origin = trial.factor, self._places()
-				O.saveTmp(standing, quiet=True)
+		if self.trials[-1].outcome != 'stable':
+			_load(standing, self.loads)
+		while self.gently and self.reached * gently < factor:
+			trial = self._weaken(self.reached * gently)
+			if trial.outcome != 'stable':
+				return trial
 		return self._weaken(factor)
 
 	def _weaken(self, factor):
@@ -242,33 +246,43 @@ class _Search:
 			integrator.damping = damping
 		for engine in [*histories(), *filmEngines()]:
 			engine.dead = True  # what happens in a trial is none of the scene's history
-		trial, quiet, unrest = Trial(factor, 'creeping', 0, 0.0, 0.0), 0, Unrest(atRest, self.watched, self.masses)
+		self.quiet = 0
+		trial = Trial(factor, 'creeping', 0, 0.0, 0.0)
+		motion, unrest = Motion(self.watched, self.limits), Unrest(self.bound, self.watched, self.masses)
 		self.trials.append(trial)
-		while trial.steps < self.steps:
+		while trial.steps < self.steps and trial.outcome == 'creeping':
 			for _ in range(between):
 				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			trial.steps += between
-			trial.unbalanced, trial.displacement = unrest.look(between), self._show(factor)
-			if not trial.displacement <= 1:  # not a number counts as failed
-				trial.outcome = 'failed'
-				break
-			quiet = quiet + 1 if trial.unbalanced < atRest else 0
-			trial.trembling = [] if quiet == looks else _trembling(unrest)
-			if quiet == looks or trial.trembling:
-				trial.outcome = 'stable'
-				break
-		farthest = int(np.argmax(self._ways() / self.limits))
+			trial.unbalanced = unrest.look(between)
+			parts = self._show(factor)
+			motion.look(parts, self.masses)
+			trial.outcome = self._outcome(trial, motion, unrest)
+		farthest = int(np.argmax(parts))
 		self.lacked = float(unrest.mean[self.watched[farthest]]), self.watched[farthest]
+		self.limit = motion.limit(factor) if set(self.reduce) == set(strengths) else None
 		trial.displacement = float(self._ways()[farthest])
+		if trial.outcome == 'stable':
+			self.reached, self.origin = factor, self._places()
+			O.saveTmp(standing, quiet=True)
 		return trial
 
+	def _outcome(self, trial, motion, unrest):
+		"""As of now: 'creeping' where it is neither."""
+		if not motion.parts[-1].max() <= 1 or motion.runsAway():  # not a number counts as failed
+			return 'failed'
+		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0
+		stands = self.quiet >= looks and motion.way(looks) < still
+		trial.trembling = [] if stands else _trembling(unrest)
+		return 'stable' if stands or trial.trembling else 'creeping'
+
 	def _show(self, factor):
-		"""Largest way over what counts as failure."""
+		"""Way of each body over that which counts as failure."""
 		steps = [trial.steps for trial in self.trials]
 		self.bar.total = sum(steps[:-1]) + self.left * max(steps)
 		self.bar.set_postfix_str(f'strengths over {factor:.4g}', refresh=False)
 		self.bar.update(between)
-		return float((self._ways() / self.limits).max())
+		return self._ways() / self.limits
 
 	def _places(self):
 		return np.array([tuple(O.bodies[k].state.pos) for k in self.watched], float), [O.bodies[k].state.ori for k in self.watched]

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the motion of bodies in a trial tells: whether it goes on by itself, and how much strength would have stopped it."""
+
+import numpy as np
+from yade import O, Polytope, _polytope
+
+from ..measures.arrays import arrays
+from ..rest.unbalanced import resultants
+from ..scene.movers import partsOf
+
+__all__ = ['Motion']
+
+far = 0.25
+"""Part of the way that counts as failure, from which on a body that moves faster and faster has failed: some ten times what elastic joints give way."""
+faster = 1.05
+"""Least ratio of the ways in two quarters of a trial, one after the other, where a body moves faster and faster: a steady speed has 1, a steady acceleration from rest 1.4 at least."""
+early = 0.3
+"""Part of the way that counts as failure, up to which the motion tells of the strength: beyond that blocks have come free of each other, and fall."""
+sameWay = 0.5
+"""Part of a body's way along its motion, from which on another body moves with it, and does not stop it."""
+grazing = 0.1
+"""Component of a contact's normal along the motion, above which it could stop it [-]."""
+
+
+class Motion:
+	"""Follows bodies from look to look of a trial, at equal numbers of steps.
+
+	On the ways s of a mass that begins to move its bodies gain the work P = Σ F·s of their mean resultant forces F, in which vibrations cancel, and its joints take D = −Σ S·u by friction, with shear forces S and slips u of
+	one side against the other. With strengths that are k times as large it would gain P + D − k D, as long as normal forces stay what they are, so k = 1 + P/D would just hold it (the kinematic theorem of limit analysis). Exact for one
+	block on a plane; where normal forces depend on the strength, or blocks topple, it is an estimate.
+
+	:param watched: ids of the bodies
+	:param limits: way of each that counts as failure [m]
+	"""
+
+	def __init__(self, watched, limits):
+		self.watched, self.limits = np.array(watched), limits
+		self.parts = [np.zeros(len(limits))]
+		"""Way of each body over its limit at each look, from the start on."""
+		self.forces, self.looks = np.zeros((len(O.bodies), 3)), 0
+		"""Sum of the resultant forces of all bodies over the looks that count [N], and their number."""
+		self.taken, self.time = 0.0, O.time
+		"""D [J], up to this time [s]."""
+		self.began = self.now = _places()
+		self.touched = {tuple(pair) for pair in arrays().contacts.ids}
+		"""Pairs of bodies that touched when it began: what moves on although they did is not stopped by them."""
+
+	def look(self, parts, masses=None):
+		"""
+		:param parts: way of each body over its limit
+		:param masses: true masses by id, where those of the scene are scaled [kg]
+		"""
+		self.parts.append(parts)
+		if parts.max() < early:
+			self.forces, self.looks = self.forces + resultants(masses), self.looks + 1
+			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, _places()
+
+	def way(self, looks):
+		"""Largest way in the last looks, over its limit."""
+		return float(np.abs(self.parts[-1] - self.parts[max(0, len(self.parts) - looks)]).max())
+
+	def limit(self, factor):
+		"""The factor at which strengths would have held the mass, or None.
+
+		:param factor: by which they are divided now
+		"""
+		gained = float((self.forces * (self.now - self.began)).sum()) / max(1, self.looks)
+		return factor * self.taken / (self.taken + gained) if self.taken > 0 and gained > 0 else None
+
+	def runsAway(self):
+		"""Whether a body moves faster and faster with nothing ahead, on the way that is left until it counts as failed, that could stop it."""
+		last = len(self.parts) - 1
+		if last < 8 or self.parts[-1].max() < far:
+			return False
+		ways = np.diff([self.parts[last * k // 4] for k in range(5)], axis=0)
+		speeding = (self.parts[-1] >= far) & (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)
+		return any(not self._isStopped(k) for k in np.flatnonzero(speeding))
+
+	def _isStopped(self, k):
+		"""Whether body k meets another one, which it did not touch when it began and which does not move with it."""
+		way = (_places() - self.began)[self.watched]
+		length = np.linalg.norm(way[k])
+		along = way[k] / length
+		withIt = {int(self.watched[j]) for j in np.flatnonzero(way @ along >= sameWay * length)}
+		return self._meets(int(self.watched[k]), along, self.limits[k] - length, {part for j in withIt for part in partsOf(j)})
+
+	def _meets(self, k, along, left, withIt):
+		"""Whether body k would touch another one, not of these, now or on the way that is left, so that it could not go on along it."""
+		parts = [O.bodies[part] for part in partsOf(k)]
+		if not all(isinstance(part.shape, Polytope) for part in parts):
+			return True  # of other shapes it is not looked what is ahead
+		for part in parts:
+			place, reach = part.state.pos, float(part.shape.circumscribedRadius) + left
+			near = [body for body in _others(withIt) if (body.state.pos - place).norm() < reach + float(body.shape.circumscribedRadius)]
+			near = [body for body in near if not {(part.id, body.id), (body.id, part.id)} & self.touched]
+			try:
+				for ahead in (0.0, 0.5, 1.0):
+					part.state.pos = place + type(place)(*(ahead * left * along))
+					if any(_opposes(_polytope.contact(part, body), along) for body in near):
+						return True
+			finally:
+				part.state.pos = place
+		return False
+
+
+def _friction():
+	"""Power that shear forces of all contacts take [W]."""
+	bodies, contacts = arrays()
+	places, speeds, turns = (np.zeros((len(O.bodies), 3)) for _ in range(3))
+	places[bodies.ids], speeds[bodies.ids], turns[bodies.ids] = bodies.positions, bodies.velocities, bodies.angularVelocities
+	one, two = contacts.ids.T
+	sliding = (
+		speeds[two]
+		+ np.cross(turns[two], contacts.points - places[two])
+		- speeds[one]
+		- np.cross(turns[one], contacts.points - places[one])
+	)
+	return -float(np.nansum(contacts.shearForces * sliding))
+
+
+def _places():
+	"""(n, 3) by id; of ids without a body zero [m]"""
+	bodies = arrays().bodies
+	found = np.zeros((len(O.bodies), 3))
+	found[bodies.ids] = bodies.positions
+	return found
+
+
+def _others(withIt):
+	return [body for body in O.bodies if body is not None and isinstance(body.shape, Polytope) and body.id not in withIt]
+
+
+def _opposes(contact, along):
+	return contact.inContact and np.array(contact.normal, float) @ along > grazing
