@@ -13,6 +13,7 @@ from ..precision import isNumber
 from ..scene.movers import canMove
 from ..scene.present import integrators, placeOfForces
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
+from .twoWaters import refuseTwice
 
 __all__ = ['Face', 'water']
 
@@ -32,8 +33,6 @@ class Face(NamedTuple):
 	"""[m²]"""
 
 
-attributesOfWater = 'points', 'values', 'gradients', 'sides', 'sideOffsets', 'someFaces', 'wetBodies', 'wetPlanes'
-"""Of PolytopeWater."""
 least = 100.0
 """Density [kg/m³] below which it is taken for one in t/m³: no liquid in rock has it."""
 sameMass = 1e-6
@@ -45,7 +44,7 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	"""Water presses on faces of blocks, in joints and outside: ``polytope.water(level=12)``. Set O.engines first.
 
 	Each face below the water table has the pressure density · g · depth, wherever the body moves, integrated exactly over the part that is below: faces in a joint from both sides (uplift), faces
-	outside as a lake does (buoyancy). The pressure in a joint is the same however far it is open. Several calls add up: give each the faces that it is for. In an engine *PolytopeWater*, which is put between InteractionLoop
+	outside as a lake does (buoyancy). The pressure in a joint is the same however far it is open. Each face has one water: give several calls the faces that each is for. In an engine *PolytopeWater*, which is put between InteractionLoop
 	and NewtonIntegrator and is saved with the scene; docs/water.md has examples.
 
 	:param level: height of the water table [m], counted against gravity; or three or more points of it (n, 3): in a vertical plane they are a section, straight between
@@ -54,8 +53,8 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	:param pressures: in place of *level*: [(point, pressure [Pa]), …] in order along a joint: linear between the points, constant across their line and beyond its ends
 	:param faces: function of a *Face* (body, plane, normal, centre, area), called once for each: whether it has this water; default all faces of all polytopes, of later ones too
 	:returns: the engine; ``engine.load(id)`` has force and moment on a body, ``engine.dead = True`` takes the water away
-	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, the same water a second time, clumps of
-	    parts that overlap
+	:raises ValueError: naming the argument and the remedy: not finite, no gravity, nothing that gets wet, water that stands above the ground in joints, faces on which another water presses
+	    already, clumps of parts that overlap
 	"""
 	place = placeOfForces('water acts')
 	if O.periodic:
@@ -68,9 +67,10 @@ def water(level=None, density=1000, pressures=None, faces=None):
 		raise ValueError('O.bodies: there are no polytopes that water could press on; make them first')
 	_refuseOverlappingParts()
 	pieces = _along(pressures) if level is None else _below(level, density, bodies, faces is not None)
-	wet, corners = _chosen(faces, bodies)
+	wet, chosen = _chosen(faces, bodies)
+	corners = np.concatenate([corners for _, corners in chosen])
 	engine = PolytopeWater(**_attributes(pieces), **wet)
-	_refuseTheSame(engine, name)
+	refuseTwice(engine, chosen, name)
 	if not (_anyPressure(pieces, corners) or any(float(engine.load(body.id)[0].norm()) > 0 for body in bodies)):
 		low, high = _reach(bodies, np.eye(3))
 		raise ValueError(f'{name}: no face gets any pressure; the bodies reach from {_text(low)} to {_text(high)} m')
@@ -89,20 +89,6 @@ def _refuseOverlappingParts():
 			raise ValueError(
 				f'O.bodies: the parts of clump {clump.id} weigh {of:g} kg and the clump {float(clump.state.mass):g} kg, so they overlap, and water would press on '
 				'what is inside; make it of parts that only touch'
-			)
-
-
-def _refuseTheSame(engine, name):
-	"""The same call twice would press twice."""
-	for other in O.engines:
-		if (
-			isinstance(other, PolytopeWater)
-			and not other.dead
-			and all(getattr(other, key) == getattr(engine, key) for key in attributesOfWater)
-		):
-			raise ValueError(
-				f'{name}: this water presses on these faces already, by an engine PolytopeWater in O.engines, and would a second time; leave this call out, or '
-				'take the other away first (its dead=True)'
 			)
 
 
@@ -191,16 +177,17 @@ def _attributes(pieces):
 
 
 def _chosen(faces, bodies):
-	"""(attributes of PolytopeWater, corners of these faces)."""
+	"""(attributes of PolytopeWater, [(Face, its corners), …])."""
+	every = [pair for body in bodies for pair in _facesOf(body)]
 	if faces is None:
-		return {}, np.concatenate([worldVertices(body) for body in bodies])
+		return {}, every
 	if not callable(faces):
 		raise ValueError(f'faces: must be a function of a face (body, plane, normal, centre, area), got {faces!r}')
-	chosen = [(face, corners) for body in bodies for face, corners in _facesOf(body) if faces(face)]
+	chosen = [(face, corners) for face, corners in every if faces(face)]
 	if not chosen:
 		raise ValueError('faces: is true of no face; normals point out of the body, so both faces of a joint have opposite ones')
 	numbers = dict(wetBodies=[face.body for face, _ in chosen], wetPlanes=[face.plane for face, _ in chosen])
-	return dict(someFaces=True, **numbers), np.concatenate([corners for _, corners in chosen])
+	return dict(someFaces=True, **numbers), chosen
 
 
 def _facesOf(body):

@@ -42,25 +42,24 @@ def testASubmergedMassHasItsBuoyancy():
 	assert len(ids) > 30
 
 
-def testForcesActInTheStepAndAddUp():
+def testForcesActInTheStep():
 	rock()
 	body = O.bodies.append(polytope.regular(12, 0.5, center=(0, 0, -3)))
+	O.bodies.append(polytope.cuboid((9, 0, 0), (1, 1, 1), fixed=True))  # so that the level is not above the ground
 	O.engines = polytope.engines(damping=0)
-	light, heavy = polytope.water(level=0, density=1000), polytope.water(level=0, density=500)
+	one, other = (polytope.water(level=0, faces=lambda face, side=side: (face.normal[0] > 0) == side) for side in (True, False))
 	assert [type(one).__name__ for one in O.engines[2:6]] == ['InteractionLoop', 'PolytopeWater', 'PolytopeWater', 'NewtonIntegrator']
 	volume = O.bodies[body].shape.volume
 	O.dt = 1e-4
 	O.engines = O.engines[:-1]
 	O.step()
-	expected = (1500 * volume / O.bodies[body].state.mass - 1) * gravity * O.dt
+	expected = (1000 * volume / O.bodies[body].state.mass - 1) * gravity * O.dt
 	assert O.bodies[body].state.vel[2] == pytest.approx(expected, rel=1e-12)
-	heavy.dead = True
-	before = O.bodies[body].state.vel[2]
+	assert one.load(body)[0][2] + other.load(body)[0][2] == pytest.approx(weight * volume, rel=1e-12)
+	part, before = one.load(body)[0], Vector3(O.bodies[body].state.vel)
+	other.dead = True
 	O.step()
-	assert O.bodies[body].state.vel[2] - before == pytest.approx(
-		(1000 * volume / O.bodies[body].state.mass - 1) * gravity * O.dt, rel=1e-10
-	)
-	assert light.load(body)[0][2] == pytest.approx(weight * volume, rel=1e-12)
+	assert (O.bodies[body].state.vel - before)[0] == pytest.approx(part[0] / O.bodies[body].state.mass * O.dt, rel=1e-6)
 
 
 def testAClumpFloatsAsTheBlockThatItMakes():
@@ -277,10 +276,14 @@ def testBelowATableThatSlopesWaterPushesDownTheSlope():
 	section = [(10, 0, 1), (-10, 0, 4), (0, 0, 0)]  # in any order
 	left, right = 0.75 * 4, 1.25 * 4  # volumes
 	expected = weight * Vector3(0.4 * left - 0.1 * right, 0, left + right)
-	force, _ = polytope.water(level=section).load(number)
+	first = polytope.water(level=section)
+	force, _ = first.load(number)
+	first.dead = True
 	assert (force - expected).norm() < 1e-12 * expected.norm()
 	surface = [(x, y, 0.4 * -x if x < 0 else 0.1 * x) for x in (-10, 0, 10) for y in (-9, 9)]
-	force, torque = polytope.water(level=surface).load(number)
+	second = polytope.water(level=surface)
+	force, torque = second.load(number)
+	second.dead = True
 	assert (force - expected).norm() < 1e-12 * expected.norm()
 	assert abs(torque[0]) < 1e-10 * weight and abs(torque[2]) < 1e-10 * weight
 	beyond = polytope.water(level=[(-9, 0, 0), (-8, 0, 2)]).load(number)  # level beyond its ends
@@ -291,7 +294,7 @@ def testTheEngineIsSavedWithTheScene(tmp_path):
 	rock()
 	number = O.bodies.append(polytope.regular(20, 1))
 	O.engines = polytope.engines()
-	polytope.water(level=[(-5, 0, 0.3), (0, 0, 0.1), (5, 0, 0.2)])
+	polytope.water(level=[(-5, 0, 0.3), (0, 0, 0.1), (5, 0, 0.2)], faces=lambda face: face.normal[0] <= 0.2)
 	polytope.water(level=0.5, faces=lambda face: face.normal[0] > 0.2 and face.area > 0)
 	O.engines = polytope.engines()  # keeps the water
 	before = [engine.load(number) for engine in O.engines if isinstance(engine, PolytopeWater)]
@@ -404,13 +407,42 @@ def testTheSameWaterTwiceIsRefused(arguments):
 	O.engines = polytope.engines()
 	first = polytope.water(**arguments)
 	name = next(iter(arguments))
-	with pytest.raises(ValueError, match=f'^{name}: this water presses on these faces already.*dead=True'):
-		polytope.water(**arguments)
+	for faces in (None, lambda face: face.normal[2] > 0.9 or face.normal[0] < -0.9):
+		with pytest.raises(
+			ValueError, match=rf'^{name}: on \d faces, first face \d of body {block}, another water presses already.*dead=True'
+		):
+			polytope.water(**arguments, faces=faces)
 	assert sum(isinstance(engine, PolytopeWater) for engine in O.engines) == 1
-	polytope.water(**arguments, faces=lambda face: face.normal[2] > 0.9 or face.normal[0] < -0.9)  # another water: it adds up
 	force = first.load(block)[0]
 	first.dead = True
 	assert polytope.water(**arguments).load(block)[0] == force
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testAWaterTableThatRoseReplacesTheOneBefore(flat):
+	"""Two tables would press with the sum of both: the second is refused until the first is taken away."""
+	rock()
+	block = O.bodies.append(polytope.polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)]) if flat else polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	O.engines = polytope.engines(**(dict(gravity=(0, -gravity, 0)) if flat else {}))
+	low, engines = polytope.water(level=0), list(O.engines)
+	with pytest.raises(ValueError, match='^level: on .* faces.*another water presses already'):
+		polytope.water(level=0.5)
+	assert O.engines == engines
+	low.dead = True
+	assert polytope.water(level=0.5).load(block)[0].norm() == pytest.approx(weight * 2 * 1.5 * (1 if flat else 2), rel=1e-12)
+
+
+def testWatersOfTwoLevelsOnOneFaceAreTakenWhereTheyDoNotMeet():
+	"""Pressure in the upper part of a face by one, in its lower part by the other: nothing adds up."""
+	rock()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	O.engines = polytope.engines()
+
+	def front(face):
+		return face.normal[0] > 0.9
+
+	polytope.water(pressures=[((0, 0, 1), 1e4), ((0, 0, 0.3), 0)], faces=front)
+	assert polytope.water(level=-0.4, faces=front)
 
 
 def testADensityInOtherUnitsIsTold():
