@@ -62,7 +62,7 @@ def resultants(masses=None):
 	present[bodies.ids] = bodies.masses
 	# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
 	present[bodies.ids[~single]] = _trueMasses(bodies, masses)[bodies.ids[~single]]
-	found += np.outer(present, np.array(integrators()[0].gravity, float))
+	found = found + np.outer(present, np.array(integrators()[0].gravity, float))  # whole numbers where there is none
 	moving, free = _movers()
 	held = np.zeros((last, 3))
 	held[moving] = free * found[moving]  # what is held bears any force
