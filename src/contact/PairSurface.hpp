@@ -16,7 +16,7 @@ template <class R, int D> struct PairSurface {
 	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out
 	PairPlanes<R, D>      nearest;      ///< those of the program that matter
 	R*                    spare;        ///< room for a section
-	R                     deepest;      ///< −s*
+	R                     deepest;      ///< largest pressure, −s* of the program
 	R                     size;         ///< of a body that the overlap lies in
 	SurfaceStatus         status;
 
@@ -35,16 +35,17 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	FeasibleSums<R> sums(set, energy, surface.sums);
 	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare(planes.total), *surface.on);
 	surface.sums.kept = !near;
-	surface.status    = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
-	surface.nearest   = set.tightPlanes();
+	if (!near) surface.deepest = vertices.largestPressure();
+	surface.status  = surface.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None;
+	surface.nearest = set.tightPlanes();
 	if (near && kept) vertices.keep(*kept, all.first, [near](int row) { return near->rowOfAll(row); });
 	return true;
 }
 
 /// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: of the last step, and then
-/// of this, or null.
-template <class R, int D, int W>
-POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R, D>& optimum, R size, bool energy, KeptVertices* kept,
+/// of this, or null. `optimum`: gives the program's, or null where there is none; it is asked only if the kept vertices do not say what the surface is.
+template <class R, int D, int W, class Optimum>
+POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const Optimum& optimum, R size, bool energy, KeptVertices* kept,
         ContactWorkspace& workspace, PairSurface<R, D>& surface)
 {
 	using Near      = NearPlanes<R, D, W>;
@@ -55,9 +56,8 @@ POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R
 	int* const indices = workspace.indices(Near::indicesNeeded(planes.total) + Set::indicesNeeded(most) + Buffers::indicesNeeded(most));
 	R* const   walkNumbers = numbers + own + ofSet;
 	int *const setIndices = indices + Near::indicesNeeded(planes.total), *const walkIndices = setIndices + Set::indicesNeeded(most);
-	surface.spare   = walkNumbers + Buffers::numbersNeeded(most);
-	surface.deepest = -optimum.infeasibility;
-	surface.size    = size;
+	surface.spare = walkNumbers + Buffers::numbersNeeded(most);
+	surface.size  = size;
 	Set        set(most, numbers + own, setIndices);
 	const auto spare = [&](int total) { return Buffers(total, walkNumbers, walkIndices); };
 	if constexpr (D == 3) {
@@ -66,7 +66,11 @@ POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const LpBasis<R
 			return;
 		if (kept) kept->vertices = 0;
 	}
-	LpBasis<R, D> basis = optimum;
+	const LpBasis<R, D>* const found = optimum();
+	surface.status                   = SurfaceStatus::None;
+	if (!found) return;
+	surface.deepest     = -found->infeasibility;
+	LpBasis<R, D> basis = *found;
 	Near          near(planes, basis, size, numbers, indices);
 	if constexpr (D == 3) {
 		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, energy, kept, set, spare, surface)) return;

@@ -111,13 +111,27 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
 	PairSurface<R, D>    surface;
 	SurfaceOnPiece<R, D> piece;
-	if (settings.internal && !across) {
+	ExtendedPieces<R, D> extended(planes);
+	LpBasis<R, D>        solid;
+	R                    size = f.size + grown;
+	if (settings.internal && !across && beginOnPieces<R, D>(f, *settings.internal, planes, extended, piece.clips)) {
 		surface.on = &piece;
-		if (!surfaceOnPieces<R, D, W>(in, settings, limits, planes, f, energy, memory, workspace, surface)) surface.on = nullptr;
+		size       = maxOf<R>(f.size, sizeOfOverlap<R>(in, *settings.internal));
 	}
-	if (!surface.on)
-		findSurface<R, D, W>(planes, basis, f.size + grown, energy, settings.warmStart && !across ? &memory.surface : nullptr,
-		        workspace, surface);
+	const auto optimum = [&]() POLYTOPE_INLINE_LAMBDA -> const LpBasis<R, D>* {
+		if (!surface.on) return &basis;
+		return programOnPieces<R, D, W>(in, *settings.internal, limits, planes, f, size, solid) ? &solid : nullptr;
+	};
+	// one call, so that the code of the surface is there once: a second time only where the solid of several pieces has none
+	for (bool found = false; !found;) {
+		findSurface<R, D, W>(
+		        planes, optimum, size, energy, settings.warmStart && !across ? &memory.surface : nullptr, workspace, surface);
+		found = !surface.on || slidesOnPieces<R, D>(in, f, limits, *settings.internal, surface);
+		extended.restore();
+		if (found) continue;
+		surface = PairSurface<R, D>();
+		size    = f.size;
+	}
 	out.surfaceKept = surface.sums.kept;
 
 	// all pieces of a solid have the force's direction and its depth: no piece is pressed aside by an edge on its seam

@@ -12,38 +12,40 @@
 /// where it ends alone.
 namespace polytope {
 
-/// While it lives, planes of internal faces are where the solid ends beyond them.
+/// Planes of internal faces, moved to where the solid ends beyond them until they are restored.
 template <class R, int D> class ExtendedPieces {
 public:
-	POLYTOPE_INLINE ExtendedPieces(const ContactFrame<R, D>& f, const InternalPlanes& internal, PairPlanes<R, D>& planes)
-	        : planes_(planes)
+	POLYTOPE_INLINE explicit ExtendedPieces(PairPlanes<R, D>& planes) : planes_(planes) { }
+	ExtendedPieces(const ExtendedPieces&)            = delete;
+	ExtendedPieces& operator=(const ExtendedPieces&) = delete;
+
+	POLYTOPE_APART void extend(const ContactFrame<R, D>& f, const InternalPlanes& internal)
 	{
 		for (int body = 0; body < 2; ++body)
 			for (int k = 0; k < internal.count[body]; ++k) {
-				const int    i   = planes.begin(body) + internal.plane[body][k];
+				const int    i   = planes_.begin(body) + internal.plane[body][k];
 				const Plane& end = internal.end[body][k];
 				R            own[D];
 				for (int m = 0; m < D; ++m)
 					own[m] = end.normal[m];
 				place_[count_] = i;
-				planes.plane(i, normal_[count_], offset_[count_]);
+				planes_.plane(i, normal_[count_], offset_[count_]);
 				++count_;
 				if (norm<R, D>(own) > 0) {
 					R a[D];
-					framePlane<R, D>(f, body, own, R(end.offset), a, planes.offset[i]);
+					framePlane<R, D>(f, body, own, R(end.offset), a, planes_.offset[i]);
 					for (int m = 0; m < D; ++m)
-						planes.normal[m][i] = a[m];
-				} else planes.offset[i] = R(padOffset); // that no body reaches
+						planes_.normal[m][i] = a[m];
+				} else planes_.offset[i] = R(padOffset); // that no body reaches
 			}
 	}
-	ExtendedPieces(const ExtendedPieces&)            = delete;
-	ExtendedPieces& operator=(const ExtendedPieces&) = delete;
-	POLYTOPE_INLINE ~ExtendedPieces()
+	POLYTOPE_INLINE void restore()
 	{
-		for (int k = 0; k < count_; ++k) {
-			planes_.offset[place_[k]] = offset_[k];
+		while (count_ > 0) {
+			--count_;
+			planes_.offset[place_[count_]] = offset_[count_];
 			for (int m = 0; m < D; ++m)
-				planes_.normal[m][place_[k]] = normal_[k][m];
+				planes_.normal[m][place_[count_]] = normal_[count_][m];
 		}
 	}
 
@@ -98,41 +100,46 @@ template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const In
 	return size;
 }
 
-/// The surface of the extended piece, and the part of it on the piece itself. False where there is none, or where the overlap is not one
-/// of a body that slides on these pieces.
+/// The program of the extended piece, from the ball of the body that has no internal face. False where it has no optimum to find a surface from.
 template <class R, int D, int W>
-POLYTOPE_APART bool surfaceOnPieces(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
-        PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, bool energy, PairMemory& memory, ContactWorkspace& workspace,
-        PairSurface<R, D>& surface)
+POLYTOPE_APART bool programOnPieces(const PairInput& in, const InternalPlanes& internal, const ProgramLimits<R>& limits,
+        PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, R size, LpBasis<R, D>& basis)
 {
-	const InternalPlanes& internal = *settings.internal;
-	surface.on->clips.count        = 0;
+	const int ball = internal.count[0] > 0 ? 1 : 0;
+	if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) return false;
+	PairMemory start;
+	R          dual[D];
+	for (int k = 0; k <= D; ++k)
+		start.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+	if (!startFrom<R, D>(in, f, start.basis, basis, dual)) return false;
+	recallBasis<R, D>(planes, start, basis);
+	ProgramLimits<R> all = limits;
+	all.dismissAbove     = R(padOffset);
+	int pivots           = 0;
+	return solvePhaseOne<R, D, W>(StartBasis::Aimed, planes, all, size, basis, pivots) == LpStatus::Optimal
+	        && basis.infeasibility < -limits.tolerance;
+}
+
+/// The extended piece in place of the piece. What lies on the piece is kept within `clips`; false if they have no room.
+template <class R, int D>
+POLYTOPE_APART bool beginOnPieces(const ContactFrame<R, D>& f, const InternalPlanes& internal, const PairPlanes<R, D>& planes,
+        ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
+{
+	clips.count = 0;
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < internal.count[body]; ++k)
-			surface.on->clips.add(planes, planes.begin(body) + internal.plane[body][k]);
-	const R                    size = maxOf<R>(f.size, sizeOfOverlap<R>(in, internal));
-	const ExtendedPieces<R, D> extended(f, internal, planes);
-	// the program of the solid, from the ball of the body that has no internal face
-	PairMemory    start;
-	LpBasis<R, D> basis;
-	R             dual[D];
-	int           pivots = 0;
-	const int     ball   = internal.count[0] > 0 ? 1 : 0;
-	bool          found  = in.shape[ball]->inscribedRadius() < R(padOffset) && !surface.on->clips.full();
-	if (found) {
-		for (int k = 0; k <= D; ++k)
-			start.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-		found = startFrom<R, D>(in, f, start.basis, basis, dual);
-	}
-	if (found) {
-		recallBasis<R, D>(planes, start, basis);
-		ProgramLimits<R> all = limits;
-		all.dismissAbove     = R(padOffset);
-		found                = solvePhaseOne<R, D, W>(StartBasis::Aimed, planes, all, size, basis, pivots) == LpStatus::Optimal;
-		found                = found && basis.infeasibility < -limits.tolerance;
-	}
-	if (found) findSurface<R, D, W>(planes, basis, size, energy, settings.warmStart ? &memory.surface : nullptr, workspace, surface);
-	if (!found || surface.status != SurfaceStatus::Found) return false;
+			clips.add(planes, planes.begin(body) + internal.plane[body][k]);
+	if (clips.full()) return false;
+	extended.extend(f, internal);
+	return true;
+}
+
+/// Whether the surface of the extended piece was found, and the overlap is that of a body which slides on these pieces.
+template <class R, int D>
+POLYTOPE_APART bool slidesOnPieces(const PairInput& in, const ContactFrame<R, D>& f, const ProgramLimits<R>& limits,
+        const InternalPlanes& internal, const PairSurface<R, D>& surface)
+{
+	if (surface.status != SurfaceStatus::Found || !(surface.deepest > limits.tolerance)) return false;
 	const R length = norm<R, D>(surface.sums.force);
 	if (!(length > 0)) return false;
 	R n[D];

@@ -112,6 +112,9 @@ public:
 		return buffers_.vertices > 4 && everyEdgeOnce() && !coincide() && placeAll();
 	}
 
+	/// s of the program's optimum, which is one of the vertices.
+	R largestPressure() const { return largest_; }
+
 private:
 	static constexpr int lastPlane = Buffers::mostPlanes - 1;
 	static_assert((Buffers::mostPlanes & lastPlane) == 0);
@@ -196,7 +199,28 @@ private:
 			Crossing sharp;
 			cross(v, sharp, nearlyParallel(v));
 			placeAt(v, sharp);
+			refine(v, sharp);
 		} else placeAt(v, c);
+	}
+
+	/// The cross products of planes that are nearly parallel give a vertex that is off its planes by what they round, times one over their angle. A step with
+	/// what is left leaves what the slacks round. How long it is says how certain the vertex is along the line in which those planes meet.
+	POLYTOPE_INLINE void refine(int v, const Crossing& c)
+	{
+		R* const   point = buffers_.point + 4 * v;
+		const Four x     = load<R, 4>(point);
+		R          left[3];
+		for (int k = 0; k < 3; ++k)
+			left[k] = (c.row[k][3] - dotOf3(c.row[k], x)) / c.volume;
+		const Four step = c.across[0] * broadcast<R, 4>(left[0]) + c.across[1] * broadcast<R, 4>(left[1])
+		        + c.across[2] * broadcast<R, 4>(left[2]);
+		R moved = 0;
+		for (int m = 0; m < 3; ++m) {
+			point[m] += step[m];
+			moved += abs(step[m]);
+		}
+		moved_ = maxOf<R>(moved_, moved / closeness(v));
+		if (!isNone(v, 3)) point[3] = c.last[3] - dotOf3(c.last, load<R, 4>(point));
 	}
 
 	POLYTOPE_INLINE void placeAt(int v, const Crossing& c)
@@ -221,6 +245,7 @@ private:
 	POLYTOPE_INLINE bool placeAll()
 	{
 		R extent = 0;
+		moved_ = largest_ = 0;
 		for (int v = 0; v < buffers_.vertices; ++v) {
 			Crossing c;
 			if (!cross(v, c)) return false;
@@ -231,13 +256,15 @@ private:
 		for (int v = 0; v < buffers_.vertices; ++v) {
 			const R* const p = buffers_.point + 4 * v;
 			const V x[3] = { broadcast<R, W>(p[0]), broadcast<R, W>(p[1]), broadcast<R, W>(p[2]) }, s = broadcast<R, W>(p[3]);
-			least = minOf(least, s);
+			least    = minOf(least, s);
+			largest_ = maxOf<R>(largest_, p[3]);
 			for (int k = 0; k < planes_.total; k += W) {
 				V a[3];
 				least = minOf(least, V(slacksOf<R, 3, W>(planes_, k, x, a) - s));
 			}
 		}
-		return horizontalMin<R, W>(least) >= -extent;
+		// a pressure is no more certain than a rounding over the overlap's thickness: a vertex need not be
+		return horizontalMin<R, W>(least) >= -extent && moved_ * largest_ <= size_;
 	}
 
 	// --------------------------------------------------------------------------------------------------------------------------------- exploring
@@ -422,7 +449,8 @@ private:
 	}
 
 	const PairPlanes<R, 3>& planes_;
-	R                       size_;
+	R                       size_, largest_ = 0;
+	R                       moved_ = 0; ///< farthest step of refine() over what rounding leaves of a vertex' slacks
 	Buffers&                buffers_;
 };
 

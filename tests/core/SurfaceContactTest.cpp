@@ -343,6 +343,64 @@ Real walk(ContactModel model, bool energy, Real stride, const Shapes& shapes, bo
 	return Real(kept) / Real(contacts);
 }
 
+TEST(SurfaceContact, OnPiecesIsTheSameWarmAsCold)
+{
+	std::mt19937_64                      random(90);
+	std::uniform_real_distribution<Real> some(-1, 1);
+	const Shapes                         shapes = randomShapes(21, random, 3, 0);
+	const CutSlab<3>                     slab(0);
+	int                                  kept = 0, contacts = 0;
+	for (int trial = 0; trial < 120; ++trial) {
+		if (trial % 3 == 2) continue; // flat ones, whose overlaps are so thin that rounding shows
+		const ContactModel model    = models[std::size_t(trial / 3) % std::size(models)];
+		ContactSettings    settings = with(model);
+		settings.internal           = &slab.covered[0];
+		Pair piece;
+		piece.shape[0]    = slab.half[0];
+		piece.shape[1]    = shapes[std::size_t(trial) % shapes.size()];
+		piece.rotation[1] = randomRotation(random, 3);
+		Real lowest       = 0;
+		for (const Vector3& vertex : piece.shape[1]->polyhedron().vertices)
+			lowest = std::min(lowest, Vector3(piece.rotation[1] * vertex)[1]);
+		const Real size = piece.shape[1]->inscribedRadius();
+		piece.centre2   = Vector3(size * some(random), 1 - lowest - size / 50, size * some(random)) - slab.centre[0];
+		PairMemory memory;
+		for (int step = 0; step < 10; ++step) {
+			SCOPED_TRACE(std::to_string(trial) + " step " + std::to_string(step));
+			const Real stride = size / 10000;
+			piece.centre2 += stride * randomDirection(random);
+			piece.rotation[1] = Eigen::AngleAxis<Real>(1e-4, randomDirection(random)).toRotationMatrix() * piece.rotation[1];
+			const ContactResult warm = query(piece, settings, &memory), cold = query(piece, settings);
+			expectSame(piece, warm, cold, model);
+			EXPECT_NEAR(warm.share, cold.share, 1e-9);
+			contacts += step > 0 && warm.inContact;
+			kept += warm.surfaceKept;
+		}
+	}
+	EXPECT_GT(contacts, 300);
+	EXPECT_GT(kept, contacts * 9 / 10);
+}
+
+// A body so deep in the pieces that it slides on none has the pair's contact, whatever faces others cover.
+TEST(SurfaceContact, DeepInPiecesIsThatOfThePair)
+{
+	const CutSlab<3> slab(0);
+	for (const ContactModel model : models)
+		for (const Real deep : { 0.6, 0.9 }) {
+			ContactSettings settings = with(model);
+			settings.internal        = &slab.covered[0];
+			Pair pair;
+			pair.shape[0]             = slab.half[0];
+			pair.shape[1]             = ConvexShape::shared(cuboid(0.5, 0.5, 0.5), 0);
+			pair.centre2              = Vector3(-0.2, 1.5 - deep, 0.1) - slab.centre[0];
+			const ContactResult found = query(pair, settings), plain = query(pair, with(model));
+			EXPECT_EQ(found.share, 1);
+			EXPECT_EQ(found.energy, plain.energy);
+			EXPECT_EQ(found.depth, plain.depth);
+			EXPECT_EQ(found.point, plain.point);
+		}
+}
+
 TEST(SurfaceContact, IsTheSameWarmAsCold)
 {
 	std::mt19937_64 random(79);
