@@ -119,6 +119,18 @@ template <class R, int W, int N, class V> POLYTOPE_INLINE void horizontalSums(co
 		sums[k] = horizontalSum<R, W>(v[k]);
 }
 
+template <class R, int W, class V> POLYTOPE_INLINE V squareRoot(const V& v)
+{
+	using std::sqrt;
+	if constexpr (W == 1) return sqrt(v);
+	else {
+		V root;
+		for (int k = 0; k < W; ++k)
+			root[k] = sqrt(v[k]);
+		return root;
+	}
+}
+
 template <class V> POLYTOPE_INLINE V minOf(const V& a, const V& b) { return a < b ? a : b; }
 template <class V> POLYTOPE_INLINE V maxOf(const V& a, const V& b) { return a > b ? a : b; }
 

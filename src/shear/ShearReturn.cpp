@@ -89,13 +89,13 @@ Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset
 	return k;
 }
 
-Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load)
+Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, const Vector3& likely)
 {
 	if (strength.surelyHolds(load)) return Vector3::Zero();
 	const Eigen::LDLT<Matrix3> compliance(stiffness);
 	const Real                 energy = load.dot(compliance.solve(load)); // twice what the bed stores
 	if (!(energy > 0)) return Vector3::Zero();
-	Motion motion(strength, likelyMotion(strength, load));
+	Motion motion(strength, load.dot(likely) > 0 ? likely : likelyMotion(strength, load));
 	if (!findMotionBeyond(strength, stiffness, load, motion)) return Vector3::Zero();
 
 	const auto toBestLength = [&] {

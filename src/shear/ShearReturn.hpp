@@ -15,6 +15,10 @@ Matrix3 bedStiffness(Real stiffness, Real gyrationSquared, const Vector2& offset
 /// The slip is the minimum of the convex D(x) − load·x + ½ x·K x, D of ShearStrength.hpp: there resistance(x) = load − K x, which is the load that stays
 /// (backward Euler for perfect plasticity with an associated flow, Simo & Hughes 1998, "Computational inelasticity", chapter 3). It
 /// always lies on the limit surface, also where the iteration ends early.
-Vector3 returnToStrength(const ShearStrength& strength, const Matrix3& stiffness, Vector3& load);
+///
+/// \param likely a slip from which the search begins, such as the last step's, any length; it makes the answer cheaper and changes it by rounding alone. Zero
+///               if there is none
+Vector3 returnToStrength(
+        const ShearStrength& strength, const Matrix3& stiffness, Vector3& load, const Vector3& likely = Vector3(Vector3::Zero()));
 
 } // namespace polytope

@@ -1,9 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shear/ShearStrength.hpp"
 
+#include "numbers/Lanes.hpp"
 #include "shear/ShearTolerances.hpp"
 
+#include <limits>
+
 namespace polytope {
+
+/// Places and weights of Gauss-Legendre quadrature on 0 … 1.
+struct GaussLegendre {
+	int  points;
+	Real place[5], weight[5];
+
+	static const GaussLegendre& two()
+	{
+		static const Real          root = sqrt(Real(3)) / 6, half = Real(0.5);
+		static const GaussLegendre rule { 2, { half - root, half + root }, { half, half } };
+		return rule;
+	}
+	static const GaussLegendre& three()
+	{
+		static const Real          root = sqrt(Real(15)) / 10, half = Real(0.5);
+		static const GaussLegendre rule { 3, { half - root, half, half + root }, { Real(5) / 18, Real(8) / 18, Real(5) / 18 } };
+		return rule;
+	}
+	static const GaussLegendre& five()
+	{
+		static const Real inner = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 6, outer = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 6,
+		                  half = Real(0.5), light = (322 - 13 * sqrt(Real(70))) / 1800, heavy = (322 + 13 * sqrt(Real(70))) / 1800;
+		static const GaussLegendre rule { 5, { half - outer, half - inner, half, half + inner, half + outer },
+			{ light, heavy, Real(64) / 225, heavy, light } };
+		return rule;
+	}
+	/// As few as are exact to rounding along a line that the centre of rotation sees from so many times its length.
+	static const GaussLegendre& seenFrom(Real lengths)
+	{
+		return lengths > Real(tolerance::shearTwoPoints) ? two() : lengths > Real(tolerance::shearThreePoints) ? three() : five();
+	}
+};
+
 namespace {
 
 	/// The long axis of an outline.
@@ -147,9 +183,9 @@ void ShearStrength::addEdge(const Vector2& from, const Vector2& to, Real atPole,
 	}
 }
 
-/// Whether the outline is so narrow beside its distance from the pole that the triangles of addEdge() cancel: each is larger than the outline by the distance
-/// over the width, and τ at the pole larger than on the outline by that once more.
-bool ShearStrength::isNarrowFrom(const Vector2& pole) const
+/// The outline's distance from the pole over its half width. Where that is large the triangles of addEdge() cancel: each is larger than the outline by as
+/// much, and τ at the pole larger than on the outline by that once more.
+Real ShearStrength::narrownessFrom(const Vector2& pole) const
 {
 	const Vector2 across = left(axis_);
 	Vector2       least = Vector2::Zero(), most = Vector2::Zero();
@@ -159,33 +195,32 @@ bool ShearStrength::isNarrowFrom(const Vector2& pole) const
 		most  = most.cwiseMax(x);
 	}
 	const Vector2 seen(pole.dot(axis_), pole.dot(across));
-	const Real    width = most[1] > -least[1] ? most[1] : -least[1];
-	return (seen - seen.cwiseMax(least).cwiseMin(most)).norm() > Real(tolerance::shearNarrow) * width;
+	const Real    width    = most[1] > -least[1] ? most[1] : -least[1];
+	const Real    distance = (seen - seen.cwiseMax(least).cwiseMin(most)).norm();
+	return width > 0 ? distance / width : std::numeric_limits<Real>::infinity();
 }
 
-/// The part of an outline between an edge and the long axis: exact along lines from end to end, five of Gauss-Legendre across.
-void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, Sums& sums) const
+/// The part of an outline between an edge and the long axis: exact along lines from end to end, those of `lines` across.
+void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, const GaussLegendre& lines, Sums& sums) const
 {
-	static const Real inner = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 6, outer = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 6,
-	                  heavy = (322 + 13 * sqrt(Real(70))) / 1800, light = (322 - 13 * sqrt(Real(70))) / 1800,
-	                  place[5]  = { Real(0.5) - outer, Real(0.5) - inner, Real(0.5), Real(0.5) + inner, Real(0.5) + outer },
-	                  weight[5] = { light, heavy, Real(64) / 225, heavy, light };
-	const Vector2 across        = left(axis_);
+	const Vector2 across = left(axis_);
 	const Real    along1 = from.dot(axis_), along2 = to.dot(axis_), width1 = from.dot(across), width2 = to.dot(across);
 	if (along1 == along2) return;
-	for (int i = 0; i < 5; ++i) {
-		const Vector2 x1 = along1 * axis_ + place[i] * width1 * across, x2 = along2 * axis_ + place[i] * width2 * across;
+	for (int i = 0; i < lines.points; ++i) {
+		const Vector2 x1 = along1 * axis_ + lines.place[i] * width1 * across,
+		              x2 = along2 * axis_ + lines.place[i] * width2 * across;
 		// the edges run against the axis where the outline is above it
-		const Real whole = weight[i] * (along1 - along2);
-		if ((x2 - x1).squaredNorm() * Real(tolerance::shearShort * tolerance::shearShort) < (x1 - pole).squaredNorm()) {
-			for (int j = 0; j < 5; ++j) {
-				const Vector2 x = x1 + place[j] * (x2 - x1), d = (x - pole).normalized();
-				const Real    part  = whole * weight[j] * (width1 + place[j] * (width2 - width1)) * at(x),
-				           distance = (x - pole).norm();
-				sums.radial += part * d;
-				sums.distance += part * distance;
+		const Real whole = lines.weight[i] * (along1 - along2), far = (x1 - pole).norm() / Real(tolerance::shearShort);
+		if ((x2 - x1).squaredNorm() < far * far) {
+			const GaussLegendre& rule = GaussLegendre::seenFrom((x1 - pole).norm() / (x2 - x1).norm());
+			for (int j = 0; j < rule.points; ++j) {
+				const Vector2 x = x1 + rule.place[j] * (x2 - x1), r = x - pole;
+				const Real    distance = r.norm(),
+				           part = whole * rule.weight[j] * (width1 + rule.place[j] * (width2 - width1)) * at(x) / distance;
+				sums.radial += part * r;
+				sums.distance += part * distance * distance;
 				for (int k = 0; k < 3; ++k)
-					sums.tensor[k] += part / distance * d[k / 2] * d[(k + 1) / 2];
+					sums.tensor[k] += part / (distance * distance) * r[k / 2] * r[(k + 1) / 2];
 			}
 			continue;
 		}
@@ -214,36 +249,54 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 	}
 }
 
-/// The sums of (1) at points in the triangles between the centre and the edges: the direction of slip changes little over the outline. So little that it is
-/// a polynomial of low degree; `precise`: of a higher one.
+/// The sums of (1) at points in the triangles between the centre and the edges, several triangles at once: the direction of slip changes little over the
+/// outline. So little that it is a polynomial of low degree; `precise`: of a higher one.
 Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
 {
-	// Gauss-Legendre with three and five points on 0 … 1
-	static const Real root = sqrt(Real(15)) / 10, inner = sqrt(5 - 2 * sqrt(Real(10) / 7)) / 6,
-	                  outer = sqrt(5 + 2 * sqrt(Real(10) / 7)) / 6, half = Real(0.5), light = (322 - 13 * sqrt(Real(70))) / 1800,
-	                  heavy       = (322 + 13 * sqrt(Real(70))) / 1800;
-	static const Real three[2][3] = { { half - root, half, half + root }, { Real(5) / 18, Real(8) / 18, Real(5) / 18 } };
-	static const Real five[2][5]
-	        = { { half - outer, half - inner, half, half + inner, half + outer }, { light, heavy, Real(64) / 225, heavy, light } };
-	const Real *const place = precise ? five[0] : three[0], *const weight = precise ? five[1] : three[1];
-	const int points = precise ? 5 : 3;
-	Vector3   result = Vector3::Zero();
-	if (slope) slope->setZero();
-	for (int k = 0; k < count_; ++k) {
-		const Vector2 from = corner(k), along = corner(k + 1 < count_ ? k + 1 : 0) - from;
-		const Real    twice = cross(from, along);
-		for (int i = 0; i < points; ++i)
-			for (int j = 0; j < points; ++j) {
-				const Vector2 x = place[i] * (from + place[j] * along), v = slip.head<2>() + slip[2] * left(x);
-				const Real    share = weight[i] * weight[j] * place[i] * twice * at(x), speed = v.norm();
-				const Vector2 d = v / speed, across = left(d);
-				result += share * Vector3(d[0], d[1], cross(x, d));
+	constexpr int width          = isVector<Real, 4> ? 4 : 1;
+	using V                      = typename Lanes<Real, width>::Type;
+	const GaussLegendre& rule    = precise ? GaussLegendre::five() : GaussLegendre::three();
+	V                    sums[9] = {}; // ∫ τ d, its moment, and the six of the slope
+	for (int k = 0; k < count_; k += width) {
+		Real rows[5][width]; // of a triangle that is not there: no area
+		for (int t = 0; t < width; ++t) {
+			const bool    there = k + t < count_;
+			const Vector2 from = corner(there ? k + t : 0), along = corner(there && k + t + 1 < count_ ? k + t + 1 : 0) - from;
+			rows[0][t] = from[0];
+			rows[1][t] = from[1];
+			rows[2][t] = along[0];
+			rows[3][t] = along[1];
+			rows[4][t] = there ? cross(from, along) : Real(0);
+		}
+		const V from0 = load<Real, width>(rows[0]), from1 = load<Real, width>(rows[1]), along0 = load<Real, width>(rows[2]),
+		        along1 = load<Real, width>(rows[3]), twice = load<Real, width>(rows[4]);
+		for (int j = 0; j < rule.points; ++j) {
+			const V edge0 = from0 + rule.place[j] * along0, edge1 = from1 + rule.place[j] * along1,
+			        rise = gradient_[0] * edge0 + gradient_[1] * edge1;
+			for (int i = 0; i < rule.points; ++i) {
+				const V x0 = rule.place[i] * edge0, x1 = rule.place[i] * edge1;
+				const V share
+				        = rule.weight[i] * rule.weight[j] * rule.place[i] * twice * (atCentre_ + rule.place[i] * rise);
+				const V v0 = slip[0] - slip[2] * x1, v1 = slip[1] + slip[2] * x0,
+				        speed = squareRoot<Real, width>(v0 * v0 + v1 * v1), d0 = v0 / speed, d1 = v1 / speed;
+				sums[0] += share * d0;
+				sums[1] += share * d1;
+				sums[2] += share * (x0 * d1 - x1 * d0);
 				if (!slope) continue;
-				const Vector3 h(across[0], across[1], cross(x, across));
-				*slope += share / speed * h * h.transpose();
+				const V part = share / speed, arm = x0 * d0 + x1 * d1; // of the direction across
+				sums[3] += part * d1 * d1;
+				sums[4] -= part * d1 * d0;
+				sums[5] += part * d0 * d0;
+				sums[6] -= part * d1 * arm;
+				sums[7] += part * d0 * arm;
+				sums[8] += part * arm * arm;
 			}
+		}
 	}
-	return result;
+	Real all[9];
+	horizontalSums<Real, width>(sums, all);
+	if (slope) *slope << all[3], all[4], all[6], all[4], all[5], all[7], all[6], all[7], all[8];
+	return Vector3(all[0], all[1], all[2]);
 }
 
 Vector3 ShearStrength::resistance(const Vector3& slip, Matrix3* slope) const
@@ -257,11 +310,11 @@ Vector3 ShearStrength::resistance(const Vector3& slip, Matrix3* slope) const
 	if (length >= Real(tolerance::shearPoleFar) * near) return byPoints(slip, length < Real(tolerance::shearPoleFarther) * near, slope);
 	const Vector2 pole   = left(s) / turn; // v = 0 there
 	const Real    atPole = at(pole);
-	const bool    narrow = isNarrowFrom(pole);
+	const Real    narrow = narrownessFrom(pole);
 	Sums          sums;
 	for (int k = 0; k < count_; ++k) {
 		const Vector2 from = corner(k), to = corner(k + 1 < count_ ? k + 1 : 0);
-		if (narrow) addStrip(from, to, pole, sums);
+		if (narrow > Real(tolerance::shearNarrow)) addStrip(from, to, pole, GaussLegendre::seenFrom(narrow), sums);
 		else addEdge(from - pole, to - pole, atPole, sums);
 	}
 	const Real sign = turn > 0 ? Real(1) : Real(-1);

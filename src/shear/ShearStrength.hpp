@@ -20,6 +20,8 @@
 /// triangles cancel; lines along it take their place.
 namespace polytope {
 
+struct GaussLegendre;
+
 class ShearStrength {
 public:
 	/// \param total  ∫ τ dA [N], above 0
@@ -47,8 +49,8 @@ private:
 	Vector2 corner(int k) const { return corner_[k] + shift_; }
 	Real    at(const Vector2& x) const { return atCentre_ + gradient_.dot(x); }
 	Vector3 byPoints(const Vector3& slip, bool precise, Matrix3* slope) const;
-	bool    isNarrowFrom(const Vector2& pole) const;
-	void    addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, Sums& sums) const;
+	Real    narrownessFrom(const Vector2& pole) const;
+	void    addStrip(const Vector2& from, const Vector2& to, const Vector2& pole, const GaussLegendre& lines, Sums& sums) const;
 	void    addEdge(const Vector2& from, const Vector2& to, Real atPole, Sums& sums) const;
 
 	const Vector2* corner_;

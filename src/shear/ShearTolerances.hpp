@@ -29,6 +29,11 @@ constexpr double shearNarrow = 12;
 /// square of distance over length.
 constexpr double shearShort = 8;
 
+/// Times a line's length, or an outline's half width: seen from farther than this, three points of Gauss-Legendre (their error falls with the fifth power of
+/// the distance), or two (third power), are exact to 1e-14.
+constexpr double shearThreePoints = 200;
+constexpr double shearTwoPoints   = 10000;
+
 /// Of the slip, by the energy: a step of Newton's method from this near leaves what rounding leaves, but where the centre of rotation lies on the outline.
 constexpr double shearReturn = 1e-9;
 

@@ -11,7 +11,7 @@ using Shear = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear;
 Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turnedForce)
         : pair_(pair), lastPoint_(phys.shearPoint), force_(turnedForce), lastForce_(turnedForce),
           twist_(phys.twistingMoment - phys.twistingViscous), lastTwist_(twist_), stiffness_(phys.ks),
-          twistingStiffness_(phys.twistingStiffness), areaBefore_(phys.contactArea)
+          twistingStiffness_(phys.twistingStiffness), areaBefore_(phys.contactArea), likelySlip_(phys.likelySlip)
 {
 	const StoredOutline& outline = pair.geom.outline;
 	if (outline.count() >= 3) {
@@ -155,10 +155,12 @@ bool Shear::limit(const RockJointPhys& phys, Real normal)
 	const polytope::ShearStrength& spread = spreadStrength(strength, centre);
 	polytope::Vector3              load   = loadAbout(centre, force_, twist_);
 	if (spread.surelyHolds(load)) return false;
-	const auto bed = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
-	if (polytope::returnToStrength(spread, bed, load) == polytope::Vector3::Zero()) return false;
-	force_ = inWorld(polytope::Vector2(load[0], load[1]));
-	twist_ = twistOf(load, centre);
+	const auto              bed  = polytope::bedStiffness(stiffness_, gyration_, moments_.centroid - centre);
+	const polytope::Vector3 slip = polytope::returnToStrength(spread, bed, load, likelySlip_);
+	if (slip == polytope::Vector3::Zero()) return false;
+	likelySlip_ = slip;
+	force_      = inWorld(polytope::Vector2(load[0], load[1]));
+	twist_      = twistOf(load, centre);
 	layers_.move((before - force_) / stiffness_);
 	return true;
 }
@@ -213,6 +215,7 @@ void Shear::keep(RockJointPhys& phys) const
 	phys.twistingViscous   = viscousTwist_;
 	phys.twistingMoment    = twist_ + viscousTwist_;
 	phys.twistingStiffness = twistingStiffness_;
+	phys.likelySlip        = likelySlip_;
 	phys.shearPoint        = pair_.geom.contactPoint + offset_;
 	if (layers_.count() > 1) phys.shearLayers.make().layers = layers_;
 	else phys.shearLayers.clear();
