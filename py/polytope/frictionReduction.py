@@ -98,6 +98,8 @@ class FrictionReduction(Reduction):
 		if not 0 < start < math.pi / 2:
 			raise ValueError(f'start: must be an angle in radians between 0 and pi/2, got {start}')
 		self._takeSteps(steps, 'positive angles')
+		if not self.steps[0] < start:
+			raise ValueError(f'steps: must be angles in radians below the start, {start:g}, got {self.steps[0]:g}')
 
 	def run(self):
 		"""Settles the scene and reduces the angle. Leaves the scene in the failed state; restore() brings back the last stable state.

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 from yade import O, _polytope
 
-from ..arguments import namedArguments
+from ..arguments import namedArguments, warn
 from ..bodies.clumps import rigid
 from ..bodies.polytopes import fromHalfSpaces, randomColour
 from ..precision import real
@@ -113,7 +113,7 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	:param int seed: of the random places, radii and normals
 	:param str incomplete: what becomes of blocks that a joint separates only in part: 'clump', they are one body; 'cut', each is a body, as if joints
 	    went on to the faces of the blocks that they reach into (Boon et al. 2015)
-	:returns: *JointedRock*
+	:returns: *JointedRock*; with a warning where none of the joints reaches into the region
 	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 500 000
 	    blocks, *smallest* negative or above the region's inscribed radius, *seed* negative
 	"""
@@ -139,7 +139,13 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
 	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
 	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
-	return _rock(made, cuts, region.centre, len(entries))
+	rock = _rock(made, cuts, region.centre, len(entries))
+	if not sets and not len(rock.joints) and not rock.uncut and len(region.parts) == 1:  # a joint along the face of two parts cuts neither
+		place = ', '.join(f'{round(float(x), 6) + 0.0:g}' for x in region.centre)
+		warn(
+			f'jointSets: no joint reaches into the region, whose centre is ({place}); are their places in other units or axes (x east, y north, z up)?'
+		)
+	return rock
 
 
 def _entriesOf(jointSets):

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arguments import namedArguments, number, numbersOf, vector
 from .faces import areaOfFace, shapeOf
+from .given import refuseOthers
 from .joint import finite
 
 __all__ = ['KeyBlock', 'keyBlocks']
@@ -54,14 +55,14 @@ def keyBlocks(rock, free, frictionAngle, cohesion=0.0, density=2600.0, gravity=(
 	:param float density: of rock [kg/m³]
 	:param gravity: [m/s²]
 	:returns: list of *KeyBlock*, the least factor of safety first
-	:raises ValueError: naming the argument; *free* where the region has no such face
+	:raises ValueError: naming the argument: *rock* that is none; *free* where the region has no such face
 	"""
+	refuseOthers(rock)
 	faces = _unitNormals(free)
 	if not any((np.array(normals) @ faces.T > 1 - rounding).any() for normals, _ in rock.blocks):
 		raise ValueError('free: no face of the region has this outward normal; a roof has (0, 0, -1), a floor (0, 0, 1)')
-	sets = int(rock.sets.max()) + 1 if len(rock.sets) else 1
-	tangents = np.tan(_perSet(frictionAngle, 'frictionAngle', sets, math.pi / 2))
-	strengths = _perSet(cohesion, 'cohesion', sets, math.inf)
+	tangents = np.tan(_perSet(frictionAngle, 'frictionAngle', rock.entries, math.pi / 2))
+	strengths = _perSet(cohesion, 'cohesion', rock.entries, math.inf)
 	if not 0 < number(density, 'density') < math.inf:
 		raise ValueError(f'density: must be positive and finite [kg/m³], got {density!r}')
 	weight = float(density) * np.array(vector(gravity, 'gravity'), float)
@@ -141,7 +142,8 @@ def _unitNormals(free):
 def _perSet(values, name, sets, below):
 	given = values if isinstance(values, (Sequence, np.ndarray)) and not isinstance(values, str) else [values] * sets
 	if not all(finite(x) and 0 <= x < below for x in given):
-		raise ValueError(f'{name}: must be from 0 on, one number or one for each joint set, got {values!r}')
-	if len(given) < sets:
+		limits = 'from 0 on [Pa]' if math.isinf(below) else 'an angle from 0 to below π/2 (radians)'
+		raise ValueError(f'{name}: must be {limits}, one number or one for each joint set, got {values!r}')
+	if len(given) != sets:
 		raise ValueError(f'{name}: {len(given)} are given for {sets} joint sets; give one number, or one for each')
 	return np.array(numbersOf(given, name), float)

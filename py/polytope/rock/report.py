@@ -9,9 +9,13 @@ import numpy as np
 
 from ..arguments import namedArguments, vector
 from .faces import shapeOf
+from .given import lengthWithin, refuseOthers
 from .joint import anglesOf
 
 __all__ = ['RockReport', 'rockReport', 'scanLine', 'stereonet']
+
+outside = 1e-3
+"""Part of a line that may lie outside the rock: ends on its faces, to rounding, and along joints."""
 
 colours = ('tab:blue', 'tab:orange', 'tab:green', 'tab:red', 'tab:purple', 'tab:brown', 'tab:pink', 'tab:olive')
 
@@ -53,7 +57,9 @@ def rockReport(rock):
 
 	:param JointedRock rock: what jointedRock made
 	:returns: *RockReport*
+	:raises ValueError: naming *rock* if it is something else
 	"""
+	refuseOthers(rock)
 	volumes = np.array([rock.volumes[parts].sum() for parts in rock.bodies])
 	flatness = np.array([_flatness([shapeOf(*rock.blocks[k])[0] for k in parts]) for parts in rock.bodies])
 	areas = np.bincount(rock.sets, rock.areas, minlength=1) if len(rock.sets) else np.zeros(1)
@@ -75,13 +81,19 @@ def scanLine(rock, start, end):
 	:param JointedRock rock: what jointedRock made
 	:param start, end: of the line, inside the region [m]
 	:returns: (distances from the start [m], rows of *rock.joints*), in the order along the line
-	:raises ValueError: naming *end* if it is the start
+	:raises ValueError: naming *rock* if it is something else, *end* if it is the start or the line leaves the rock
 	"""
+	refuseOthers(rock)
 	first, last = (np.array(vector(point, name), float) for point, name in ((start, 'start'), (end, 'end')))
 	along = last - first
 	length = float(np.linalg.norm(along))
 	if not length:
 		raise ValueError('end: must not be the start')
+	within = lengthWithin(rock, first, along)
+	if within < length * (1 - outside):
+		raise ValueError(
+			f'end: {within:.4g} of {length:.4g} m of the line lie in the rock; joints per length are told of a line inside alone, shorten it'
+		)
 	slopes, heights = rock.joints[:, :3] @ along, rock.joints[:, 3] - rock.joints[:, :3] @ first
 	with np.errstate(divide='ignore', invalid='ignore'):
 		parts = heights / slopes
@@ -102,8 +114,9 @@ def stereonet(rock, path):
 	:param JointedRock rock: what jointedRock made
 	:param path: PNG, SVG or PDF file
 	:returns: (dips, dip directions) of the joints [rad]
-	:raises ValueError: naming *path* if it is none
+	:raises ValueError: naming *rock* or *path* if it is none
 	"""
+	refuseOthers(rock)
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'path: must be the name of a PNG, SVG or PDF file, got {path!r}')
 	from matplotlib.figure import Figure

@@ -2,6 +2,7 @@
 """Stages in which a scene comes to rest again or fails, each weaker than the one before: of frictionReduction and strengthReduction."""
 
 import dataclasses
+import numbers
 
 from yade import O, Polytope
 
@@ -57,6 +58,9 @@ class Reduction:
 		self.bodies = list(bodies)
 		if not self.bodies:
 			raise ValueError('bodies: there must be at least one')
+		missing = [k for k in self.bodies if not isinstance(k, numbers.Integral) or not 0 <= k < len(O.bodies) or O.bodies[k] is None]
+		if missing:
+			raise ValueError(f'bodies: there is no body {missing[0]!r}')
 		self.stableSpeed, self.failedDistance = stableSpeed, failedDistance
 		self.checkEvery, self.mostSteps = checkEvery, mostSteps
 		self.measure, self.progress = measure, progress

@@ -126,6 +126,7 @@ table = 'dip,dip_direction,x,y,z,radius\n'
 		(table + '30,900,0,0,0,2\n', 'a.csv', 'line 2: dip direction must be an azimuth'),
 		(table + '30,90,0,0,0,-2\n', 'a.csv', 'line 2: radius: must be positive'),
 		(table + '30,90,0,0\n', 'a.csv', 'line 2: 4 fields, 6 or more'),
+		('dip,dd,dip_direction,x,y,z\n30,90,45,0,0,0\n', 'a.csv', 'line 1: several columns are the dip_direction'),
 		(table + '30,90,0,0,nan,1\n', 'a.csv', 'line 2: z must be a number'),
 		('a;b\n1;2;3;4;5;6;7;8;9;10;11;12;13\n', 'a.csv', 'line 2: 13 fields separated by semicolons; BlockGen has 11'),
 		(fab.replace('END TESSFRACTURE\n', ''), 'a.fab', 'the file ends within the section TESSFRACTURE'),
@@ -153,3 +154,8 @@ def testWrongArgumentsAreRefused(read, tmp_path):
 	(tmp_path / 'binary.csv').write_bytes(b'\xff\xfe\x00')
 	with pytest.raises(ValueError, match='is no text'):
 		polytope.readJoints(tmp_path / 'binary.csv')
+
+
+def testAFolderIsRefused(tmp_path):
+	with pytest.raises(ValueError, match='^path: .* is a folder'):
+		polytope.readJoints(tmp_path)

@@ -102,6 +102,19 @@ def testScanLine():
 	assert len(polytope.scanLine(rock, (3, 0, -4), (3, 0, 4))[0]) == 8, 'beside the disc'
 	with pytest.raises(ValueError, match='^end:'):
 		polytope.scanLine(rock, (0, 0, 0), (0, 0, 0))
+	with pytest.raises(ValueError, match='^end: 9 of 14 m of the line lie in the rock'):
+		polytope.scanLine(rock, (0, 0, -4), (0, 0, 10))
+
+
+def testOtherThingsThanARockAreRefused():
+	for function, arguments in (
+		(polytope.rockReport, ()),
+		(polytope.scanLine, ((0, 0, 0), (1, 0, 0))),
+		(polytope.stereonet, ('net.png',)),
+		(polytope.keyBlocks, ((0, 0, 1), 0.5)),
+	):
+		with pytest.raises(ValueError, match=r'^rock: must be what polytope.jointedRock\(…\) returns, got list'):
+			function([1], *arguments)
 
 
 def testStereonet(tmp_path):
@@ -121,6 +134,7 @@ def testStereonet(tmp_path):
 		({'free': 'roof'}, 'free'),
 		({'frictionAngle': -0.1}, 'frictionAngle'),
 		({'frictionAngle': [0.5]}, 'frictionAngle'),
+		({'frictionAngle': [0.5] * 9}, 'frictionAngle'),
 		({'frictionAngle': 35}, 'frictionAngle'),
 		({'cohesion': 'none'}, 'cohesion'),
 		({'density': 0}, 'density'),

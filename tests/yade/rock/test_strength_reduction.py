@@ -5,6 +5,7 @@ from math import atan, cos, inf, radians, sin, tan
 
 import pytest
 from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, MatchMaker, O, RockJointMat, polytope
+from yade.polytope.frictionReduction import FrictionReduction
 from yade.polytope.strengthReduction import StrengthReduction, divideStrengths
 
 gravity, stiffness = 9.81, 1e9
@@ -88,6 +89,7 @@ def testWhatIsRefused():
 	(number,) = slope(radians(35), [dict(frictionAngle=radians(30))])
 	for arguments, words in (
 		({'bodies': []}, 'bodies: '),
+		({'bodies': [99]}, 'bodies: there is no body 99'),
 		({'steps': []}, 'steps: '),
 		({'steps': (0.1, 0.2)}, 'steps: '),
 		({'most': 1}, 'most: '),
@@ -95,6 +97,8 @@ def testWhatIsRefused():
 	):
 		with pytest.raises(ValueError, match=f'^{words}'):
 			StrengthReduction(**{'bodies': [number], **arguments})
+	with pytest.raises(ValueError, match='^steps: must be angles in radians below the start'):
+		FrictionReduction([number], start=radians(60), steps=[5, 1])
 	with pytest.raises(RuntimeError, match='not stable with its own strengths: failed'):
 		StrengthReduction([number]).run()
 	for factor in (0, -1, inf):

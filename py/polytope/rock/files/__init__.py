@@ -37,6 +37,8 @@ def readJoints(path, format=None, scale=1):
 		raise ValueError(f'path: must be the path of a file, got {path!r}')
 	if not os.path.exists(path):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
+	if os.path.isdir(path):
+		raise ValueError(f"path: '{path}' is a folder; give the path of a file in it")
 	if format is not None and format not in readers:
 		raise ValueError(f'format: must be one of {", ".join(readers)}, got {format!r}')
 	if not 0 < number(scale, 'scale') < math.inf:

@@ -28,8 +28,17 @@ def separatorOf(line):
 
 def columnsOf(line):
 	"""{column: place}"""
-	words = [word.strip().strip('"').lower().replace('-', '_').replace(' ', '_') for word in line.split(separatorOf(line))]
-	return {names[word]: place for place, word in enumerate(words) if word in names}
+	return {names[word]: place for place, word in enumerate(_words(line)) if word in names}
+
+
+def _words(line):
+	return [word.strip().strip('"').lower().replace('-', '_').replace(' ', '_') for word in line.split(separatorOf(line))]
+
+
+def _twice(line):
+	"""A column of which there are several, such as *radius*, or *dip_direction* as *dd*, too; else None."""
+	words = [names[word] for word in _words(line) if word in names]
+	return next((word for word in words if words.count(word) > 1), None)
 
 
 def isTable(line):
@@ -50,6 +59,9 @@ def joints(rows):
 	if missing:
 		raise rows.wrong(1, f'there is no column {", ".join(missing)}', f'name the columns: {", ".join(needed)}, radius')
 	separator = separatorOf(heading)
+	twice = _twice(heading)
+	if twice:
+		raise rows.wrong(1, f'several columns are the {twice}', 'leave all but one out, or name the others otherwise')
 	found = []
 	for line, fields in enumerate(csv.reader(rows.lines, delimiter=separator), 1):
 		if line == 1 or not any(field.strip() for field in fields):
