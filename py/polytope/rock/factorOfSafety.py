@@ -55,7 +55,7 @@ class Trial:
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved farthest for its size, since the trial began [m]."""
+	"""Way of the body that has moved farthest for its size, since the scene stood with its own strengths [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 
@@ -109,7 +109,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 
 	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. Then strengths are divided by a number between what stood and what failed, trial by trial. A trial begins
 	at the last state that stood: strengths are only ever lowered from there, so its forces are in equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It
-	is stable when no body has an unbalanced force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a body has moved by a fiftieth of its size, or by a
+	is stable when no body has an unbalanced force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a body has moved by a fiftieth of its size since the scene stood with its own strengths, or in this trial by a
 	quarter of that faster and faster, with nothing ahead that could stop it. A body that moves and comes to rest before is stable. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
 	time. Then the scene is what it was, time and
 	joints included. Bodies, contacts and engines are new Python objects, as after O.loadTmp: hold ids.
@@ -205,6 +205,7 @@ class _Search:
 					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps; '
 					f'{_told(*self._motion()[:2])}; polytope.settle() first, more strength, or a support'
 				)
+			self.origin = self._places()
 			bracket = Bracket(self.tolerance, most)
 			while not bracket.isNarrow:
 				self.left = bracket.halvings
@@ -255,21 +256,21 @@ class _Search:
 				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			trial.steps += between
 			trial.unbalanced = unrest.look(between)
+			motion.look(self.masses)
 			parts = self._show(factor)
-			motion.look(parts, self.masses)
-			trial.outcome = self._outcome(trial, motion, unrest)
+			trial.outcome = self._outcome(trial, parts, motion, unrest)
 		farthest = int(np.argmax(parts))
 		self.lacked = float(unrest.mean[self.watched[farthest]]), self.watched[farthest]
 		self.limit = motion.limit(factor) if set(self.reduce) == set(strengths) else None
 		trial.displacement = float(self._ways()[farthest])
 		if trial.outcome == 'stable':
-			self.reached, self.origin = factor, self._places()
+			self.reached = factor
 			O.saveTmp(standing, quiet=True)
 		return trial
 
-	def _outcome(self, trial, motion, unrest):
+	def _outcome(self, trial, parts, motion, unrest):
 		"""As of now: 'creeping' where it is neither."""
-		if not motion.parts[-1].max() <= 1 or motion.runsAway():  # not a number counts as failed
+		if not parts.max() <= 1 or motion.runsAway():  # not a number counts as failed
 			return 'failed'
 		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0
 		stands = self.quiet >= looks and motion.way(looks) < still

@@ -42,16 +42,17 @@ class Motion:
 		self.taken, self.time = 0.0, O.time
 		"""D [J], up to this time [s]."""
 		self.began = self.now = _places()
-		self.touched = {tuple(pair) for pair in arrays().contacts.ids}
-		"""Pairs of bodies that touched when it began: what moves on although they did is not stopped by them."""
+		self.touched, self.since = _touching(), (0, set())
+		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster is not stopped by them; and those that touched at a look, with its number."""
 
-	def look(self, parts, masses=None):
+	def look(self, masses=None):
 		"""
-		:param parts: way of each body over its limit
 		:param masses: true masses by id, where those of the scene are scaled [kg]
 		"""
-		self.parts.append(parts)
-		if parts.max() < early:
+		self.parts.append(np.linalg.norm((_places() - self.began)[self.watched], axis=1) / self.limits)
+		if len(self.parts) > 2 * self.since[0]:
+			self.touched, self.since = self.touched | self.since[1], (len(self.parts), _touching())
+		if self.parts[-1].max() < early:
 			self.forces, self.looks = self.forces + resultants(masses), self.looks + 1
 			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, _places()
 
@@ -77,7 +78,7 @@ class Motion:
 		return any(not self._isStopped(k) for k in np.flatnonzero(speeding))
 
 	def _isStopped(self, k):
-		"""Whether body k meets another one, which it did not touch when it began and which does not move with it."""
+		"""Whether body k meets another one, which it has not touched for long and which does not move with it."""
 		way = (_places() - self.began)[self.watched]
 		length = np.linalg.norm(way[k])
 		along = way[k] / length
@@ -124,6 +125,10 @@ def _places():
 	found = np.zeros((len(O.bodies), 3))
 	found[bodies.ids] = bodies.positions
 	return found
+
+
+def _touching():
+	return set(map(tuple, arrays().contacts.ids.tolist()))
 
 
 def _others(withIt):
