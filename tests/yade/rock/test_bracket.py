@@ -74,3 +74,40 @@ def testTheTrialsToComeAreCounted():
 	assert bracket.halvings == 6
 	bracket.tell(1.25, True)
 	assert bracket.halvings == 5
+
+
+def told(limit, estimate, tolerance=0.01):
+	"""Factors that are tried where the motion in a failed trial tells the limit by this function of the factor."""
+	bracket, tried = Bracket(tolerance, 20), []
+	while not bracket.isNarrow:
+		tried.append(bracket.next())
+		stands = tried[-1] < limit
+		bracket.tell(tried[-1], stands, limit=None if stands else estimate(tried[-1]))
+		assert len(tried) < 100
+	assert bracket.stable < limit < bracket.failed <= bracket.stable * 1.01
+	return tried
+
+
+@pytest.mark.parametrize('limit', [1.1, 1.198, 1.7321, 3.3, 12.0])
+def testTheMotionThatTellsTheLimitEndsTheSearchWithTwoTrials(limit):
+	tried = told(limit, lambda factor: limit)
+	enclosing = next(k for k, factor in enumerate(tried, 1) if factor >= limit)
+	assert len(tried) == enclosing + 2
+
+
+@pytest.mark.parametrize('limit', [1.1, 1.198, 1.7321, 3.3])
+def testAMotionThatTellsBetterTheNearerItIsTakesFewer(limit):
+	"""A tenth of the distance wrong, as where normal forces depend on the strength."""
+	tried = told(limit, lambda factor: limit + 0.1 * (factor - limit))
+	enclosing = next(k for k, factor in enumerate(tried, 1) if factor >= limit)
+	assert len(tried) - enclosing < 6  # halving takes 6
+
+
+@pytest.mark.parametrize(
+	'estimate', [lambda factor: 0.9 * factor, lambda factor: 0.999 * factor, lambda factor: 0.0, lambda factor: 99.0, lambda factor: None]
+)
+@pytest.mark.parametrize('limit', [1.05, 1.198, 4.7])
+def testAMotionThatMisleadsTakesAtMostTwiceAsMany(limit, estimate):
+	tried = told(limit, estimate)
+	enclosing = next(k for k, factor in enumerate(tried, 1) if factor >= limit)
+	assert len(tried) - enclosing <= 14
