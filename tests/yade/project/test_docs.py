@@ -213,6 +213,14 @@ def testStrengthReductionFindsTheDip(capsys):
 	assert settled.startswith('True ') and float(settled.split()[1]) < 1e-5
 
 
+def testThePortedWedgeSlidesAsByLimitEquilibrium(capsys):
+	"""docs/from-other-codes.md: the two figures that it prints agree, and no query was without an answer."""
+	runs(project / 'docs/from-other-codes.md')
+	ours, closed = map(float, capsys.readouterr().out.splitlines()[-1].split())
+	assert closed == pytest.approx(9.81 * (0.5 - 0.75**0.5 * math.tan(math.radians(15)) * 2**0.5), rel=1e-12) and ours == pytest.approx(closed, rel=1e-4)
+	assert yade.O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
+
+
 def testExamplesThatTheFirstPagesNameRun(tmp_path, monkeypatch, capsys):
 	"""examples/hello.py, and examples/oneContact.py, which draws docs/one-contact.png."""
 	monkeypatch.setattr(sys, 'argv', ['hello.py'])
