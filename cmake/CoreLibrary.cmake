@@ -19,6 +19,7 @@ set(POLYTOPE_CORE_HEADERS
 	shape/HalfSpaces.hpp # planes
 	shape/MassProperties.hpp
 	shape/PlacedShape.hpp
+	shape/RoundedSolid.hpp # sum of a polyhedron and a ball
 	shape/ShapeConstruction.hpp # vertices and faces of planes, hull of points
 	shape/ShapeFactory.hpp # shape and pose of planes or points
 	# which those include

@@ -6,22 +6,27 @@ include(PublicHeaders)
 
 # A header is public if an extension includes it (first list), or if one of those does (second list). All others may change at any time.
 set(plugin_headers
+	contact/MarginContact.hpp # contacts of bodies with margins
 	contact/MixedPairs.hpp # contacts with YADE's own shapes
 	contact/PolytopeGeom.hpp # a contact, and the functor that others derive from
 	host/FlatArchive.hpp # POLYTOPE_SAVED_FLAT
+	material/JointLaws.hpp # normal laws of joints
 	material/StiffnessRules.hpp # what a functor of physics tells
 	shape/Polytope.hpp # the shape
+	shape/ShapeFamily.hpp # what a shape of another base tells
+	shape/WallShape.hpp # a wall as a half-space
 	# which those include
 	bond/BondsOfScene.hpp # PolytopeGeom.hpp: members of the functor and of the contact
 	contact/ContactCounters.hpp
 	contact/StoredOutline.hpp
 	contact/StoredVertices.hpp
+	host/CheckedAttributes.hpp
 	host/FoundInStep.hpp
 	host/Seldom.hpp
 	host/SpringsOfScene.hpp
 	pairs/CandidateMemory.hpp
 )
-set(core_headers ${POLYTOPE_CORE_HEADERS} shear/ContactOutline.hpp timestep/RockingStiffness.hpp timestep/StableTimeStep.hpp) # and what the plug-in's include
+set(core_headers ${POLYTOPE_CORE_HEADERS} joint/BartonBandis.hpp joint/ContinuouslyYielding.hpp joint/JointTolerances.hpp shear/ContactOutline.hpp timestep/RockingStiffness.hpp timestep/StableTimeStep.hpp) # and what the plug-in's include
 
 set(kit_include "${PROJECT_BINARY_DIR}/include/yade-polytope-${POLYTOPE_PRECISION}")
 polytope_public_headers(polytope_kit_core SOURCE "${PROJECT_SOURCE_DIR}/src" PREFIX polytope INTO "${kit_include}" HEADERS ${core_headers})

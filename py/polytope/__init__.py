@@ -2,7 +2,7 @@
 """Convex polygons and polyhedra for YADE, after Boon, Houlsby & Utili (2012), Computers and Geotechnics 44:73-82.
 
 A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromVertices*, *regular*, *cuboid*, *polygon*, *fromMesh*,
-*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a rock mass cut by joints:
+*prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a body of an extension's class: *withShape*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
 pair without a scene: *contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; steps with their progress: *run*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
@@ -24,6 +24,7 @@ from . import _helpTexts
 from .bodies.clumps import clump
 from .bodies.grains import cloud, grains, randomGrain
 from .bodies.meshes import facets, fromMesh
+from .bodies.ownShapes import withShape
 from .bodies.polytopes import cuboid, fromHalfSpaces, fromVertices, polygon, regular
 from .bodies.shapeFiles import readShapes, writeShapes
 from .bodies.solids import frustum, plates, prism, terrain, tube
@@ -168,5 +169,6 @@ __all__ = [
 	'velocityHistory',
 	'voronoi',
 	'water',
+	'withShape',
 	'writeShapes',
 ]

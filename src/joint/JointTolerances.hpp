@@ -8,6 +8,9 @@ namespace polytope::tolerance {
 /// initial stiffness × maximum closure there, more than rock bears; without an end a single step could leave it beyond the pole.
 constexpr double closureEnd = 0.99;
 
+/// Steps of the search for the closure of a program's own law at a pressure: halving alone needs as many as the numbers have digits.
+constexpr int mostClosureSteps = 200;
+
 /// Of the maximum closure: the energy's closed form loses digits with the square of closures below this; a series takes its place, whose terms fall
 /// by this factor.
 constexpr double smallClosure = 0.05;

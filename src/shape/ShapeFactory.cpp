@@ -3,6 +3,7 @@
 
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/KnownShapes.hpp"
+#include "shape/RoundedSolid.hpp"
 
 #include <limits>
 #include <utility>
@@ -27,7 +28,8 @@ namespace {
 	        int kind, const std::vector<Vector3>& vectors, const std::vector<Real>& numbers, int dimension, const ShapeOptions& options)
 	{
 		Known::Key key { Real(kind), Real(dimension), options.thickness, Real(options.keepRedundant),
-			Real(options.cornerRadius ? 1 : 0), options.cornerRadius ? *options.cornerRadius : options.cornerFraction };
+			Real(options.cornerRadius ? 1 : 0), options.cornerRadius ? *options.cornerRadius : options.cornerFraction,
+			options.margin };
 		key.reserve(key.size() + 3 * vectors.size() + numbers.size());
 		for (const Vector3& v : vectors)
 			key.insert(key.end(), { v[0], v[1], v[2] });
@@ -81,7 +83,7 @@ namespace {
 		HalfSpaces      set   = withoutDuplicates(normalised(given));
 		LocalPolyhedron local = localPolyhedron(set, options.thickness);
 		if (!options.keepRedundant) set = facesOnly(set, local.shape);
-		const MassProperties mass   = massProperties(local.shape);
+		const MassProperties mass   = roundedMass(local.shape, options.margin / local.unit);
 		const Real           extent = extentOf(local.shape);
 		CentralShape         result;
 

@@ -17,6 +17,7 @@ struct ShapeOptions {
 	bool                keepRedundant = true; ///< planes that own no face, too; repeated ones go in any case
 	std::optional<Real> cornerRadius;         ///< [m]; none: `cornerFraction` of the inscribed ball's radius
 	Real                cornerFraction = 0;
+	Real                margin         = 0; ///< radius of the ball around a polyhedron, whose frame is that of both (RoundedSolid.hpp)
 };
 
 /// x = position + rotation·(x of the body's frame): the centroid and, as columns, the principal axes (MassProperties.hpp).

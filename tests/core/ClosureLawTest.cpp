@@ -79,4 +79,42 @@ TEST(ClosureLaw, BetweenTwoSidesThatDiffer)
 	EXPECT_FALSE(joint.isLike(ClosureLaw()));
 }
 
+/// The hyperbola again, as a program would write it: straight from 0.99 of the maximum on.
+Real partOf(Real u, Real most) { return std::min(u / most, Real(0.99)); }
+
+const NormalLaw hyperbola(
+        "ClosureLawTest",
+        [](Real u, Real most, Real) {
+	        const Real x = partOf(u, most);
+	        return most * x / (1 - x) + (u - x * most) / ((1 - x) * (1 - x));
+        },
+        [](Real u, Real most, Real) { return 1 / ((1 - partOf(u, most)) * (1 - partOf(u, most))); },
+        [](Real u, Real most, Real) {
+	        const Real x = partOf(u, most), beyond = u - x * most;
+	        return most * most * (-x - std::log(1 - x)) + beyond * (most * x / (1 - x) + beyond / 2 / ((1 - x) * (1 - x)));
+        });
+
+TEST(ClosureLaw, OfAProgramsOwnIsAsTheOneOfTheLibrary)
+{
+	const ClosureLaw own = ClosureLaw::own(hyperbola, 2e-4);
+	EXPECT_FALSE(own.isLinear());
+	EXPECT_FALSE(own.isLike(joint));
+	EXPECT_FALSE(joint.isLike(own));
+	EXPECT_TRUE(own.isLike(ClosureLaw::own(hyperbola, 1e-4)));
+	for (const Real closure : { -3e-5, 1e-7, 1e-5, 1e-4, 1.9e-4, 1.99e-4, 3e-4 }) {
+		EXPECT_NEAR(own.pressure(closure) / joint.pressure(closure), 1, 1e-14);
+		EXPECT_NEAR(own.tangent(closure) / joint.tangent(closure), 1, 1e-14);
+		EXPECT_NEAR(own.energy(closure) / joint.energy(closure), 1, 1e-8);
+		EXPECT_NEAR(own.closure(own.pressure(closure)) / closure, 1, 1e-12);
+	}
+	const ClosureLaw between = ClosureLaw::between(own, ClosureLaw::own(hyperbola, 1e-4));
+	EXPECT_NEAR(between.pressure(7.5e-5), 15e-5, 1e-18); // half of the mean maximum
+}
+
+TEST(ClosureLaw, OfAProgramsOwnIsKnownByItsName)
+{
+	EXPECT_EQ(&NormalLaw::named("ClosureLawTest"), &hyperbola);
+	EXPECT_THROW(NormalLaw::named("another"), std::runtime_error);
+}
+
 } // namespace

@@ -8,7 +8,7 @@ from yadeText import boost, indented, rest, title
 __all__ = ['modules', 'topics', 'write']
 
 topics = {
-	'bodies': ('Bodies', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split'),
+	'bodies': ('Bodies', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split withShape'),
 	'ground': ('Fixed pieces and ground', 'plates tube terrain facets'),
 	'grains': ('Random grains', 'randomGrain grains cloud'),
 	'rock': (

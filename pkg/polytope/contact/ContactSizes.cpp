@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/ContactSizes.hpp"
 
-#include <pkg/common/Sphere.hpp>
-
 #include "host/PartsOfBodies.hpp"
-#include "shape/Polytope.hpp"
+#include "shape/ShapeFamily.hpp"
 
 namespace yade {
-Real sizeOf(const Shape& shape)
-{
-	if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
-	const auto* polytope = dynamic_cast<const Polytope*>(&shape);
-	if (!polytope || !polytope->convex()) return 0;
-	const auto& convex = *polytope->convex();
-	return convex.dimension() == 2 ? math::sqrt(convex.mass().volume / convex.thickness()) / 2 : math::cbrt(convex.mass().volume) / 2;
-}
+
+Real sizeOf(const Shape& shape) { return familyOf(shape).size(shape); }
 
 Real sizeIfMoved(const Body& body, const Scene& scene) { return isMovedByForces(moverOf(body, scene)) ? sizeOf(*body.shape) : Real(0); }
 

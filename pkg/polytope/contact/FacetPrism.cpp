@@ -29,7 +29,7 @@ FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& s
 		corner_[k] = &shape.vertices[k];
 		size_      = math::max(size_, (shape.vertices[(k + 1) % 3] - shape.vertices[k]).norm());
 	}
-	normal_          = (*corner_[1] - *corner_[0]).cross(*corner_[2] - *corner_[0]).normalized();
+	normal_          = normalOfTriangle([this](int k) -> const Vector3r& { return *corner_[k]; });
 	const Real near  = Real(pieces::sameCorner) * size_;
 	const auto toOwn = facet.state->ori.conjugate();
 	forPartners(body2, facet.id, scene, [&](const Body& partner, const Vector3r& shift) {
@@ -54,9 +54,7 @@ FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& s
 /// In the facet's plane, normal to edge k and away from it.
 Vector3r FacetInMesh::outward(int k) const
 {
-	Vector3r out = (*corner_[(k + 1) % 3] - *corner_[k]).cross(normal_).normalized();
-	if (out.dot(*corner_[(k + 2) % 3] - *corner_[k]) > 0) out = -out;
-	return out;
+	return outwardOfEdge([this](int corner) -> const Vector3r& { return *corner_[corner]; }, normal_, k);
 }
 
 void FacetInMesh::addTilt(const Other& other)
@@ -135,7 +133,7 @@ void FacetInMesh::addCutsAt(int corner, const Vector3r& up, Prism& prism) const
 	for (const Other& other : others_) {
 		const auto at = std::find(other.own.begin(), other.own.end(), corner);
 		if (at == other.own.end()) continue;
-		Vector3r normal = (other.corner[1] - other.corner[0]).cross(other.corner[2] - other.corner[0]).normalized();
+		Vector3r normal = normalOfTriangle([&other](int k) -> const Vector3r& { return other.corner[k]; });
 		Real     low = 0, high = 0, above = 0;
 		for (int k = 0; k < 3; ++k) {
 			const Real height = normal.dot(*corner_[k] - tip);

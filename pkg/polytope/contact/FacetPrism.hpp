@@ -3,11 +3,10 @@
 
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
-#include <pkg/common/Facet.hpp>
-
 #include <src/shape/ConvexShape.hpp>
 
 #include "contact/PieceTolerances.hpp"
+#include "shape/FacetShape.hpp"
 
 #include <array>
 #include <vector>

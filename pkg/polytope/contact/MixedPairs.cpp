@@ -5,6 +5,8 @@
 #include "contact/FacetPrism.hpp"
 #include "contact/SphereOnPieces.hpp"
 #include "contact/StiffnessShare.hpp"
+#include "shape/BoxShape.hpp"
+#include "shape/WallShape.hpp"
 
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -21,21 +23,9 @@ namespace {
 
 	using Convex = std::shared_ptr<const polytope::ConvexShape>;
 
-	bool isBox(const polytope::ConvexShape& solid, const Box& box)
-	{
-		const auto& offsets = solid.planes().offsets; // as boxOf() has written them
-		return offsets[0] == box.extents[0] && offsets[2] == box.extents[1] && offsets[4] == box.extents[2];
-	}
-
 	Convex boxOf(const Box& box, const polytope::ConvexShape& other)
 	{
-		polytope::HalfSpaces planes;
-		for (int k = 0; k < 3; ++k)
-			for (int sign = -1; sign <= 1; sign += 2) {
-				planes.normals.push_back(sign * Vector3r::Unit(k));
-				planes.offsets.push_back(box.extents[k]);
-			}
-		return polytope::ConvexShape::shared(planes, math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
+		return polytope::ConvexShape::shared(halfSpacesOf(box), math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
 	}
 
 	Convex facetOf(const FacetInMesh::Prism& prism, const polytope::ConvexShape& other)
@@ -60,15 +50,11 @@ bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const s
 	if (wall.axis >= convex->dimension()) return failed(c); // parallel to a polygon's plane: it has no edge there
 	StandIn& standIn = geometry(c).standIn.make();
 	if (!standIn.partner) {
-		const Real side = wall.sense != 0 ? Real(wall.sense) : (state2.pos + shift2 - state1.pos)[wall.axis];
-		standIn.partner = polytope::shapeOrNull([&] {
-			return polytope::ConvexShape::halfSpace((side < 0 ? -1 : 1) * Vector3r::Unit(wall.axis), convex->dimension());
-		});
+		const Vector3r outward = outwardOf(wall, state2.pos + shift2 - state1.pos);
+		standIn.partner = polytope::shapeOrNull([&] { return polytope::ConvexShape::halfSpace(outward, convex->dimension()); });
 	}
 	if (!standIn.partner) return failed(c);
-	// the wall's point nearest to the polytope's centre
-	Body1Frame foot { state2.pos + shift2, Matrix3r::Identity() };
-	foot.origin[wall.axis] = state1.pos[wall.axis];
+	const Body1Frame foot { footOn(wall, state1.pos, state2.pos + shift2), Matrix3r::Identity() };
 	return query(*standIn.partner, foot, *convex, state1, state2, shift2, force, c);
 }
 
@@ -80,7 +66,8 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 	StandIn&    standIn = geometry(c).standIn.make();
 	const auto& box     = static_cast<const Box&>(*shape1);
 	// scripts may change the extents of a box in a run
-	if (!standIn.partner || !isBox(*standIn.partner, box)) standIn.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
+	if (!standIn.partner || !isMadeOf(*standIn.partner, box))
+		standIn.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
 	if (!standIn.partner) return failed(c);
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }

@@ -9,8 +9,7 @@
 
 #include "host/Partners.hpp"
 #include "host/PartsOfBodies.hpp"
-
-#include <vector>
+#include "shape/ShapeFamily.hpp"
 
 /// The pieces of a rigid support, on several of which a body may lie, as half-spaces around a contact.
 ///
@@ -26,20 +25,6 @@ struct TouchingPair {
 	Matrix3r                     rotation[2];
 	Vector3r                     point; ///< in the overlap
 	Real                         ball;  ///< radius of the largest ball in the overlap
-};
-
-using Planes = std::vector<polytope::Plane>; ///< world axes, offsets from the contact point
-
-/// A body as others of its kind continue it.
-struct Solid {
-	Planes      planes;
-	std::size_t faces = 0; ///< the first so many; what follows are the upright sides of a facet, on which nothing can lie
-
-	void clear()
-	{
-		planes.clear();
-		faces = 0;
-	}
 };
 
 inline const Body& bodyOf(const TouchingPair& pair, int which)

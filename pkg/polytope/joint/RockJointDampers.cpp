@@ -3,34 +3,14 @@
 
 #include <core/Clump.hpp>
 #include <lib/high-precision/Constants.hpp>
-#include <pkg/common/Box.hpp>
-#include <pkg/common/Sphere.hpp>
-
-#include <src/shape/Rings.hpp>
 
 #include "host/PartsOfBodies.hpp"
 #include "joint/RockJointStep.hpp"
+#include "shape/ShapeFamily.hpp"
 
 namespace yade {
 
 namespace {
-
-	/// Area that the shape shows in this direction [m²].
-	Real projectedArea(const Shape& shape, const Vector3r& direction)
-	{
-		if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return Mathr::PI * sphere->radius * sphere->radius;
-		if (const auto* box = dynamic_cast<const Box*>(&shape)) {
-			const Vector3r& e = box->extents;
-			return 4 * Vector3r(e[1] * e[2], e[2] * e[0], e[0] * e[1]).dot(direction.cwiseAbs());
-		}
-		const auto* solid = dynamic_cast<const Polytope*>(&shape);
-		if (!solid || !solid->convex()) return 0;
-		const auto& hull  = solid->convex()->polyhedron();
-		Real        twice = 0;
-		for (std::size_t k = 0; k < hull.faces.size(); ++k)
-			twice += math::abs(polytope::faceArea(hull, k).dot(direction));
-		return twice / 2;
-	}
 
 	/// Of a clump; 1: of a body alone.
 	std::size_t countOfParts(const Body& mover) { return mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1; }
@@ -38,7 +18,8 @@ namespace {
 	/// s of a contact that was in no sum.
 	Real partOfArea(const Body& body, const Body& mover, const Vector3r& normal, Real area)
 	{
-		const Real shown = projectedArea(*body.shape, body.state->ori.conjugate() * normal) * Real(countOfParts(mover));
+		const Real shown = familyOf(*body.shape).projectedArea(*body.shape, body.state->ori.conjugate() * normal)
+		        * Real(countOfParts(mover));
 		return shown > area ? area / shown : Real(1);
 	}
 

@@ -141,10 +141,10 @@ void PolytopeVTKRecorder::writeBodies(const string& file) const
 	for (const auto& body : *scene->bodies) {
 		if (!body || !body->shape || !recorded(*body) || (skipNondynamic && !body->isDynamic())) continue;
 		const auto* const shape = dynamic_cast<const Polytope*>(body->shape.get());
-		if (!shape || !shape->convex()) continue;
+		const auto        solid = shape ? shape->surface() : nullptr;
+		if (!solid) continue;
 		const State& state = *body->state;
-		appendSolid(grid, points, shape->convex()->polyhedron(), insideCell(*scene, state.pos), state.ori.toRotationMatrix(), faces,
-		        vertices);
+		appendSolid(grid, points, *solid, insideCell(*scene, state.pos), state.ori.toRotationMatrix(), faces, vertices);
 		id->InsertNextValue(body->getId());
 		appendColor(color, shape->color);
 		groupMask->InsertNextValue(int(body->groupMask));
@@ -179,7 +179,7 @@ void PolytopeVTKRecorder::writeContacts(const string& file) const
 
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
-		const auto* const   polytopes = exactly<PolytopeGeom>(interaction->geom.get()); // no class is derived from it
+		const auto* const   polytopes = asClass<PolytopeGeom>(interaction->geom.get());
 		const ScGeom* const geom      = polytopes ? polytopes : dynamic_cast<const ScGeom*>(interaction->geom.get());
 		if (!geom) continue;
 		const auto &body1 = Body::byId(interaction->getId1(), scene), &body2 = Body::byId(interaction->getId2(), scene);

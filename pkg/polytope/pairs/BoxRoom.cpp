@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pairs/BoxRoom.hpp"
 
-#include <pkg/common/Sphere.hpp>
-
 #include <src/numbers/Tolerances.hpp>
 
 #include "shape/Polytope.hpp"
+#include "shape/ShapeFamily.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -43,7 +42,7 @@ void BoxRoom::makeOne(const Scene& scene, std::size_t id, const Limits& limits)
 	if (!polytope || !polytope->convex() || !margin) {
 		reference  = Reference();
 		rooms_[id] = 0;
-		if (!shape || dynamic_cast<const Sphere*>(shape)) return;
+		if (!shape || familyOf(*shape).isRound(*shape)) return;
 		reference.radius      = 1; // any: there is no room
 		reference.orientation = body->state->ori;
 		return;

@@ -117,7 +117,7 @@ namespace {
 			else if (const auto* const push = dynamic_cast<const NormPhys*>(row.phys))
 				writeForces(at, push->normalForce, Vector3r::Zero());
 			else writeForces(at, Vector3r::Constant(Real(notANumber)), Vector3r::Constant(Real(notANumber)));
-			if (const auto* const own = exactly<PolytopeGeom>(row.geom)) {
+			if (const auto* const own = asClass<PolytopeGeom>(row.geom)) {
 				writePlace(at, own->contactPoint, own->normal, double(own->penetrationDepth));
 				areas_[at]           = double(own->contactArea);
 				infeasibilities_[at] = double(own->infeasibility);

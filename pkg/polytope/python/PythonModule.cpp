@@ -13,6 +13,8 @@
 #include "material/StiffnessRules.hpp"
 #include "python/Arrays.hpp"
 #include "shape/Construction.hpp"
+#include "shape/Polytope.hpp"
+#include "shape/ShapeFamily.hpp"
 #include "step/PotentialContacts.hpp"
 #include "step/WorkerContacts.hpp"
 
@@ -78,27 +80,54 @@ template <class Number> py::object bytesOf(const std::vector<Number>& numbers)
 	        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(numbers.data()), Py_ssize_t(numbers.size() * sizeof(Number)))));
 }
 
-/// A shape's vertices and faces as memory of NumPy arrays: as lists, of a number for each coordinate, they take a hundred times as long.
-py::tuple packedFaces(const yade::Polytope& shape)
+/// Of any shape with faces to be drawn; empty: it has none.
+std::shared_ptr<const polytope::Polyhedron> facesOf(const yade::Shape& shape)
 {
+	const auto surface = yade::familyOf(shape).surface(shape);
+	return surface ? surface : std::make_shared<const polytope::Polyhedron>();
+}
+
+/// A shape's vertices and faces as memory of NumPy arrays: as lists, of a number for each coordinate, they take a hundred times as long.
+py::tuple packedFaces(const yade::Shape& shape)
+{
+	const auto          hull = facesOf(shape);
 	std::vector<double> coordinates;
 	std::vector<int>    counts, corners;
-	if (shape.convex()) {
-		const auto& hull = shape.convex()->polyhedron();
-		for (const auto& vertex : hull.vertices)
-			for (int axis = 0; axis < 3; ++axis)
-				coordinates.push_back(double(vertex[axis]));
-		for (const auto& face : hull.faces) {
-			counts.push_back(int(face.size()));
-			corners.insert(corners.end(), face.begin(), face.end());
-		}
+	for (const auto& vertex : hull->vertices)
+		for (int axis = 0; axis < 3; ++axis)
+			coordinates.push_back(double(vertex[axis]));
+	for (const auto& face : hull->faces) {
+		counts.push_back(int(face.size()));
+		corners.insert(corners.end(), face.begin(), face.end());
 	}
 	return py::make_tuple(bytesOf(coordinates), bytesOf(counts), bytesOf(corners));
 }
 
-py::object planesOfFaces(const yade::Polytope& shape)
+py::object planesOfFaces(const yade::Shape& shape) { return bytesOf(facesOf(shape)->planeOfFace); }
+
+/// (normals, offsets) in world axes of a body as a piece of a support, as one at `other` meets it.
+py::tuple supportPlanes(const boost::shared_ptr<yade::Body>& body, const yade::Vector3r& other)
 {
-	return bytesOf(shape.convex() ? shape.convex()->polyhedron().planeOfFace : std::vector<int>());
+	yade::Solid        solid;
+	const yade::State& state = *body->state;
+	yade::familyOf(*body->shape)
+	        .addSupport(*body->shape, { state.pos, state.ori.toRotationMatrix(), other, std::numeric_limits<yade::Real>::infinity() },
+	                solid);
+	std::vector<double> normals, offsets;
+	for (const auto& plane : solid.planes) {
+		for (int axis = 0; axis < 3; ++axis)
+			normals.push_back(double(plane.normal[axis]));
+		offsets.push_back(double(plane.offset));
+	}
+	return py::make_tuple(bytesOf(normals), bytesOf(offsets));
+}
+
+/// What a class derived from Polytope leaves open, or has wrong; empty: nothing.
+std::string faultOfShape(const yade::Polytope& shape)
+{
+	if (!shape.convex()) return "";
+	if (!shape.margin()) return "does not say where its surface is (margin): volume, pictures and VTK files are those of its planes";
+	return shape.faultOfFrame();
 }
 
 /// (path, name, names of classes)
@@ -279,10 +308,17 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("polyhedron", &polyhedron, (py::arg("normals"), py::arg("offsets")),
 	        "Half-spaces without redundant ones, their vertices, volume, centroid and inscribed ball's radius, as a dictionary.");
 	py::def("packedFaces", &packedFaces, py::arg("shape"),
-	        "Of a Polytope, as bytes of NumPy arrays: vertices (n, 3) float64 in the body's frame, number of corners of each face, "
+	        "Faces of a shape, as bytes of NumPy arrays; empty for walls and spheres: vertices (n, 3) float64 in the body's frame, "
+	        "number of corners of each face, "
 	        "int32, and the corners of all faces one after another, int32.");
 	py::def("planesOfFaces", &planesOfFaces, py::arg("shape"),
-	        "Of a Polytope, as bytes of a NumPy array: index of the half-space of each face, int32; -1 for both caps of a polygon.");
+	        "As bytes of a NumPy array: index of the half-space of each face, int32; -1 for caps of a polygon and for what a margin "
+	        "rounds.");
+	py::def("supportPlanes", &supportPlanes, (py::arg("body"), py::arg("other")),
+	        "Half-spaces, in world axes, that stand for a body as one whose centre is at *other* meets it, as bytes of NumPy arrays: "
+	        "unit "
+	        "normals (n, 3) and offsets, float64; empty for spheres.");
+	py::def("faultOfShape", &faultOfShape, py::arg("shape"), "What a class derived from Polytope leaves open; empty: nothing.");
 	py::def("extensions", &extensions, "Extensions that are loaded: (path, name, names of classes) of each.");
 	py::def("loadExtension", &loadExtension, py::arg("path"),
 	        "Loads one, see polytope.load; RuntimeError with the reason where it does not fit.");

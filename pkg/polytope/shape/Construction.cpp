@@ -66,31 +66,64 @@ namespace {
 		return polytope::centralShape(planes, options(1, true, cornerRadius, cornerFraction));
 	}
 
+	/// Shape, mass, degrees of freedom; the state's place is the caller's.
+	void giveShape(Body& body, const shared_ptr<Polytope>& shape, bool fixed, Real isotropyTolerance)
+	{
+		State&         state   = *body.state;
+		const Real     density = body.material->density;
+		const Vector3r inertia = shape->inertia();
+		body.shape             = shape;
+		state.mass             = shape->volume() * density;
+		state.inertia          = inertia * density;
+		state.refPos           = state.pos; // displacements count from there
+		state.refOri           = state.ori;
+		const bool flat        = shape->dimension == 2;
+		state.blockedDOFs      = fixed ? State::DOF_ALL : flat ? State::DOF_Z | State::DOF_RX | State::DOF_RY : State::DOF_NONE;
+		// a polygon turns about z only, so its other moments never enter
+		body.setAspherical(!flat && inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
+	}
+
 	/// A body whose centroid is at `centre`, or None: where its planes or points are; turned about it. Without a colour (None) the shape keeps its own.
 	shared_ptr<Body> body(const CentralShape& central, const shared_ptr<Material>& material, const py::object& centre,
 	        const Quaternionr& turn, bool fixed, Real isotropyTolerance, const py::object& color)
 	{
 		const auto shape = Polytope::of(central.shape);
 		auto       body  = shared_ptr<Body>(new Body);
-		body->shape      = shape;
 		body->material   = material;
 		body->state      = material->newAssocState();
-		State& state     = *body->state;
-
-		const Vector3r inertia = shape->inertia();
-		state.mass             = shape->volume() * material->density;
-		state.inertia          = inertia * material->density;
-		state.pos              = centre.is_none() ? central.position : Vector3r(py::extract<Vector3r>(centre));
-		state.ori              = turn * Quaternionr(Matrix3r(central.rotation));
-		state.refPos           = state.pos; // displacements count from there
-		state.refOri           = state.ori;
+		body->state->pos = centre.is_none() ? central.position : Vector3r(py::extract<Vector3r>(centre));
+		body->state->ori = turn * Quaternionr(Matrix3r(central.rotation));
+		giveShape(*body, shape, fixed, isotropyTolerance);
 		if (!color.is_none()) shape->color = py::extract<Vector3r>(color);
 		body->setBounded(true);
-		const bool flat   = shape->dimension == 2;
-		state.blockedDOFs = fixed ? State::DOF_ALL : flat ? State::DOF_Z | State::DOF_RX | State::DOF_RY : State::DOF_NONE;
-		// a polygon turns about z only, so its other moments never enter
-		body->setAspherical(!flat && inertia.maxCoeff() - inertia.minCoeff() > isotropyTolerance * inertia.maxCoeff());
 		return body;
+	}
+
+	/// Another shape for a body: the planes of its own, in the frame that the new class' margin asks for. Mass and principal axes follow; nothing moves.
+	void reshape(const shared_ptr<Body>& body, const shared_ptr<Polytope>& shape, Real isotropyTolerance)
+	{
+		const Polytope&           own    = *polytopeOf(*body);
+		const std::optional<Real> margin = shape->margin();
+		if (!margin) throw std::invalid_argument("shape: its class does not say where its surface is (Polytope::margin)");
+		if (!(*margin >= 0 && math::isfinite(*margin)))
+			throw std::invalid_argument("shape: its margin must be finite and at least 0");
+		if (*margin > 0 && own.dimension == 2)
+			throw std::invalid_argument("body: is a polygon, which has no margin; make a polyhedron");
+		polytope::ShapeOptions options;
+		options.thickness    = own.convex()->thickness();
+		options.cornerRadius = own.convex()->cornerRadius();
+		options.margin       = *margin;
+		const auto central   = polytope::centralShape(own.convex()->planes(), options);
+		shape->take(central.shape);
+		if (const std::string fault = shape->faultOfFrame(); !fault.empty()) throw std::invalid_argument("shape: " + fault);
+		shape->color     = own.color;
+		shape->wire      = own.wire;
+		shape->highlight = own.highlight;
+		if (shape->planeOffsets().size() == own.planeOffsets().size()) shape->faceMaterials = own.faceMaterials;
+		State& state = *body->state;
+		state.pos += state.ori * central.position;
+		state.ori = state.ori * Quaternionr(Matrix3r(central.rotation));
+		giveShape(*body, shape, state.blockedDOFs == State::DOF_ALL, isotropyTolerance);
 	}
 
 	/// Gives a clump another mass, centre and principal axes than those that YADE sums over its members; the members stay where they are.
@@ -147,6 +180,7 @@ void defineConstruction()
 	py::def("ofRegular", &ofRegular, "Regular polyhedron: faces, circumradius, cornerRadius or None, cornerFraction.");
 	py::def("ofCuboid", &ofCuboid, "Rectangular block: half-lengths, cornerRadius or None, cornerFraction.");
 	py::def("body", &body, "Body of a CentralShape: shape, material, centre or None, turn, fixed, isotropyTolerance, color or None.");
+	py::def("reshape", &reshape, "Gives a body of a Polytope another shape with the same planes: body, shape, isotropyTolerance.");
 	py::def("setClump", &setClump, "Mass and principal axes of a clump: body, mass, inertia, centre, axes, isotropyTolerance.");
 	py::def("unionOf", &unionOf, "Volume, mass, centre of mass and tensor of inertia (nine numbers) of what polyhedra fill together.");
 }

@@ -5,6 +5,8 @@
 #include <core/Scene.hpp>
 #include <core/State.hpp>
 
+#include <src/shape/RoundedSolid.hpp>
+
 #include <boost/make_shared.hpp>
 
 #include <sstream>
@@ -17,24 +19,6 @@ YADE_PLUGIN((Polytope)(Bo1_Polytope_Aabb));
 
 namespace {
 
-	/// Dynamics take the body's origin for the centroid and its axes for principal ones.
-	void requireCentralFrame(const polytope::ConvexShape& shape)
-	{
-		const polytope::MassProperties& mass = shape.mass();
-		const Real                      size = shape.boundingRadius();
-		if (mass.centroid.norm() > Polytope::frameTolerance * size)
-			throw std::invalid_argument("offsets: the body frame's origin must be the centroid, which is at a distance of "
-			        + std::to_string(double(mass.centroid.norm()))
-			        + " m; use yade.polytope.fromHalfSpaces, which moves it there");
-		Real products = 0;
-		for (int i = 0; i < 3; ++i)
-			for (int j = 0; j < i; ++j)
-				products = math::max(products, math::abs(mass.inertia(i, j)));
-		if (products > Polytope::frameTolerance * mass.inertia.trace())
-			throw std::invalid_argument("normals: the body frame's axes must be the principal axes of inertia; use "
-			                            "yade.polytope.fromHalfSpaces, which turns the body");
-	}
-
 	/// The core takes any radius its formulas allow; a body's must leave an inner particle.
 	void requireInnerParticle(const polytope::ConvexShape& shape)
 	{
@@ -46,6 +30,23 @@ namespace {
 	}
 
 } // namespace
+
+std::string Polytope::faultOfFrame() const
+{
+	const polytope::MassProperties mass = massProperties();
+	if (mass.centroid.norm() > frameTolerance * convex_->boundingRadius())
+		return "offsets: the body frame's origin must be the centroid, which is at a distance of "
+		        + std::to_string(double(mass.centroid.norm())) + " m; use yade.polytope.fromHalfSpaces, which moves it there";
+	Real products = 0;
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < i; ++j)
+			products = math::max(products, math::abs(mass.inertia(i, j)));
+	if (products > frameTolerance * mass.inertia.trace())
+		return "normals: the body frame's axes must be the principal axes of inertia; use yade.polytope.fromHalfSpaces, which "
+		       "turns the "
+		       "body";
+	return "";
+}
 
 void Polytope::forgetPlanes()
 {
@@ -100,18 +101,29 @@ void Polytope::postLoad(Polytope&)
 
 void Polytope::adopt(const std::shared_ptr<const polytope::ConvexShape>& convex)
 {
-	requireCentralFrame(*convex);
 	requireInnerParticle(*convex);
-	convex_ = convex;
+	const auto before = convex_;
+	convex_           = convex;
+	// dynamics take the body's origin for the centroid and its axes for principal ones; of a derived class what makes the mass may not yet be loaded
+	if (!exactly<Polytope>(this)) return;
+	if (const std::string fault = faultOfFrame(); !fault.empty()) {
+		convex_ = before;
+		throw std::invalid_argument(fault);
+	}
+}
+
+void Polytope::take(const std::shared_ptr<const polytope::ConvexShape>& convex)
+{
+	adopt(convex);
+	cornerRadius = convex->cornerRadius();
+	dimension    = convex->dimension();
+	thickness    = convex->thickness();
 }
 
 shared_ptr<Polytope> Polytope::of(const std::shared_ptr<const polytope::ConvexShape>& convex)
 {
 	auto shape = boost::make_shared<Polytope>(); // with its counts in one piece of memory
-	shape->adopt(convex);
-	shape->cornerRadius = convex->cornerRadius();
-	shape->dimension    = convex->dimension();
-	shape->thickness    = convex->thickness();
+	shape->take(convex);
 	return shape;
 }
 
@@ -127,9 +139,24 @@ boost::python::dict Polytope::pyDictCustom() const
 	return planes;
 }
 
-Real Polytope::volume() const { return convex_ ? convex_->mass().volume : Real(0); }
+Real Polytope::volume() const { return massProperties().volume; }
 
-Vector3r Polytope::inertia() const { return convex_ ? Vector3r(convex_->mass().inertia.diagonal()) : Vector3r::Zero(); }
+Vector3r Polytope::inertia() const { return massProperties().inertia.diagonal(); }
+
+polytope::MassProperties Polytope::massProperties() const
+{
+	if (!convex_) return {};
+	const Real radius = margin().value_or(0);
+	return radius > 0 ? polytope::roundedMass(convex_->polyhedron(), radius) : convex_->mass();
+}
+
+std::shared_ptr<const polytope::Polyhedron> Polytope::surface() const
+{
+	if (!convex_) return nullptr;
+	const Real radius = margin().value_or(0);
+	if (radius > 0) return std::make_shared<const polytope::Polyhedron>(polytope::roundedSurface(convex_->polyhedron(), radius));
+	return { convex_, &convex_->polyhedron() };
+}
 
 std::optional<Real> Polytope::margin() const { return exactly<Polytope>(this) ? std::optional<Real>(Real(0)) : std::nullopt; }
 

@@ -45,6 +45,19 @@ public:
 	/// own.
 	virtual std::optional<Real> margin() const;
 
+	/// For unit density, in the body's frame, whose origin and axes they must be. By itself: of the planes, with a margin of the planes and a ball
+	/// (RoundedSolid.hpp).
+	virtual polytope::MassProperties massProperties() const;
+
+	/// Faces to be drawn, in the body's frame. By itself: of the planes, with a margin of the planes and a ball. Null until planes are given.
+	virtual std::shared_ptr<const polytope::Polyhedron> surface() const;
+
+	/// Takes planes that are built already, in a class derived from it, too; refuses a corner radius that leaves no inner particle.
+	void take(const std::shared_ptr<const polytope::ConvexShape>& convex);
+
+	/// Why the body's frame is none of centroid and principal axes; empty if it is.
+	std::string faultOfFrame() const;
+
 	vector<Vector3r>    unitNormals() const;
 	vector<Real>        planeOffsets() const;
 	Real                volume() const;
@@ -81,7 +94,7 @@ A plane that repeats another one to rounding is dropped. Planes that own no face
 		.add_property("normals", &Polytope::unitNormals, "Unit outward normals $\\vec a_i$ in the body's frame [-]. Given with any length, "
 		        "they are normalised together with :yref:`offsets<Polytope.offsets>`, and repeated ones dropped.")
 		.add_property("offsets", &Polytope::planeOffsets, "Offsets $d_i$ of the half-spaces $\\vec a_i\\cdot\\vec x\\le d_i$ [m].")
-		.add_property("volume", &Polytope::volume, "Volume [m³].")
+		.add_property("volume", &Polytope::volume, "Volume [m³], with a margin if the class has one.")
 		.add_property("inertia", &Polytope::inertia, "Principal moments of inertia about the centroid per unit density [m⁵]: multiply by "
 		        "the density for *state.inertia*.")
 		.add_property("vertices", &Polytope::vertices, "Vertices in the body's frame [m]; for drawing and bounding boxes, contacts do not "

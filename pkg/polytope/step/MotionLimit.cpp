@@ -1,58 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "step/TimeStepLimits.hpp"
 
-#include <pkg/common/Box.hpp>
-#include <pkg/common/Facet.hpp>
-#include <pkg/common/Sphere.hpp>
-#include <pkg/common/Wall.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
 #include <src/timestep/ApproachLimit.hpp>
 
-#include "shape/Polytope.hpp"
+#include "shape/ShapeFamily.hpp"
 
 namespace yade {
 namespace {
 
 	const Real infinite = std::numeric_limits<Real>::infinity();
-
-	/// Radius of the largest ball in a shape; infinite for one that has none.
-	Real inscribedRadius(const Shape& shape)
-	{
-		if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
-			if (polytope->convex()) return polytope->convex()->inscribedRadius();
-		if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
-		if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.minCoeff();
-		return infinite;
-	}
-
-	/// Enlarges the box by a part of the body.
-	void addTo(polytope::MovingBox& box, const Body& part)
-	{
-		const State& state = *part.state;
-		const auto   take  = [&](const Vector3r& low, const Vector3r& high) {
-                        box.low  = box.low.cwiseMin(low);
-                        box.high = box.high.cwiseMax(high);
-		};
-		const auto corners = [&](const std::vector<Vector3r>& vertices) {
-			for (const Vector3r& vertex : vertices) {
-				const Vector3r corner = state.pos + state.ori * vertex;
-				take(corner, corner);
-			}
-		};
-		if (const auto* wall = dynamic_cast<const Wall*>(part.shape.get())) {
-			Vector3r low = Vector3r::Constant(-infinite), high = Vector3r::Constant(infinite);
-			low[wall->axis] = high[wall->axis] = state.pos[wall->axis];
-			return take(low, high);
-		}
-		if (const auto* polytope = dynamic_cast<const Polytope*>(part.shape.get()))
-			if (polytope->convex()) return corners(polytope->convex()->polyhedron().vertices);
-		if (const auto* facet = dynamic_cast<const Facet*>(part.shape.get())) return corners(facet->vertices);
-		Vector3r half = Vector3r::Constant(boundingRadius(*part.shape));
-		if (const auto* cuboid = dynamic_cast<const Box*>(part.shape.get()))
-			half = state.ori.toRotationMatrix().cwiseAbs() * cuboid->extents;
-		take(state.pos - half, state.pos + half);
-	}
 
 	polytope::MovingBox movingBoxOf(const Body& body, const Scene& scene)
 	{
@@ -66,9 +24,11 @@ namespace {
 		Real farthest = 0;
 		forParts(body, scene, [&](const Body& part) {
 			if (!part.shape || !part.state) return;
-			box.radius = math::min(box.radius, inscribedRadius(*part.shape));
-			farthest   = math::max(farthest, Real((part.state->pos - state.pos).norm() + boundingRadius(*part.shape)));
-			addTo(box, part);
+			const Shape&       shape  = *part.shape;
+			const ShapeFamily& family = familyOf(shape);
+			box.radius                = math::min(box.radius, family.inscribedRadius(shape));
+			farthest = math::max(farthest, Real((part.state->pos - state.pos).norm() + family.boundingRadius(shape)));
+			family.extend(shape, *part.state, box.low, box.high);
 		});
 		box.spin = state.angVel.norm() * farthest;
 		box.free = isMovedByForces(body);

@@ -3,7 +3,6 @@
 
 #include <core/InteractionLoop.hpp>
 #include <lib/high-precision/Constants.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 
 #include <src/shape/Rings.hpp>
@@ -15,6 +14,7 @@
 #include "joint/RockJointLaw.hpp"
 #include "joint/RockJointPhysics.hpp"
 #include "material/StiffnessRules.hpp"
+#include "shape/ShapeFamily.hpp"
 #include "shape/ShapeOfBody.hpp"
 
 namespace yade {
@@ -152,7 +152,7 @@ void PotentialContacts::collect(const Scene& scene)
 			const Polytope* before = last ? polytopeOf(*last) : nullptr;
 			if (!before || before->convex() != polytope->convex()) lastArea = largestFace(*polytope->convex());
 			partners.area += lastArea;
-		} else if (!dynamic_cast<const Sphere*>(body->shape.get())) {
+		} else if (!familyOf(*body->shape).isRound(*body->shape)) {
 			partners.area = std::numeric_limits<Real>::max(); // walls and their like
 		}
 		last = body.get();
@@ -172,7 +172,7 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 
 	const auto mobility = mobilityOf(mover);
 	if (!polytope) {
-		const Real radius = boundingRadius(*body.shape);
+		const Real radius = familyOf(*body.shape).boundingRadius(*body.shape);
 		part.vertex       = { polytope::reachOfBall(mobility, centre, radius), Mathr::PI * radius * radius };
 		return known      = part;
 	}

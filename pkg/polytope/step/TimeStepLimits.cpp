@@ -2,9 +2,6 @@
 #include "step/TimeStepLimits.hpp"
 
 #include <core/InteractionLoop.hpp>
-#include <pkg/common/Box.hpp>
-#include <pkg/common/Facet.hpp>
-#include <pkg/common/Sphere.hpp>
 
 #include <src/contact/OverlapFootprint.hpp>
 #include <src/timestep/RockingStiffness.hpp>
@@ -43,19 +40,6 @@ const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene
 				if (const auto* law = dynamic_cast<const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb*>(functor.get()))
 					return law;
 	return nullptr;
-}
-
-Real boundingRadius(const Shape& shape)
-{
-	if (const auto* polytope = dynamic_cast<const Polytope*>(&shape))
-		if (polytope->convex()) return polytope->convex()->boundingRadius() + polytope->margin().value_or(0);
-	if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius;
-	if (const auto* box = dynamic_cast<const Box*>(&shape)) return box->extents.norm();
-	Real farthest = 0;
-	if (const auto* facet = dynamic_cast<const Facet*>(&shape))
-		for (const Vector3r& vertex : facet->vertices)
-			farthest = math::max(farthest, vertex.norm());
-	return farthest;
 }
 
 namespace {

@@ -33,9 +33,6 @@ struct TimeStepLimit {
 /// Mobility (inverse mass and inertia) of the body, as YADE's integrator uses it.
 polytope::Mobility mobilityOf(const Body& body);
 
-/// Distance of a shape's farthest point from its centre [m]; 0 where it is not known.
-Real boundingRadius(const Shape& shape);
-
 /// The law whose dampers act on rock joints; null if the scene has none.
 const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene);
 

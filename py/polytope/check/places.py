@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
-from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
+from yade import Box, Facet, Polytope, RockJointMat, Vector3, Wall, _polytope
 
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
@@ -165,18 +165,9 @@ def _anyRests(scene, bodies, supports):
 
 
 def _distances(support, points):
-	"""Of points to the surface of a box, facet or wall [m]; below zero: in a box."""
-	shape, towards = support.shape, points - np.array(support.state.pos, float)
-	if isinstance(shape, Wall):
-		return np.abs(towards[:, shape.axis])
-	own = towards @ np.array(support.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	if isinstance(shape, Box):
-		return (np.abs(own) - np.array(shape.extents, float)).max(axis=1)
-	corners = np.array([list(corner) for corner in shape.vertices], float)
-	normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-	normal /= np.linalg.norm(normal)
-	above = np.linalg.norm(own, axis=1) <= np.linalg.norm(corners, axis=1).max()
-	return np.where(above, np.abs((own - corners[0]) @ normal), math.inf)
+	"""Of points to a box, facet or wall as one in their middle meets it, at least [m]; below zero: in it."""
+	normals, offsets = (np.frombuffer(numbers) for numbers in _polytope.supportPlanes(support, Vector3(*points.mean(axis=0))))
+	return (points @ normals.reshape(-1, 3).T - offsets).max(axis=1)
 
 
 def _gap(one, other):

@@ -9,7 +9,7 @@ import functools
 import math
 
 import numpy as np
-from yade import Box, Facet, O, Polytope, Sphere, Wall, _polytope
+from yade import O, Sphere, Wall, _polytope
 
 __all__ = ['collect', 'localVertices', 'reachOfWalls', 'rows', 'worldVertices']
 
@@ -82,20 +82,14 @@ def _turned(points, quaternions):
 	return points + scalar * twice + np.cross(axis, twice)
 
 
-boxCorners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-boxFaces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
 unturned = 0.0, 0.0, 0.0, 1.0
 noFaces = np.empty((0, 3)), np.empty(0, int), np.empty(0, int)
 
 
 def _localFaces(shape, rings=mostRings):
-	if isinstance(shape, Polytope):
-		vertices, counts, corners = _polytope.packedFaces(shape)
+	vertices, counts, corners = _polytope.packedFaces(shape)
+	if counts:
 		return np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(counts, np.int32), np.frombuffer(corners, np.int32)
-	if isinstance(shape, Box):
-		return boxCorners * rows([shape.extents]), np.full(6, 4), boxFaces
-	if isinstance(shape, Facet):
-		return rows(shape.vertices), np.array([3]), np.arange(3)
 	if isinstance(shape, Sphere):
 		vertices, counts, corners = _sphereFaces(rings)
 		return float(shape.radius) * vertices, counts, corners

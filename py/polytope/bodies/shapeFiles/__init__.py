@@ -20,13 +20,13 @@ formats = {'.tess': neper.bodies, '.shp': rockable.bodies, '.json': compas.bodie
 
 
 @builder(lacks=('center', 'orientation'))
-def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, **body):
+def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, rounded=None, **body):
 	"""Bodies of all shapes in a text file: ``O.bodies.append(polytope.readShapes('cells.tess', scale=1e-3))``.
 
 	- ``.tess``: cells of a Neper tessellation, of its dimension 3 as polyhedra, 2 as polygons. Cells share faces exactly; empty ones, which Neper may
 	  write, are left out.
 	- ``.shp``: shapes of a Rockable library, convex hulls with faces moved out by the shape's radius, to where Rockable's faces are (edges,
-	  there round, are sharp); a flat shape is a plate of twice that thickness. They lie where their vertices do. A shape of one vertex
+	  there round, are sharp; *rounded* keeps them); a flat shape is a plate of twice that thickness. They lie where their vertices do. A shape of one vertex
 	  is a sphere of YADE's; one that is marked as a surface, such as a container, a list of plates, one for each face; rods and what else is no body are left
 	  out, with a warning that names them.
 	- ``.json``: blocks of masonry from COMPAS (compas_assembly, compas_dem, compas_cra, or a list of meshes), convex hulls; supports are *fixed*, unless that is given.
@@ -41,6 +41,9 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, **body):
 	:param names: of a Rockable library, those to be read, in this order; default all
 	:param int parts: of a Rockable library: number of convex parts at most into which CoACD cuts a shape that is not convex, as fromMesh does. The list
 	    of its parts is then in its place in what is returned, for polytope.clump, cloud or pack
+	:param rounded: of a Rockable library: a class derived from Polytope with the attribute *radius*, as the RoundedPolytope of
+	    docs/extending.md. Bodies keep the radius of their shape then: edges are round, volume and mass those of the sum with the ball. Plates
+	    and spheres are as without it
 	:returns: list of bodies, in the order of the file or of *names*
 	:raises ImportError: if CoACD is needed and not installed
 	:raises FileNotFoundError: if there is no such file
@@ -61,6 +64,12 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, **body):
 		raise ValueError('parts: only shapes of a Rockable library (.shp) are cut into parts; of a mesh, fromMesh makes them')
 	if parts is not None and (isinstance(parts, bool) or not isinstance(parts, numbers.Integral) or parts < 1):
 		raise ValueError(f'parts: must be a number of parts above 0, got {parts!r}')
+	if rounded is not None and suffix != '.shp':
+		raise ValueError('rounded: only shapes of a Rockable library (.shp) have a radius')
+	if rounded is not None and not (isinstance(rounded, type) and issubclass(rounded, Polytope) and hasattr(rounded, 'radius')):
+		raise ValueError(f'rounded: must be a class derived from Polytope with the attribute radius, got {rounded!r}')
+	if rounded is not None:
+		body['rounded'] = rounded
 	if parts is not None:
 		body['parts'] = int(parts)
 	if names is not None:

@@ -12,6 +12,7 @@ import numpy as np
 from ...arguments import warn
 from ..meshes.convexParts import cut
 from ..meshes.files import Mesh
+from ..ownShapes import withShape
 from ..polytopes import fromHalfSpaces, fromVertices, ofOneColour
 from ..yadeShapes import sphereOf
 from .words import Words, notConvex, warnIfNotConvex
@@ -37,11 +38,12 @@ class Shape:
 	faces: list = dataclasses.field(default_factory=list)
 
 
-def bodies(path, place, names=None, parts=None, **body):
+def bodies(path, place, names=None, parts=None, rounded=None, **body):
 	"""Of all shapes that are bodies, or of those with these names.
 
 	:param place: from coordinates of the file to a point [m]
 	:param parts: of shapes that are not convex, at most; None: their hulls
+	:param rounded: class of bodies with a radius; None: their faces are moved out by it
 	"""
 	words, shapes = Words(path, remedy), {}
 	while words.present:
@@ -55,7 +57,7 @@ def bodies(path, place, names=None, parts=None, **body):
 	made, without = [], []
 	for name in names or shapes:
 		try:
-			made.append(_body(path, shapes[name], place, parts, body))
+			made.append(_body(path, shapes[name], place, parts, rounded, body))
 		except NoBody as reason:
 			if names:
 				raise words.wrong(f'{reason}; leave it out: names=[…]', shapes[name].line) from None
@@ -97,7 +99,7 @@ def _face(words, vertices):
 	return [words.whole('the number of a vertex', least=0, most=vertices - 1) for _ in range(corners)]
 
 
-def _body(path, shape, place, parts, body):
+def _body(path, shape, place, parts, rounded, body):
 	points = np.array([place(vertex) for vertex in shape.vertices], float).reshape(-1, 3)
 	# a length of the file in metres
 	radius = shape.radius * float((place((1, 0, 0)) - place((0, 0, 0))).norm())
@@ -119,9 +121,9 @@ def _body(path, shape, place, parts, body):
 		triangles = np.array([(face[0], *face[k : k + 2]) for face in shape.faces for k in range(1, len(face) - 1)])
 		pieces = cut(Mesh(points, triangles, np.zeros(len(triangles), int)), parts).parts
 		look = ofOneColour(body)
-		return [_inflated(shape, piece, radius, look) for piece in pieces]
+		return [_withRadius(shape, piece, radius, rounded, look) for piece in pieces]
 	warnIfNotConvex(where, core, points, shape.faces, '; parts=… cuts it into convex parts')
-	return _inflated(shape, points, radius, body)
+	return _withRadius(shape, points, radius, rounded, body)
 
 
 def _plate(shape, points, radius, body):
@@ -137,6 +139,12 @@ def _hull(shape, points, body):
 		if not str(error).startswith('points'):
 			raise
 		raise NoBody(f"'{shape.name}' is no polyhedron ({error})") from None
+
+
+def _withRadius(shape, points, radius, rounded, body):
+	if rounded is None or radius == 0:
+		return _inflated(shape, points, radius, body)
+	return withShape(_hull(shape, points, body), rounded(radius=radius))
 
 
 def _inflated(shape, points, radius, body, across=None):

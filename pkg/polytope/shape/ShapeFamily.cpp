@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "shape/ShapeFamily.hpp"
+
+#include "shape/BoxShape.hpp"
+#include "shape/FacetShape.hpp"
+#include "shape/PolytopeFamily.hpp"
+#include "shape/SphereShape.hpp"
+#include "shape/WallShape.hpp"
+
+namespace yade {
+
+namespace {
+
+	/// By class index.
+	using Families = std::vector<std::unique_ptr<const ShapeFamily>>;
+
+	void keep(Families& all, int classIndex, std::unique_ptr<const ShapeFamily> family)
+	{
+		if (classIndex < 0) throw std::logic_error("a class of shapes with a family must call createIndex() in its constructor");
+		if (std::size_t(classIndex) >= all.size()) all.resize(std::size_t(classIndex) + 1);
+		all[std::size_t(classIndex)] = std::move(family);
+	}
+
+	Families ofThePlugIn()
+	{
+		Families all;
+		keep(all, Box().getClassIndex(), familyOfBoxes());
+		keep(all, Facet().getClassIndex(), familyOfFacets());
+		keep(all, Polytope().getClassIndex(), familyOfPolytopes());
+		keep(all, Sphere().getClassIndex(), familyOfSpheres());
+		keep(all, Wall().getClassIndex(), familyOfWalls());
+		return all;
+	}
+
+	/// Made when first asked for: YADE's class indices are given as objects of the classes are made.
+	Families& families()
+	{
+		static Families all = ofThePlugIn();
+		return all;
+	}
+
+} // namespace
+
+void ShapeFamily::extend(const Shape& shape, const State& state, Vector3r& low, Vector3r& high) const
+{
+	const Vector3r half = Vector3r::Constant(boundingRadius(shape));
+	low                 = low.cwiseMin(Vector3r(state.pos - half));
+	high                = high.cwiseMax(Vector3r(state.pos + half));
+}
+
+const ShapeFamily& familyOf(const Shape& shape)
+{
+	static const ShapeFamily unknown;
+	const Families&          all   = families();
+	int                      index = shape.getClassIndex();
+	for (int depth = 1; index >= 0; ++depth) { // Shape itself has none
+		if (std::size_t(index) < all.size() && all[std::size_t(index)]) return *all[std::size_t(index)];
+		index = shape.getBaseClassIndex(depth);
+	}
+	return unknown;
+}
+
+void registerFamily(int classIndex, std::unique_ptr<const ShapeFamily> family) { keep(families(), classIndex, std::move(family)); }
+
+} // namespace yade
