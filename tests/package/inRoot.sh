@@ -75,11 +75,11 @@ headers() {
 	local example said
 	cp -r "/usr/share/doc/$1/examples" /root/try
 	cd /root/try/examples
-	for example in coreAlone hyperbolicJoint roundedPolytope; do
+	for example in coreAlone gridPair hyperbolicJoint ownPhysics ownPoint roundedPolytope; do
 		cmake -S $example -B $example/build -DCMAKE_BUILD_TYPE=Release
 		cmake --build $example/build
 	done
-	cmake --install hyperbolicJoint/build
+	cmake --install ownPhysics/build
 	cat >law.py <<'END'
 from yade import polytope
 O.materials.append(OwnJointMat(density=2600, initialStiffness=1e8, maximumClosure=1e-3, shearStiffness=1e8, frictionAngle=0.6, largestStress=1e5))

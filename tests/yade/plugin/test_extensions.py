@@ -44,7 +44,7 @@ def built(name, variant='as it is', **changed):
 
 @pytest.fixture(scope='module')
 def joint():
-	return built('hyperbolicJoint')
+	return built('ownPhysics')
 
 
 @pytest.fixture(scope='module')
@@ -93,7 +93,7 @@ answer([float(c.geom.penetrationDepth), float(O.bodies[1].state.mass), found, li
 	weight, area = mass * 9.81, 0.8
 	assert depth == pytest.approx(weight / (area * 1e8 + weight / 1e-3), rel=1e-6)
 	assert found.splitlines()[0] == 'nothing was found that is wrong'
-	assert name == 'hyperbolicJoint' and sorted(classes)[-1] == 'OwnJointPhys' and len(classes) == 4
+	assert name == 'ownPhysics' and sorted(classes)[-1] == 'OwnJointPhys' and len(classes) == 4
 	again = (
 		'O.load(sys.argv[1])\nO.run(50, True)\nc = O.interactions[0, 1]\nanswer([float(c.geom.penetrationDepth), type(c.phys).__name__])'
 	)
@@ -140,20 +140,20 @@ answer([indices(Material), OwnJointMat().dispIndex, indices(IPhys), OwnJointPhys
 
 
 hidden = """cmake_minimum_required(VERSION 3.22)
-project(hyperbolicJoint C CXX)
+project(ownPhysics C CXX)
 set(CMAKE_CXX_FLAGS "-fvisibility=hidden -fvisibility-inlines-hidden")
 find_package(yade-polytope 0.1 REQUIRED)
-yade_polytope_add_extension(hyperbolicJoint SOURCES hyperbolicJoint.cpp)
+yade_polytope_add_extension(ownPhysics SOURCES ownPhysics.cpp)
 %s
 """
 
 
 def testHiddenVisibilityIsUndoneOrRefused():
 	"""By flags of the project, the function undoes it; forced for the file, the library is refused, and YADE goes on."""
-	library = built('hyperbolicJoint', 'hidden', CMakeLists=hidden % '')
+	library = built('ownPhysics', 'hidden', CMakeLists=hidden % '')
 	assert inYade('from yade import polytope\nanswer(len(polytope.load(sys.argv[1]).classes))', library)[0] == 4
-	forced = 'set_source_files_properties(hyperbolicJoint.cpp PROPERTIES COMPILE_OPTIONS "-fvisibility=hidden;-fvisibility-inlines-hidden")'
-	assert 'hidden visibility' in refused(built('hyperbolicJoint', 'forced', CMakeLists=hidden % forced))
+	forced = 'set_source_files_properties(ownPhysics.cpp PROPERTIES COMPILE_OPTIONS "-fvisibility=hidden;-fvisibility-inlines-hidden")'
+	assert 'hidden visibility' in refused(built('ownPhysics', 'forced', CMakeLists=hidden % forced))
 
 
 def refused(library):
@@ -247,10 +247,10 @@ answer([subprocess.run([sys.executable, '-c', code], capture_output=True, text=T
 
 def testWithoutStiffnessesCheckSaysSo():
 	"""A functor of an extension that does not tell the time step how stiff its contacts can be."""
-	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
+	text = (project / 'examples/extend/ownPhysics/ownPhysics.cpp').read_text()
 	silent = re.sub(r'std::optional<ContactStiffness> stiffnesses\((.*?)\) const override', r'ContactStiffness other(\1) const', text)
 	assert silent != text
-	library = built('hyperbolicJoint', 'silent', hyperbolicJoint=silent)
+	library = built('ownPhysics', 'silent', ownPhysics=silent)
 	script = block + 'polytope.load(sys.argv[1])\nscene(1e8, 0.1)\nanswer([[one.what, one.seen] for one in polytope.check(O)])'
 	found, _ = inYade(script, library)
 	name = 'Ip2_OwnJointMat_OwnJointMat_OwnJointPhys'

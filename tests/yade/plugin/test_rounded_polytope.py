@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The example of a shape of one's own, a polyhedron rounded by a ball: closed forms, both colliders, scenes."""
 
+import math
+
 import pytest
-from test_extensions import inYade, rounded  # noqa: F401, as fixtures
+from test_extensions import inYade, project, rounded  # noqa: F401, as fixtures
 
 start = """
 from yade import polytope, Quaternion, Vector3
@@ -13,20 +15,19 @@ def material(stiffness=1e7):
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
 def cube(center, radius=r, orientation=Quaternion.Identity, **more):
 	body = polytope.cuboid(center=center, extents=(h,) * 3, orientation=orientation, **more)
-	if radius: body.shape = RoundedPolytope(normals=body.shape.normals, offsets=body.shape.offsets, radius=radius)
-	return body
+	return polytope.withShape(body, RoundedPolytope(radius=radius)) if radius else body
 def contacts():
-	own = [Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom(), Ig2_Polytope_RoundedPolytope_PolytopeGeom(), Ig2_Wall_RoundedPolytope_PolytopeGeom()]
+	own = [Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom(), Ig2_Polytope_RoundedPolytope_PolytopeGeom(), Ig2_Sphere_RoundedPolytope_PolytopeGeom(), Ig2_Wall_RoundedPolytope_PolytopeGeom()]
 	return own + [Ig2_Polytope_Polytope_PolytopeGeom(), Ig2_Wall_Polytope_PolytopeGeom()]
 def bounds():
-	return [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb()]
+	return [Bo1_Polytope_Aabb(), Bo1_Wall_Aabb(), Bo1_Sphere_Aabb()]
 def loop():
 	return InteractionLoop(contacts(), [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)], [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()])
 """
 
 
 def testDepthsHaveTheirClosedForms(rounded):  # noqa: F811
-	"""Faces, crossed edges, a corner on a face, corner on corner; with sharp bodies; with walls: depth 0.01 m, and the normal."""
+	"""Faces, crossed edges, a corner on a face, corner on corner; with sharp bodies; with walls; with spheres: depth 0.01 m, and the normal."""
 	script = (
 		start
 		+ """
@@ -38,7 +39,7 @@ seen = []
 def first(make, normal):
 	O.reset(); material()
 	O.bodies.append(make())
-	O.engines = [ForceResetter(), InsertionSortCollider(bounds()), loop()]
+	O.engines = [ForceResetter(), InsertionSortCollider(bounds(), verletDist=0), loop()]
 	O.dt = 1e-9
 	O.step()
 	(c,) = [i for i in O.interactions if i.isReal]
@@ -55,11 +56,14 @@ for a, b in ((r, r), (0, r), (r, 0)):
 		first(lambda: [cube((0, 0, 0), a, q1, fixed=True), cube(place, b, q2)], normal)
 for sense in (0, 1):
 	first(lambda: [utils.wall(0, axis=2, sense=sense), cube((0, 0, h + r - depth))], (0, 0, 1))
+for place, normal in (((0, 0, h + r + 0.2 - depth), (0, 0, 1)), (Vector3(1, 1, 1) * (h + (r + 0.2 - depth) / s3), Vector3(1, 1, 1) / s3)):
+	first(lambda: [cube((0, 0, 0), fixed=True), utils.sphere(place, 0.2)], normal)
+	first(lambda: [utils.sphere(-Vector3(place), 0.2), cube((0, 0, 0), fixed=True)], normal)
 answer(seen)
 """
 	)
 	seen, _ = inYade('from yade import utils\n' + script, rounded)
-	assert len(seen) == 14
+	assert len(seen) == 18
 	for depth, normal in seen:
 		assert depth == pytest.approx(0, abs=1e-13) and normal == pytest.approx(0, abs=1e-12)
 
@@ -127,3 +131,89 @@ answer([[one.what, one.seen] for one in polytope.check(O)])
 		'contact functors',
 		'there is no functor for RoundedPolytope and RoundedPolytope: RoundedPolytope is taken for the Polytope of its planes',
 	] in found
+
+
+def testMassFrameAndDrawingAreThoseOfTheSum(rounded, tmp_path):  # noqa: F811
+	"""A cube's volume and moment by Steiner's formula; a tetrahedron without symmetry, whose sum with a ball has another centroid; faces of pictures and VTK files; and all
+	of it again in a new process that loads the scene."""
+	saved = tmp_path / 'scene.yade'
+	script = (
+		start
+		+ """
+material()
+body = cube((1, 2, 3))
+points = [(0, 0, 0), (1.3, 0.1, 0), (0.2, 0.9, 0.1), (0.4, 0.3, 1.1)]
+plain = polytope.fromVertices(points)
+sharp = plain.state.pos
+corner = polytope.withShape(polytope.fromVertices(points), RoundedPolytope(radius=0.3))
+O.bodies.append([body, corner])
+turn = corner.state.ori
+core = [turn * vertex + corner.state.pos for vertex in corner.shape.vertices]
+off = max(min((Vector3(*point) - vertex).norm() for vertex in core) for point in points)
+from yade.polytope.pictures.faces import worldVertices
+shown = worldVertices(body) - [1, 2, 3]
+PolytopeVTKRecorder(fileName=sys.argv[2], recorders=['bodies'])()
+O.save(sys.argv[3])
+answer([float(body.shape.volume), [float(x) for x in body.state.inertia], float((corner.state.pos - sharp).norm()), off,
+	[float(abs(shown).max()), float(abs(shown).min(axis=0).max())], float(corner.state.mass), [float(x) for x in corner.state.inertia]])
+"""
+	)
+	(volume, inertia, way, off, shown, mass, moments), _ = inYade(script, rounded, tmp_path / 'shown', saved)
+	a, r = 0.8, 0.1
+	assert volume == pytest.approx(a**3 + 6 * a**2 * r + 3 * math.pi * a * r**2 + 4 / 3 * math.pi * r**3, rel=1e-13)
+	assert inertia[0] == pytest.approx(inertia[2], rel=1e-12)
+	assert 1e-3 < way < 0.1 and off < 1e-12  # the centroid is elsewhere, the body is not
+	assert shown[0] == pytest.approx(0.5, abs=1e-12)
+	text = next(tmp_path.glob('shownbodies.*.vtu')).read_bytes()
+	assert b'NumberOfCells="2"' in text
+	script = 'O.load(sys.argv[1])\nb = O.bodies[1]\nanswer([float(b.shape.radius), float(b.shape.volume * 2600), [float(x) for x in b.shape.inertia * 2600]])'
+	(radius, massAgain, momentsAgain), _ = inYade(script, saved, YADE_POLYTOPE_EXTENSIONS=str(rounded))
+	assert radius == 0.3 and massAgain == pytest.approx(mass, rel=1e-12) and momentsAgain == pytest.approx(moments, rel=1e-9)
+
+
+def testShapesOfRockableKeepTheirRadius(rounded):  # noqa: F811
+	"""A cube of its library: sharp with its faces moved out, or a rounded one, whose faces are in the same places."""
+	script = (
+		start
+		+ """
+material()
+path = sys.argv[2] + '/library.shp'
+(sharp,), (own,) = (polytope.readShapes(path, names='Cube', rounded=kind) for kind in (None, RoundedPolytope))
+def said(call):
+	try: call()
+	except ValueError as error: return str(error)
+radius = float(own.shape.radius)
+answer([radius, float(max(sharp.shape.offsets) - max(own.shape.offsets)), float(sharp.shape.volume - own.shape.volume), type(own.shape).__name__,
+	said(lambda: polytope.readShapes(path, rounded=Polytope)), said(lambda: polytope.withShape(own, RoundedPolytope(radius=1))),
+	said(lambda: polytope.withShape(polytope.polygon([(0, 0), (1, 0), (0, 1)]), RoundedPolytope(radius=0.1))),
+	said(lambda: polytope.withShape(sharp, RoundedPolytope(radius=-1)))])
+"""
+	)
+	(radius, moved, less, kind, *refusals), _ = inYade(script, rounded, project / 'tests/yade/shapes')
+	assert radius > 0 and moved == pytest.approx(radius, rel=1e-9) and less > 0 and kind == 'RoundedPolytope'
+	for text, begin in zip(refusals, ('rounded: must be', 'body: must be', 'body: is a polygon', 'shape: its margin'), strict=True):
+		assert text.startswith(begin), text
+
+
+def testWhatAStageDoesNotKnowIsToldOrCounted(rounded):  # noqa: F811
+	"""A stiffness per area has no area here: each pair is a failure, which check tells of. A frame that is not the sum's is told, too."""
+	script = (
+		start
+		+ """
+material()
+O.bodies.append([cube((0, 0, 0), fixed=True), cube((0, 0, 2 * h + 2 * r - 0.01))])
+O.engines = polytope.engines(geometry=contacts())
+O.dt = 1e-6
+O.run(3, True)
+counts = O.engines[2].geomDispatcher.functors[0].stats()['failures']
+points = [(0, 0, 0), (1.3, 0.1, 0), (0.2, 0.9, 0.1), (0.4, 0.3, 1.1)]
+sharp = polytope.fromVertices(points)
+sharp.shape = RoundedPolytope(normals=sharp.shape.normals, offsets=sharp.shape.offsets, radius=0.5)
+sharp.state.pos = (9, 9, 9)
+O.bodies.append(sharp)
+answer([counts, [[one.what, one.seen] for one in polytope.check(O)]])
+"""
+	)
+	(counts, found), _ = inYade(script, rounded)
+	assert counts == 3
+	assert any(what == 'shapes' and 'body 2, a RoundedPolytope: offsets: the body frame' in seen for what, seen in found), found
