@@ -179,8 +179,11 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 	const auto&    convex = *polytope->convex();
 	const auto&    hull   = convex.polyhedron();
 	const Matrix3r axes   = state.ori.toRotationMatrix();
-	for (const Vector3r& vertex : hull.vertices)
-		part.vertex.unit = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + axes * vertex));
+	const Real     margin = polytope->margin().value_or(0);
+	for (const Vector3r& vertex : hull.vertices) {
+		const Vector3r place = axes * vertex;
+		part.vertex.unit = math::max(part.vertex.unit, polytope::reachOf(mobility, centre + place + margin * place.normalized()));
+	}
 	std::array<Real, 3> worst { { 0, 0, 0 } };
 	for (std::size_t k = 0; k < hull.faces.size(); ++k) {
 		if (hull.planeOfFace[k] < 0) continue; // a polygon's caps
@@ -190,8 +193,8 @@ const PotentialContacts::Part& PotentialContacts::partOf(const Body& body, const
 			middle += axes * hull.vertices[vertex] / Real(hull.faces[k].size());
 		const Matrix3r second = axes * secondMoment(hull.vertices, hull.faces[k], axes.transpose() * middle) * axes.transpose();
 		for (std::size_t force = 0; force < part.face.size(); ++force) {
-			const Place place { unitOfFace(convex, axes, area.normalized(), middle, centre, mobility, second,
-				                    polytope::FaceForce(force)),
+			const Place place { unitOfFace(convex, axes, area.normalized(), middle + margin * area.normalized(), centre,
+				                    mobility, second, polytope::FaceForce(force)),
 				area.norm() };
 			if (!(place.unit * place.area > worst[force])) continue;
 			worst[force]     = place.unit * place.area;

@@ -64,19 +64,19 @@ contacts = polytope.arrays().contacts
 statuses = [contacts.statuses[k] for k in range(len(contacts.ids)) if block in contacts.ids[k]]
 recorder = PolytopeVTKRecorder(fileName=sys.argv[2], recorders=['contacts'], ascii=True)
 recorder()
-answer([[float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) for x in O.bodies[block].state.vel], [int(s) for s in statuses],
-	[contacts.statusNames[s] for s in statuses] if hasattr(contacts, 'statusNames') else None])
+touching = [i.geom.status for i in O.interactions if block in (i.id1, i.id2)]
+answer([[float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) for x in O.bodies[block].state.vel], [contacts.statusNames[s] for s in statuses], touching])
 """
-	(forces, speed, statuses, _), _ = inYade(script, library, tmp_path / 'grid')
+	(forces, speed, statuses, touching), _ = inYade(script, library, tmp_path / 'grid')
 	assert max(map(abs, speed)) < 1e-4
 	assert sum(forces) == pytest.approx(-1, rel=1e-3)
 	assert forces[2] == forces[5] == 0  # the connections themselves
 	here, there = forces[0] + forces[3], forces[1] + forces[4]  # nodes at x = −1 and 1, block at 0.2
 	assert there - here == pytest.approx(-0.2, abs=2e-3)
 	assert forces[3] + forces[4] - forces[0] - forces[1] == pytest.approx(-0.05 / 0.25, abs=5e-3)
-	assert statuses == [0, 0]
+	assert statuses == touching == ['contact'] * 2
 	text = next(tmp_path.glob('gridcontacts.*.vtp')).read_text()
-	assert 'NumberOfPoints="2"' in text
+	assert 'NumberOfPoints="4"' in text  # two of them join the nodes of a beam
 
 
 def testABuilderInPythonRoundsItsColumns():
