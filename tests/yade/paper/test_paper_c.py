@@ -305,5 +305,6 @@ def testWhatIsNeitherStableNorFailedCountsAsFailed():
 	],
 )
 def testBadProtocolIsRefused(change, name):
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
 	with pytest.raises(ValueError, match=f'^{name}: '):
 		FrictionReduction(**{'bodies': [0], 'start': 1, 'steps': [0.1], **change})
