@@ -22,7 +22,7 @@ mostSphereFaces = 2_500_000
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):
 	"""The bodies' faces in world coordinates, as arrays.
 
-	:param colorOf: function of a body: RGB in 0…1
+	:param colorOf: function of a body: RGB in 0…1, or an array (faces, 3) with that of each face
 	:param styleOf: function of a body: any word; bodies of the same word come together, 'hidden' ones not at all
 	:returns: dictionary style → {points (n, 3), offsets (faces + 1), connectivity, colors (faces, 3) bytes, ids (faces)};
 	    spheres are of the style 'smooth'
@@ -39,7 +39,7 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 		turn = _quaternion(body)
 		if isinstance(body.shape, Sphere):
 			style, turn = 'smooth', unturned
-		parts.setdefault(style, []).append((*faces, _place(body), turn, tuple(colorOf(body)), body.id))
+		parts.setdefault(style, []).append((*faces, _place(body), turn, colorOf(body), body.id))
 	return {style: _joined(*zip(*several, strict=True)) for style, several in parts.items()}
 
 
@@ -53,9 +53,16 @@ def _joined(vertices, counts, corners, places, quaternions, colors, ids):
 		'points': points + np.repeat(np.array(places), own, axis=0),
 		'offsets': np.concatenate([[0], np.cumsum(np.concatenate(counts))]),
 		'connectivity': np.concatenate(corners) + np.repeat(first, [len(one) for one in corners]),
-		'colors': np.repeat(np.round(255 * np.clip(np.array(colors, float), 0, 1)).astype(np.uint8), faces, axis=0),
+		'colors': np.round(255 * np.clip(_ofFaces(colors, faces), 0, 1)).astype(np.uint8),
 		'ids': np.repeat(ids, faces),
 	}
+
+
+def _ofFaces(colors, faces):
+	"""RGB of each face, from those of bodies with so many faces."""
+	if not any(isinstance(color, np.ndarray) and color.ndim == 2 for color in colors):
+		return np.repeat(rows(colors), faces, axis=0)
+	return np.concatenate([np.broadcast_to(np.array(color, float), (count, 3)) for color, count in zip(colors, faces, strict=True)])
 
 
 def rows(vectors):

@@ -12,6 +12,7 @@ from tqdm import tqdm
 from yade import O
 
 from .camera import cameraFor, viewAxes
+from .faceColors import faceColors
 from .faces import collect
 from .looks import colorMap, colorsWithoutValue, endsOf, shadesFor, styles, typicalRadius, valueFunction
 from .still import draw, drawable, isFlat, keep, kept, legendShare, nothingToDraw, settingsFor, shownPoints
@@ -39,8 +40,9 @@ class Frames:
 		drawn = self._drawn()
 		self._flat = isFlat(drawn)
 		self._axes = view, up = viewAxes(view, up, self._flat)
-		self._value, self._least, self._greatest = valueFunction(colorBy, up), np.inf, -np.inf
-		self._plainColor = colorsWithoutValue(colorBy, fixedColor)
+		self._ofFaces, self._least, self._greatest = faceColors(drawn, colorBy, look['valueRange']), np.inf, -np.inf
+		self._value = None if self._ofFaces else valueFunction(colorBy, up)
+		self._plainColor = self._ofFaces.of if self._ofFaces else colorsWithoutValue(colorBy, fixedColor)
 		self._newStyle, self._styles = styles(drawn, fixed, view, up, self._flat), {}
 		if not collect(drawn, self._plainColor, self._style):
 			raise ValueError(nothingToDraw)
@@ -109,7 +111,9 @@ class Frames:
 
 	def _settings(self, low, high):
 		look, (width, height) = self._look, self._look['size']
-		legend = look['legend'] and dict(text=look['legend'], low=low, high=high, colors=colorMap)
+		legend = look['legend'] and (
+			self._ofFaces.legend(look['legend']) if self._ofFaces else dict(text=look['legend'], low=low, high=high, colors=colorMap)
+		)
 		points = np.concatenate(self._far) if look['frame'] is None else np.asarray(look['frame'], float)
 		camera = cameraFor(points, *self._axes, width / height, look['zoom'], self._flat, legendShare if legend else 0)
 		return settingsFor(camera, look['size'], look['background'], look['edges'], self._flat, self._radius, legend)

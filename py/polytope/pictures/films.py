@@ -58,7 +58,8 @@ def animate(
 	:param int every: steps from one frame to the next
 	:param float fps: frames shown in a second, at most 50; in a GIF rounded so that each lasts a whole number of hundredths of a second
 	:param bodies: the bodies to draw; default all that there are at each frame
-	:param colorBy: 'color', 'height', 'speed', 'size', 'displacement' or a function of the body that returns a number
+	:param colorBy: 'color', 'height', 'speed', 'size', 'displacement' or a function of the body that returns a number, or
+	    one for each plane of its shape
 	:param valueRange: (low, high) ends of the colour scale; default those of the moving bodies in all frames
 	:param str legend: draw the colour scale, with this text
 	:param fixed: how bodies are drawn that cannot move: 'auto', 'solid', 'glass', 'wire', 'hidden' or a function of the body

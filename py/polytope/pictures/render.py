@@ -167,8 +167,13 @@ def addLegend(renderer, legend, width, height):
 	VTK's own scalar bar puts its text over the colours in some pictures, and elsewhere when it is drawn a second time.
 	"""
 	left, right, bottom, _ = (share * length for share, length in zip(scalePlace, (width, width, height, height), strict=True))
-	values, places = np.linspace(legend['low'], legend['high'], labelsOfScale), np.linspace(left, right, labelsOfScale)
-	labels = [(f'{value:.3g}', place, bottom, labelShare) for value, place in zip(values, places, strict=True)]
+	if 'labels' in legend:  # each below its own field
+		texts = legend['labels']
+		places = left + (right - left) * (np.arange(len(texts)) + 0.5) / len(texts)
+	else:
+		texts = [f'{value:.3g}' for value in np.linspace(legend['low'], legend['high'], labelsOfScale)]
+		places = np.linspace(left, right, labelsOfScale)
+	labels = [(text, place, bottom, labelShare) for text, place in zip(texts, places, strict=True)]
 	titleTop = bottom - 1.5 * labelShare * height
 	actors = []
 	for text, x, y, share in [*labels, (legend['text'], (left + right) / 2, titleTop, titleShare)]:
@@ -190,6 +195,9 @@ def drawScale(pixels, legend):
 	height, width, _ = pixels.shape
 	left, right, bottom, top = (round(share * length) for share, length in zip(scalePlace, (width, width, height, height), strict=True))
 	colors = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in legend['colors']], np.float32)
+	if 'labels' in legend:
+		pixels[bottom:top, left:right] = colors[np.arange(right - left) * len(colors) // (right - left)]
+		return
 	at, places = np.linspace(0, 1, right - left), np.linspace(0, 1, len(colors))
 	pixels[bottom:top, left:right] = np.stack([np.interp(at, places, channel) for channel in colors.T], axis=-1)
 

@@ -20,6 +20,7 @@ from yade import O, Polytope
 
 from ..arguments import namedArguments
 from .camera import cameraFor, viewAxes
+from .faceColors import faceColors
 from .faces import collect
 from .looks import colorMap, colors, styles, typicalRadius, usualFixedColor
 
@@ -56,9 +57,10 @@ def picture(
 	:param str path: the file; its folder is made if there is none
 	:param bodies: the bodies to draw; default all of O.bodies
 	:param colorBy: 'color' (each body's own), 'height' (of the centre, along *up*), 'speed', 'size' (edge of the cube of equal volume),
-	    'displacement' (from refPos), or a function of the body that returns a number
+	    'displacement' (from refPos), or a function of the body that returns a number. One that returns a whole number for each plane of a
+	    polytope's shape colours its faces, such as the joint sets that made them (*JointedRock.setsOfFaces*); grey where it is negative
 	:param valueRange: (low, high) ends of the colour scale; default those of the moving bodies
-	:param str legend: draw the colour scale, with this text
+	:param str legend: draw the colour scale, or the colours of faces with their numbers, with this text
 	:param str fixed: bodies that cannot move: 'solid', 'glass' (translucent), 'wire' (edges), 'hidden', or 'auto': wire where
 	    they stand before the moving bodies, glass behind them, solid below (and solid in scenes of polygons). Or a function of
 	    the body that returns one of these
@@ -79,12 +81,13 @@ def picture(
 	drawn = drawable(O.bodies if bodies is None else bodies)
 	flat = isFlat(drawn)
 	view, up = viewAxes(view, up, flat)
-	low, high, colorOf = colors(drawn, colorBy, valueRange, up, fixedColor)
+	ofFaces = faceColors(drawn, colorBy, valueRange)
+	low, high, colorOf = (0, 1, ofFaces.of) if ofFaces else colors(drawn, colorBy, valueRange, up, fixedColor)
 	meshes = collect(drawn, colorOf, styles(drawn, fixed, view, up, flat))
 	if not meshes:
 		raise ValueError(nothingToDraw)
 	camera = cameraFor(shownPoints(meshes, frame), view, up, size[0] / size[1], zoom, flat, legendShare if legend else 0)
-	scale = legend and dict(text=legend, low=low, high=high, colors=colorMap)
+	scale = legend and (ofFaces.legend(legend) if ofFaces else dict(text=legend, low=low, high=high, colors=colorMap))
 	path = os.path.abspath(path)
 	os.makedirs(os.path.dirname(path), exist_ok=True)
 	with tempfile.TemporaryDirectory(prefix='polytope-picture-') as folder:

@@ -3,7 +3,6 @@
 
 from collections.abc import Iterable
 
-import numpy as np
 from yade import O, RockJointMat
 
 from ..arguments import materialOf
@@ -46,16 +45,13 @@ def _index(material):
 	return material.id if listed else O.materials.append(material)
 
 
-def faceMaterials(body, normals, joints, sets, chosen):
-	"""For each plane of the body's shape the material of the joint that made it.
+def faceMaterials(joints, sets, chosen):
+	"""For each plane of a body's shape the material of the joint that made it.
 
-	:param normals: of the block, in world axes
-	:param joints: for each of these the number of its joint, -1: none
+	:param joints: for each plane the number of its joint, -1: none
 	:param sets: for each joint the number of its set
 	"""
-	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)
-	nearest = joints[np.argmax(own @ (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T, axis=1)]
-	return [int(chosen[sets[joint]]) if joint >= 0 else -1 for joint in nearest]
+	return [int(chosen[sets[joint]]) if joint >= 0 else -1 for joint in joints]
 
 
 def materialOfPlane(body, plane):

@@ -16,10 +16,12 @@ from yade import O, _polytope
 from ..arguments import namedArguments, warn
 from ..bodies.clumps import rigid
 from ..bodies.polytopes import fromHalfSpaces, randomColour
+from ..pictures.faces import rows
 from ..precision import real
 from .faceMaterials import faceMaterials, materialsOfFaces
 from .joint import Joint, asArguments, finite
 from .jointSets import JointSet
+from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, setsOf, writeFaces
 from .region import regionOf
 from .termination import Earlier
 
@@ -63,6 +65,8 @@ class JointedRock:
 	"""Cuts that were not made, as they would have left a piece below *smallest*."""
 	entries: int
 	"""Number of *jointSets*."""
+	placed: dict = dataclasses.field(default_factory=dict, repr=False)
+	"""By the number in O.bodies of each polytope that *append* made: the normals of its planes in its own axes, and the joint that made each."""
 
 	def append(self, jointMaterials=None, **body):
 		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
@@ -80,15 +84,54 @@ class JointedRock:
 		"""
 		chosen = None if jointMaterials is None else materialsOfFaces(jointMaterials, self.entries, body.get('material', -1))
 		given = body.get('color')
-		ids = []
+		ids, joints, placed = [], {}, {}
 		for parts in self.bodies:
 			colour = randomColour() if given is None else given
 			made = [fromHalfSpaces(*self.blocks[k], **{**body, 'color': colour}) for k in parts]
 			for k, one in zip(parts, made, strict=True):
+				joints[k] = jointsOfPlanes(one, self.blocks[k][0], self.faces[k])
 				if chosen is not None:
-					one.shape.faceMaterials = faceMaterials(one, self.blocks[k][0], self.faces[k], self.sets, chosen)
+					one.shape.faceMaterials = faceMaterials(joints[k], self.sets, chosen)
 			ids.append(O.bodies.append(made[0]) if len(made) == 1 else rigid(made)[0])
+			placed.update((one.id, (rows(one.shape.normals), joints[k])) for k, one in zip(parts, made, strict=True))
+		self.placed = placed
 		return ids
+
+	def jointsOfFaces(self, body):
+		"""For each plane in the normals of the body's shape the number of the joint that made it; −1: the region's, or a body that is none of this rock's.
+
+		After *append*; ``polytope.picture('joints.png', colorBy=rock.jointsOfFaces)`` colours faces by it. Bodies that are made
+		later, as pieces of a block, are none of the rock's.
+
+		:param body: of O.bodies
+		"""
+		return jointsOfFaces(self, body)
+
+	def setsOfFaces(self, body):
+		"""Likewise which of the *jointSets* that joint comes from."""
+		return setsOf(self, jointsOfFaces(self, body))
+
+	def contactJoints(self):
+		"""For each row of ``polytope.arrays().contacts`` the number of the joint that the contact is on; −1: none.
+
+		It is the joint that made the face which lies closest to the plane of the contact, of either body, as for materials of faces.
+		"""
+		return contactJoints(self)
+
+	def contactSets(self):
+		"""Likewise which of the *jointSets* that joint comes from."""
+		return setsOf(self, contactJoints(self))
+
+	def writeFaces(self, path):
+		"""Writes the faces of all polytopes in the scene for ParaView, a polygon each, as they are now.
+
+		Cell arrays: *id* of the body, *joint* and *set* that made the face (−1: none), *material* of the face, index in O.materials, and the
+		body's *displacement* [m] and *velocity* [m/s]. Files that differ in a number before the end are a series in ParaView.
+
+		:param str path: the file, .vtp; its folder is made if there is none
+		:raises ValueError: naming *path* or what the scene lacks
+		"""
+		writeFaces(self, path)
 
 
 @namedArguments
