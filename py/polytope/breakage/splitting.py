@@ -3,12 +3,15 @@
 
 import numbers
 
+import numpy as np
 from yade import O, Polytope, Quaternion, Vector3, _polytope
 
 from ..arguments import namedArguments, number, vector, vectors
 from ..bodies.polytopes import defaultCornerFraction, isotropyTolerance
 from ..bonding.bonds import madeBonds
 from ..loading.sample import replaceInSamples
+from ..pictures.faces import rows
+from ..rock.jointsOfFaces import replaceInRocks
 from ..scene.ranks import refuseDivided
 
 __all__ = ['split']
@@ -16,6 +19,9 @@ __all__ = ['split']
 thinnest = 1e-3
 """Least inscribed radius of a piece, over that of the body: a sliver of less has contacts that differ in stiffness by its size, and moves by
 rounding rather than by forces."""
+samePlane = 1e-6
+"""Of the body's size: by how much rounding may move or turn a plane of a piece, also far from the origin. The cut is farther from a face that is
+parallel to it, by *thinnest*."""
 
 
 @namedArguments
@@ -24,7 +30,8 @@ def split(id, normal, point=None, smallest=None):
 
 	The pieces fill the body, touch without overlap, and move as it did: mass, centre of mass, linear and angular momentum and kinetic energy
 	are what they were, to rounding. They overlap other bodies as it did: no energy of an overlap is added. Contacts of the body begin anew on the
-	pieces, without shear force. Material, colour, mask and blocked degrees of freedom are the body's; a permanent force is not passed on.
+	pieces, without shear force. Material, colour, mask and blocked degrees of freedom are the body's; a permanent force is not passed on. What
+	is left of a face keeps the material and the joint that it has of its own (Polytope.faceMaterials, *JointedRock.jointsOfFaces*); the fresh faces have none.
 
 	:param int id: of a body with a Polytope shape that is in no clump and has no bonds
 	:param Vector3 normal: of the plane, of any length, world axes
@@ -49,8 +56,13 @@ def split(id, normal, point=None, smallest=None):
 	# from the body's centre: small numbers wherever it is
 	normals, offsets = [state.ori * one for one in shape.normals], list(shape.offsets)
 	pieces = [_piece(body, [*normals, side * normal], [*offsets, side * height], least) for side in (1, -1)]
+	planes = [_planesOf(piece, body, normals, offsets) for piece in pieces]
+	for piece, old in zip(pieces, planes, strict=True):
+		if len(shape.faceMaterials):
+			piece.shape.faceMaterials = [int(k) for k in np.append(shape.faceMaterials, -1)[old]]
 	made = tuple(O.bodies.append(piece) for piece in pieces)
 	replaceInSamples(body.id, made)
+	replaceInRocks(body, [O.bodies[k] for k in made], planes)
 	O.bodies.erase(body.id)
 	return made
 
@@ -66,6 +78,15 @@ def _bodyOf(id):
 	if any(bond.intact and id in (bond.id1, bond.id2) for bond in madeBonds()):
 		raise ValueError(f'id: body {id} has bonds, of which it is not known on which piece they would be; break bonded bodies by their bonds')
 	return body
+
+
+def _planesOf(piece, body, normals, offsets):
+	"""For each plane of a piece which of the body's it lies on; −1: the cut. The body's as in *_piece*."""
+	turned = rows(piece.state.ori * one for one in piece.shape.normals)
+	limits = np.array(piece.shape.offsets, float) + turned @ np.array(piece.state.pos - body.state.pos, float)
+	reach = float(body.shape.circumscribedRadius)
+	apart = np.linalg.norm(turned[:, None] - rows(normals), axis=2) + np.abs(limits[:, None] - np.array(offsets, float)) / reach
+	return np.where(apart.min(axis=1) < samePlane, apart.argmin(axis=1), -1)
 
 
 def _piece(body, normals, offsets, least):

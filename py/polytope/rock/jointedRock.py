@@ -21,7 +21,7 @@ from ..precision import real
 from .faceMaterials import faceMaterials, materialsOfFaces
 from .joint import Joint, asArguments, finite
 from .jointSets import JointSet
-from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, setsOf, writeFaces
+from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, keep, setsOf, writeFaces
 from .region import regionOf
 from .termination import Earlier
 
@@ -39,7 +39,7 @@ smallestBridge = 1e-3
 of a file that were meant to end at each other miss by the last of its digits."""
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class JointedRock:
 	"""What *jointedRock* made."""
 
@@ -66,7 +66,7 @@ class JointedRock:
 	entries: int
 	"""Number of *jointSets*."""
 	placed: dict = dataclasses.field(default_factory=dict, repr=False)
-	"""By the number in O.bodies of each polytope that *append* made: the normals of its planes in its own axes, and the joint that made each."""
+	"""By the number in O.bodies of each polytope that *append* or *split* made: the normals of its planes in its own axes, and the joint that made each."""
 
 	def append(self, jointMaterials=None, **body):
 		"""Adds the rock to the scene: a body for each of *bodies*, a clump where it has several blocks.
@@ -94,14 +94,14 @@ class JointedRock:
 					one.shape.faceMaterials = faceMaterials(joints[k], self.sets, chosen)
 			ids.append(O.bodies.append(made[0]) if len(made) == 1 else rigid(made)[0])
 			placed.update((one.id, (rows(one.shape.normals), joints[k])) for k, one in zip(parts, made, strict=True))
-		self.placed = placed
+		keep(self, placed)
 		return ids
 
 	def jointsOfFaces(self, body):
 		"""For each plane in the normals of the body's shape the number of the joint that made it; −1: the region's, or a body that is none of this rock's.
 
-		After *append*; ``polytope.picture('joints.png', colorBy=rock.jointsOfFaces)`` colours faces by it. Bodies that are made
-		later, as pieces of a block, are none of the rock's.
+		After *append*; ``polytope.picture('joints.png', colorBy=rock.jointsOfFaces)`` colours faces by it. Faces that *polytope.split* makes
+		have none, what it leaves of others keeps theirs.
 
 		:param body: of O.bodies
 		"""

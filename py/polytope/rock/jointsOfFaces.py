@@ -3,6 +3,7 @@
 
 import math
 import os
+import weakref
 
 import numpy as np
 from yade import O, Polytope
@@ -11,7 +12,7 @@ from ..measures.arrays import arrays
 from ..pictures.faceColors import ofFaces
 from ..pictures.faces import collect, rows
 
-__all__ = ['contactJoints', 'jointsOfFaces', 'jointsOfPlanes', 'setsOf', 'writeFaces']
+__all__ = ['contactJoints', 'jointsOfFaces', 'jointsOfPlanes', 'keep', 'replaceInRocks', 'setsOf', 'writeFaces']
 
 turnOfFaces = 0.1
 """Angle [rad] by which planes of a body may differ from those that it was appended with: *inSitu* turns them by the closure of a joint
@@ -19,6 +20,27 @@ over its width. Another body under the same number, of another scene, has others
 
 facingOfJoints = 0.01
 """Angle [rad] up to which both faces of a contact are as good, as it is for their materials (src/bond/BondTolerances.hpp)."""
+
+
+_rocks = []
+"""Weak references to rocks that are in the scene, or were."""
+
+
+def keep(rock, placed):
+	"""What *JointedRock.placed* is from now on."""
+	rock.placed = placed
+	_rocks[:] = [known for known in _rocks if known() not in (None, rock)] + [weakref.ref(rock)]
+
+
+def replaceInRocks(body, pieces, planes):
+	"""A body of the scene has been broken: what is left of its faces keeps its joint.
+
+	:param planes: for each piece, for each plane of its shape the body's that it lies on, −1: none
+	"""
+	for rock in filter(None, (known() for known in _rocks)):
+		joints = np.append(jointsOfFaces(rock, body), -1)
+		if (joints >= 0).any():
+			rock.placed.update((piece.id, (rows(piece.shape.normals), joints[own])) for piece, own in zip(pieces, planes, strict=True))
 
 
 def jointsOfPlanes(body, normals, joints):

@@ -77,12 +77,23 @@ def testBodiesThatAreNotTheRocksHaveNoJoint():
 	assert list(rock.jointsOfFaces(O.bodies[1])) == [-1] * 8, 'of another scene'
 
 
-def testPiecesOfABlockHaveNoJoint():
-	rock = scattered()
-	whole = next(parts[0] for parts in rock.bodies if len(parts) == 1)
-	id = next(body.id for body in polytopes() if np.isclose(float(body.shape.volume), rock.volumes[whole]))
-	for piece in polytope.split(id, (0.1, 0.2, 1)):
-		assert set(rock.setsOfFaces(O.bodies[piece])) == {-1}
+@pytest.mark.parametrize('normal', [(0.1, 0.2, 1), (0, 0, 1)], ids=['oblique', 'along a joint'])
+def testPiecesKeepJointsAndMaterialsOfWhatIsLeftOfFaces(normal):
+	for k in range(2):
+		O.materials.append(RockJointMat(density=density, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(40 - 15 * k)))
+	rock = polytope.jointedRock(box, [1] * 6, [Joint(0, 0, (0, 0, 0)), Joint(pi / 2, 0.3, (0, 0, 0))])
+	first = rock.append(material=0, jointMaterials=[1, None])[0]
+	unit, middle = np.array(normal) / np.linalg.norm(normal), np.array(O.bodies[first].state.pos, float)
+	fresh, found = 0, set()
+	for piece in (O.bodies[k] for k in polytope.split(first, normal)):
+		for one, offset, joint, material in zip(*planes(piece), rock.jointsOfFaces(piece), piece.shape.faceMaterials, strict=True):
+			of = [
+				k for k, plane in enumerate(rock.joints) if np.allclose(np.sign(one @ plane[:3]) * np.append(one, offset), plane, atol=1e-9)
+			]
+			assert [joint] == (of or [-1]) and material == (1 if joint == 0 else -1)
+			fresh += abs(abs(one @ unit) - 1) < 1e-9 and abs(offset - one @ middle) < 1e-9
+			found.add(int(joint))
+	assert fresh == 2 and found == {-1, 0, 1}
 
 
 def testInitialStressKeepsTheJointsOfFaces():
