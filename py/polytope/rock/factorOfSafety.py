@@ -55,7 +55,7 @@ class Trial:
 	unbalanced: float
 	"""Force at the end [-]."""
 	displacement: float
-	"""Way of the body that has moved farthest for its size, since the scene stood with its own strengths [m]."""
+	"""Way of the body that has moved farthest for its size, since the first state that stood: with the scene's own strengths, or with *most* times them where the factor is below 1 [m]."""
 	trembling: list = dataclasses.field(default_factory=list)
 	"""Ids of bodies whose force does not fade though they stay where they are (*unrest*): 'stable' all the same."""
 
@@ -107,7 +107,7 @@ class FactorOfSafety:
 def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps=200000):
 	"""The number by which all strengths of joints and bonds can be divided until bodies move away: ``print(polytope.factorOfSafety())``.
 
-	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first. Then strengths are divided by a number between what stood and what failed, trial by trial. A trial begins
+	The scene must be at rest under its loads (*polytope.settle*). It is run with its own strengths first; if it fails, the factor is below 1, and the search begins with *most* times its strengths. Then strengths are divided by a number between what stood and what failed, trial by trial. A trial begins
 	at the last state that stood: strengths are only ever lowered from there, so its forces are in equilibrium, and no joint bore more than its strength on the way, as if rock weathered. It
 	is stable when no body has an unbalanced force above a twentieth of the tolerance (0.001 at most) and none moves, or only such as tremble in place for good. It has failed when a body has moved by a fiftieth of its size since the scene stood with its own strengths, or in this trial by a
 	quarter of that faster and faster, with nothing ahead that could stop it. A body that moves and comes to rest before is stable. Where a bolt has no pretension, or a joint a shear law of its own (RockJointMat.strength), strengths are lowered by 2 % at a
@@ -121,11 +121,11 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	:param bodies: ids of those that count; default all that can move
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor
-	:param float most: factor at which to give up
+	:param float most: factor at which to give up, and by which strengths are multiplied where it is below 1
 	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
 	:returns: *FactorOfSafety*
 	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
-	:raises RuntimeError: the scene does not stand with its own strengths, or stands with a *most*-th of them; it is what it was
+	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them; it is what it was
 	"""
 	tolerance, most, steps = number(tolerance, 'tolerance'), number(most, 'most'), number(steps, 'steps')
 	if not 0 < tolerance < 1:
@@ -198,15 +198,7 @@ class _Search:
 
 	def run(self, most):
 		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
-			self.origin = self._places()
-			first = self._trial(1.0)
-			if first.outcome != 'stable':
-				raise RuntimeError(
-					f'the scene does not stand with its own strengths: {first.outcome}, unbalanced force {first.unbalanced:.2g} after {first.steps} steps; '
-					f'{_told(*self._motion()[:2])}; polytope.settle() first, more strength, or a support'
-				)
-			self.origin = self._places()
-			bracket = Bracket(self.tolerance, most)
+			bracket = self._begun(most)
 			while not bracket.isNarrow:
 				self.left = bracket.halvings
 				trial = self._trialFromRest(bracket.next())
@@ -218,6 +210,26 @@ class _Search:
 					)
 		self._tellTrembling()
 		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)
+
+	def _begun(self, most):
+		"""With the scene's own strengths; where it fails with these, from the same state with strengths so large that it stands."""
+		bracket = Bracket(self.tolerance, most)
+		self.origin = self._places()
+		O.saveTmp(standing, quiet=True)
+		own = self._trial(1.0)
+		if own.outcome != 'stable':
+			self.mode = self._motion()
+			bracket.tell(1.0, False, *self.lacked, self.limit)
+			_load(standing, self.loads)
+			bracket.stable = 1 / most
+			divideStrengths(bracket.stable, self.reduce)
+			if self._trial(bracket.stable).outcome != 'stable':
+				raise RuntimeError(
+					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {_told(*self.mode[:2])}), '
+					f'nor with {most:g} times {", ".join(self.reduce)}; polytope.settle() first, a support, or more of the other strengths'
+				)
+		self.origin = self._places()
+		return bracket
 
 	def _tellTrembling(self):
 		ones = sorted({k for trial in self.trials for k in trial.trembling})

@@ -238,13 +238,43 @@ def testTheSceneIsWhatItWas():
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
-def testASceneThatDoesNotStandIsRefused():
-	block = settled()
-	O.interactions[0, block].phys.cohesion = 1e3
+@pytest.mark.parametrize('joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)])
+def testAFactorBelowOneIsFoundFromLargerStrengths(joint, theory):
+	block = onSlope(dip, (0.5, 0.5, 0.1), **joint)
 	before = O.bodies[block].state.pos
-	with pytest.raises(RuntimeError, match=r'does not stand with its own strengths: failed.*polytope\.settle\(\)'):
-		polytope.factorOfSafety()
-	assert O.bodies[block].state.pos == before and O.interactions[0, block].phys.cohesion == 1e3
+	found = polytope.factorOfSafety()
+	assert theory < 0.8 and found.factor == pytest.approx(theory, rel=0.005)
+	assert found.stable < theory < found.failed and found.bodies == [block] and found.directions[0] == pytest.approx((1, 0, 0), abs=1e-3)
+	assert (found.trials[0].factor, found.trials[0].outcome) == (1, 'failed')
+	assert O.bodies[block].state.pos == before and O.materials[0].frictionAngle == friction
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testASceneThatDoesNotStandWithLargerStrengthsIsRefused():
+	block = onSlope(dip, (0.5, 0.5, 0.1))
+	before = O.bodies[block].state.pos
+	with pytest.raises(RuntimeError, match=r'own strengths \(failed.*\), nor with 20 times cohesion; polytope\.settle\(\) first.*other strengths'):
+		polytope.factorOfSafety(reduce=['cohesion'])
+	assert O.bodies[block].state.pos == before and O.materials[0].frictionAngle == friction
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
+	"""Grouted, without pretension; the steel yields over its free length, and turns with the way u along the joint: T acts by u/√(u² + l²) along it. It fails at u = size/50."""
+	steep, angle, free, yields, load = math.radians(38), math.radians(42), 0.1, 3e4, 2500 * gravity * 2
+	material(density=2500, normalStiffness=2e9, shearStiffness=2e9, frictionAngle=angle)
+	O.bodies.append(polytope.cuboid((0, 0, -3), (20, 5, 3), fixed=True))
+	block = O.bodies.append(polytope.cuboid((0, 0, 0.5), (1, 0.5, 0.5)))
+	O.engines = polytope.engines(gravity=(gravity * math.sin(steep), 0, -gravity * math.cos(steep)))
+	polytope.bolt((0, 0, 1), (0, 0, -2), area=4.9e-4, youngsModulus=2e11, yieldForce=yields, freeLength=free, grout=polytope.Grout(1e9, 4e5))
+	polytope.settle()
+	found = polytope.factorOfSafety(tolerance=0.05)
+	way = 2 ** (1 / 3) / 50
+	turned = math.hypot(way, free)
+	theory = (load * math.cos(steep) + yields * free / turned) * math.tan(angle) / (load * math.sin(steep) - yields * way / turned)
+	assert theory == pytest.approx(2.667, rel=1e-3) and found.factor == pytest.approx(theory, rel=0.02)
+	assert np.linalg.norm(found.displacements[0]) == pytest.approx(way, rel=0.03) and found.bodies == [block]
+	assert found.trials[-1].displacement < 1.1 * way
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
