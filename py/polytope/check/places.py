@@ -15,7 +15,7 @@ from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover, sameClump
 from ..scene.present import isPerArea, jointMakers
 
-__all__ = ['notNumbers', 'overlapShare', 'placeFindings']
+__all__ = ['looks', 'meet', 'notNumbers', 'overlapShare', 'placeFindings', 'touching']
 
 softest = 0.1
 """Overlap over the inscribed radius, under a body's own weight or in its impact on one face, above which the contact gives way: overlaps of
@@ -85,7 +85,7 @@ def overlaps(scene):
 	pairs = set()
 	for i, j in (*_ofLikeSize(tree, places, radii), *_insideLarger(tree, places, radii, reaches, bodies)):
 		one, other = bodies[i], bodies[j]
-		if _meet(scene, one, other) and _depth(one, other) > 2 * deep * min(radii[i], radii[j]):
+		if meet(scene, one, other) and _depth(one, other) > 2 * deep * min(radii[i], radii[j]):
 			pairs.add(tuple(sorted((one.id, other.id))))
 	if pairs:
 		first = min(pairs)
@@ -150,7 +150,7 @@ def _anyTouch(scene, bodies):
 	pairs = ((i, j) for i, others in enumerate(near) for j in others if j != i and radii[j] <= radii[i])
 	for i, j in itertools.islice(pairs, looks):
 		one, other = bodies[i], bodies[j]
-		if _meet(scene, one, other) and _gap(one, other) < touching * min(radii[i], radii[j]):
+		if meet(scene, one, other) and _gap(one, other) < touching * min(radii[i], radii[j]):
 			return True
 	return False
 
@@ -177,7 +177,7 @@ def _gap(one, other):
 		return math.inf
 
 
-def _meet(scene, one, other):
+def meet(scene, one, other):
 	"""Whether they may have a contact: not the same place, which coincidence() finds."""
 	samePlace = (one.state.pos - other.state.pos).norm() == 0 and _planes(one) == _planes(other)
 	return one.mask & other.mask and not sameClump(one, other) and not samePlace and (scene.moves(one) or scene.moves(other))

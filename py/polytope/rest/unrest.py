@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Which bodies will not come to rest, and why: found while a scene is run."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from yade import O
 
 from ..measures.arrays import arrays
+from ..scene.movers import partsOf
+from ..scene.present import jointMaterials
 from ..scene.stages import sizeOf
 from .holding import anythingBelow, isHeld, isThin, touched
 from .unbalanced import unbalancedForces
@@ -30,6 +33,8 @@ away = 0.5
 """Way over the body's size, from which on one that slides faster and faster slides away, where nothing else is unrest."""
 farAway = 2
 """The same, in two spans on end, of one beside others that may come to rest."""
+leaning = 2.0
+"""Angle of a body that still moves, from which on it topples [°]: blocks turn by some tenths as their joints close."""
 named = 3
 """Bodies that a message names."""
 
@@ -41,7 +46,7 @@ class Restless(NamedTuple):
 	unbalanced: float
 	"""Its mean force since the last doubling of steps [-]."""
 	kind: str
-	"""'falls', 'slides', 'trembles', or 'moves', which is none of these."""
+	"""'falls', 'slides', 'topples', 'trembles', or 'moves', which is none of these."""
 	why: str
 
 
@@ -71,6 +76,7 @@ class Unrest:
 		"""Ids of bodies that touched others at the first look."""
 		self.sum = self.mean = self.before = np.zeros(0)
 		self.origin = self.began = self.last = _places()
+		self.start = arrays().bodies
 		self.span = self.spanBefore = np.zeros(len(self.origin))
 		"""Largest ways since the span began, and in the one before [m]."""
 		self.path = self.pathBefore = np.zeros(len(self.origin))
@@ -150,6 +156,9 @@ class Unrest:
 		sliding = sorted(other for other, slides in others.items() if slides)
 		if sliding and way > away * size and span > before:
 			return 'slides', f'slides on body {sliding[0]}, by {way:.2g} m up to now'
+		turn = _turn(self.start, k)
+		if turn > leaning:
+			return 'topples', f'topples: turned by {turn:.0f}°, has moved by {way:.2g} m'
 		return 'moves', f'has moved by {way:.2g} m'
 
 
@@ -165,6 +174,10 @@ def remedy(restless):
 	ways = []
 	if 'falls' in kinds:
 		ways.append('a support for what falls, or O.bodies.erase() it')
+		if any(_couldHang(one.id) for one in restless if one.kind == 'falls'):
+			ways.append('polytope.bond() before, if it should hang by its tensileStrength: bodies that only touch have no joint')
+	if 'topples' in kinds:
+		ways.append('a wider base, a support, or bonds and bolts for what topples')
 	if 'slides' in kinds:
 		ways.append('more strength or a support for what slides')
 	if 'trembles' in kinds:
@@ -179,12 +192,25 @@ def remedy(restless):
 	return '; '.join(ways) or 'a larger *unbalanced*, or a support for bodies that fall'
 
 
+def _couldHang(k):
+	return any(material.tensileStrength > 0 for material in jointMaterials([O.bodies[part] for part in partsOf(k)]))
+
+
 def _places():
 	"""(n, 3) by id; of ids without a body zero [m]"""
 	bodies = arrays().bodies
 	found = np.zeros((len(O.bodies), 3))
 	found[bodies.ids] = bodies.positions
 	return found
+
+
+def _turn(before, k):
+	"""Angle by which body k has turned since these arrays of bodies [°]; of one that is new zero."""
+	row = np.flatnonzero(before.ids == k)
+	if not len(row):
+		return 0.0
+	now = O.bodies[k].state.ori
+	return math.degrees(2 * math.acos(min(1.0, abs(float(np.dot(before.orientations[row[0]], [now[i] for i in range(4)]))))))
 
 
 def _ways(before, now):

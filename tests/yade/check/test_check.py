@@ -590,6 +590,21 @@ def testTensileStrengthOfAJointIsNoGlue():
 	assert '1e+05 Pa' in found.seen and 'polytope.bond()' in found.advice
 
 
+@pytest.mark.parametrize('name', ['cohesion', 'tensileStrength'])
+def testStrengthThatIsLostToTheOtherSide(name):
+	def touching(material):
+		O.bodies[1].state.pos = (0, 0, 0.5)
+		return [polytope.cuboid((1, 0, 0.5), (0.5, 0.4, 0.5), material=O.materials.append(material))]
+
+	strong = rock(label='strong', **{name: 4e4, 'residualCohesion' if name == 'cohesion' else 'residualTensileStrength': 4e4})
+	scene(lambda: touching(strong))
+	found = polytope.check(O)['joint strength']
+	assert found.seen.startswith('the joint of body ') and f'has no {name}' in found.seen and "4e+04 Pa of RockJointMat 'strong' and 0 of" in found.seen
+	O.bodies[0].shape.faceMaterials = [1] * 6  # by joints of their own
+	O.bodies[1].shape.faceMaterials = [1] * 6
+	assert not any(one.what == 'joint strength' for one in polytope.check(O))
+
+
 @pytest.mark.parametrize('distance, deep', [(0.1, True), (0.5, True), (0.8, True), (0.95, False), (1.1, False)])
 def testBlocksPlacedIntoEachOther(distance, deep):
 	"""Cubes of edge 1: at 0.1 they overlap by nine tenths."""

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'lockedInForces', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -108,6 +108,15 @@ def testBoltsRaiseTheFactorOfARoofWedge(runs, capsys):
 	found = [[float(number) for number in re.findall(r'[\d.]+', line)] for line in capsys.readouterr().out.splitlines()]
 	assert [row[0] for row in found] == [0, 4000] and found[0][2] == pytest.approx(1.55, abs=1e-3) and found[1][2] > 2
 	assert all(measured == pytest.approx(theory, rel=0.01) for _, measured, theory in found)
+
+
+def testFactorsOfABlockOnTwoFacesDependOnLockedInShear(runs, capsys):
+	"""Soft in shear it is that of limit equilibrium; else above, and below limit analysis of the same faces; between two walls the block jams."""
+	runs('lockedInForces', '--dip', '65', '--ratios', '1', '0.01')
+	found = [[float(number) for number in re.findall(r'[\d.]+', line)] for line in capsys.readouterr().out.splitlines()]
+	(_, equilibrium, analysis), (_, stiff, jammed), (_, soft, _) = found
+	assert (equilibrium, analysis) == (pytest.approx(1.408, abs=1e-3), pytest.approx(1.492, abs=2e-3))
+	assert soft == pytest.approx(equilibrium, rel=0.006) and 1.01 * equilibrium < stiff < analysis < jammed
 
 
 def testCrushedCubeBalancesItsEnergy(runs, capsys):

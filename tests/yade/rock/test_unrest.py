@@ -2,6 +2,7 @@
 """polytope.settle names the bodies that do not come to rest, and why, as soon as that is clear."""
 
 import math
+import re
 
 import pytest
 from scenes import joint
@@ -49,6 +50,44 @@ def testWhatFallsIsToldAtOnce(flat):
 	assert O.iter <= 1250
 	O.bodies.erase(falls)
 	assert polytope.settle() > 0 and O.bodies[stays].state.vel.norm() < 1e-4
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testWhatCouldHangByABondIsToldSo(flat):
+	"""Its tensile strength would hold it, but it only touches what it hangs from."""
+	joint(normalStiffness=1e9, shearStiffness=1e9, tensileStrength=1e5, cohesion=1e6)
+	if flat:
+		O.bodies.append(polytope.polygon([(-2, 0), (2, 0), (2, 1), (-2, 1)], fixed=True))
+		O.bodies.append(polytope.polygon([(-0.5, -1), (0.5, -1), (0.5, 0), (-0.5, 0)]))
+	else:
+		O.bodies.append(polytope.cuboid((0, 0, 1), (2, 2, 1), fixed=True))
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (0.5, 0.5, 0.5)))
+	engines(flat)
+	found = polytope.check(O)['hangs']
+	assert 'body 1 hangs from body 0' in found.seen and 'polytope.bond()' in found.advice
+	O.saveTmp(quiet=True)
+	assert 'polytope.bond() before, if it should hang by its tensileStrength' in str(settleFails())
+	O.loadTmp(quiet=True)
+	assert polytope.bond() == 1 and not any(one.what == 'hangs' for one in polytope.check(O))
+	assert polytope.settle() > 0
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testWhatTopplesIsToldSo(flat):
+	"""Four times as high as wide, on 20°: it turns over its foot."""
+	joint(normalStiffness=1e10, shearStiffness=1e10, frictionAngle=math.radians(35))
+	down = 9.81 * math.sin(math.radians(20)), -9.81 * math.cos(math.radians(20))
+	if flat:
+		floor(6, flat=True)
+		O.bodies.append(polytope.polygon([(-0.5, 0), (0.5, 0), (0.5, 4), (-0.5, 4)]))
+		O.engines = polytope.engines(gravity=(*down, 0))
+	else:
+		floor(6)
+		O.bodies.append(polytope.cuboid((0, 0, 2), (0.5, 0.5, 2)))
+		O.engines = polytope.engines(gravity=(down[0], 0, down[1]))
+	error = settleFails(steps=16000)
+	assert [(one.id, one.kind) for one in error.bodies] == [(1, 'topples')]
+	assert re.search(r'body 1 topples: turned by \d+°', str(error)) and 'a wider base, a support' in str(error)
 
 
 def testWhatFallsOnSomethingIsWaitedFor():
