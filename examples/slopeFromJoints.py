@@ -61,11 +61,10 @@ if drawn:
 	options.joints = 'output/slopeFromJoints.csv'
 	survey(options.joints)
 joints = polytope.readJoints(options.joints)
-bedding = [joint for joint in joints if joint.set == 0]
-rock = polytope.jointedRock(normals, offsets, [bedding, [joint for joint in joints if joint.set != 0]], smallest=0.3)
+rock = polytope.jointedRock(normals, offsets, [joints], smallest=0.3)
 for name, friction in (('bedding', 40), ('steep', 45)):
 	O.materials.append(RockJointMat(label=name, density=2600, normalStiffness=5e8, shearStiffness=2.5e8, frictionAngle=radians(friction)))
-ids = rock.append(jointMaterials=['bedding', 'steep'], material='steep')
+ids = rock.append(jointMaterials=['bedding', *['steep'] * (rock.entries - 1)], material='steep')  # the first set is the bedding
 for k, planes in zip(ids, rock.bodies, strict=True):  # blocks at the bottom and at the back hold the slope
 	O.bodies[k].dynamic = not any(rock.faces[block][plane] < 0 and (normal[2] < -0.99 or normal[0] > 0.99) for block in planes for plane, normal in enumerate(rock.blocks[block][0]))
 told(f'{len(ids)} blocks of {len(joints)} joints, {sum(not O.bodies[k].dynamic for k in ids)} of them fixed')

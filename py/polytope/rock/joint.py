@@ -30,7 +30,7 @@ class Joint:
 	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
 	:param centre: of the disc, or a point of the plane [m]
 	:param float radius: of the disc [m]; None: it runs through the whole rock mass
-	:param int set: a number of one's own, such as that of a set in a file
+	:param set: a number or a name of one's own, such as that of a set in a file: jointedRock tells joints of one list apart by it
 	:raises ValueError: naming the argument
 	"""
 
@@ -53,7 +53,7 @@ class Joint:
 		"""A convex polygon.
 
 		:param corners: (n, 3) corners in order [m], n ≥ 3, in one plane to a thousandth of their extent: the mean plane is taken
-		:param int set: a number of one's own
+		:param set: a number or a name of one's own
 		:raises ValueError: naming *corners*: fewer than three, not in one plane, no area, not convex
 		"""
 		points = np.array(_polytopeRows(corners), float)

@@ -19,7 +19,7 @@ from ..bodies.polytopes import fromHalfSpaces, randomColour
 from ..pictures.faces import rows
 from ..precision import real
 from .faceMaterials import faceMaterials, materialsOfFaces
-from .joint import Joint, asArguments, finite
+from .joint import Joint, areasOf, asArguments, finite
 from .jointSets import JointSet
 from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, keep, setsOf, writeFaces
 from .region import regionOf
@@ -37,6 +37,8 @@ pieces need a shorter time step and carry no load."""
 smallestBridge = 1e-3
 """Area over which rock goes on from one block to the next, over the smaller of the two faces, below which it is taken for broken: joints
 of a file that were meant to end at each other miss by the last of its digits."""
+named = 3
+"""Joints that a message names."""
 
 
 @dataclasses.dataclass(eq=False)
@@ -64,7 +66,7 @@ class JointedRock:
 	uncut: int
 	"""Cuts that were not made, as they would have left a piece below *smallest*."""
 	entries: int
-	"""Number of *jointSets*."""
+	"""Number of *jointSets*, a list of joints counted as many times as it has sets."""
 	placed: dict = dataclasses.field(default_factory=dict, repr=False)
 	"""By the number in O.bodies of each polytope that *append* or *split* made: the normals of its planes in its own axes, and the joint that made each."""
 
@@ -76,7 +78,7 @@ class JointedRock:
 		A material belongs to the faces that its joint has made: a contact that ends and is made again, with the same block or another, has that of the face which it
 		lies on (Polytope.faceMaterials).
 
-		:param jointMaterials: for each of *jointSets* the RockJointMat of its joints, by index or label in O.materials or itself; None among them: the body's own
+		:param jointMaterials: for each of *jointSets* (for each set of a list of joints) the RockJointMat of its joints, by index or label in O.materials or itself; None among them: the body's own
 		:param body: arguments of *fromHalfSpaces*: material, fixed, color …
 		:returns: numbers in O.bodies, in the order of *bodies*: of the body, or of the clump
 		:raises ValueError: naming *jointMaterials*: not one for each of *jointSets*, no RockJointMat, or stiffer than the body's own material, which sets the
@@ -150,7 +152,8 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	:param normals: (n, 3) outward normals of the region, of any length [-]; for a region that is not convex a list of those of convex parts, which
 	    may share faces and must not overlap
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
-	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns
+	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns. A list counts as one set for each value of *Joint.set* in it, numbers in ascending order and then names in
+	    alphabetical order: so many entries have *jointMaterials*, *sets* and what *keyBlocks* takes by set
 	:param float smallest: inscribed radius [m] below which no piece is cut off: the block stays whole there; default a hundredth
 	    of the smallest spacing (1/P32) or of the region's own inscribed radius
 	:param int seed: of the random places, radii and normals
@@ -182,13 +185,31 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
 	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
 	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
-	rock = _rock(made, cuts, region.centre, len(entries))
+	rock = _rock(made, cuts, region.centre, sum(map(len, map(_setsOf, entries))))
 	if not sets and not len(rock.joints) and not rock.uncut and len(region.parts) == 1:  # a joint along the face of two parts cuts neither
 		place = ', '.join(f'{round(float(x), 6) + 0.0:g}' for x in region.centre)
 		warn(
 			f'jointSets: no joint reaches into the region, whose centre is ({place}); are their places in other units or axes (x east, y north, z up)?'
 		)
+	elif any(not isinstance(entry, JointSet) for entry in entries):
+		_tellOutside(entries, region)
 	return rock
+
+
+def _setsOf(entry):
+	"""Values of *Joint.set* in a list of joints; of all else one."""
+	if not isinstance(entry, (list, tuple)):
+		return [None]
+	return sorted({joint.set for joint in entry}, key=lambda name: (isinstance(name, str), name)) or [None]
+
+
+def _tellOutside(entries, region):
+	given = [joint for entry in entries if not isinstance(entry, JointSet) for joint in (entry if isinstance(entry, (list, tuple)) else [entry])]
+	areas = areasOf([joint.cut.moved(-region.centre) for joint in given], region.parts)
+	outside = [(number, joint) for number, joint in enumerate(given) if not areas[number] > 0]
+	if outside:
+		ones = ', '.join(f'{number} at ({", ".join(f"{x:g}" for x in joint.centre)})' for number, joint in outside[:named])
+		warn(f'jointSets: {len(outside)} of {len(given)} joints lie wholly outside the region, and cut nothing: {ones}{", …" if len(outside) > named else ""} (counted from 0)')
 
 
 def _entriesOf(jointSets):
@@ -202,12 +223,16 @@ def _entriesOf(jointSets):
 def _cuts(entries, region, random):
 	"""All joints in the order in which they cut, about the region's centre."""
 	cuts = []
-	for number, entry in enumerate(entries):
+	number = 0
+	for entry in entries:
+		sets = _setsOf(entry)
 		if isinstance(entry, JointSet):
 			cuts += entry.cuts(region, Earlier(cuts), number, random)
 		else:
 			for joint in entry if isinstance(entry, (list, tuple)) else [entry]:
-				cuts.append(dataclasses.replace(joint.cut.moved(-region.centre), entry=number))
+				place = sets.index(joint.set) if isinstance(entry, (list, tuple)) else 0
+				cuts.append(dataclasses.replace(joint.cut.moved(-region.centre), entry=number + place))
+		number += len(sets)
 	return cuts
 
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints from files: tables, BlockGen's, FracMan's and dfnWorks' polygons; malformed ones are refused by line."""
 
+import warnings
 from math import cos, radians, sin
 
 import numpy as np
 import pytest
-from yade import polytope
+from yade import O, RockJointMat, polytope
 
 box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 half = [10] * 6
@@ -28,7 +29,39 @@ def testTable(read, separator):
 	assert (disc.dip, disc.dipDirection, disc.centre, disc.radius, disc.set) == (radians(30), radians(90), (1, 2, 3), 4, 7)
 	assert (plane.radius, plane.set, plane.centre) == (None, 0, (0, 0, -1))
 	rock = polytope.jointedRock(box, half, [read(text)])
-	assert len(rock.bodies) == 2 and rock.sets.tolist() == [0, 0]
+	assert len(rock.bodies) == 2 and rock.sets.tolist() == [1, 0]  # in the order of their numbers, 0 and 7
+
+
+def testJointsOfAFileHaveMaterialsBySet(read):
+	"""Numbers come first, then names; each has its own material."""
+	joints = read('# mapped in May\n\ndip,dip_direction,x,y,z,set\n0,0,0,0,0,fault\n# the bedding:\n0,0,0,0,2,bedding\n0,0,0,0,4,12\n0,0,0,0,-4,bedding\n')
+	assert [joint.set for joint in joints] == ['fault', 'bedding', 12, 'bedding']
+	rock = polytope.jointedRock(box, half, [polytope.Joint(0, 0, (0, 0, -6)), joints])
+	assert rock.entries == 4 and rock.sets.tolist() == [0, 3, 2, 1, 2]
+	for number in range(5):
+		O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, label=f'm{number}'))
+	ids = rock.append(material='m0', jointMaterials=['m1', 'm2', 'm3', 'm4'])
+	tops = {round(float(O.bodies[k].state.pos[2] + max(O.bodies[k].shape.offsets[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9)), 3): k for k in ids}
+	found = {top: next(O.bodies[k].shape.faceMaterials[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9) for top, k in tops.items()}
+	assert found == {-6: 1, -4: 3, 0: 4, 2: 3, 4: 2, 10: -1}
+	with pytest.raises(ValueError, match='for each of the 4 jointSets'):
+		rock.append(material='m0', jointMaterials=['m1', 'm2'])
+
+
+def testAnglesThatCouldBeRadiansAreTold(read):
+	with pytest.warns(UserWarning, match=r'no dip is above 1.2°, no dip direction above 3.14°; if they are in radians, write degrees'):
+		read(table + '0.61,3.14,0,0,0,\n1.2,1.57,0,0,0,\n')
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		read(table + '0,0,0,0,0,\n1,6,0,0,0,\n')
+		read(table + '0.61,3.14,0,0,0,\n35.5,1.57,0,0,0,\n')
+
+
+def testJointsOutsideTheRegionAreNamed():
+	inside, outside = polytope.Joint(0, 0, (0, 0, 1)), polytope.Joint(0, 0, (0, 0, 40), radius=5)
+	with pytest.warns(UserWarning, match=r'^jointSets: 2 of 3 joints lie wholly outside the region, and cut nothing: 1 at \(0, 0, 40\), 2 at \(0, 0, -11\)'):
+		rock = polytope.jointedRock(box, half, [[inside, outside], polytope.Joint(0, 0, (0, 0, -11))])
+	assert len(rock.bodies) == 2
 
 
 def testTableWithOtherNamesAndUnits(read):
@@ -125,6 +158,9 @@ table = 'dip,dip_direction,x,y,z,radius\n'
 		(table + '95,90,0,0,0,2\n', 'a.csv', 'line 2: dip must be from 0 to 90 degrees, got 95'),
 		(table + '30,900,0,0,0,2\n', 'a.csv', 'line 2: dip direction must be an azimuth'),
 		(table + '30,90,0,0,0,-2\n', 'a.csv', 'line 2: radius: must be positive'),
+		('dip;dip_direction;x;y;z\n35,5;90;0;0;0\n', 'a.csv', "line 2: dip must be a number, got '35,5'; write a decimal point: 35.5"),
+		(table + '35,5,90,0,0,0,2\n', 'a.csv', 'line 2: 7 fields, 6 columns; are there decimal commas?'),
+		('# a comment\n' + table + '30,north,0,0,0,2\n', 'a.csv', 'line 3: dip_direction must be a number'),
 		(table + '30,90,0,0\n', 'a.csv', 'line 2: 4 fields, 6 or more'),
 		('dip,dd,dip_direction,x,y,z\n30,90,45,0,0,0\n', 'a.csv', 'line 1: several columns are the dip_direction'),
 		(table + '30,90,0,0,nan,1\n', 'a.csv', 'line 2: z must be a number'),

@@ -19,12 +19,14 @@ def readJoints(path, format=None, scale=1):
 
 	- ``'table'``: a first line with the names of columns, then a joint a line, separated by commas, semicolons or tabs. Columns *dip*, *dip_direction* [degrees],
 	  *x*, *y*, *z* [m]: x east, y north, z up; *radius* or *diameter* [m]: without it, or where it is empty, a plane through the whole rock; *set*,
-	  a whole number. Others are not read.
+	  a whole number or a name. Others are not read.
 	- ``'blockGen'``: what YADE's BlockGen reads, separated by semicolons after a first line that is passed over. Of 16 or 17 columns
 	  (*filenameProbabilistic*) rectangles: dip, dip direction, centre, half-lengths along strike and along dip; of 11 (*filenamePersistentPlanes*) sets of planes
 	  through the origin: dip, dip direction, spacing. Planes are where BlockGen puts them, in its axes: x north, y east, z down. Properties are not read.
 	- ``'fracMan'``: polygons of FracMan's ``.fab`` text, with their set. Tessellated fractures give one joint for each triangle.
 	- ``'dfnWorks'``: polygons of dfnWorks (``polygons.dat``: ``nPolygons: …``, then a polygon a line: number of corners, {x, y, z} …).
+
+	Lines that begin with # are passed over. A table whose angles could all be radians is read as degrees, with a warning.
 
 	:param path: the file
 	:param str format: one of these names; default by the file's end and first line
@@ -51,7 +53,7 @@ def readJoints(path, format=None, scale=1):
 
 
 def _formatOf(rows):
-	first = rows.lines[0].lower() if rows.lines else ''
+	first = rows.lines[rows.first].lower() if rows.lines else ''
 	if rows.path.lower().endswith('.fab') or first.startswith('begin format'):
 		return 'fracMan'
 	if first.startswith('npolygons'):
@@ -61,4 +63,4 @@ def _formatOf(rows):
 	if tables.isTable(first):
 		return 'table'
 	columns = ', '.join(tables.needed)
-	raise rows.wrong(1, f'no columns named {columns}, and no beginning of another format', 'name the columns there, or give format=')
+	raise rows.wrong(rows.first + 1, f'no columns named {columns}, and no beginning of another format', 'name the columns there, or give format=')

@@ -14,9 +14,13 @@ class Rows:
 		self.path, self.scale = os.fspath(path), scale
 		try:
 			with open(path, encoding='utf-8-sig') as file:
-				self.lines = [line.strip() for line in file]
+				lines = [line.strip() for line in file]
 		except UnicodeDecodeError:
 			raise ValueError(f"path: '{path}' is no text; export the joints as text") from None
+		self.lines = ['' if line.startswith('#') else line for line in lines]
+		"""Comments are empty."""
+		self.first = next((number for number, line in enumerate(self.lines) if line), 0)
+		"""Place of the first one that is not."""
 
 	def wrong(self, line, what, remedy):
 		"""The error for a line, counted from 1."""
@@ -28,7 +32,8 @@ class Rows:
 		except ValueError:
 			value = math.nan
 		if not math.isfinite(value):
-			raise self.wrong(line, f'{what} must be a number, got {text!r}', 'correct it')
+			point = text.replace(',', '.')
+			raise self.wrong(line, f'{what} must be a number, got {text!r}', f'write a decimal point: {point}' if _isNumber(point) else 'correct it')
 		return value
 
 	def whole(self, line, text, what):
@@ -51,3 +56,10 @@ class Rows:
 			return make()
 		except ValueError as error:
 			raise ValueError(f"path: '{self.path}', line {line}: {error}") from None
+
+
+def _isNumber(text):
+	try:
+		return math.isfinite(float(text))
+	except ValueError:
+		return False

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ...arguments import warn
 from ..joint import Joint, anglesOf
 from ..jointSets import JointSet
 
@@ -18,6 +19,8 @@ names = {
 	**{f'{word}_{axis}': axis for word in ('position', 'centre', 'center') for axis in 'xyz'},
 }
 """Names of columns, in small letters with underscores."""
+turnRounding = 1e-3
+"""Of angles with three digits or more [°]."""
 ofPlanes, ofRectangles = 11, 16
 """BlockGen's columns; those of rectangles end with a comment."""
 
@@ -47,29 +50,40 @@ def isTable(line):
 
 def isBlockGens(lines):
 	"""Whether they have BlockGen's number of fields, and no radius, which BlockGen does not know."""
-	fields = [len(line.rstrip(';').split(';')) for line in lines[1:] if line]
-	size = {'radius', 'diameter'} & set(columnsOf(lines[0])) if lines else ()
+	fields = [len(line.rstrip(';').split(';')) for line in [line for line in lines if line][1:]]
+	size = {'radius', 'diameter'} & set(columnsOf(next(filter(None, lines), '')))
 	return not size and bool(fields) and fields[0] >= ofPlanes
 
 
 def joints(rows):
-	heading = rows.lines[0] if rows.lines else ''
+	heading = rows.lines[rows.first] if rows.lines else ''
 	columns = columnsOf(heading)
 	missing = [name for name in needed if name not in columns]
 	if missing:
-		raise rows.wrong(1, f'there is no column {", ".join(missing)}', f'name the columns: {", ".join(needed)}, radius')
+		raise rows.wrong(rows.first + 1, f'there is no column {", ".join(missing)}', f'name the columns: {", ".join(needed)}, radius')
 	separator = separatorOf(heading)
 	twice = _twice(heading)
 	if twice:
-		raise rows.wrong(1, f'several columns are the {twice}', 'leave all but one out, or name the others otherwise')
+		raise rows.wrong(rows.first + 1, f'several columns are the {twice}', 'leave all but one out, or name the others otherwise')
 	found = []
 	for line, fields in enumerate(csv.reader(rows.lines, delimiter=separator), 1):
-		if line == 1 or not any(field.strip() for field in fields):
+		if line <= rows.first + 1 or not any(field.strip() for field in fields):
 			continue
+		if separator == ',' and any(fields[len(_words(heading)) :]):
+			raise rows.wrong(line, f'{len(fields)} fields, {len(_words(heading))} columns', 'are there decimal commas? Write decimal points, or separate columns by semicolons or tabs')
 		if len(fields) <= max(columns.values()):
 			raise rows.wrong(line, f'{len(fields)} fields, {max(columns.values()) + 1} or more are expected', 'complete the line')
 		found.append(_joint(rows, line, {name: fields[place].strip() for name, place in columns.items()}))
+	_tellRadians(rows, found)
 	return found
+
+
+def _tellRadians(rows, joints):
+	"""Degrees are whole numbers mostly, and seldom all within the numbers that radians have."""
+	angles = np.degrees([(joint.dip, joint.dipDirection) for joint in joints]).reshape(-1, 2)
+	within = (angles[:, 0] <= math.pi / 2 + turnRounding).all() and (np.abs(angles[:, 1]) <= 2 * math.pi + turnRounding).all()
+	if within and len(angles) and (np.abs(angles - np.round(angles)) > turnRounding).any():
+		warn(f"path: '{rows.path}': no dip is above {angles[:, 0].max():.3g}°, no dip direction above {np.abs(angles[:, 1]).max():.3g}°; if they are in radians, write degrees")
 
 
 def _joint(rows, line, fields):
@@ -79,16 +93,25 @@ def _joint(rows, line, fields):
 	for name, half in (('radius', 1), ('diameter', 0.5)):
 		if fields.get(name):
 			radius = half * rows.scale * rows.number(line, fields[name], name)
-	number = rows.whole(line, fields['set'], 'set') if fields.get('set') else 0
+	number = _set(rows, line, fields.get('set') or '0')
 	place = tuple(rows.scale * x for x in centre)
 	return rows.checked(line, lambda: Joint(math.radians(dip), math.radians(direction), place, radius, number))
+
+
+def _set(rows, line, text):
+	"""A whole number, or a name."""
+	try:
+		float(text)
+	except ValueError:
+		return text
+	return rows.whole(line, text, 'set')
 
 
 def blockGen(rows):
 	found = []
 	for line, text in enumerate(rows.lines, 1):
 		fields = [field.strip() for field in text.rstrip(';').split(';')]
-		if line == 1 or not text:
+		if line <= rows.first + 1 or not text:
 			continue
 		if len(fields) not in (ofPlanes, ofRectangles, ofRectangles + 1):
 			remedy = f'BlockGen has {ofPlanes} for persistent planes, {ofRectangles} or one more for joints of finite size'
