@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from yade import PolytopeBolt, PolytopeBolts
 
-from ..arguments import flag, namedArguments, number, vector
+from ..arguments import flag, namedArguments, number, vector, warn
 from ..scene.present import EngineOfScene
 
 __all__ = ['BoltArrays', 'Dowel', 'Grout', 'bolt', 'boltArrays', 'bolts', 'madeBolts', 'removedBolts']
@@ -59,6 +59,12 @@ class Dowel:
 				raise ValueError(f'{name}: must be positive and finite, got {value}')
 		bending = youngsModulus * math.pi * diameter**4 / 64
 		return cls(bending * (foundation / (4 * bending)) ** 0.75, 0.67 * diameter**2 * math.sqrt(yieldStress * rockStrength))
+
+
+thickest = 0.1
+"""Cross-section of a bolt [m²] above which it is taken for one in mm²: cables for bridges have less."""
+softest = 1e6
+"""Young's modulus [Pa] below which it is taken for one in GPa: rubber has more."""
 
 
 class BoltArrays(NamedTuple):
@@ -127,6 +133,7 @@ def bolt(
 		raise ValueError(f'grout: must be a polytope.Grout(stiffness, strength), got {grout!r}')
 	if dowel is not None and not isinstance(dowel, Dowel):
 		raise ValueError(f'dowel: must be a polytope.Dowel(stiffness, strength), got {dowel!r}')
+	_tellUnits(number(area, 'area'), number(youngsModulus, 'youngsModulus'))
 	pattern = PolytopeBolt(
 		head=vector(head, 'head'),
 		end=vector(end, 'end'),
@@ -142,6 +149,13 @@ def bolt(
 	)
 	engine, index = ofScene.make('bolts act', lambda engine: engine.make(pattern))
 	return engine.bolts[index]
+
+
+def _tellUnits(area, modulus):
+	if thickest < area < math.inf:
+		warn(f'area: {area:g} m² is that of no bolt; in mm²? {area:g} mm² are {1e-6 * area:g} m²')
+	if 0 < modulus < softest:
+		warn(f'youngsModulus: {modulus:g} Pa is softer than any bolt; in GPa? {modulus:g} GPa are {1e9 * modulus:g} Pa')
 
 
 def bolts():

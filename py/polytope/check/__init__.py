@@ -24,7 +24,7 @@ def check(O, costs=False):
 	without any damping whose model does not conserve energy, polygons that meet what they cannot touch, positions and velocities that are not
 	numbers, polytopes in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres
 	only, YADE's density scaling, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a
-	quiet boundary, water that acts too late, density, mass and size of bodies, friction angles in degrees, stiffnesses too low for the loads,
+	quiet boundary, water that acts too late, density, mass and size of bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
 	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity that
 	begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch, attributes that nothing reads, contact queries that failed, the time step and its time
 	steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's collider does not notice.

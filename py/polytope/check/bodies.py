@@ -28,6 +28,8 @@ tonnes = 0.3, 30.0
 tooStiff = 1e-6
 """Overlap over the inscribed radius under a body's own weight below which its density is taken for one in other units than its stiffness: one of some
 t/m³ beside N and m makes it a thousandth of what was meant."""
+weakest = 10.0
+"""Cohesion or tensile strength of a joint [Pa] below which it is taken for one in MPa: half a millimetre of rock weighs as much."""
 weakestWall = 1e5
 """Compressive strength of a joint's wall [Pa] below which it is taken for one in MPa."""
 unitsApart = 300.0
@@ -36,7 +38,7 @@ seldom by 100."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, flatBoxes, derivedShapes, frictionAngle, tension, units, jointLaws, elasticConstants):
+	for one in (density, mass, size, flatBoxes, derivedShapes, frictionAngle, weakStrengths, dilation, tension, units, jointLaws, elasticConstants):
 		yield from one(scene)
 
 
@@ -177,6 +179,24 @@ def frictionAngle(scene):
 		if not angle < math.pi / 2:
 			seen = f'frictionAngle of {type(material).__name__} {material.label!r} is {angle:g} rad, above π/2'
 			yield 'friction angle', seen, f'angles are in radians: frictionAngle=radians({angle:g}), before bodies are made of it'
+
+
+def weakStrengths(scene):
+	"""What is too little to matter in Pa is a strength in MPa."""
+	if not _inMetres(scene):
+		return
+	for material in _materials(scene, RockJointMat):
+		for name in ('cohesion', 'tensileStrength'):
+			value = float(getattr(material, name))
+			if 0 < value < weakest and isPerArea(material, jointMakers(scene.loops)):
+				yield 'joint strength', f'{name} of RockJointMat {material.label!r} is {value:g} Pa, the weight of {value / 2e4:.1g} m of rock', f'give it in Pa: {value:g} MPa are {1e6 * value:g}'
+
+
+def dilation(scene):
+	for material in _materials(scene, RockJointMat):
+		if float(material.dilationAngle) > float(material.frictionAngle):
+			angles = f'dilationAngle {math.degrees(material.dilationAngle):.3g}° of RockJointMat {material.label!r} is above its frictionAngle {math.degrees(material.frictionAngle):.3g}°'
+			yield 'dilation', f'{angles}: slip would do more work against pressure than friction takes', 'a dilationAngle of at most the frictionAngle, which has the dilation in it'
 
 
 def tension(scene):

@@ -7,13 +7,15 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from yade import O, Vector3, VelocityHistory
 
-from ..arguments import flag, namedArguments, number, vector
+from ..arguments import flag, namedArguments, number, vector, warn
 from ..precision import real
 from .peer import peerRecord
 
 __all__ = ['velocityHistory']
 
 kinds = ('velocity', 'acceleration')
+strongest = 50.0
+"""Acceleration [m/s²] above which a record is taken for one in another unit: the strongest records of earthquakes have some 4 g."""
 
 
 @namedArguments
@@ -51,12 +53,19 @@ def velocityHistory(record, times=None, kind=None, unit=None, direction=None, ba
 		(times, values), itsUnit = _fromValues(record, times), 1.0
 	velocities = float(itsUnit if unit is None else unit) * _components(values, direction)
 	if kind != 'velocity':
+		_tellStrong(velocities)
 		velocities = cumulative_trapezoid(velocities, times, axis=0, initial=0)
 	if baseline:
 		part = (times - times[0]) / (times[-1] - times[0])
 		velocities = velocities - (velocities[0] + np.outer(part, velocities[-1] - velocities[0]))
 	instants = float(start) + times - times[0]
 	return VelocityHistory(times=[real(t) for t in instants], velocities=[Vector3(*map(real, v)) for v in velocities.tolist()])
+
+
+def _tellStrong(accelerations):
+	most = float(np.linalg.norm(accelerations, axis=1).max())
+	if most > strongest:
+		warn(f'record: its largest acceleration is {most:.3g} m/s², {most / 9.81:.3g} g, more than earthquakes have; is it in m/s² already (unit=1), in cm/s² (unit=0.01), or a velocity (kind)?')
 
 
 def _fromFile(name, times, kind):

@@ -50,11 +50,11 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 	"""
 	unbalanced, damping, steps = number(unbalanced, 'unbalanced'), number(damping, 'damping'), number(steps, 'steps')
 	if not unbalanced > 0:
-		raise ValueError(f'unbalanced: {unbalanced:g}; above 0')
+		raise ValueError(f'unbalanced: must be above 0, got {unbalanced:g}')
 	if not 0 < damping < 1:
-		raise ValueError(f'damping: {damping:g}; above 0 and below 1')
+		raise ValueError(f'damping: must be above 0 and below 1, got {damping:g}')
 	if not steps >= 1:
-		raise ValueError(f'steps: {steps:g}; at least 1')
+		raise ValueError(f'steps: must be at least 1, got {steps:g}')
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
 	if not integrators():

@@ -114,13 +114,18 @@ def _follow(name, point):
 
 
 def _bodyAt(name, place):
+	found = []
 	for body in O.bodies:
 		if body is None or not isinstance(body.shape, Polytope) or not O.bodies[moverOf(body.id)].dynamic:
 			continue
 		local = body.state.ori.conjugate() * (place - body.state.pos)
 		beyond = max(float(n.dot(local)) - float(d) for n, d in zip(body.shape.normals, body.shape.offsets, strict=True))
 		if beyond <= within * float(body.shape.circumscribedRadius):
-			return moverOf(body.id)
+			found += [] if moverOf(body.id) in found else [moverOf(body.id)]
+	if len(found) > 1:
+		warn(f'points: {name}: {tuple(map(float, place))} is on a face of bodies {", ".join(map(str, found))}, and moves with body {found[0]}; give a point inside one of them, or an id')
+	if found:
+		return found[0]
 	raise ValueError(
 		f'points: {name}: there is no Polytope that can move at {tuple(map(float, place))}; give a point inside a block, or an id'
 	)

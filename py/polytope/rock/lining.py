@@ -5,7 +5,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from yade import O, Vector3
+from yade import O, Polytope, Vector3
 
 from ..arguments import flag, materialOf, number, rows, warn
 from ..bodies.polytopes import builder, fromVertices, ofOneColour, polygon
@@ -121,6 +121,7 @@ def lining(
 		tensileStrength=positive(tensileStrength, 'tensileStrength', True), cohesion=positive(shearStrength, 'shearStrength', True)
 	)
 	flat = _isFlat(points)
+	_refuseOtherDimension(flat)
 	line = np.array(rows(points, 'points', 2 if flat else 3), float)
 	axis = axisOf(axis, line)
 	closed = flag(closed, 'closed')
@@ -177,6 +178,15 @@ def _torsionConstant(a, b):
 	"""Of Saint-Venant for a rectangle, to 0.5 % (Roark's Formulas for Stress and Strain)."""
 	b, a = sorted((a, b))
 	return a * b**3 * (1 / 3 - 0.21 * b / a * (1 - b**4 / (12 * a**4)))
+
+
+def _refuseOtherDimension(flat):
+	"""Polygons and polyhedra have no contact."""
+	there = {body.shape.dimension for body in O.bodies if body is not None and isinstance(body.shape, Polytope)}
+	if there == {3} and flat:
+		raise ValueError('points: have two components, as for a lining of polygons, and the scene has polyhedra; give points of three, and the axis')
+	if there == {2} and not flat:
+		raise ValueError('points: have three components, as for a lining of polyhedra, and the scene has polygons; give points of two')
 
 
 def _section(one, behind, axis):

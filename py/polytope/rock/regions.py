@@ -11,7 +11,7 @@ import os
 import numpy as np
 from yade import _polytope
 
-from ..arguments import namedArguments, number, numbersOf, vectors
+from ..arguments import namedArguments, number, numbersOf, vectors, warn
 from ..bodies.meshes.digits import warnOfRounding
 from ..bodies.meshes.files import readMesh
 from ..precision import real
@@ -97,7 +97,10 @@ def regionWithout(normals, offsets, openings):
 		rows = np.column_stack(solid)
 		faces += [Cut(row[:3], row[3] * row[:3], edges=np.delete(rows, k, axis=0)) for k, row in enumerate(rows)]
 	cells = _cells(normals, offsets, faces)
-	kept = [cell for cell in cells if not any((n @ cell[2] < d).all() for n, d in planes)]
+	inside = [[bool((n @ cell[2] < d).all()) for n, d in planes] for cell in cells]
+	for number in np.flatnonzero(~np.any(inside, axis=0)):
+		warn(f'openings: opening {number} (counted from 0) is wholly outside the region, and takes nothing away; is its place in other units or axes?')
+	kept = [cell for cell, within in zip(cells, inside, strict=True) if not any(within)]
 	if not kept:
 		raise ValueError('openings: nothing is left of the region')
 	return _lists(kept)

@@ -17,6 +17,8 @@ __all__ = ['RockReport', 'rockReport', 'scanLine', 'stereonet']
 outside = 1e-3
 """Part of a line that may lie outside the rock: ends on its faces, to rounding, and along joints."""
 
+formats = ('.png', '.svg', '.pdf')
+"""Of pictures."""
 colours = ('tab:blue', 'tab:orange', 'tab:green', 'tab:red', 'tab:purple', 'tab:brown', 'tab:pink', 'tab:olive')
 
 
@@ -115,10 +117,16 @@ def stereonet(rock, path):
 	:param path: PNG, SVG or PDF file
 	:returns: (dips, dip directions) of the joints [rad]
 	:raises ValueError: naming *rock* or *path* if it is none
+	:raises FileNotFoundError: if the folder is not there
 	"""
 	refuseOthers(rock)
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'path: must be the name of a PNG, SVG or PDF file, got {path!r}')
+	folder, ending = os.path.split(os.fspath(path))[0], os.path.splitext(os.fspath(path))[1].lower()
+	if ending not in formats:
+		raise ValueError(f"path: its name must end in {', '.join(formats)}, got '{os.fspath(path)}'")
+	if not os.path.isdir(folder or '.'):
+		raise FileNotFoundError(f"path: there is no folder '{folder}'; make it first")
 	from matplotlib.figure import Figure
 
 	angles = np.array([anglesOf(plane[:3]) for plane in rock.joints]).reshape(-1, 2)

@@ -133,6 +133,9 @@ def _below(level, density, bodies, someFaces):
 			f'level: {highest:g} m is above the ground, {top:g} m: water in joints and cracks stands at most as high (level={top:g}); a lake '
 			f'presses on all faces, without *faces*'
 		)
+	bottom = -float(_reach(bodies, -up[None])[1][0])
+	if highest - top > top - bottom:
+		warn(f'level: {highest:g} m is above all bodies, which reach up to {top:g} m: they are at the bottom of a lake, whose pressure acts on all faces; in joints alone water stands at most as high as the ground')
 	if points is None:
 		return belowALevel(highest, up, weight)
 	section = sectionOf(points, up)

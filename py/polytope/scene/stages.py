@@ -3,6 +3,7 @@
 
 import dataclasses
 import numbers
+from collections.abc import Iterable
 
 from yade import O, Polytope
 
@@ -55,6 +56,8 @@ class Reduction:
 	calmChecks = 3
 
 	def __init__(self, bodies, stableSpeed, failedDistance, checkEvery, mostSteps, measure, progress):
+		if not isinstance(bodies, Iterable):
+			raise ValueError(f'bodies: must be a sequence of ids, [{bodies!r}] for one body, got {bodies!r}')
 		self.bodies = list(bodies)
 		if not self.bodies:
 			raise ValueError('bodies: there must be at least one')

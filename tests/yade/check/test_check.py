@@ -605,6 +605,23 @@ def testStrengthThatIsLostToTheOtherSide(name):
 	assert not any(one.what == 'joint strength' for one in polytope.check(O))
 
 
+@pytest.mark.parametrize('name', ['cohesion', 'tensileStrength'])
+def testStrengthInMegapascals(name):
+	for value, found in ((0.2, True), (2e5, False)):
+		scene(material=rock(**{name: value, 'residualCohesion' if name == 'cohesion' else 'residualTensileStrength': value}))
+		said = [one for one in polytope.check(O) if one.what == 'joint strength']
+		assert bool(said) == found
+	scene(material=rock(**{name: 0.2}))
+	assert '0.2 MPa are 200000' in polytope.check(O)['joint strength'].advice
+
+
+def testDilationAboveFriction():
+	scene(material=rock(dilationAngle=0.7))
+	assert 'dilationAngle 40.1° of RockJointMat' in onlyFinding('dilation').seen
+	scene(material=rock(dilationAngle=0.6))
+	assert not polytope.check(O)
+
+
 @pytest.mark.parametrize('distance, deep', [(0.1, True), (0.5, True), (0.8, True), (0.95, False), (1.1, False)])
 def testBlocksPlacedIntoEachOther(distance, deep):
 	"""Cubes of edge 1: at 0.1 they overlap by nine tenths."""
