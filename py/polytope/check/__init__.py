@@ -7,6 +7,7 @@ from .costs import costFindings, takeCosts
 from .engines import engineFindings
 from .findings import Check, Finding
 from .lostStrengths import hanging, lostStrengths
+from .materials import defaultMaterial
 from .pairs import pairFindings
 from .places import notNumbers, placeFindings
 from .scene import SceneToCheck
@@ -23,7 +24,7 @@ def check(O, costs=False):
 	apply forces as for spheres, contact models whose unit of stiffness is another, contacts
 	without any damping whose model does not conserve energy, polygons that meet what they cannot touch, positions and velocities that are not
 	numbers, polytopes in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres
-	only, YADE's density scaling, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a
+	only, YADE's density scaling, bodies that have YADE's default material in place of the scene's, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a
 	quiet boundary, water that acts too late, density, mass and size of bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
 	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity that
 	begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch, attributes that nothing reads, contact queries that failed, the time step and its time
@@ -60,7 +61,7 @@ def checkOf(O, engines):
 	"""Checks the scene as it would be with these engines; None: its own."""
 	scene = SceneToCheck(O, engines)
 	lost = list(notNumbers(scene))
-	found = [*lost, *engineFindings(scene), *pairFindings(scene), *bodyFindings(scene), *contactFindings(scene)]
+	found = [*lost, *engineFindings(scene), *pairFindings(scene), *defaultMaterial(scene), *bodyFindings(scene), *contactFindings(scene)]
 	if not lost:
 		places = list(placeFindings(scene))
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to

@@ -327,6 +327,29 @@ def testLawsThatNeverToppleABody(material, physics, law):
 # ------------------------------------------------------------------------------------------------ bodies and materials
 
 
+@pytest.mark.parametrize('first', ['all', 'floor', 'nothing'])
+def testBodiesMadeBeforeTheirMaterial(first):
+	"""YADE gives them its own: 1000 kg/m³ in place of 2600, and a friction angle of 0.5."""
+	O.reset()
+	made = [polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True)] if first != 'nothing' else []
+	made += [polytope.cuboid((0, 0, 0.3), (0.3, 0.3, 0.3))] if first == 'all' else []
+	O.materials.append(rock())
+	O.bodies.append(made)
+	if first == 'nothing':
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
+	if first != 'all':
+		O.bodies.append(polytope.cuboid((0, 0, 0.3), (0.3, 0.3, 0.3)))
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines()
+	if first == 'nothing':
+		assert not polytope.check(O)
+		return
+	found = onlyFinding('default material')
+	assert ('2 bodies (body 0 first)' if first == 'all' else 'body 0 has') in found.seen and '1000 kg/m³' in found.seen
+	assert ('no body has O.materials[1]' if first == 'all' else 'body 1 has a RockJointMat') in found.seen and 'O.materials.append' in found.advice
+
+
 def testNegativeDensity():
 	material = rock()
 	scene(material=material)
