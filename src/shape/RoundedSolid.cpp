@@ -70,7 +70,7 @@ namespace {
 	};
 
 	/// ∫ dV, ∫ x dV and ∫ x xᵀ dV.
-	struct Moments {
+	struct RoundedMoments {
 		Real    zeroth = 0;
 		Vector3 first  = Vector3::Zero();
 		Matrix3 second = Matrix3::Zero();
@@ -86,10 +86,10 @@ namespace {
 	Matrix3 square(const Vector3& v) { return v * v.transpose(); }
 	Matrix3 both(const Vector3& a, const Vector3& b) { return a * b.transpose() + b * a.transpose(); }
 
-	void addSlab(Moments& sum, const Polyhedron& core, std::size_t f, const Vector3& normal, const Real& r)
+	void addSlab(RoundedMoments& sum, const Polyhedron& core, std::size_t f, const Vector3& normal, const Real& r)
 	{
 		const std::vector<int>& face = core.faces[f];
-		Moments                 flat; // over the area
+		RoundedMoments          flat; // over the area
 		const auto              corner = [&](std::size_t k) -> const Vector3& { return core.vertices[std::size_t(face[k])]; };
 		for (std::size_t k = 2; k < face.size(); ++k) {
 			const Vector3 &a = corner(0), &b = corner(k - 1), &c = corner(k);
@@ -101,7 +101,7 @@ namespace {
 		        r * flat.second + r * r / 2 * both(flat.first, normal) + r * r * r / 3 * flat.zeroth * square(normal));
 	}
 
-	void addSector(Moments& sum, const Vector3& a, const Vector3& b, const Arc& arc, const Real& r)
+	void addSector(RoundedMoments& sum, const Vector3& a, const Vector3& b, const Arc& arc, const Real& r)
 	{
 		const Vector3 middle = (a + b) / 2, along = b - a;
 		const Real    length = along.norm(), part = arc.angle * r * r / 2;
@@ -124,7 +124,7 @@ namespace {
 	}
 
 	/// Sectors of the ball: solid angles are what the faces' angles lack of a full turn (Gauss and Bonnet), ∫ w dΩ is half the sum over the sector's sides.
-	void addBall(Moments& sum, const Polyhedron& core, const Neighbours& of, const Real& r)
+	void addBall(RoundedMoments& sum, const Polyhedron& core, const Neighbours& of, const Real& r)
 	{
 		const Real           pi = acos(Real(-1));
 		std::vector<Real>    angles(core.vertices.size(), 2 * pi);
@@ -269,8 +269,8 @@ MassProperties roundedMass(const Polyhedron& core, const Real& radius)
 {
 	MassProperties mass = massProperties(core);
 	if (!(radius > 0)) return mass;
-	const auto spread = [](const Matrix3& inertia) { return Matrix3(inertia.trace() / 2 * Matrix3::Identity() - inertia); };
-	Moments    sum; // about the core's centroid
+	const auto     spread = [](const Matrix3& inertia) { return Matrix3(inertia.trace() / 2 * Matrix3::Identity() - inertia); };
+	RoundedMoments sum; // about the core's centroid
 	sum.add(mass.volume, Vector3::Zero(), spread(mass.inertia));
 	Polyhedron about = core;
 	for (Vector3& vertex : about.vertices)
