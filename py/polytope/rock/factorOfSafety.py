@@ -125,7 +125,7 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
 	:returns: *FactorOfSafety*
 	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
-	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them; it is what it was
+	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them, or is not at rest; it is what it was
 	"""
 	tolerance, most, steps = number(tolerance, 'tolerance'), number(most, 'most'), number(steps, 'steps')
 	if not 0 < tolerance < 1:
@@ -208,6 +208,7 @@ class _Search:
 					raise RuntimeError(
 						f'stable with strengths divided by {bracket.stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
 					)
+		self._refuseUnsettled(bracket)
 		self._tellTrembling()
 		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)
 
@@ -230,6 +231,11 @@ class _Search:
 				)
 		self.origin = self._places()
 		return bracket
+
+	def _refuseUnsettled(self, bracket):
+		"""Where it failed with its own strengths, but only since it was not at rest: from the last state that stood it does not."""
+		if bracket.failed == 1 and self._trialFromRest(1.0).outcome == 'stable':
+			raise RuntimeError('the scene stands with its own strengths from a state at rest, and fails from the one that it is in; polytope.settle() first')
 
 	def _tellTrembling(self):
 		ones = sorted({k for trial in self.trials for k in trial.trembling})

@@ -98,8 +98,8 @@ def regionWithout(normals, offsets, openings):
 		faces += [Cut(row[:3], row[3] * row[:3], edges=np.delete(rows, k, axis=0)) for k, row in enumerate(rows)]
 	cells = _cells(normals, offsets, faces)
 	inside = [[bool((n @ cell[2] < d).all()) for n, d in planes] for cell in cells]
-	for number in np.flatnonzero(~np.any(inside, axis=0)):
-		warn(f'openings: opening {number} (counted from 0) is wholly outside the region, and takes nothing away; is its place in other units or axes?')
+	for k in np.flatnonzero(~np.any(inside, axis=0)):
+		warn(f'openings: opening {k} (counted from 0) is wholly outside the region, and takes nothing away; is its place in other units or axes?')
 	kept = [cell for cell, within in zip(cells, inside, strict=True) if not any(within)]
 	if not kept:
 		raise ValueError('openings: nothing is left of the region')

@@ -259,6 +259,19 @@ def testASceneThatDoesNotStandWithLargerStrengthsIsRefused():
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
+def testASceneThatFailsByItsFirstSwingAloneIsRefused():
+	"""Its brittle joint would bear 1.05 times the load, and not that of gravity at once: no factor below 1."""
+	material(frictionAngle=0, cohesion=1.05 * along)
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	block = O.bodies.append(polytope.cuboid((0, 0, 0.1), (0.5, 0.5, 0.1)))
+	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
+	O.bodies[block].state.pos -= Vector3(0, 0, 1e-6)
+	O.run(1, wait=True)
+	with pytest.raises(RuntimeError, match=r'from a state at rest, and fails from the one that it is in; polytope.settle\(\) first'):
+		polytope.factorOfSafety()
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
 def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
 	"""Grouted, without pretension; the steel yields over its free length, and turns with the way u along the joint: T acts by u/√(u² + l²) along it. It fails at u = size/50."""
 	steep, angle, free, yields, load = math.radians(38), math.radians(42), 0.1, 3e4, 2500 * gravity * 2
