@@ -121,9 +121,9 @@ def lining(
 		tensileStrength=positive(tensileStrength, 'tensileStrength', True), cohesion=positive(shearStrength, 'shearStrength', True)
 	)
 	flat = _isFlat(points)
-	_refuseOtherDimension(flat)
 	line = np.array(rows(points, 'points', 2 if flat else 3), float)
 	axis = axisOf(axis, line)
+	_refuseOtherDimension(flat)
 	closed = flag(closed, 'closed')
 	if segmentLength is not None:
 		segmentLength = positive(segmentLength, 'segmentLength')
