@@ -17,10 +17,6 @@ __all__ = ['bodyFindings', 'movingBodies']
 
 largest = 50.0
 """Extent [m] above which a body that can move is taken for one in other units: a boulder of 50 m weighs 3e8 kg."""
-densities = 50.0, 3e4
-"""Of what can be a body [kg/m³], from foam to heavy metals. In t and mm, g and cm, t and m … the same bodies have 1e-12 to 1e-3 of it."""
-gravities = 1.0, 30.0
-"""On Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
 earth = 9.7, 9.9
 """Gravity at its surface [m/s²]: lengths are in m, times in s, whatever the unit of mass."""
 tonnes = 0.3, 30.0
@@ -124,20 +120,12 @@ def size(scene):
 		return
 	usual = float(np.median(list(widths.values())))
 	# one that is no larger than what is fixed belongs to a scene of that size, as a wedge in a slope does
-	limit = max(largest, _extentOfSupports(scene)) if _inMetres(scene) else math.inf
+	limit = max(largest, _extentOfSupports(scene)) if scene.inMetres() else math.inf
 	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and _extent(scene.O.bodies[key]) > limit)]
 	if large:
 		extent, mass = _extent(large[0]), float(large[0].state.mass)
 		seen = f'{_number(large)} can move, is {extent:.3g} m across and weighs {mass:.3g} kg'
 		yield 'size', seen, 'if its mesh or dimensions are in millimetres: fromMesh(path, scale=0.001), other lengths over 1000'
-
-
-def _inMetres(scene):
-	"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers are no mistake."""
-	least, most = densities
-	gravity = scene.gravity()
-	dense = all(least <= float(body.material.density) <= most for body in scene.bodies if body.material and scene.moves(body))
-	return dense and (gravity == 0 or gravities[0] <= gravity <= gravities[1])
 
 
 def _extentOfSupports(scene):
@@ -183,7 +171,7 @@ def frictionAngle(scene):
 
 def weakStrengths(scene):
 	"""What is too little to matter in Pa is a strength in MPa."""
-	if not _inMetres(scene):
+	if not scene.inMetres():
 		return
 	for material in _materials(scene, RockJointMat):
 		for name in ('cohesion', 'tensileStrength'):

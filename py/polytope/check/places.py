@@ -12,8 +12,9 @@ from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
-from ..scene.movers import isMover, sameClump
+from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
+from .overlaps import coincidence, mayMeet, overlaps, planesOf
 
 __all__ = ['looks', 'meet', 'notNumbers', 'overlapShare', 'placeFindings', 'touching']
 
@@ -23,13 +24,6 @@ some thousandths are usual, and forces are computed for small ones."""
 
 half = 0.5
 """Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
-
-
-deep = 0.1
-"""Overlap over the smaller inscribed diameter, some ten times what is usual, above which two bodies were placed into each other: their contact shoots them apart."""
-
-larger = 2.0
-"""Circumscribed radius over another body's above which the other is looked for anywhere in the body, not about its middle alone."""
 
 touching = 1e-6
 """Gap over the smaller circumscribed radius up to which bodies are in touch from the start."""
@@ -54,67 +48,6 @@ def notNumbers(scene):
 		more = f', and {len(rows) - 1} bodies more' if len(rows) > 1 else ''
 		seen = f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
 		yield 'not a number', seen, 'give it finite values; in a run, go back to a saved state and take PolytopeTimeStepper()'
-
-
-def coincidence(scene):
-	"""Polytopes of one shape in one place: the overlap is the whole body, and nothing says which way they are to part."""
-	there, pairs = {}, []
-	for body in scene.bodies:
-		if isinstance(body.shape, Polytope):
-			where = (*map(float, body.state.pos), float(body.shape.volume))
-			for other in there.setdefault(where, []):
-				if other.mask & body.mask and not sameClump(body, other) and _planes(other) == _planes(body):
-					pairs.append((other.id, body.id))
-					break
-			there[where].append(body)
-	if pairs:
-		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
-		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: nothing presses them apart until they have moved, and then in any direction'
-		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
-
-
-def overlaps(scene):
-	"""Polytopes that lie deep in each other: of bodies of like size those whose inscribed balls do, which of flat bodies are few."""
-	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
-	if len(bodies) < 2:
-		return
-	radii, reaches = (np.array([float(getattr(body.shape, name)) for body in bodies]) for name in ('inscribedRadius', 'circumscribedRadius'))
-	rows = arrays().bodies
-	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
-	tree = scipy.spatial.cKDTree(places)
-	pairs = set()
-	for i, j in (*_ofLikeSize(tree, places, radii), *_insideLarger(tree, places, radii, reaches, bodies)):
-		one, other = bodies[i], bodies[j]
-		if meet(scene, one, other) and _depth(one, other) > 2 * deep * min(radii[i], radii[j]):
-			pairs.add(tuple(sorted((one.id, other.id))))
-	if pairs:
-		first = min(pairs)
-		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
-		seen = f'body {first[0]} and body {first[1]} lie deep in each other{more}: they are shot apart'
-		yield 'overlap', seen, 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
-
-
-def _ofLikeSize(tree, places, radii):
-	rank = np.empty(len(radii), int)
-	rank[np.argsort(-radii)] = np.arange(len(radii))  # the larger one of a pair looks for the other
-	for i, others in enumerate(tree.query_ball_point(places, 2 * (1 - deep) * radii)):
-		for j in others:
-			if rank[j] > rank[i] and np.linalg.norm(places[i] - places[j]) < (1 - deep) * (radii[i] + radii[j]):
-				yield i, j
-
-
-def _insideLarger(tree, places, radii, reaches, bodies):
-	"""Small bodies, about floors and walls: by the half-spaces of the larger one, which their middle lies in, or nearly."""
-	least = larger * reaches.min()
-	for i in np.flatnonzero(reaches > least):
-		near = np.array([j for j in tree.query_ball_point(places[i], (1 + 1 / larger) * reaches[i]) if larger * reaches[j] < reaches[i]], int)
-		if not len(near):
-			continue
-		turn = np.array(bodies[i].state.ori.toRotationMatrix(), float).reshape(3, 3)
-		normals = np.array([list(normal) for normal in bodies[i].shape.normals], float)
-		slacks = np.array([float(offset) for offset in bodies[i].shape.offsets]) - (places[near] - places[i]) @ turn @ normals.T
-		for j in near[slacks.min(axis=1) > 2 * deep * radii[near] - reaches[near]]:
-			yield i, j
 
 
 def suddenGravity(scene):
@@ -179,20 +112,8 @@ def _gap(one, other):
 
 def meet(scene, one, other):
 	"""Whether they may have a contact: not the same place, which coincidence() finds."""
-	samePlace = (one.state.pos - other.state.pos).norm() == 0 and _planes(one) == _planes(other)
-	return one.mask & other.mask and not sameClump(one, other) and not samePlace and (scene.moves(one) or scene.moves(other))
-
-
-def _depth(one, other):
-	try:
-		# the chord: of a body within another, too, on which a contact surface would not act
-		return float(_polytope.contact(one, other, contactModel='boon2012', contactPoint='chebyshevCentre').depth)
-	except ValueError:  # a polygon and a polyhedron
-		return 0.0
-
-
-def _planes(body):
-	return sorted(float(offset) for offset in body.shape.offsets)
+	samePlace = (one.state.pos - other.state.pos).norm() == 0 and planesOf(one) == planesOf(other)
+	return not samePlace and mayMeet(scene, one, other)
 
 
 def spanning(scene):

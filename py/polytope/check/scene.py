@@ -18,6 +18,12 @@ material's class."""
 Member = collections.namedtuple('Member', 'mask moving clump')
 
 
+densities = 50.0, 3e4
+"""Of what can be a body [kg/m³], from foam to heavy metals. In t and mm, g and cm, t and m … the same bodies have 1e-12 to 1e-3 of it."""
+gravities = 1.0, 30.0
+"""On Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
+
+
 class SceneToCheck:
 	def __init__(self, O, engines=None):
 		if not isinstance(O, type(yade.O)):
@@ -41,6 +47,13 @@ class SceneToCheck:
 	def gravity(self):
 		"""Largest of the integrators [m/s²]."""
 		return max((float(sum(x * x for x in engine.gravity)) ** 0.5 for engine in self.integrators), default=0.0)
+
+	def inMetres(self):
+		"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers are no mistake."""
+		least, most = densities
+		gravity = self.gravity()
+		dense = all(least <= float(body.material.density) <= most for body in self.bodies if body.material and self.moves(body))
+		return dense and (gravity == 0 or gravities[0] <= gravity <= gravities[1])
 
 	def _kinds(self):
 		"""(kind → its different members with how many of each there are, kind → one body)."""

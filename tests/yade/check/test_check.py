@@ -645,7 +645,7 @@ def testDilationAboveFriction():
 	assert not polytope.check(O)
 
 
-@pytest.mark.parametrize('distance, deep', [(0.1, True), (0.5, True), (0.8, True), (0.95, False), (1.1, False)])
+@pytest.mark.parametrize('distance, deep', [(0.1, True), (0.5, True), (0.8, True), (0.95, True), (0.99, False), (1.1, False)])
 def testBlocksPlacedIntoEachOther(distance, deep):
 	"""Cubes of edge 1: at 0.1 they overlap by nine tenths."""
 	scene(lambda: [polytope.cuboid((3 + k * distance, 0, 2), (0.5, 0.5, 0.5)) for k in range(2)])
@@ -658,7 +658,7 @@ def testBlocksPlacedIntoEachOther(distance, deep):
 	assert not polytope.check(O)
 
 
-@pytest.mark.parametrize('height, deep', [(0.0049, True), (0.0, True), (-0.02, True), (-0.5, True), (-0.97, True), (0.009, False), (0.0099, False)])
+@pytest.mark.parametrize('height, deep', [(0.0049, True), (0.0, True), (-0.02, True), (-0.5, True), (-0.97, True), (0.009, True), (0.0099, False)])
 @pytest.mark.parametrize('aside', [0.0, 0.7])
 def testASmallBodyPlacedIntoALargeOne(height, deep, aside):
 	"""A cube of 2 cm in a floor of 1 m: it left at up to 77 m/s, and only one near the floor's middle was found."""
@@ -668,6 +668,106 @@ def testASmallBodyPlacedIntoALargeOne(height, deep, aside):
 		assert 'body 0 and body 2' in onlyFinding('overlap').seen
 	else:
 		assert 'overlap' not in [one.what for one in polytope.check(O)]
+
+
+def thrownCube(depth, support, perArea=True, size=0.04):
+	"""A cube so deep in what it stands on; the finding, and the greatest speed upwards without damping."""
+	O.reset()
+	O.materials.append(rock(stiffnessPerArea=perArea, normalStiffness=1e8 if perArea else 1.6e5, shearStiffness=1e5))
+	O.bodies.append(support())
+	cube = O.bodies.append(polytope.cuboid((0, 0, size / 2 - depth), (size / 2, size / 2, size / 2)))
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines(damping=0, law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0, shearDamping=0))
+	found, speed = polytope.check(O), 0.0
+	for _ in range(150):
+		O.run(2, True)
+		speed = max(speed, O.bodies[cube].state.vel[2])
+	return [one for one in found if one.what == 'overlap'], speed
+
+
+supports = {
+	'polytope': lambda: polytope.cuboid((0, 0, -0.5), (0.5, 0.5, 0.5), fixed=True),
+	'facet': lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (0, 1, 0)]),
+	'wall': lambda: utils.wall(0, axis=2),
+	'box': lambda: utils.box((0, 0, -0.5), (0.5, 0.5, 0.5), fixed=True),
+}
+
+
+@pytest.mark.parametrize('perArea', [True, False])
+@pytest.mark.parametrize('kind', supports)
+def testAnOverlapIsToldByTheSpeedItGives(kind, perArea):
+	"""The cube leaves at √(k A / m) d; from 0.89 m/s on it is told, that of a fall over its edge."""
+	for depth in 0.0005, 0.0015:
+		found, speed = thrownCube(depth, supports[kind], perArea)
+		assert speed == pytest.approx(depth * math.sqrt(1.6e5 / 0.1664), rel=0.1)
+		assert bool(found) == (speed > math.sqrt(2 * 9.81 * 0.04))
+		if found:
+			assert float(found[0].seen.split('at up to ')[1].split(' m/s')[0]) == pytest.approx(speed, rel=0.1)
+
+
+@pytest.mark.parametrize('kind', supports)
+def testACentreBeyondTheSurface(kind):
+	assert thrownCube(0.03, supports[kind])[0], 'of a facet and a wall it is thrown out on the other side'
+
+
+def testAnOverlapThatBearsALoadIsNone():
+	"""A contact that exists may carry what lies on it."""
+	found, _ = thrownCube(0.0015, supports['polytope'])
+	assert found
+	O.bodies[1].state.pos = (0, 0, 0.02 - 0.0015)
+	O.step()
+	assert O.interactions[0, 1].isReal and 'overlap' not in [one.what for one in polytope.check(O)]
+
+
+@pytest.mark.parametrize('height, found', [(-0.01, True), (0.005, True), (0.017, True), (0.019, False), (0.021, False)])
+def testASphereInAPolytope(height, found):
+	O.reset()
+	O.materials.append(rock())
+	O.bodies.append(supports['polytope']())
+	O.bodies.append(utils.sphere((0, 0, height), 0.02))
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines()
+	assert ('overlap' in [one.what for one in polytope.check(O)]) == found
+
+
+def testASphereBesideAnEdgeIsInNoFace():
+	"""Its ball crosses both planes of the edge and touches nothing."""
+	O.reset()
+	O.materials.append(rock())
+	O.bodies.append(supports['polytope']())
+	O.bodies.append(utils.sphere((0.515, 0, 0.015), 0.02))
+	O.engines = polytope.engines()
+	assert not polytope.check(O)
+
+
+def testAStoneInTheWallOfACupOfFacets(tmp_path):
+	mesh = pytest.importorskip('trimesh').creation.cylinder(0.2, 0.3)
+	mesh.export(tmp_path / 'cup.stl')
+	for place, wrong in ((0.195, True), (0.1, False)):
+		O.reset()
+		O.materials.append(rock())
+		O.bodies.append(polytope.facets(str(tmp_path / 'cup.stl')))
+		O.bodies.append(polytope.cuboid((place, 0, 0), (0.05, 0.05, 0.05)))
+		with warnings.catch_warnings():
+			warnings.simplefilter('ignore')
+			O.engines = polytope.engines()
+		assert ['overlap'] * wrong == [one.what for one in polytope.check(O)]
+
+
+@pytest.mark.parametrize('sheared', [0, 0.3])
+@pytest.mark.parametrize('place, what', [(1.2, 'same place'), (2.25, 'overlap'), (-0.75, 'overlap'), (0.5, None)])
+def testBodiesThatMeetAcrossTheBoundary(place, what, sheared):
+	O.reset()
+	O.materials.append(rock())
+	O.periodic = True
+	O.cell.hSize = yade.Matrix3(1, sheared, 0, 0, 1, 0, 0, 0, 1)
+	O.bodies.append([polytope.regular(12, 0.1, (0.2, 0.2, 0.2)), polytope.regular(12, 0.1, (place + 2 * sheared, 2.2, 0.2))])
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines(gravity=(0, 0, 0))
+	assert [one.what for one in polytope.check(O)] == ([what] if what else [])
 
 
 def testPartsOfAClumpMayOverlap():
@@ -846,7 +946,7 @@ def testAPolygonThickerThanHalfOfAPeriodicCell():
 def testSmallBodiesNeedNoCloserLook(monkeypatch):
 	"""A scene of a million bodies is checked, too: their corners are looked at where a ball round the body does not do."""
 	looks = []
-	for module, name in ('bodies', '_extent'), ('places', '_planes'):
+	for module, name in ('bodies', '_extent'), ('overlaps', 'planesOf'):
 		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, lambda body: looks.append(body) or 1.0)
 	O.materials.append(rock())
 	O.periodic = True

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of bodies that begin in each other, of polytope.check(): polytopes, also across the boundary of a periodic cell, and polytopes in YADE's own shapes."""
+
+import collections
+import itertools
+import math
+
+import numpy as np
+import scipy  # loads its packages at their first use: half a second
+from yade import Body, Box, Facet, Polytope, Sphere, Wall
+
+from ..measures.arrays import arrays
+from ..scene.movers import sameClump
+from .overlapEnergy import Thrown
+from .standIns import depthInSphere, standIn
+
+__all__ = ['coincidence', 'mayMeet', 'overlaps', 'planesOf']
+
+larger = 2.0
+"""Circumscribed radius over another body's above which the other is looked for by the half-spaces of the larger one: their middles say little."""
+
+looks = 20_000
+"""Pairs that are looked at, the nearest ones first: of more, half a second of queries is enough to find what was placed wrongly."""
+
+onePlace = 1e-9
+"""Distance over the circumscribed radius, or over a period, up to which two bodies are in one place, and two shapes are one: made elsewhere they differ by rounding."""
+
+Rows = collections.namedtuple('Rows', 'bodies places shifts')
+"""Polytopes with where they are looked at [m], and by how much that differs from their state's position: in a periodic cell, images as well."""
+
+
+def coincidence(scene):
+	"""Polytopes of one shape in one place: the overlap is the whole body, and nothing says which way they are to part."""
+	there, pairs = {}, []
+	for body in scene.bodies:
+		if isinstance(body.shape, Polytope):
+			where = (*_placeInCell(scene, body), f'{float(body.shape.volume):.9g}')
+			for other in there.setdefault(where, []):
+				if other.mask & body.mask and not sameClump(body, other) and _sameShape(other, body):
+					pairs.append((other.id, body.id))
+					break
+			there[where].append(body)
+	if pairs:
+		more = f', and {len(pairs) - 1} pairs more' if len(pairs) > 1 else ''
+		seen = f'body {pairs[0][0]} and body {pairs[0][1]} have the same shape in the same place{more}: nothing presses them apart until they have moved, and then in any direction'
+		yield 'same place', seen, 'move one of them, or O.bodies.erase() it if the same bodies were appended twice'
+
+
+def _placeInCell(scene, body):
+	if not scene.O.periodic:
+		return tuple(map(float, body.state.pos))
+	return tuple(round(float(x) % 1, 9) % 1 for x in _periodsOf(scene, np.array(body.state.pos, float)))
+
+
+def _periodsOf(scene, places):
+	return np.linalg.solve(np.array(scene.O.cell.hSize, float).reshape(3, 3), places.T).T
+
+
+def overlaps(scene):
+	"""Bodies that lie deep in each other, or so that their contact throws one of them."""
+	found = {}
+	thrown = Thrown(scene)
+	for speed, one, other in itertools.chain(_ofPolytopes(scene, thrown), _withOthers(scene, thrown)):
+		pair = tuple(sorted((one.id, other.id)))
+		found[pair] = max(speed, found.get(pair, 0))
+	if found:
+		pair = min(found, key=lambda pair: (-found[pair], pair))
+		more = f', and {len(found) - 1} pairs more' if len(found) > 1 else ''
+		how = 'lie deep in each other' if math.isinf(found[pair]) else 'lie in each other'
+		speed = 'they are shot apart' if math.isinf(found[pair]) else f'their contact throws one of them at up to {found[pair]:.2g} m/s, more than a fall over its own thickness gives'
+		advice = 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
+		yield 'overlap', f'body {pair[0]} and body {pair[1]} {how}{more}: {speed}', advice
+
+
+def _ofPolytopes(scene, thrown):
+	rows = _rows(scene)
+	for i, j in _candidates(rows):
+		one, other = rows.bodies[i], rows.bodies[j]
+		samePlace = np.linalg.norm(rows.places[i] - rows.places[j]) <= onePlace * float(one.shape.circumscribedRadius) and _sameShape(one, other)
+		if mayMeet(scene, one, other) and not samePlace:  # that coincidence() finds
+			speed = thrown.speed(one, other, _at(one, rows.shifts[i]), _at(other, rows.shifts[j]))
+			if speed:
+				yield speed, one, other
+
+
+def _at(body, shift):
+	"""The body, or one like it whose place differs by so much [m]."""
+	if not shift.any():
+		return body
+	image = Body()
+	image.shape, image.material = body.shape, body.material
+	image.state.pos, image.state.ori = body.state.pos + type(body.state.pos)(*map(float, shift)), body.state.ori
+	return image
+
+
+def _rows(scene):
+	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
+	table = arrays().bodies
+	places = table.positions[np.searchsorted(table.ids, [body.id for body in bodies])].reshape(-1, 3)
+	shifts = np.zeros_like(places)
+	cell = np.array(scene.O.cell.hSize, float).reshape(3, 3) if scene.O.periodic else None
+	if cell is None or not bodies or not abs(np.linalg.det(cell)) > 0:
+		return Rows(bodies, places, shifts)
+	periods = _periodsOf(scene, places)
+	inside = periods - np.floor(periods)
+	reach = 2 * max(float(body.shape.circumscribedRadius) for body in bodies) * np.linalg.norm(np.linalg.inv(cell), axis=1)
+	images = [(0, 0, 0), *(image for image in itertools.product((-1, 0, 1), repeat=3) if any(image))]
+	chosen, at = [], []
+	for image in images:
+		near = np.flatnonzero(((inside + image >= -reach) & (inside + image <= 1 + reach)).all(axis=1))
+		chosen.append(near)
+		at.append(inside[near] + image)
+	chosen, at = np.concatenate(chosen), np.concatenate(at) @ cell.T
+	return Rows([bodies[k] for k in chosen], at, at - places[chosen])
+
+
+def _candidates(rows):
+	"""Pairs whose balls overlap, the likeliest ones first."""
+	if len(rows.bodies) < 2:
+		return []
+	radii, reaches = (np.array([float(getattr(body.shape, name)) for body in rows.bodies]) for name in ('inscribedRadius', 'circumscribedRadius'))
+	rank = np.empty(len(radii), int)
+	rank[np.argsort(-reaches, kind='stable')] = np.arange(len(radii))  # the larger one of a pair looks for the other
+	tree, found = scipy.spatial.cKDTree(rows.places), []
+	for i, near in enumerate(tree.query_ball_point(rows.places, 2 * reaches)):
+		near = np.array([j for j in near if rank[j] > rank[i] and rows.bodies[j].id != rows.bodies[i].id], int)
+		if not len(near):
+			continue
+		apart = np.linalg.norm(rows.places[near] - rows.places[i], axis=1)
+		small = larger * reaches[near] < reaches[i]
+		like = near[~small & (apart < reaches[i] + reaches[near])]
+		found += [(np.linalg.norm(rows.places[i] - rows.places[j]) / (radii[i] + radii[j]), i, j) for j in like]
+		if small.any():
+			slack = _slacks(rows, i, near[small])
+			found += [(-room / reaches[j], i, j) for room, j in zip(slack, near[small], strict=True) if room > -reaches[j]]
+	return [(i, j) for _, i, j in sorted(found)[:looks]]
+
+
+def _slacks(rows, i, others):
+	"""How deep the middles of others are in a body [m], below zero: out of it."""
+	body = rows.bodies[i]
+	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	normals = np.array([list(normal) for normal in body.shape.normals], float)
+	return (np.array([float(offset) for offset in body.shape.offsets]) - (rows.places[others] - rows.places[i]) @ turn @ normals.T).min(axis=1)
+
+
+def _withOthers(scene, thrown):
+	"""Polyhedra in facets, walls, boxes and spheres of YADE's; across a periodic boundary these are not looked for."""
+	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope) and body.shape.dimension == 3]
+	others = [body for body in scene.bodies if isinstance(body.shape, (Facet, Wall, Box, Sphere))]
+	if not bodies or not others:
+		return
+	places = np.array([body.state.pos for body in bodies], float)
+	reaches = np.array([float(body.shape.circumscribedRadius) for body in bodies])
+	pairs = ((bodies[j], other) for other in others for j in np.flatnonzero(_gaps(other, places) < reaches))
+	for body, other in itertools.islice(pairs, looks):
+		if not mayMeet(scene, body, other):
+			continue
+		if isinstance(other.shape, Sphere):
+			speed = thrown.speedOfDepth(body, other, depthInSphere(body, other))
+		else:
+			solid = standIn(other, body)
+			speed = solid and thrown.speed(body, other, body, solid)
+		if speed:
+			yield speed, body, other
+
+
+def _gaps(other, places):
+	"""From points to a ball that holds it [m], for a wall to its plane."""
+	shape, place = other.shape, np.array(other.state.pos, float)
+	if isinstance(shape, Sphere) and not math.isfinite(shape.radius):  # of classes derived from it that were given none
+		return np.full(len(places), math.inf)
+	if isinstance(shape, Wall):
+		return abs(places[:, shape.axis] - place[shape.axis])
+	radius = float(shape.radius) if isinstance(shape, Sphere) else float(shape.extents.norm()) if isinstance(shape, Box) else max(float(corner.norm()) for corner in shape.vertices)
+	return np.linalg.norm(places - place, axis=1) - radius
+
+
+def mayMeet(scene, one, other):
+	return one.mask & other.mask and not sameClump(one, other) and (scene.moves(one) or scene.moves(other))
+
+
+def _sameShape(one, other):
+	planes, others = planesOf(one), planesOf(other)
+	return len(planes) == len(others) and np.allclose(planes, others, rtol=0, atol=onePlace * float(one.shape.circumscribedRadius))
+
+
+def planesOf(body):
+	return sorted(float(offset) for offset in body.shape.offsets)

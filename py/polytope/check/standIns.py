@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""YADE's own shapes as polytope.contact() can meet them, for polytope.check()."""
+
+import numpy as np
+from yade import _polytope
+
+from ..bodies.polytopes import fromHalfSpaces
+from ..pictures.faces import worldVertices
+
+__all__ = ['depthInSphere', 'standIn']
+
+behind = 4.0
+"""Circumscribed radii of the body from its middle at which a wall or facet ends behind its surface: so far away that no other face of it is the nearest one."""
+
+projections = 50
+"""Of a sphere's centre onto a body's half-spaces, one after another: where they end is in the body, or so near to it as matters."""
+
+
+def standIn(support, body):
+	"""A wall, facet or box by its half-spaces as the body meets them, as a polytope; None where the body is on the far side of one of them."""
+	planes = (np.frombuffer(numbers) for numbers in _polytope.supportPlanes(support, body.state.pos))
+	normals, offsets = next(planes).reshape(-1, 3), next(planes)
+	corners, middle, reach = worldVertices(body), np.array(body.state.pos, float), float(body.shape.circumscribedRadius)
+	if (normals @ corners.T - offsets[:, None]).min(axis=1).max() > 0:
+		return None
+	box = np.concatenate([np.eye(3), -np.eye(3)])
+	try:
+		return fromHalfSpaces(
+			np.concatenate([normals, box]), np.concatenate([offsets, box @ middle + behind * reach]), material=body.material, color=(1, 1, 1)
+		)
+	except ValueError:  # a box without thickness, a facet without area
+		return None
+
+
+def depthInSphere(body, sphere):
+	"""How deep the body lies in a sphere [m], below zero: at least so far from it."""
+	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
+	normals = np.array([list(normal) for normal in body.shape.normals], float) @ turn.T
+	offsets = np.array([float(offset) for offset in body.shape.offsets])
+	centre = np.array(sphere.state.pos - body.state.pos, float)
+	slacks = offsets - normals @ centre
+	if slacks.min() >= 0:
+		return float(sphere.shape.radius) + float(slacks.min())
+	point = centre.copy()
+	for _ in range(projections):
+		worst = int(np.argmax(normals @ point - offsets))
+		beyond = normals[worst] @ point - offsets[worst]
+		if beyond <= 0:
+			break
+		point -= beyond * normals[worst]
+	return float(sphere.shape.radius) - float(np.linalg.norm(point - centre))
