@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies that are not convex, as clumps of convex parts that may overlap: `polytope.clump(…)`. Mass and inertia are those of the union."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 
@@ -25,11 +27,11 @@ def clump(parts):
 
 	O.bodies.updateClumpProperties and addToClump make YADE's sums of them again.
 
-	:param parts: list of polyhedra that are not in the scene yet
+	:param parts: list of polyhedra that are not in the scene yet, or one
 	:returns: (number of the clump, numbers of its parts), as O.bodies.appendClumped does
 	:raises ValueError: naming *parts*, also where their union would take more than some ten seconds
 	"""
-	parts = list(parts)
+	parts = [parts] if isinstance(parts, Body) else list(parts) if isinstance(parts, Iterable) else []
 	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for part in parts):
 		raise ValueError('parts: must be a list of polyhedra, as polytope.cuboid and other builders make')
 	if any(part.id >= 0 for part in parts):

@@ -4,16 +4,16 @@
 import math
 
 import numpy as np
-from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
+from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
 
 from ..bonding.bonds import bonds
-from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
-from ..scene.movers import isMover, movers
+from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers, jointMaterials
+from .about import extentOf, extentOfSupports
 from .places import overlapShare
 
-__all__ = ['bodyFindings', 'movingBodies']
+__all__ = ['bodyFindings']
 
 largest = 50.0
 """Extent [m] above which a body that can move is taken for one in other units: a boulder of 50 m weighs 3e8 kg."""
@@ -72,27 +72,6 @@ def _densityInOtherUnits(scene, material):
 		yield 'density', f'{seen}; {sinks}', 'density in kg/m³: rock has 2600; or, in t and m, stiffnesses in kN/m³, a thousandth of those in Pa/m'
 
 
-def movingBodies(scene):
-	"""How many can move, how large and heavy they are; nothing for a scene without bodies."""
-	if not scene.bodies:
-		return ''
-	whole = [body for body in movers() if body.shape is not None or body.isClump]
-	if not whole:
-		return 'no body can move'
-	shapes = [body for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)]
-	said = [f'{len(whole)} bod{"y" if len(whole) == 1 else "ies"} can move']
-	if shapes:
-		ends = [choose(shapes, key=lambda body: float(body.shape.circumscribedRadius)) for choose in (min, max)]
-		said.append(f'{_span([_extent(body) for body in ends])} m across')
-	said.append(f'{_span([float(body.state.mass) for body in whole])} kg')
-	return ', '.join(said)
-
-
-def _span(values):
-	least, most = (f'{value:.3g}' for value in (min(values), max(values)))
-	return least if least == most else f'{least} to {most}'
-
-
 def mass(scene):
 	light, heavy = [], []
 	for body in scene.bodies:
@@ -120,19 +99,12 @@ def size(scene):
 		return
 	usual = float(np.median(list(widths.values())))
 	# one that is no larger than what is fixed belongs to a scene of that size, as a wedge in a slope does
-	limit = max(largest, _extentOfSupports(scene)) if scene.inMetres() else math.inf
-	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and _extent(scene.O.bodies[key]) > limit)]
+	limit = max(largest, extentOfSupports(scene)) if scene.inMetres() else math.inf
+	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and extentOf(scene.O.bodies[key]) > limit)]
 	if large:
-		extent, mass = _extent(large[0]), float(large[0].state.mass)
+		extent, mass = extentOf(large[0]), float(large[0].state.mass)
 		seen = f'{_number(large)} can move, is {extent:.3g} m across and weighs {mass:.3g} kg'
 		yield 'size', seen, 'if its mesh or dimensions are in millimetres: fromMesh(path, scale=0.001), other lengths over 1000'
-
-
-def _extentOfSupports(scene):
-	"""Largest edge of the box around all that cannot move [m]; walls are endless and tell nothing."""
-	held = [body for body in scene.bodies if not scene.moves(body)]
-	corners = [worldVertices(body) for body in held if isinstance(body.shape, (Polytope, Box, Facet))]
-	return float(np.ptp(np.concatenate(corners), axis=0).max()) if corners else 0.0
 
 
 def flatBoxes(scene):
@@ -153,11 +125,6 @@ def derivedShapes(scene):
 		if fault:
 			told.add(kind)
 			yield 'shapes', f'body {body.id}, a {kind.__name__}: {fault}', 'polytope.withShape makes such bodies; docs/extending.md says what the class must tell'
-
-
-def _extent(body):
-	corners = np.array(body.shape.vertices, float).reshape(-1, 3)[:, : body.shape.dimension]
-	return float(np.ptp(corners, axis=0).max())
 
 
 def frictionAngle(scene):

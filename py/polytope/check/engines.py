@@ -7,6 +7,7 @@ from yade import (
 	GlobalStiffnessTimeStepper,
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	InteractionLoop,
+	KinematicEngine,
 	NewtonIntegrator,
 	Polytope,
 	PolytopeBolts,
@@ -26,7 +27,7 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders, moversOfNothing, masks):
 		yield from one(scene)
 
 
@@ -160,3 +161,19 @@ def recorders(scene):
 	if any({'intr', 'all'} & set(recorder.recorders) for recorder in scene.those(VTKRecorder)):
 		seen = "YADE's VTKRecorder writes no polytopes, and with 'intr' the contacts of spheres with each other alone"
 		yield 'recorder', seen, "PolytopeVTKRecorder(fileName='output/', recorders=['bodies', 'contacts']), beside it or in its place"
+
+
+def moversOfNothing(scene):
+	"""Engines that move bodies by their numbers: YADE passes over numbers that there are none of."""
+	for engine in scene.those(KinematicEngine):
+		lost = [k for k in engine.ids if not 0 <= k < len(scene.O.bodies) or scene.O.bodies[k] is None]
+		if lost:
+			seen = f'{type(engine).__name__} moves body {lost[0]}, which does not exist'
+			yield 'engines', seen, 'ids of bodies that are in the scene: O.bodies.append(…) returns them'
+
+
+def masks(scene):
+	"""A mask without any bit meets nothing; one such body may be a marker."""
+	free = [body for body in scene.bodies if scene.moves(body)]
+	if free and not any(body.mask for body in free):
+		yield 'masks', 'all bodies that can move have mask=0: they touch nothing', 'mask=1, the default, or bits that those have which they are to touch'

@@ -148,11 +148,17 @@ def testPartsAreChecked():
 	O.bodies.append(inScene)
 	for parts, words in (
 		([], 'must be a list'),
+		(3, 'must be a list'),
 		([polytope.polygon([(0, 0), (1, 0), (0, 1)])], 'must be a list'),
 		([inScene], 'must not be in'),
 	):
 		with pytest.raises(ValueError, match=f'^parts: {words}'):
 			polytope.clump(parts)
+
+
+def testOnePartIsAClumpOfOne():
+	number, members = polytope.clump(box((0, 0, 0), (1, 2, 3)))
+	assert len(members) == 1 and O.bodies[number].state.mass == pytest.approx(6 * density)
 
 
 def testMeasuresCountAnOverlapOnce():
@@ -258,6 +264,9 @@ def testCoacdsPartsMakeAClump(mesh, monkeypatch):
 	stand.run_coacd = lambda given, **settings: [(100 * np.array(corners, float), None)]
 	with pytest.warns(UserWarning, match=r"has 4 m³, its 1 convex parts 5 m³; give more parts"):
 		polytope.fromMesh(mesh, scale=0.01, parts=1)
+	with warnings.catch_warnings():
+		warnings.simplefilter('error')
+		polytope.fromMesh(mesh, scale=0.02, parts=1)  # that was said of this mesh
 
 
 def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):

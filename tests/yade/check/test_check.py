@@ -463,14 +463,33 @@ def testDensitiesInOtherUnits(density, words):
 def testItTellsOfSizesAndMasses():
 	"""A stone of 40 m, of dimensions in millimetres, may be meant: it is to be seen."""
 	scene()
-	assert repr(polytope.check(O)) == 'nothing was found that is wrong\n1 body can move, 1 m across, 2.08e+03 kg'
+	assert repr(polytope.check(O)) == 'nothing was found that is wrong\n1 body can move, 1 m across, 2.08e+03 kg; what is fixed is 4 m across; gravity is (0.0, 0.0, -9.81) m/s²'
 	O.reset()
 	O.materials.append(rock())
 	O.bodies.append(polytope.cuboid((0, 0, 21), (20, 20, 20)))
 	O.engines = polytope.engines()
-	assert repr(polytope.check(O)).endswith('1 body can move, 40 m across, 1.66e+08 kg')
+	assert repr(polytope.check(O)).endswith('1 body can move, 40 m across, 1.66e+08 kg; gravity is (0.0, 0.0, -9.81) m/s²')
 	polytope.clump([polytope.cuboid((100, 0, 0), (1, 1, 1)), polytope.cuboid((102, 0, 0), (1, 1, 1))])
-	assert repr(polytope.check(O)).endswith('2 bodies can move, 2 to 40 m across, 4.16e+04 to 1.66e+08 kg')
+	assert '2 bodies can move, 4 to 40 m across, 4.16e+04 to 1.66e+08 kg' in repr(polytope.check(O)), 'of the clump as a whole'
+	O.bodies.append(utils.sphere((0, 0, 190), 45))
+	O.engines = polytope.engines()
+	assert '3 bodies can move, 4 to 90 m across' in repr(polytope.check(O))
+
+
+def testMasksWithoutABit():
+	scene()
+	O.bodies[1].mask = 0
+	assert 'touch nothing' in onlyFinding('masks').seen
+	O.bodies.append(polytope.cuboid((0, 0, 3), (0.5, 0.4, 0.5)))
+	assert not polytope.check(O), 'one of several may be a marker'
+
+
+def testAnEngineThatMovesNothing():
+	scene()
+	O.engines = [RotationEngine(ids=[77], rotationAxis=(0, 0, 1), angularVelocity=0), *O.engines]
+	assert 'RotationEngine moves body 77' in onlyFinding('engines').seen
+	O.engines = [RotationEngine(ids=[0], rotationAxis=(0, 0, 1), angularVelocity=0), *O.engines[1:]]
+	assert not polytope.check(O)
 
 
 def testATimeStepThatWasNeverSet():
@@ -946,7 +965,7 @@ def testAPolygonThickerThanHalfOfAPeriodicCell():
 def testSmallBodiesNeedNoCloserLook(monkeypatch):
 	"""A scene of a million bodies is checked, too: their corners are looked at where a ball round the body does not do."""
 	looks = []
-	for module, name in ('bodies', '_extent'), ('overlaps', 'planesOf'):
+	for module, name in ('about', 'extentOf'), ('bodies', 'extentOf'), ('overlaps', 'planesOf'):
 		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, lambda body: looks.append(body) or 1.0)
 	O.materials.append(rock())
 	O.periodic = True

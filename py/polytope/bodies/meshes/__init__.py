@@ -152,7 +152,8 @@ def _decomposed(path, cuts, scale, body):
 	made = [_hull(path, part * scale, 0, pieces) for part in cuts.parts]
 	found = union(made)[0] / float(made[0].material.density)
 	volume = cuts.volume and cuts.volume * scale**3
-	if volume and abs(found / volume - 1) > enough:
+	if volume and abs(found / volume - 1) > enough and not cuts.told:
+		cuts.told = True  # as of all stones of this mesh
 		seen = f"path: '{path}' has {volume:.3g} m³, its {len(made)} convex parts {found:.3g} m³"
 		warn(f"{seen}; give more parts, or cut the mesh with another program and take parts='objects'")
 	return made

@@ -25,12 +25,14 @@ cutMeshes = {}
 """Parts, by the content of the mesh and the number of parts."""
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass
 class Cuts:
 	parts: list
 	"""points (k, 3) of each, in the mesh's units"""
 	volume: float | None
 	"""of the mesh; None if it is not closed"""
+	told: bool = False
+	"""whether a warning has said how far they miss the mesh's volume"""
 
 
 def cut(mesh, most):
