@@ -40,6 +40,7 @@ from .check import checkOf
 from .check.scene import SceneToCheck
 from .pictures.films import filmEngines
 from .rock.history import histories
+from .scene.ownFunctors import ownBounds, ownContacts, ownLaws
 from .scene.relaxing import relaxing
 
 __all__ = ['engines']
@@ -60,13 +61,13 @@ gravityOnEarth = 9.81
 def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, integrator=None, timeStepper=None, damping=None):
 	"""The usual engines for the bodies that the scene has: ``O.engines = polytope.engines()``. Make the bodies first.
 
-	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, physics
-	and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), the water (polytope.water), moving bases and quiet boundaries (baseMotion, quietBoundary), forces that fade (excavate); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s; histories and films. What is wrong with the scene is warned of, as *check* finds it.
+	ForceResetter; PolytopeCollider with the bounds of all shapes; InteractionLoop with contact functors for the scene's shapes, those of
+	loaded extensions among them (not where several are made for the same pair: the warning says how to choose one), physics and laws for its materials; the bonds and bolts that there are (polytope.bond, polytope.bolt), the water (polytope.water), moving bases and quiet boundaries (baseMotion, quietBoundary), forces that fade (excavate); NewtonIntegrator; PolytopeTimeStepper, for which O.dt begins at 1e-8 s; histories and films. What is wrong with the scene is warned of, as *check* finds it.
 	Further engines are added to the list: ``O.engines = polytope.engines() + [PyRunner(…)]``.
 
 	:param Vector3 gravity: [m/s²]; default 9.81 along −z, in scenes of polygons along −y
 	:param geometry: an Ig2_Polytope_Polytope_PolytopeGeom, whose settings hold for the contacts of all pairs, or a list of all contact
-	    functors; default the plug-in's default contact
+	    functors; default the plug-in's default contact, and those that extensions have for pairs of the scene's shapes
 	:param physics: Ip2 functor or a list of them; default by the materials there are: Ip2_RockJointMat_RockJointMat_RockJointPhys() with
 	    stiffnesses per area for RockJointMat, Ip2_FrictMat_FrictMat_FrictPhys() for FrictMat
 	:param law: Law2 functor or a list of them; default Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3), and
@@ -87,7 +88,8 @@ def engines(gravity=None, geometry=None, physics=None, law=None, collider=None, 
 	if not 0 <= damping < 1:
 		raise ValueError(f'damping: must be from 0 to below 1, got {damping}')
 	gravity = _usualGravity(scene) if gravity is None else vector(gravity, 'gravity')
-	loop = InteractionLoop(_geometry(scene, geometry), _physics(scene, physics), _laws(scene, law))
+	contacts, joints, laws = _geometry(scene, geometry), _physics(scene, physics), _laws(scene, law)
+	loop = InteractionLoop(contacts, joints, laws + (ownLaws(contacts, joints, laws) if law is None else []))
 	made = [
 		*(engine for engine in O.engines if isinstance(engine, BaseMotion)),
 		ForceResetter(),
@@ -130,16 +132,18 @@ def _collider(scene):
 	moving = [body.shape for body in scene.bodies if isinstance(body.shape, (Polytope, Sphere)) and scene.moves(body)]
 	sizes = [float(shape.radius if isinstance(shape, Sphere) else shape.inscribedRadius) for shape in moving]
 	bounds = [Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb(), Bo1_Box_Aabb()]
+	bounds += ownBounds({kind.shape for kind in scene.kinds}, bounds)
 	return PolytopeCollider(bounds, verletDist=reach * min(sizes) if sizes else reachOfNothing)
 
 
 def _shapes(scene):
 	"""Names of the scene's shapes that contacts are known for; in a scene without bodies all of them."""
-	return sorted({kind.shape for kind in scene.kinds} & set(allShapes)) or list(allShapes)
+	kinds = {kind.shape for kind in scene.kinds} | {'Polytope' for body in scene.bodies if isinstance(body.shape, Polytope)}
+	return sorted(kinds & set(allShapes)) or list(allShapes)
 
 
 def _geometry(scene, given):
-	"""Contact functors of all pairs of these shapes for which there are any, *given* among them."""
+	"""Contact functors of all pairs of the scene's shapes for which there are any, those of extensions and *given* among them."""
 	if given is not None and type(given) is not Ig2_Polytope_Polytope_PolytopeGeom:
 		functors = _several(given, IGeomFunctor, 'geometry')
 		kinds = [type(functor).__name__ for functor in functors]
@@ -154,7 +158,7 @@ def _geometry(scene, given):
 		functors += [getattr(yade, f'Ig2_{name}_Polytope_PolytopeGeom')() for name in shapes if name != 'Polytope']
 	if 'Sphere' in shapes:
 		functors += [getattr(yade, f'Ig2_{name}_Sphere_ScGeom')() for name in shapes if name != 'Polytope']
-	return functors
+	return functors + ownContacts({kind.shape for kind in scene.kinds}, functors)
 
 
 def _physics(scene, given):

@@ -4,7 +4,7 @@
 import math
 
 import numpy as np
-from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, _polytope
+from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
 
 from ..bonding.bonds import bonds
 from ..rock.faceMaterials import materialsOf
@@ -34,7 +34,7 @@ seldom by 100."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, flatBoxes, derivedShapes, frictionAngle, weakStrengths, dilation, tension, units, jointLaws, elasticConstants):
+	for one in (density, mass, size, flatBoxes, frictionAngle, weakStrengths, dilation, tension, units, jointLaws, elasticConstants):
 		yield from one(scene)
 
 
@@ -112,19 +112,6 @@ def flatBoxes(scene):
 	if flat:
 		seen = f'{_number(flat)} is a Box with extents {tuple(map(float, flat[0].shape.extents))}: without a thickness nothing rests on it'
 		yield 'size', seen, 'give it a thickness, or take a Wall or Facets'
-
-
-def derivedShapes(scene):
-	"""Classes that extensions derive from Polytope: what no stage can know of them."""
-	told = set()
-	for body in scene.bodies:
-		kind = type(body.shape)
-		if not isinstance(body.shape, Polytope) or kind is Polytope or kind in told:
-			continue
-		fault = _polytope.faultOfShape(body.shape)
-		if fault:
-			told.add(kind)
-			yield 'shapes', f'body {body.id}, a {kind.__name__}: {fault}', 'polytope.withShape makes such bodies; docs/extending.md says what the class must tell'
 
 
 def frictionAngle(scene):

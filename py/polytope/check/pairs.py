@@ -5,9 +5,11 @@ For each pair of shapes and materials that can meet, the dispatchers themselves 
 """
 
 import yade
-from yade import PolytopeGeom, _polytope
+from yade import PolytopeGeom
 
+from ..scene.ownFunctors import ownContactsOf
 from ..scene.present import contactSettings
+from .extensions import contactsToChoose, marginsPerArea, unknownStiffness
 
 __all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
@@ -111,7 +113,10 @@ def geometry(one, other):
 	for kind in (one, other):
 		if _isDerived(kind):
 			seen = f'there is no functor for {one.shape} and {other.shape}: {kind.shape} is taken for the Polytope of its planes'
-			return 'contact functors', seen, 'add the functor that its extension has for them to the InteractionLoop (docs/extending.md)'
+			return 'contact functors', seen, contactsToChoose(one.shape, other.shape)
+		if kind.shape not in exactly and ownContactsOf(one.shape, other.shape):
+			seen = f'the InteractionLoop has no functor for {one.shape} and {other.shape}: they pass through each other'
+			return 'contact functors', seen, contactsToChoose(one.shape, other.shape)
 		if kind.shape not in exactly:
 			taken = getattr(yade, kind.shape, None)
 			like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''
@@ -139,19 +144,6 @@ def flat(one, other):
 	return None
 
 
-def _unknownStiffness(scene, maker, one, other):
-	"""Physics of an extension that do not tell the time step how stiff they can be."""
-	name = type(maker).__name__
-	if not any(name in classes for _, _, classes in _polytope.extensions()):
-		return
-	if not _polytope.givesStiffnesses(maker, *(scene.examples[kind].material for kind in (one, other))):
-		yield (
-			'time step',
-			f'{name} does not say how stiff its contacts can be: before the first contact the step is that of elastic bodies of the materials\' young',
-			'give it the function stiffnesses (docs/extending.md), or set O.dt until bodies touch',
-		)
-
-
 def forces(scene, loop, functor, one, other):
 	"""Physics and law of a pair whose geometry this functor makes."""
 	geom = _made(type(functor).__name__)
@@ -166,7 +158,8 @@ def forces(scene, loop, functor, one, other):
 	phys = _made(type(maker).__name__)
 	if geom is None or phys is None:
 		return
-	yield from _unknownStiffness(scene, maker, one, other)
+	yield from unknownStiffness(scene, maker, one, other)
+	yield from marginsPerArea(scene, functor, maker, one, other)
 	law = _functor(loop.lawDispatcher, geom, phys)
 	names = f'{type(geom).__name__} and {type(phys).__name__} ({one.shape} and {other.shape})'
 	if law is None:

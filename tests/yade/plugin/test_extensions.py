@@ -196,6 +196,53 @@ def testWhatIsNoExtensionIsRefused(tmp_path):
 	assert 'it is no extension of yade-polytope' in refused(library)
 
 
+@pytest.mark.parametrize('part', [0.5, 0.9, 0.9999])
+def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
+	"""With the text that it has about itself: the dynamic linker would end the process."""
+	whole = joint.read_bytes()
+	library = tmp_path / 'part.so'
+	library.write_bytes(whole[: int(part * len(whole))])
+	script = """
+from yade import polytope
+try: polytope.load(sys.argv[1])
+except ValueError as error: answer(str(error))
+"""
+	text, _ = inYade(script, library)
+	begin, end = f'path: the extension {library} is not loaded: its file is cut off: it has', 'bytes; copy it or build it again'
+	assert text == f'{begin} {int(part * len(whole))} of {len(whole)} {end}'
+
+
+def testPathsThatAreNoneAreNamed(joint, tmp_path):
+	script = """
+from yade import polytope
+def said(path):
+	try: polytope.load(path)
+	except (ValueError, FileNotFoundError) as error: return str(error)
+answer([said(path) for path in (None, 5, sys.argv[1], sys.argv[1] + '/none.so')])
+"""
+	(nothing, number, folder, missing), _ = inYade(script, tmp_path)
+	assert nothing == 'path: must be the path of a library that yade_polytope_add_extension has built, got None'
+	assert number.endswith('got 5')
+	assert folder == f'path: {tmp_path} is a folder; give the path of the library in it'
+	assert missing.startswith(f'path: there is no file {tmp_path}/none.so')
+
+
+def testARefusalIsTheSameAgain(joint, tmp_path):
+	"""Of a copy, whose classes are there already, and which stays in the process."""
+	copy = tmp_path / 'copy.so'
+	shutil.copy(joint, copy)
+	script = """
+from yade import polytope
+polytope.load(sys.argv[1])
+def said():
+	try: polytope.load(sys.argv[2])
+	except ValueError as error: return str(error)
+answer([said(), said()])
+"""
+	(first, second), _ = inYade(script, joint, copy)
+	assert 'there is a class Own' in first and first == second
+
+
 def testAPrecisionThatIsNotThereIsNamed(tmp_path):
 	"""By CMake, before anything is compiled."""
 	text = 'cmake_minimum_required(VERSION 3.22)\nproject(other C CXX)\nset(YADE_POLYTOPE_PRECISION mpfr151)\nfind_package(yade-polytope 0.1 REQUIRED)\n'

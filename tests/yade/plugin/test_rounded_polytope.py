@@ -115,22 +115,80 @@ answer([found, mass, *depths, max(float(2 * math.acos(min(1, abs(body.state.ori[
 	assert turned < 0.01
 
 
+def testEnginesHaveTheContactsOfTheExtension(rounded):  # noqa: F811
+	"""Those for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of functors; a sphere's are there where there is
+	a sphere; settings of the contact are kept."""
+	script = (
+		start
+		+ """
+from yade import utils
+def functors():
+	return sorted(type(one).__name__ for one in O.engines[2].geomDispatcher.functors)
+material(1e9)
+O.bodies.append([utils.wall(0, axis=2, sense=1), cube((0, 0, h + r))])
+joints = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)
+O.engines = polytope.engines(physics=joints)
+found, few = repr(polytope.check(O)), functors()
+O.run(4000, True)
+c = O.interactions[0, 1]
+push = float(c.geom.penetrationDepth) * float(c.phys.kn) / (9.81 * float(O.bodies[1].state.mass))
+O.bodies.append(utils.sphere((0, 0, 5), 0.2))
+O.engines = polytope.engines(physics=joints, geometry=Ig2_Polytope_Polytope_PolytopeGeom(tolerance=1e-7))
+answer([found, few, push, functors(), O.engines[2].geomDispatcher.functors[0].tolerance])
+"""
+	)
+	(found, few, push, more, tolerance), _ = inYade(script, rounded)
+	assert found.splitlines()[0] == 'nothing was found that is wrong'
+	own = ['Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom', 'Ig2_Wall_RoundedPolytope_PolytopeGeom']
+	assert set(own) <= set(few) and not any('Sphere' in name for name in few)
+	assert push == pytest.approx(1, rel=1e-3)
+	assert {*own, 'Ig2_Sphere_RoundedPolytope_PolytopeGeom', 'Ig2_Sphere_Sphere_ScGeom'} <= set(more) and tolerance == 1e-7
+
+
 def testWithoutItsFunctorsCheckSaysSo(rounded):  # noqa: F811
-	"""With the plug-in's own functors alone the body is taken for its planes, and check says that."""
+	"""With the plug-in's own functors alone the body is taken for its planes, and check says that and what to add; or that there is nothing to add."""
 	script = (
 		start
 		+ """
 material()
-O.bodies.append([cube((0, 0, 0), fixed=True), cube((0, 0, 2 * h + 2 * r))])
-O.engines = polytope.engines()
-answer([[one.what, one.seen] for one in polytope.check(O)])
+O.bodies.append([cube((0, 0, 0), fixed=True), cube((0, 0, 2 * h + 2 * r)), utils.facet([(9, 9, 9), (8, 9, 9), (9, 8, 9)])])
+O.engines = polytope.engines(geometry=[Ig2_Polytope_Polytope_PolytopeGeom(), Ig2_Facet_Polytope_PolytopeGeom()])
+answer([[one.what, one.seen, one.advice] for one in polytope.check(O)])
 """
 	)
-	found, _ = inYade(script, rounded)
-	assert [
-		'contact functors',
-		'there is no functor for RoundedPolytope and RoundedPolytope: RoundedPolytope is taken for the Polytope of its planes',
-	] in found
+	found, _ = inYade('from yade import utils\n' + script, rounded)
+	taken = 'RoundedPolytope is taken for the Polytope of its planes'
+	like = 'Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom() to the InteractionLoop; polytope.engines() without geometry has it'
+	assert ['contact functors', f'there is no functor for RoundedPolytope and RoundedPolytope: {taken}', f'add {like}'] in found
+	assert any('RoundedPolytope' in seen and 'Facet' in seen and 'no loaded extension has one' in advice for _, seen, advice in found), (
+		found
+	)
+
+
+def testCheckTellsOfMarginsBeforeTheRun(rounded):  # noqa: F811
+	"""A stiffness per area, with which nothing would touch; a margin that is no number or below 0, with which the time step would be none."""
+	script = (
+		start
+		+ """
+def findings():
+	return [[one.what, one.seen, one.advice] for one in polytope.check(O)]
+material()
+O.bodies.append([cube((0, 0, 0), fixed=True), cube((0, 0, 2 * h + 2 * r + 0.01))])
+O.engines = polytope.engines()
+seen = [findings()]
+O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+for radius in (r, float('nan'), -0.1, float('inf')):
+	O.bodies[1].shape.radius = radius
+	seen.append(findings())
+answer(seen)
+"""
+	)
+	(perArea, good, *bad), _ = inYade(script, rounded)
+	assert [(what, 'per area' in seen, 'stiffnessPerArea=False' in advice) for what, seen, advice in perArea] == [('units', True, True)]
+	assert good == []
+	for found, margin in zip(bad, ('nan', '-0.1', 'inf'), strict=True):
+		said = f"body 1, a RoundedPolytope: its margin must be finite and at least 0; its attributes are {{'radius': {margin}}}"
+		assert any(what == 'shapes' and seen == said for what, seen, _ in found), found
 
 
 def testMassFrameAndDrawingAreThoseOfTheSum(rounded, tmp_path):  # noqa: F811
@@ -169,6 +227,25 @@ answer([float(body.shape.volume), [float(x) for x in body.state.inertia], float(
 	script = 'O.load(sys.argv[1])\nb = O.bodies[1]\nanswer([float(b.shape.radius), float(b.shape.volume * 2600), [float(x) for x in b.shape.inertia * 2600]])'
 	(radius, massAgain, momentsAgain), _ = inYade(script, saved, YADE_POLYTOPE_EXTENSIONS=str(rounded))
 	assert radius == 0.3 and massAgain == pytest.approx(mass, rel=1e-12) and momentsAgain == pytest.approx(moments, rel=1e-9)
+
+
+def testAThinPrismIsARoundedSegment(rounded):  # noqa: F811
+	"""What docs/extending.md says of cores without an interior: the volume is that of a cylinder with two half balls, and flat points are refused."""
+	script = (
+		start
+		+ """
+material()
+prism = polytope.withShape(polytope.cuboid((0, 0, 0), (1, 5e-5, 5e-5)), RoundedPolytope(radius=0.1))
+def said():
+	try: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
+	except ValueError as error: return str(error)
+answer([float(prism.shape.volume), said()])
+"""
+	)
+	(volume, refusal), _ = inYade(script, rounded)
+	r = 0.1
+	assert 0 < volume / (2 * math.pi * r**2 + 4 / 3 * math.pi * r**3) - 1 < 2e-3
+	assert refusal.startswith('points: ')
 
 
 def testShapesOfRockableKeepTheirRadius(rounded):  # noqa: F811

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Checks of polytope.check() of what extensions add (docs/extending.md): shapes, physics. Each yields (what, seen, advice)."""
+
+import itertools
+
+from yade import Body, FrictMat, IPhysFunctor, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, PolytopeMarginFunctor, _polytope
+
+from ..bodies.polytopes import isotropyTolerance
+from ..scene.ownFunctors import ownClasses, ownContactsOf
+from ..scene.present import isPerArea, jointMaterials
+
+__all__ = ['contactsToChoose', 'derivedShapes', 'marginsPerArea', 'unknownStiffness']
+
+
+def derivedShapes(scene):
+	"""Classes that extensions derive from Polytope: what no stage can know of them."""
+	told = set()
+	for body in scene.bodies:
+		kind = type(body.shape)
+		if not isinstance(body.shape, Polytope) or kind is Polytope or kind in told:
+			continue
+		fault = _polytope.faultOfShape(body.shape) or faultOfMargin(body.shape)
+		if fault:
+			told.add(kind)
+			yield (
+				'shapes',
+				f'body {body.id}, a {kind.__name__}: {fault}',
+				'polytope.withShape makes such bodies; docs/extending.md says what the class must tell',
+			)
+
+
+def faultOfMargin(shape):
+	"""Why the margin of a derived shape is none, as polytope.withShape would say of the shape's attributes; empty: it is one. A step asks nothing: with a margin that is
+	no number or below 0 it would be none."""
+	usual = Polytope().dict()
+	own = {name: value for name, value in shape.dict().items() if name not in usual}
+	probe = Body()
+	probe.material, probe.shape = FrictMat(density=1), Polytope(normals=shape.normals, offsets=shape.offsets)
+	try:
+		_polytope.reshape(probe, type(shape)(**own), isotropyTolerance)
+	except ValueError as error:
+		fault = str(error).removeprefix('shape: ')
+		return f'{fault}; its attributes are {own}' if fault.startswith('its margin') else ''
+	return ''
+
+
+def contactsToChoose(one, other):
+	"""What to do where the loop has no contact functor for two classes, one of which is of an extension."""
+	own = ownContactsOf(one, other)
+	if not own:
+		return f'no loaded extension has one: write it (docs/extending.md), or keep {one} and {other} apart by the masks of the bodies'
+	if len(own) == 1:
+		return f'add {own[0]}() to the InteractionLoop; polytope.engines() without geometry has it'
+	return f'choose one: polytope.engines(geometry=[Ig2_Polytope_Polytope_PolytopeGeom(), {own[0]}(), …]), or {", ".join(own[1:])} in its place'
+
+
+def marginsPerArea(scene, functor, maker, one, other):
+	"""Contacts by margins have no area, so that with a stiffness per area there is no force."""
+	if not isinstance(functor, PolytopeMarginFunctor) or not isinstance(maker, Ip2_RockJointMat_RockJointMat_RockJointPhys):
+		return
+	sides = [_jointMaterialsOf(scene, kind) for kind in (one, other)]
+	for pair in itertools.product(*sides):
+		if all(isPerArea(material, [maker]) for material in pair):
+			yield (
+				'units',
+				f'{one.shape} and {other.shape} touch by their margins, without an area, and the stiffnesses of RockJointMat {pair[0].label!r} are per area: they pass through each other',
+				'polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)), and stiffnesses in N/m',
+			)
+			return
+
+
+def _jointMaterialsOf(scene, kind):
+	return jointMaterials(
+		body for body in scene.bodies if type(body.shape).__name__ == kind.shape and type(body.material).__name__ == kind.material
+	)
+
+
+def unknownStiffness(scene, maker, one, other):
+	"""Physics of an extension that do not tell the time step how stiff they can be."""
+	if not isinstance(maker, tuple(ownClasses(IPhysFunctor))):
+		return
+	if not _polytope.givesStiffnesses(maker, *(scene.examples[kind].material for kind in (one, other))):
+		yield (
+			'time step',
+			f'{type(maker).__name__} does not say how stiff its contacts can be: before the first contact the step is that of elastic bodies of the materials\' young',
+			'give it the function stiffnesses (docs/extending.md), or set O.dt until bodies touch',
+		)
