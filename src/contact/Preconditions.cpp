@@ -16,6 +16,9 @@ namespace {
 		return dimension == 3 || abs(matrix(2, 2) - 1) <= Real(tolerance::orthogonal);
 	}
 
+	/// Whether it is one of the values from 0 to the last: a program may have made it of an integer.
+	template <class Choice> bool isOneUpTo(Choice value, Choice last) { return int(value) >= 0 && int(value) <= int(last); }
+
 	std::string faultOf(const InternalPlanes& planes, const ConvexShape& shape1, const ConvexShape& shape2)
 	{
 		for (int body = 0; body < 2; ++body) {
@@ -36,6 +39,9 @@ namespace {
 
 std::string faultOf(const ContactOptions& options)
 {
+	if (!isOneUpTo(options.contactModel, ContactModel::Spring)) return "contactModel: must be one of ContactModel";
+	if (!isOneUpTo(options.contactPoint, ContactPoint::Centroid)) return "contactPoint: must be one of ContactPoint";
+	if (!isOneUpTo(options.solver, CentreSolver::Ipopt)) return "solver: must be one of CentreSolver";
 	if (options.solver == CentreSolver::Ipopt && !ipoptVersion())
 		return "solver: this build has no Ipopt; use 'newton', or install Ipopt (Debian: coinor-libipopt-dev) and build again with "
 		       "-DPOLYTOPE_IPOPT=ON";

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace polytope {
@@ -267,8 +268,9 @@ namespace {
 
 MassProperties roundedMass(const Polyhedron& core, const Real& radius)
 {
+	if (!(radius >= 0)) throw std::invalid_argument("margin: must be at least 0");
 	MassProperties mass = massProperties(core);
-	if (!(radius > 0)) return mass;
+	if (radius == 0) return mass;
 	const auto     spread = [](const Matrix3& inertia) { return Matrix3(inertia.trace() / 2 * Matrix3::Identity() - inertia); };
 	RoundedMoments sum; // about the core's centroid
 	sum.add(mass.volume, Vector3::Zero(), spread(mass.inertia));

@@ -51,7 +51,16 @@ TEST(Preconditions, NameTheArgument)
 	EXPECT_TRUE(starts(faultOf(*flat, tilted, *flat, unturned, centre, good), "rotation1: must be the matrix of a rotation about z"));
 	EXPECT_TRUE(starts(fault(*solid, unturned, Vector3(0, std::numeric_limits<Real>::quiet_NaN(), 0), good), "centre2"));
 	ContactSettings bad = good;
-	bad.tolerance       = std::numeric_limits<Real>::quiet_NaN();
+	bad.contactModel    = ContactModel(3);
+	EXPECT_EQ(fault(*solid, unturned, centre, bad), "contactModel: must be one of ContactModel");
+	bad              = good;
+	bad.contactPoint = ContactPoint(-1);
+	EXPECT_EQ(fault(*solid, unturned, centre, bad), "contactPoint: must be one of ContactPoint");
+	bad        = good;
+	bad.solver = CentreSolver(2);
+	EXPECT_EQ(fault(*solid, unturned, centre, bad), "solver: must be one of CentreSolver");
+	bad           = good;
+	bad.tolerance = std::numeric_limits<Real>::quiet_NaN();
 	EXPECT_TRUE(starts(fault(*solid, unturned, centre, bad), "tolerance: must be at least 0 and below 1"));
 	bad                 = good;
 	bad.newtonTolerance = -1;

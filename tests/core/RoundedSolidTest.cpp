@@ -5,7 +5,11 @@
 #include "shape/ClosestPoint.hpp"
 #include "shape/ShapeFactory.hpp"
 
+#include <gtest/gtest.h>
+
+#include <limits>
 #include <set>
+#include <stdexcept>
 
 using namespace polytope;
 using namespace polytope::samples;
@@ -44,6 +48,20 @@ TEST(RoundedSolid, NoBallLeavesTheSolid)
 	EXPECT_EQ(own.centroid, mass.centroid);
 	EXPECT_EQ(own.inertia, mass.inertia);
 	EXPECT_EQ(roundedSurface(core, 0).vertices, core.vertices);
+}
+
+TEST(RoundedSolid, AMarginThatIsNoneIsRefusedByItsName)
+{
+	const Real none = std::numeric_limits<Real>::quiet_NaN();
+	for (const Real& radius : { Real(-1), none })
+		try {
+			ShapeOptions options;
+			options.margin = radius;
+			centralHull({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, 3, 0, options);
+			FAIL() << radius;
+		} catch (const std::invalid_argument& error) {
+			EXPECT_EQ(std::string(error.what()), "margin: must be at least 0");
+		}
 }
 
 TEST(RoundedSolid, MassIsTheLimitOfFinerSurfaces)
