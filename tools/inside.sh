@@ -7,6 +7,8 @@
 set -euo pipefail
 # shellcheck source=tools/messages.sh
 . "$project/tools/messages.sh"
+# shellcheck source=tools/verbs.sh
+. "$project/tools/verbs.sh"
 
 build=$project/build # of double; those of the other precisions are in it
 ipopt=AUTO

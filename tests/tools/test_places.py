@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`./run test [--fast] PLACE…`: what runs for a place, with stand-ins for the programs that build and test."""
+import re
+
 import pytest
 from test_entry import project, shell
 
@@ -64,3 +66,10 @@ def testAPlaceThatThereIsNotIsRefusedFirst(tmp_path, arguments):
 		done = shell(project, tmp_path, script)
 		assert done.returncode == 1 and 'there is no place' in done.stderr and 'joint, loads' not in done.stdout and not done.stdout.strip()
 	assert 'core, tools, ' in done.stderr and 'rock, ' in done.stderr
+
+
+def testWhatRunsInTheRootKnowsPlaces():
+	"""tools/test.sh is read by inside.sh alone, in another process than `run`."""
+	sourced = re.findall(r'^\. "\$project/(tools/\w+\.sh)"', (project / 'tools/inside.sh').read_text(), re.MULTILINE)
+	assert 'placeOf' in (project / 'tools/test.sh').read_text()
+	assert any(re.search(r'^placeOf\(\)', (project / path).read_text(), re.MULTILINE) for path in sourced)

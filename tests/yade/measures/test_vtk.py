@@ -171,13 +171,13 @@ def testContactsOfSpheresAndOfPolytopesStandInOneFile(tmp_path):
 		assert list(arrays['normal'][k]) == pytest.approx(list(contact.geom.normal))
 		assert list(arrays['normalForce'][k]) == pytest.approx(list(contact.phys.normalForce))
 		assert list(arrays['shearForce'][k]) == pytest.approx(list(contact.phys.shearForce))
-		assert arrays['depth'][k] == pytest.approx(contact.geom.penetrationDepth) and arrays['depth'][k] > 0
+		assert arrays['depth'][k] == pytest.approx(float(contact.geom.penetrationDepth)) and arrays['depth'][k] > 0
 		up = 1 if contact.id2 >= supports else -1  # forces are those on the second body
 		weight = 9.81 * O.bodies[max(contact.id1, contact.id2)].state.mass
 		assert list(up * arrays['normalForce'][k]) == pytest.approx([0, 0, weight], rel=1e-3, abs=1e-3 * weight)
 		ofPolytope = type(contact.geom) is PolytopeGeom
-		assert arrays['area'][k] == (contact.geom.contactArea if ofPolytope else 0)
-		assert arrays['infeasibility'][k] == (contact.geom.infeasibility if ofPolytope else 0)
+		assert arrays['area'][k] == (float(contact.geom.contactArea) if ofPolytope else 0)
+		assert arrays['infeasibility'][k] == (float(contact.geom.infeasibility) if ofPolytope else 0)
 		assert names.GetValue(int(arrays['status'][k])) == 'contact'
 	PolytopeVTKRecorder(fileName=f'{tmp_path}/none-', mask=4)()
 	assert readContacts(tmp_path / f'none-contacts.{O.iter}.vtp').GetNumberOfPoints() == 0
