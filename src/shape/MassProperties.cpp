@@ -2,6 +2,7 @@
 #include "shape/MassProperties.hpp"
 
 #include "shape/ConstructionTolerances.hpp"
+#include "shape/SolidMoments.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -13,27 +14,20 @@
 namespace polytope {
 namespace {
 
-	/// ∫ dV, ∫ x dV and ∫ x xᵀ dV, x counted from `origin`: the sum over the tetrahedra that origin spans with the faces' triangles.
-	struct Moments {
-		Real    zeroth = 0;
-		Vector3 first  = Vector3::Zero();
-		Matrix3 second = Matrix3::Zero();
-	};
-
-	void addTetrahedron(Moments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
+	/// That the origin spans with a face's triangle.
+	void addTetrahedron(SolidMoments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
 	{
 		const Real    volume = a.dot(b.cross(c)) / 6;
 		const Vector3 corner = a + b + c;
-		sum.zeroth += volume;
-		sum.first += volume / 4 * corner;
-		sum.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + corner * corner.transpose());
+		sum.add(volume, volume / 4 * corner,
+		        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + corner * corner.transpose()));
 	}
 
 	using Points = std::vector<Vector3>;
 
-	Moments momentsOf(const Polyhedron& shape, const Points& points)
+	SolidMoments momentsOf(const Polyhedron& shape, const Points& points)
 	{
-		Moments sum;
+		SolidMoments sum;
 		for (const std::vector<int>& face : shape.faces)
 			for (std::size_t k = 2; k < face.size(); ++k)
 				addTetrahedron(
@@ -99,8 +93,8 @@ MassProperties massProperties(const Polyhedron& shape)
 	for (Vector3& p : points)
 		p -= inner;
 
-	Moments about = momentsOf(shape, points);
-	Matrix3 turn  = Matrix3::Identity();
+	SolidMoments about = momentsOf(shape, points);
+	Matrix3      turn  = Matrix3::Identity();
 	if (about.zeroth < construction::slender * boxVolume(points)) {
 		turn = alongThePoints(points);
 		for (Vector3& p : points)

@@ -2,6 +2,7 @@
 #include "shape/RoundedSolid.hpp"
 
 #include "shape/Rings.hpp"
+#include "shape/SolidMoments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,27 +71,13 @@ namespace {
 		}
 	};
 
-	/// ∫ dV, ∫ x dV and ∫ x xᵀ dV.
-	struct RoundedMoments {
-		Real    zeroth = 0;
-		Vector3 first  = Vector3::Zero();
-		Matrix3 second = Matrix3::Zero();
-
-		void add(const Real& volume, const Vector3& moment, const Matrix3& tensor)
-		{
-			zeroth += volume;
-			first += moment;
-			second += tensor;
-		}
-	};
-
 	Matrix3 square(const Vector3& v) { return v * v.transpose(); }
 	Matrix3 both(const Vector3& a, const Vector3& b) { return a * b.transpose() + b * a.transpose(); }
 
-	void addSlab(RoundedMoments& sum, const Polyhedron& core, std::size_t f, const Vector3& normal, const Real& r)
+	void addSlab(SolidMoments& sum, const Polyhedron& core, std::size_t f, const Vector3& normal, const Real& r)
 	{
 		const std::vector<int>& face = core.faces[f];
-		RoundedMoments          flat; // over the area
+		SolidMoments            flat; // over the area
 		const auto              corner = [&](std::size_t k) -> const Vector3& { return core.vertices[std::size_t(face[k])]; };
 		for (std::size_t k = 2; k < face.size(); ++k) {
 			const Vector3 &a = corner(0), &b = corner(k - 1), &c = corner(k);
@@ -102,7 +89,7 @@ namespace {
 		        r * flat.second + r * r / 2 * both(flat.first, normal) + r * r * r / 3 * flat.zeroth * square(normal));
 	}
 
-	void addSector(RoundedMoments& sum, const Vector3& a, const Vector3& b, const Arc& arc, const Real& r)
+	void addSector(SolidMoments& sum, const Vector3& a, const Vector3& b, const Arc& arc, const Real& r)
 	{
 		const Vector3 middle = (a + b) / 2, along = b - a;
 		const Real    length = along.norm(), part = arc.angle * r * r / 2;
@@ -125,7 +112,7 @@ namespace {
 	}
 
 	/// Sectors of the ball: solid angles are what the faces' angles lack of a full turn (Gauss and Bonnet), ∫ w dΩ is half the sum over the sector's sides.
-	void addBall(RoundedMoments& sum, const Polyhedron& core, const Neighbours& of, const Real& r)
+	void addBall(SolidMoments& sum, const Polyhedron& core, const Neighbours& of, const Real& r)
 	{
 		const Real           pi = acos(Real(-1));
 		std::vector<Real>    angles(core.vertices.size(), 2 * pi);
@@ -271,8 +258,8 @@ MassProperties roundedMass(const Polyhedron& core, const Real& radius)
 	if (!(radius >= 0)) throw std::invalid_argument("margin: must be at least 0");
 	MassProperties mass = massProperties(core);
 	if (radius == 0) return mass;
-	const auto     spread = [](const Matrix3& inertia) { return Matrix3(inertia.trace() / 2 * Matrix3::Identity() - inertia); };
-	RoundedMoments sum; // about the core's centroid
+	const auto   spread = [](const Matrix3& inertia) { return Matrix3(inertia.trace() / 2 * Matrix3::Identity() - inertia); };
+	SolidMoments sum; // about the core's centroid
 	sum.add(mass.volume, Vector3::Zero(), spread(mass.inertia));
 	Polyhedron about = core;
 	for (Vector3& vertex : about.vertices)

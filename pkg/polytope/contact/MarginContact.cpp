@@ -7,6 +7,7 @@
 #include <core/Scene.hpp>
 
 #include <src/contact/PairDistance.hpp>
+#include <src/numbers/Tolerances.hpp>
 #include <src/shape/ClosestPoint.hpp>
 
 namespace yade {
@@ -14,10 +15,6 @@ namespace yade {
 YADE_PLUGIN((PolytopeMarginFunctor));
 
 namespace {
-
-	/// Over the smaller body's size: how far two bodies overlap that were moved together for their contact point. The point is as far wrong; a contact so thin
-	/// is still far above rounding.
-	constexpr double thinOverlap = 1e-6;
 
 	/// Normal, depth and point of a result, from body 1's origin; a depth below zero: apart by as much. `foot`: the end of the shortest way on body 1's half-spaces.
 	void setWay(polytope::ContactResult& result, const Vector3r& normal, const Real& depth, const Vector3r& foot, const Real& margin1)
@@ -52,7 +49,7 @@ namespace {
 		}
 		// the half-spaces' contact; apart, moved together until they touch: its point is where the surfaces face each other
 		const Real           size = math::min(one.convex->boundingRadius(), other.convex->boundingRadius());
-		const Real           way  = gap.distance > 0 ? gap.distance + Real(thinOverlap) * size : Real(0);
+		const Real           way  = gap.distance > 0 ? gap.distance + Real(polytope::tolerance::gapSkin) * size : Real(0);
 		polytope::PairMemory memory;
 		contactQuery(*one.convex, one.rotation, *other.convex, other.rotation, centre2 - way * gap.normal, settings, memory,
 		        workspace, result);
