@@ -3,7 +3,7 @@
 
 import itertools
 
-from yade import Body, FrictMat, IPhysFunctor, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, PolytopeMarginFunctor, _polytope
+from yade import Body, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor, Polytope, PolytopeMarginFunctor, _polytope
 
 from ..bodies.polytopes import isotropyTolerance
 from ..scene.ownFunctors import ownClasses, ownContactsOf

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Strengths of joints that do not act, of polytope.check(): lost to the material on the other side, or not there yet. Each yields (what, seen, advice)."""
 
-import itertools
-
 import numpy as np
-import scipy  # loads its packages at their first use: half a second
-from yade import Polytope, RockJointMat, _polytope
+from yade import Polytope, RockJointMat
 
 from ..bonding.bonds import madeBonds
-from ..measures.arrays import arrays
 from ..rock.faceMaterials import materialOfPlane, materialsOf
 from ..scene.movers import isMover
-from .places import looks, meet, touching
+from .neighbours import touchingPairs
 
 __all__ = ['hanging', 'lostStrengths']
 
@@ -28,7 +24,7 @@ def lostStrengths(scene):
 	if not lacking:
 		return
 	told = set()
-	for one, other, contact in _touching(scene, bodies):
+	for one, other, contact in touchingPairs(scene, bodies):
 		sides = _material(one, contact.normal), _material(other, -contact.normal)
 		for name in lacking:
 			weak, strong = sorted(sides, key=lambda material: float(getattr(material, name)))
@@ -52,7 +48,7 @@ def hanging(scene):
 	bonded = {key for bond in madeBonds() if bond.intact for key in (bond.id1, bond.id2)}
 	able = {body.id for body in bodies if isMover(body) and body.id not in bonded and any(getattr(one, 'tensileStrength', 0) > 0 for one in materialsOf(body))}
 	above, held = {}, set()
-	for one, other, contact in _touching(scene, bodies) if able else ():
+	for one, other, contact in touchingPairs(scene, bodies) if able else ():
 		for key, neighbour, sign in ((one.id, other.id, 1), (other.id, one.id, -1)):
 			if contact.inContact or sign * (np.array(contact.normal, float) @ up) < upward:
 				held.add(key)
@@ -64,25 +60,6 @@ def hanging(scene):
 			f'body {key} hangs from body {above[key]}, which it only touches: its joint has no tensile strength before they overlap, and it falls',
 			'polytope.bond() after O.engines is set: bodies in touch then hold by the tensileStrength of their material',
 		)
-
-
-def _touching(scene, bodies):
-	"""(one, other, their contact) of those that meet."""
-	if len(bodies) < 2:
-		return
-	radii = np.array([float(body.shape.circumscribedRadius) for body in bodies])
-	rows = arrays().bodies
-	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
-	near = scipy.spatial.cKDTree(places).query_ball_point(places, 2 * radii)
-	rank = np.argsort(np.argsort(-radii, kind='stable'))  # the larger one of a pair looks for the other
-	pairs = ((bodies[i], bodies[j], radii[j]) for i, others in enumerate(near) for j in others if rank[i] < rank[j])
-	for one, other, radius in itertools.islice((pair for pair in pairs if meet(scene, *pair[:2])), looks):
-		try:
-			contact = _polytope.contact(one, other)
-		except ValueError:  # a polygon and a polyhedron
-			continue
-		if float(contact.infeasibility) < touching * radius:
-			yield one, other, contact
 
 
 def _material(body, normal):

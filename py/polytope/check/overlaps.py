@@ -11,6 +11,7 @@ from yade import Body, Box, Facet, Polytope, Sphere, Wall
 
 from ..measures.arrays import arrays
 from ..scene.movers import sameClump
+from .halfSpaces import halfSpacesOf
 from .overlapEnergy import Thrown
 from .standIns import depthInSphere, standIn
 
@@ -146,10 +147,8 @@ def _candidates(rows):
 
 def _slacks(rows, i, others):
 	"""How deep the middles of others are in a body [m], below zero: out of it."""
-	body = rows.bodies[i]
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = np.array([list(normal) for normal in body.shape.normals], float)
-	return (np.array([float(offset) for offset in body.shape.offsets]) - (rows.places[others] - rows.places[i]) @ turn @ normals.T).min(axis=1)
+	normals, offsets = halfSpacesOf(rows.bodies[i], rows.places[i])
+	return (offsets - (rows.places[others] - rows.shifts[i]) @ normals.T).min(axis=1)
 
 
 def _withOthers(scene, thrown):
@@ -160,8 +159,10 @@ def _withOthers(scene, thrown):
 		return
 	places = np.array([body.state.pos for body in bodies], float)
 	reaches = np.array([float(body.shape.circumscribedRadius) for body in bodies])
-	pairs = ((bodies[j], other) for other in others for j in np.flatnonzero(_gaps(other, places) < reaches))
-	for body, other in itertools.islice(pairs, looks):
+	near = ((other, _gaps(other, places) - reaches) for other in others)
+	pairs = [(gaps[j], j, other) for other, gaps in near for j in np.flatnonzero(gaps < 0)]
+	for _, j, other in sorted(pairs, key=lambda pair: pair[:2])[:looks]:
+		body = bodies[j]
 		if not mayMeet(scene, body, other):
 			continue
 		if isinstance(other.shape, Sphere):

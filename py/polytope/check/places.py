@@ -5,8 +5,7 @@ import itertools
 import math
 
 import numpy as np
-import scipy  # loads its packages at their first use: half a second
-from yade import Box, Facet, Polytope, RockJointMat, Vector3, Wall, _polytope
+from yade import Box, Facet, Polytope, RockJointMat, Wall
 
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
@@ -14,9 +13,11 @@ from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
-from .overlaps import coincidence, mayMeet, overlaps, planesOf
+from .halfSpaces import halfSpacesOf
+from .neighbours import looks, touching, touchingPairs
+from .overlaps import coincidence, overlaps
 
-__all__ = ['looks', 'meet', 'notNumbers', 'overlapShare', 'placeFindings', 'touching']
+__all__ = ['notNumbers', 'overlapShare', 'placeFindings']
 
 softest = 0.1
 """Overlap over the inscribed radius, under a body's own weight or in its impact on one face, above which the contact gives way: overlaps of
@@ -24,12 +25,6 @@ some thousandths are usual, and forces are computed for small ones."""
 
 half = 0.5
 """Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
-
-touching = 1e-6
-"""Gap over the smaller circumscribed radius up to which bodies are in touch from the start."""
-
-looks = 2000
-"""Pairs of neighbours to look at for one that touches: blocks of a rock mass do, grains of a cloud do not."""
 
 
 def placeFindings(scene):
@@ -57,7 +52,7 @@ def suddenGravity(scene):
 	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body)]
 	bonded = any(bond.intact and math.isfinite(bond.tensileStrength) for bond in madeBonds())
 	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body)]
-	if not bonded and not _anyTouch(scene, strong) and not _anyRests(scene, strong, supports):
+	if not bonded and not any(True for _ in touchingPairs(scene, strong)) and not _anyRests(scene, strong, supports):
 		return
 	what = 'bonds' if bonded else 'joints with cohesion or tensile strength'
 	seen = f'{what} and gravity that begins at once: the first swing loads them up to twice, and what fails then is lost although it would hold at rest'
@@ -73,21 +68,6 @@ def _canLoseStrength(body):
 	)
 
 
-def _anyTouch(scene, bodies):
-	if len(bodies) < 2:
-		return False
-	radii = np.array([float(body.shape.circumscribedRadius) for body in bodies])
-	rows = arrays().bodies
-	places = rows.positions[np.searchsorted(rows.ids, [body.id for body in bodies])]
-	near = scipy.spatial.cKDTree(places).query_ball_point(places, 2 * radii)
-	pairs = ((i, j) for i, others in enumerate(near) for j in others if j != i and radii[j] <= radii[i])
-	for i, j in itertools.islice(pairs, looks):
-		one, other = bodies[i], bodies[j]
-		if meet(scene, one, other) and _gap(one, other) < touching * min(radii[i], radii[j]):
-			return True
-	return False
-
-
 def _anyRests(scene, bodies, supports):
 	"""Whether a vertex of one of the bodies lies on a box, facet or wall."""
 	pairs = ((body, support) for body in bodies if scene.moves(body) for support in supports if body.mask & support.mask)
@@ -99,21 +79,8 @@ def _anyRests(scene, bodies, supports):
 
 def _distances(support, points):
 	"""Of points to a box, facet or wall as one in their middle meets it, at least [m]; below zero: in it."""
-	normals, offsets = (np.frombuffer(numbers) for numbers in _polytope.supportPlanes(support, Vector3(*points.mean(axis=0))))
-	return (points @ normals.reshape(-1, 3).T - offsets).max(axis=1)
-
-
-def _gap(one, other):
-	try:
-		return float(_polytope.contact(one, other).infeasibility)
-	except ValueError:  # a polygon and a polyhedron
-		return math.inf
-
-
-def meet(scene, one, other):
-	"""Whether they may have a contact: not the same place, which coincidence() finds."""
-	samePlace = (one.state.pos - other.state.pos).norm() == 0 and planesOf(one) == planesOf(other)
-	return not samePlace and mayMeet(scene, one, other)
+	normals, offsets = halfSpacesOf(support, points.mean(axis=0))
+	return (points @ normals.T - offsets).max(axis=1)
 
 
 def spanning(scene):

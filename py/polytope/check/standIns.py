@@ -2,10 +2,10 @@
 """YADE's own shapes as polytope.contact() can meet them, for polytope.check()."""
 
 import numpy as np
-from yade import _polytope
 
 from ..bodies.polytopes import fromHalfSpaces
 from ..pictures.faces import worldVertices
+from .halfSpaces import halfSpacesOf
 
 __all__ = ['depthInSphere', 'standIn']
 
@@ -18,8 +18,7 @@ projections = 50
 
 def standIn(support, body):
 	"""A wall, facet or box by its half-spaces as the body meets them, as a polytope; None where the body is on the far side of one of them."""
-	planes = (np.frombuffer(numbers) for numbers in _polytope.supportPlanes(support, body.state.pos))
-	normals, offsets = next(planes).reshape(-1, 3), next(planes)
+	normals, offsets = halfSpacesOf(support, body.state.pos)
 	corners, middle, reach = worldVertices(body), np.array(body.state.pos, float), float(body.shape.circumscribedRadius)
 	if (normals @ corners.T - offsets[:, None]).min(axis=1).max() > 0:
 		return None
@@ -34,10 +33,8 @@ def standIn(support, body):
 
 def depthInSphere(body, sphere):
 	"""How deep the body lies in a sphere [m], below zero: at least so far from it."""
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = np.array([list(normal) for normal in body.shape.normals], float) @ turn.T
-	offsets = np.array([float(offset) for offset in body.shape.offsets])
-	centre = np.array(sphere.state.pos - body.state.pos, float)
+	centre = np.array(sphere.state.pos, float)
+	normals, offsets = halfSpacesOf(body, centre)
 	slacks = offsets - normals @ centre
 	if slacks.min() >= 0:
 		return float(sphere.shape.radius) + float(slacks.min())

@@ -4,7 +4,7 @@
 import numpy as np
 from yade import Polytope, _polytope
 
-from .looks import colorMap, shadesFor, usualFixedColor
+from .looks import colorMap, rgbOf, shadesFor, usualFixedColor
 
 __all__ = ['FaceColors', 'faceColors', 'ofFaces']
 
@@ -54,8 +54,7 @@ class FaceColors:
 	def _colors(self, numbers):
 		if not self._few:
 			return shadesFor(numbers, *self._ends)
-		known = np.array([[int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)] for color in palette])
-		return known[numbers % len(palette)]
+		return rgbOf(palette)[numbers % len(palette)]
 
 	def _ofFaces(self, body):
 		numbers = np.asarray(self._numbers(body))

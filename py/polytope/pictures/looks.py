@@ -15,6 +15,7 @@ __all__ = [
 	'colors',
 	'colorsWithoutValue',
 	'endsOf',
+	'rgbOf',
 	'shadesFor',
 	'styles',
 	'typicalRadius',
@@ -83,10 +84,15 @@ def shadesFor(values, low, high):
 	return _shades()[np.rint(np.clip(share, 0, 1) * (shades - 1)).astype(int)]
 
 
+def rgbOf(colors):
+	"""(n, 3) in 0…1 of colours like '#1d4e79'."""
+	return np.array([[int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)] for color in colors])
+
+
 @functools.lru_cache
 def _shades():
 	"""The colour map at so many values, (shades, 3)."""
-	known = np.array([[int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)] for color in colorMap])
+	known = rgbOf(colorMap)
 	at = np.linspace(0, 1, shades)
 	places = np.linspace(0, 1, len(known))
 	return np.stack([np.interp(at, places, channel) for channel in known.T], axis=-1)

@@ -14,7 +14,7 @@ from ..scene.stages import sizeOf
 from .holding import anythingBelow, isHeld, isThin, touched
 from .unbalanced import unbalancedForces
 
-__all__ = ['NotAtRest', 'Restless', 'Unrest', 'remedy', 'told']
+__all__ = ['NotAtRest', 'Restless', 'Unrest', 'placesById', 'remedy', 'told']
 
 firstSpan = 1250
 """Length of the first span in steps; as often it is looked what falls, which it has by more than its size."""
@@ -75,7 +75,7 @@ class Unrest:
 		self.stood = None
 		"""Ids of bodies that touched others at the first look."""
 		self.sum = self.mean = self.before = np.zeros(0)
-		self.origin = self.began = self.last = _places()
+		self.origin = self.began = self.last = placesById()
 		self.start = arrays().bodies
 		self.span = self.spanBefore = np.zeros(len(self.origin))
 		"""Largest ways since the span began, and in the one before [m]."""
@@ -92,7 +92,7 @@ class Unrest:
 		self.mean = self.sum / self.looks
 		if self.stood is None:
 			self.stood = set(map(int, np.unique(arrays().contacts.ids)))
-		places = _places()
+		places = placesById()
 		ways = _ways(self.began, places)
 		self.span = np.maximum(_ofLength(self.span, len(ways)), ways)
 		self.path = _ofLength(self.path, len(ways)) + _ways(self.last, places)
@@ -101,7 +101,7 @@ class Unrest:
 
 	def displaced(self):
 		"""Of bodies that stood on others when it began, those that have moved by more than their size, as (id, way [m]), the farthest first."""
-		ways = _ways(self.origin, _places())
+		ways = _ways(self.origin, placesById())
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in self.stood and ways[k] > sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])
 
@@ -196,7 +196,7 @@ def _couldHang(k):
 	return any(material.tensileStrength > 0 for material in jointMaterials([O.bodies[part] for part in partsOf(k)]))
 
 
-def _places():
+def placesById():
 	"""(n, 3) by id; of ids without a body zero [m]"""
 	bodies = arrays().bodies
 	found = np.zeros((len(O.bodies), 3))

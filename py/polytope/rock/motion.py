@@ -6,6 +6,7 @@ from yade import O, Polytope, _polytope
 
 from ..measures.arrays import arrays
 from ..rest.unbalanced import resultants
+from ..rest.unrest import placesById
 from ..scene.movers import partsOf
 
 __all__ = ['Motion']
@@ -41,7 +42,7 @@ class Motion:
 		"""Sum of the resultant forces of all bodies over the looks that count [N], and their number."""
 		self.taken, self.time = 0.0, O.time
 		"""D [J], up to this time [s]."""
-		self.began = self.now = _places()
+		self.began = self.now = placesById()
 		self.touched, self.since = _touching(), (0, set())
 		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster is not stopped by them; and those that touched at a look, with its number."""
 
@@ -49,12 +50,12 @@ class Motion:
 		"""
 		:param masses: true masses by id, where those of the scene are scaled [kg]
 		"""
-		self.parts.append(np.linalg.norm((_places() - self.began)[self.watched], axis=1) / self.limits)
+		self.parts.append(np.linalg.norm((placesById() - self.began)[self.watched], axis=1) / self.limits)
 		if len(self.parts) > 2 * self.since[0]:
 			self.touched, self.since = self.touched | self.since[1], (len(self.parts), _touching())
 		if self.parts[-1].max() < early:
 			self.forces, self.looks = self.forces + resultants(masses), self.looks + 1
-			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, _places()
+			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, placesById()
 
 	def way(self, looks):
 		"""Largest way in the last looks, over its limit."""
@@ -79,7 +80,7 @@ class Motion:
 
 	def _isStopped(self, k):
 		"""Whether body k meets another one, which it has not touched for long and which does not move with it."""
-		way = (_places() - self.began)[self.watched]
+		way = (placesById() - self.began)[self.watched]
 		length = np.linalg.norm(way[k])
 		along = way[k] / length
 		withIt = {int(self.watched[j]) for j in np.flatnonzero(way @ along >= sameWay * length)}
@@ -117,14 +118,6 @@ def _friction():
 		- np.cross(turns[one], contacts.points - places[one])
 	)
 	return -float(np.nansum(contacts.shearForces * sliding))
-
-
-def _places():
-	"""(n, 3) by id; of ids without a body zero [m]"""
-	bodies = arrays().bodies
-	found = np.zeros((len(O.bodies), 3))
-	found[bodies.ids] = bodies.positions
-	return found
 
 
 def _touching():
