@@ -27,7 +27,8 @@ from .bodies.meshes import facets, fromMesh
 from .bodies.ownShapes import withShape
 from .bodies.polytopes import cuboid, fromHalfSpaces, fromVertices, polygon, regular
 from .bodies.shapeFiles import readShapes, writeShapes
-from .bodies.solids import frustum, plates, prism, terrain, tube
+from .bodies.solids import frustum, plates, prism, tube
+from .bodies.terrain import terrain
 from .bodies.voronoi import VoronoiCells, voronoi
 from .bonding.bolting import Dowel, Grout, bolt, boltArrays, bolts
 from .bonding.bonds import bond, bonds

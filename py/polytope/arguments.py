@@ -13,7 +13,7 @@ from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'maskOf', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
+__all__ = ['flag', 'maskOf', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'positive', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
 
 infinite = float('inf')
 package = os.path.dirname(os.path.abspath(__file__)) + os.sep
@@ -45,6 +45,14 @@ def number(value, name):
 	if not isNumber(value):
 		raise ValueError(f'{name}: must be a number, got {value!r}')
 	return real(value)
+
+
+def positive(value, name):
+	"""The number as a float, where it is above 0 and finite."""
+	found = float(number(value, name))
+	if not 0 < found < infinite:
+		raise ValueError(f'{name}: must be positive and finite, got {value!r}')
+	return found
 
 
 def flag(value, name):

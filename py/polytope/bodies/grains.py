@@ -6,10 +6,11 @@ import numbers
 
 import numpy as np
 from tqdm import tqdm
-from yade import Body, Polytope, Vector3, _polytope
+from yade import Body, Polytope, Sphere, Vector3, _polytope
 
-from ..arguments import materialOf, number, randomOf, vector
+from ..arguments import materialOf, number, positive, randomOf, vector
 from .grainShapes import cornersOf, partsOfLoose, pointsOnAnEllipsoid, shapesOf, turnOf
+from .inSphere import depthInSphere
 from .polytopes import builder, fromVertices
 
 __all__ = ['cloud', 'grains', 'randomGrain']
@@ -38,14 +39,12 @@ def randomGrain(size, elongation=1, flatness=1, vertices=14, seed=None, **body):
 	:param int seed: of the random numbers
 	:raises ValueError: naming the argument
 	"""
-	size = number(size, 'size')
-	if not 0 < size < math.inf:
-		raise ValueError(f'size: must be positive and finite, got {size!r}')
+	size = positive(size, 'size')
 	random = randomOf(seed)
 	points = pointsOnAnEllipsoid(
 		random, _vertices(vertices), *(_share(value, name) for value, name in ((elongation, 'elongation'), (flatness, 'flatness')))
 	)
-	return fromVertices((float(size) * points).tolist(), **body)
+	return fromVertices((size * points).tolist(), **body)
 
 
 @builder(lacks=('center', 'orientation'))
@@ -106,10 +105,7 @@ def _massOf(mass, howMany, massOfOne):
 	if (mass is None) == (howMany is None):
 		raise ValueError('mass: give the mass of all grains [kg], or their number (number=…), one of the two')
 	if mass is not None:
-		mass = number(mass, 'mass')
-		if not 0 < mass < math.inf:
-			raise ValueError(f'mass: must be positive and finite, got {mass!r}')
-		return 'mass', float(mass)
+		return 'mass', positive(mass, 'mass')
 	if isinstance(howMany, bool) or not isinstance(howMany, numbers.Integral) or not 0 < howMany <= mostGrains:
 		raise ValueError(f'number: must be a whole number from 1 to {mostGrains:,}, got {howMany!r}')
 	return 'number', int(howMany) * massOfOne()
@@ -137,10 +133,10 @@ def _notTooMany(sizes, passing, mass, density):
 
 
 def cloud(lower, upper, bodies, seed=None):
-	"""Places polyhedra at random inside a box, apart from each other, the largest first; their orientations stay.
+	"""Places polyhedra and YADE's spheres at random inside a box, apart from each other, the largest first; their orientations stay.
 
 	:param lower, upper: opposite corners of the box [m]
-	:param bodies: list of bodies, such as grains() makes; the parts of a body that is not convex as a list in its place, for *clump*
+	:param bodies: list of bodies, such as grains() makes, spheres among them; the parts of a body that is not convex as a list in its place, for *clump*
 	:param int seed: of the random numbers
 	:returns: the bodies
 	:raises ValueError: naming *bodies*, or *upper* where the box is too small for them
@@ -149,19 +145,20 @@ def cloud(lower, upper, bodies, seed=None):
 	try:
 		bodies = list(bodies)
 	except TypeError:
-		raise ValueError(f'bodies: must be a list of polyhedra, got {bodies!r}') from None
+		raise ValueError(f'bodies: must be a list of polyhedra and spheres, got {bodies!r}') from None
 	groups = [partsOfLoose(one) for one in bodies]
-	if not all(
-		isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in groups for part in parts
-	):
-		raise ValueError('bodies: must be a list of polyhedra, or of lists of the parts of one')
+	if not all(isinstance(part, Body) and _isSolid(part.shape) for parts in groups for part in parts):
+		raise ValueError('bodies: must be a list of polyhedra and spheres, or of lists of the parts of one')
 	middles = [sum((part.state.pos for part in parts), Vector3.Zero) / len(parts) for parts in groups]
 	offsets = [[part.state.pos - middle for part in parts] for parts, middle in zip(groups, middles, strict=True)]
 	corners = [
-		np.concatenate([cornersOf(part) + np.array(offset, float) for part, offset in zip(parts, aside, strict=True)])
+		np.concatenate([_ends(part) + np.array(offset, float) for part, offset in zip(parts, aside, strict=True)])
 		for parts, aside in zip(groups, offsets, strict=True)
 	]
-	radii = [float(np.linalg.norm(points, axis=1).max()) for points in corners]
+	radii = [
+		max(float(np.linalg.norm(offset)) + _radius(part) for part, offset in zip(parts, aside, strict=True))
+		for parts, aside in zip(groups, offsets, strict=True)
+	]
 	random, placed = randomOf(seed), _Placed(min(radii, default=1))
 	order = sorted(range(len(bodies)), key=lambda k: -radii[k])
 	for k in tqdm(order, desc='placing', unit=' bodies', disable=None, leave=False):
@@ -213,7 +210,30 @@ class _Placed:
 def _touch(place, radius, parts, other):
 	where, reach, neighbours = other
 	near = math.dist(where, place) < radius + reach
-	return near and any(_polytope.contact(part, neighbour).inContact for part in parts for neighbour in neighbours)
+	return near and any(_inContact(part, neighbour) for part in parts for neighbour in neighbours)
+
+
+def _inContact(one, other):
+	spheres = [isinstance(body.shape, Sphere) for body in (one, other)]
+	if all(spheres):
+		return (one.state.pos - other.state.pos).norm() < one.shape.radius + other.shape.radius
+	if any(spheres):
+		return depthInSphere(*((other, one) if spheres[0] else (one, other))) > 0
+	return _polytope.contact(one, other).inContact
+
+
+def _isSolid(shape):
+	return isinstance(shape, Sphere) or (isinstance(shape, Polytope) and shape.dimension == 3)
+
+
+def _radius(part):
+	"""Of a ball about its position that holds it [m]."""
+	return float(part.shape.radius if isinstance(part.shape, Sphere) else part.shape.circumscribedRadius)
+
+
+def _ends(part):
+	"""Points whose box is the body's, relative to its centre [m]."""
+	return float(part.shape.radius) * np.concatenate([np.eye(3), -np.eye(3)]) if isinstance(part.shape, Sphere) else cornersOf(part)
 
 
 def _fraction(random, least, largest, volume, shape):

@@ -7,7 +7,7 @@ import numbers
 import numpy as np
 from yade import O, Polytope
 
-from ..arguments import namedArguments, number, vector
+from ..arguments import namedArguments, number, positive, vector
 from ..bonding.bonds import madeBonds
 from ..measures.stress import bodyStress
 from ..scene.movers import movers
@@ -128,8 +128,8 @@ def _sizeEffect(volume, modulus, probability, seed):
 			if value is not None:
 				raise ValueError(f"{name}: needs Weibull's modulus too; give modulus=…")
 		return lambda body: 1.0
-	power = 1 / _positive(modulus, 'modulus')
-	reference = None if volume is None else _positive(volume, 'volume')
+	power = 1 / positive(modulus, 'modulus')
+	reference = None if volume is None else positive(volume, 'volume')
 	if probability is not None and seed is not None:
 		raise ValueError('probability: random strengths (seed) have all probabilities; leave one of the two out')
 	if seed is not None and (isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or seed < 0):
@@ -151,7 +151,3 @@ def _strength(value, name):
 	return float(value)
 
 
-def _positive(value, name):
-	if not 0 < number(value, name) < math.inf:
-		raise ValueError(f'{name}: must be positive and finite, got {value!r}')
-	return float(value)

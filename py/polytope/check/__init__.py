@@ -7,6 +7,7 @@ from .contacts import contactFindings
 from .costs import costFindings, takeCosts
 from .engines import engineFindings
 from .extensions import derivedShapes
+from .falling import falling
 from .findings import Check, Finding
 from .lostStrengths import hanging, lostStrengths
 from .materials import defaultMaterial
@@ -29,7 +30,7 @@ def check(O, costs=False):
 	only, YADE's density scaling, bodies that have YADE's default material in place of the scene's, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a
 	quiet boundary, water that acts too late, density, mass and size of bodies, friction angles in degrees, cohesion and tensile strength in MPa, dilation above friction, stiffnesses too low for the loads,
 	joints so soft that a block topples a degree below its own angle, faces on several pieces with a stiffness for each contact, gravity that
-	begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch, attributes that nothing reads, contact queries that failed, the time step and its time
+	begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch or that nothing fixed is below, engines that move bodies that are free or do not exist, attributes that nothing reads, contact queries that failed, the time step and its time
 	steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's collider does not notice.
 
 	It lists all that it finds, not the first only. Where it finds nothing it says how many bodies can move, their sizes in m and masses in kg, the extent of what is fixed, and gravity: a stone of 40 m
@@ -68,6 +69,6 @@ def checkOf(O, engines):
 		places = list(placeFindings(scene))
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to
 			places += softJoints(scene)
-		found += [*places, *lostStrengths(scene), *hanging(scene), *stepFindings(scene)]
+		found += [*places, *lostStrengths(scene), *hanging(scene), *falling(scene), *stepFindings(scene)]
 	findings = (Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same
 	return Check(findings, '' if engines else aboutScene(scene))

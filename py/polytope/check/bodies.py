@@ -4,7 +4,7 @@
 import math
 
 import numpy as np
-from yade import Box, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat
+from yade import Box, Facet, FrictMat, Ip2_RockJointMat_RockJointMat_RockJointPhys, Polytope, RockJointMat, Wall
 
 from ..bonding.bonds import bonds
 from ..rock.faceMaterials import materialsOf
@@ -79,7 +79,8 @@ def mass(scene):
 			(heavy if 0 < float(body.state.mass) < math.inf else light).append(body)
 	if light:
 		seen = f'{_number(light)} can move and has mass {float(light[0].state.mass):g} kg: no force accelerates it'
-		yield 'mass', seen, 'make it of a material with a density above 0, or hold it (fixed=True)'
+		flat = isinstance(light[0].shape, (Facet, Wall))
+		yield 'mass', seen, 'hold it (fixed=True): it has no volume' if flat else 'make it of a material with a density above 0, or hold it (fixed=True)'
 	turning = [body for body in heavy if _turns(body) and not min(map(float, body.state.inertia)) > 0]
 	if turning:
 		yield (

@@ -21,13 +21,14 @@ from yade import (
 
 from ..bonding.bolting import removedBolts
 from ..bonding.bonds import removedBonds
+from ..scene.movers import canMove, moverOf
 from ..scene.present import stiffnessesPerArea, wrongUnit
 
 __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders, moversOfNothing, masks):
+	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders, driven, masks):
 		yield from one(scene)
 
 
@@ -163,13 +164,18 @@ def recorders(scene):
 		yield 'recorder', seen, "PolytopeVTKRecorder(fileName='output/', recorders=['bodies', 'contacts']), beside it or in its place"
 
 
-def moversOfNothing(scene):
-	"""Engines that move bodies by their numbers: YADE passes over numbers that there are none of."""
+def driven(scene):
+	"""Engines that move bodies by their numbers: YADE passes over numbers that there are none of, and moves bodies without a blocked degree of freedom by forces, too."""
+	bodies = scene.O.bodies
 	for engine in scene.those(KinematicEngine):
-		lost = [k for k in engine.ids if not 0 <= k < len(scene.O.bodies) or scene.O.bodies[k] is None]
+		name = type(engine).__name__
+		there = [k for k in engine.ids if 0 <= k < len(bodies) and bodies[k] is not None]
+		lost = [k for k in engine.ids if k not in there]
+		free = [k for k in there if canMove(bodies[k]) and not bodies[moverOf(k)].state.blockedDOFs]
 		if lost:
-			seen = f'{type(engine).__name__} moves body {lost[0]}, which does not exist'
-			yield 'engines', seen, 'ids of bodies that are in the scene: O.bodies.append(…) returns them'
+			yield 'engines', f'{name} moves body {lost[0]}, which does not exist', 'ids of bodies that are in the scene: O.bodies.append(…) returns them'
+		if free:
+			yield 'engines', f'{name} moves body {free[0]}, which is free: gravity and contacts move it, too', 'make it with fixed=True, or set its dynamic = False'
 
 
 def masks(scene):

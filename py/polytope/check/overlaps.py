@@ -11,9 +11,10 @@ from yade import Body, Box, Facet, Polytope, Sphere, Wall
 
 from ..measures.arrays import arrays
 from ..scene.movers import sameClump
-from .halfSpaces import halfSpacesOf
+from ..bodies.halfSpaces import halfSpacesOf
+from ..bodies.inSphere import depthInSphere
 from .overlapEnergy import Thrown
-from .standIns import depthInSphere, standIn
+from .standIns import standIn
 
 __all__ = ['coincidence', 'mayMeet', 'overlaps', 'planesOf']
 

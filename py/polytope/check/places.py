@@ -13,7 +13,7 @@ from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
-from .halfSpaces import halfSpacesOf
+from ..bodies.halfSpaces import halfSpacesOf
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 

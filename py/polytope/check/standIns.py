@@ -5,15 +5,12 @@ import numpy as np
 
 from ..bodies.polytopes import fromHalfSpaces
 from ..pictures.faces import worldVertices
-from .halfSpaces import halfSpacesOf
+from ..bodies.halfSpaces import halfSpacesOf
 
-__all__ = ['depthInSphere', 'standIn']
+__all__ = ['standIn']
 
 behind = 4.0
 """Circumscribed radii of the body from its middle at which a wall or facet ends behind its surface: so far away that no other face of it is the nearest one."""
-
-projections = 50
-"""Of a sphere's centre onto a body's half-spaces, one after another: where they end is in the body, or so near to it as matters."""
 
 
 def standIn(support, body):
@@ -29,20 +26,3 @@ def standIn(support, body):
 		)
 	except ValueError:  # a box without thickness, a facet without area
 		return None
-
-
-def depthInSphere(body, sphere):
-	"""How deep the body lies in a sphere [m], below zero: at least so far from it."""
-	centre = np.array(sphere.state.pos, float)
-	normals, offsets = halfSpacesOf(body, centre)
-	slacks = offsets - normals @ centre
-	if slacks.min() >= 0:
-		return float(sphere.shape.radius) + float(slacks.min())
-	point = centre.copy()
-	for _ in range(projections):
-		worst = int(np.argmax(normals @ point - offsets))
-		beyond = normals[worst] @ point - offsets[worst]
-		if beyond <= 0:
-			break
-		point -= beyond * normals[worst]
-	return float(sphere.shape.radius) - float(np.linalg.norm(point - centre))

@@ -11,7 +11,7 @@ import os
 import numpy as np
 from yade import _polytope
 
-from ..arguments import namedArguments, number, numbersOf, vectors, warn
+from ..arguments import namedArguments, numbersOf, positive, vectors, warn
 from ..bodies.meshes.digits import warnOfRounding
 from ..bodies.meshes.files import readMesh
 from ..precision import real
@@ -50,10 +50,9 @@ def meshRegion(path, scale=1):
 	"""
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'path: must be the path of a mesh file, got {path!r}')
-	if not 0 < number(scale, 'scale') < math.inf:
-		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
+	factor = positive(scale, 'scale')
 	mesh = readMesh(path, 'path')
-	points = np.array(mesh.points, float) * float(scale)
+	points = np.array(mesh.points, float) * factor
 	corners = points[mesh.triangles]
 	edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
 	areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)

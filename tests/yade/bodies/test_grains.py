@@ -8,6 +8,8 @@ import types
 
 import numpy as np
 import pytest
+import scipy
+import yade
 from yade import Ip2_RockJointMat_RockJointMat_RockJointPhys, O, Quaternion, RockJointMat, polytope
 
 shapesModule = sys.modules['yade.polytope.bodies.grainShapes']
@@ -213,6 +215,23 @@ def testCloudIsInsideAndApart():
 	assert all(body.state.refPos == body.state.pos for body in bodies)
 
 
+def testCloudOfGrainsAndSpheres():
+	"""Apart by closed forms: of spheres by their centres, of a sphere and a grain by the grain's corners, edges and faces, which a fine net of points stands for."""
+	stones = polytope.grains([(0.01, 0), (0.02, 1)], number=30, seed=1)
+	bodies = polytope.cloud((0, 0, 0), (0.1, 0.1, 0.1), [*stones, *(yade.utils.sphere((0, 0, 0), 0.006) for _ in range(60))], seed=1)
+	spheres = [body for body in bodies if isinstance(body.shape, yade.Sphere)]
+	places = np.array([body.state.pos for body in spheres], float)
+	assert len(spheres) == 60 and (places >= 0.006).all() and (places <= 0.094).all()
+	assert min(np.linalg.norm(places[:k] - places[k], axis=1).min() for k in range(1, 60)) > 0.012
+	for stone in stones:
+		tops = corners(stone)
+		weights = np.random.default_rng(1).dirichlet(np.full(len(tops), 0.05), 4000)  # most are at corners, edges and faces
+		apart = scipy.spatial.cKDTree(weights @ tops).query(places)[0].min()
+		assert apart > 0.006
+	nearest = min(scipy.spatial.cKDTree(corners(stone)).query(places)[0].min() for stone in stones)
+	assert nearest < 0.0075, 'they fill the box: some are close'
+
+
 def testCloudThatIsTooDense():
 	sample = polytope.grains([(0.009, 0), (0.01, 1)], 0.36, seed=1)
 	with pytest.raises(ValueError, match=f'upper: .* of {len(sample)} bodies'):
@@ -250,6 +269,7 @@ def testCloudFallsAndComesToRest():
 		(lambda: polytope.grains(curve, 1, shapes=['a.stl']), 'shapes'),
 		(lambda: polytope.grains(curve, 1, shapes=[[polytope.polygon([(0, 0), (1, 0), (0, 1)])]]), 'shapes'),
 		(lambda: polytope.cloud((0, 0, 0), (1, 1, 1), [1]), 'bodies'),
+		(lambda: polytope.cloud((0, 0, 0), (1, 1, 1), [yade.utils.facet([(0, 0, 0), (1, 0, 0), (0, 1, 0)])]), 'bodies'),
 		(lambda: polytope.cloud((0, 0, 0), (1, 1), []), 'upper'),
 	],
 )

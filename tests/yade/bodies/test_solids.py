@@ -5,6 +5,7 @@ from math import cos, pi, sin, tan
 
 import numpy as np
 import pytest
+import trimesh
 from yade import O, Quaternion, RockJointMat, Vector3, polytope
 
 
@@ -92,12 +93,68 @@ def testTerrainOfAHeightMap():
 
 
 def testTerrainOfAMesh(tmp_path):
-	trimesh = pytest.importorskip('trimesh')
 	points = [(0, 0, 1), (2, 0, 1), (0, 2, 2), (2, 2, 1), (2, 2, 3)]
 	trimesh.Trimesh(points, [(0, 1, 2), (1, 3, 2), (1, 3, 4)], process=False).export(tmp_path / 'hill.stl')
 	made = polytope.terrain(tmp_path / 'hill.stl', depth=1)
 	assert len(made) == 2, 'the vertical triangle is left out'
 	assert sum(body.shape.volume for body in made) == pytest.approx(2 * (4 / 3 + 4 / 3), rel=1e-6)
+
+
+def _hill():
+	"""A surface of 96 triangles."""
+	x, y = np.meshgrid(np.linspace(0, 4, 9), np.linspace(0, 3, 7), indexing='ij')
+	top = np.stack([x, y, 1 + np.sin(x) * np.cos(y)], axis=-1).reshape(-1, 3)
+	first = [7 * i + j for i in range(8) for j in range(6)]
+	return trimesh.Trimesh(top, [three for k in first for three in ((k, k + 7, k + 1), (k + 7, k + 8, k + 1))], process=False)
+
+
+def _volume(made):
+	return sum(float(body.shape.volume) for body in made)
+
+
+def testTerrainOfAClosedMeshIsThatOfItsUpperSide(tmp_path):
+	hill = _hill()
+	hill.export(tmp_path / 'open.ply')
+	solid = trimesh.creation.extrude_triangulation(hill.vertices[:, :2], hill.faces, 1)
+	upper = solid.vertices[:, 2] > 0.5
+	lookup = {tuple(np.round(v[:2], 9)): v[2] for v in hill.vertices}
+	solid.vertices = [(x, y, lookup[tuple(np.round((x, y), 9))] if up else -3) for (x, y, _), up in zip(solid.vertices, upper, strict=True)]
+	assert solid.is_watertight
+	for turned in (False, True):
+		if turned:
+			solid.invert()
+		solid.export(tmp_path / 'closed.stl')
+		closed = polytope.terrain(tmp_path / 'closed.stl', depth=1)
+		assert len(closed) == 96
+		assert _volume(closed) == pytest.approx(_volume(polytope.terrain(tmp_path / 'open.ply', depth=1)), rel=1e-5)
+
+
+def testTerrainInOtherUnitsAndPlaces(tmp_path):
+	hill = _hill().apply_translation((4e5, 5e6, 100))
+	hill.export(tmp_path / 'hill.obj', digits=9)
+	made = polytope.terrain(tmp_path / 'hill.obj', depth=2, scale=0.5, shift=(-2e5, -2.5e6, -50))
+	reach = np.concatenate([corners(body) for body in made])
+	assert reach.min(axis=0)[:2] == pytest.approx((0, 0), abs=1e-6) and reach.max(axis=0)[:2] == pytest.approx((2, 1.5), abs=1e-6)
+	assert reach[:, 2].max() == pytest.approx(1, abs=0.05)
+	moved = polytope.terrain([[0, 0], [0, 0]], spacing=1, depth=1, scale=2, shift=(5, 6, 7))
+	reach = np.concatenate([corners(body) for body in moved])
+	assert (reach.min(axis=0), reach.max(axis=0)) == (pytest.approx((5, 6, 6)), pytest.approx((7, 8, 7)))
+
+
+@pytest.mark.parametrize('scale', [0, -1, float('nan'), 'mm'])
+def testTerrainRefusesAScale(scale):
+	with pytest.raises(ValueError, match='^scale: '):
+		polytope.terrain([[0, 0], [0, 0]], spacing=1, scale=scale)
+
+
+@pytest.mark.parametrize('kind', ['cave', 'twice'])
+def testGroundThatHangsOverIsRefused(kind, tmp_path):
+	"""A roof beside the ground in an open mesh; ground that is there twice."""
+	hill = _hill()
+	other = trimesh.Trimesh([(1, 1, 3), (2, 1, 3), (1, 2, 3)], [(0, 1, 2)], process=False) if kind == 'cave' else hill.copy()
+	trimesh.util.concatenate([hill, other]).export(tmp_path / 'ground.obj')
+	with pytest.raises(ValueError, match=r'^heights: .*hangs over.*\(x, y\) = \(.*polytope.facets'):
+		polytope.terrain(tmp_path / 'ground.obj')
 
 
 def testABlockRestsInAContainerOnTerrain():

@@ -492,6 +492,33 @@ def testAnEngineThatMovesNothing():
 	assert not polytope.check(O)
 
 
+def testAnEngineThatMovesAFreeBody():
+	scene()
+	O.engines = [RotationEngine(ids=[1], rotationAxis=(0, 0, 1), angularVelocity=0), *O.engines]
+	found = onlyFinding('engines')
+	assert 'RotationEngine moves body 1, which is free' in found.seen and 'fixed=True' in found.advice
+	O.bodies[1].state.blockedDOFs = 'Z'
+	assert not polytope.check(O), 'it is held where the engine turns it'
+
+
+@pytest.mark.parametrize('gravity', [(0, 0, 9.81), (0, 9.81, 0), (0, 0, -9.81)])
+def testGravityAwayFromTheFloor(gravity):
+	"""(0, 9.81, 0): past the floor, which reaches as far as the block does to the side; nobody knows whether that is meant."""
+	scene()
+	integrator = next(engine for engine in O.engines if isinstance(engine, yade.NewtonIntegrator))
+	integrator.gravity = gravity
+	if gravity[2] > 0:
+		assert 'body 1 is below all that is fixed' in onlyFinding('falls').seen
+	else:
+		assert not polytope.check(O)
+
+
+def testABodyBelowTheFloor():
+	scene(lambda: [polytope.cuboid((0, 0, -3), (0.3, 0.1, 0.05)), polytope.cuboid((0.5, 0, -3), (0.1, 0.1, 0.05))])
+	found = onlyFinding('falls')
+	assert found.seen.startswith('body 2 is below') and 'so are 1 others' in found.seen
+
+
 def testATimeStepThatWasNeverSet():
 	"""YADE's own O.dt: the run does not end in a lifetime, and nothing else is wrong with it."""
 	scene()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Spheres and solids on seams, ridges and corners of several pieces, and facets of a bent mesh: as on one piece, whatever the physics."""
 import math
+import warnings
 
 import pytest
 from flatFace import sunk
@@ -14,6 +15,7 @@ from yade import (
 	Law2_ScGeom_MindlinPhys_Mindlin,
 	MatchMaker,
 	O,
+	PolytopeTimeStepper,
 	Quaternion,
 	RockJointMat,
 	Vector3,
@@ -463,3 +465,35 @@ def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 				touching = [contact.geom for contact in O.interactions if contact.isReal]
 				assert touching
 				assert all(geom.energyPerStiffness < 100 * geom.penetrationDepth**2 for geom in touching), (x, y, z)
+
+
+def energyLeft(model, pieces, tilt, speed, x):
+	"""Of a cube of 1 m that falls on a corner, without friction, damping and gravity: kinetic energy afterwards over that before."""
+	O.reset()
+	perArea = model == 'foundation'
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9 if perArea else 1e8, shearStiffness=1e7, frictionAngle=0, stiffnessPerArea=perArea))
+	O.bodies.append([polytope.cuboid((x, 0, -2), (4 / pieces, 4, 2), fixed=True) for x in ([0] if pieces == 1 else [-2, 2])])
+	cube = polytope.cuboid((x, 0.03, 0), (0.5, 0.5, 0.5), orientation=Quaternion((1, 2, 0.5), tilt), velocity=(0, 0, -speed))
+	corners = [cube.state.ori * corner for corner in cube.shape.vertices]
+	cube.state.pos = (x, 0.03, 1e-3 - min(corner[2] for corner in corners))
+	O.bodies.append(cube)
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')  # it sinks in deeply
+		O.engines = [one for one in polytope.engines(damping=0, gravity=(0, 0, 0)) if not isinstance(one, PolytopeTimeStepper)]
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
+	O.dt = 0.02 * math.sqrt(cube.state.mass / 1e9)
+	before = utils.kineticEnergy()
+	while cube.state.vel[2] < 0 or any(contact.isReal for contact in O.interactions):
+		O.step()
+		cube = O.bodies[len(O.bodies) - 1]
+	return utils.kineticEnergy() / before
+
+
+@pytest.mark.parametrize('model, least, most', [('foundation', 0.985, 1), ('spring', 0.985, 1.025)])
+def testEnergyOfADeepImpactOnASeam(model, least, most):
+	"""A corner sinks in by 0.07 to 0.17 of the edge. What pierces two pieces so deeply slides on none of them: each presses on its own part."""
+	for tilt, speed in ((0.3, 15), (0.8, 5), (0.8, 15)):
+		assert energyLeft(model, 1, tilt, speed, 0) == pytest.approx(1, abs=1e-4)
+		for x in (0, 0.05):
+			assert least < energyLeft(model, 2, tilt, speed, x) < most + 1e-4
+	assert energyLeft(model, 2, 0.3, 5, 0.05) == pytest.approx(1, abs=1e-4), 'it slides on one plate'

@@ -38,7 +38,7 @@ def showOutcome(results, ranges, known, chaotic=()):
 
 	:param dict ranges: of the reference, name in the results → (from, to); empty where nothing is known
 	:param str known: for what it is known
-	:param chaotic: names of results whose range is that of single runs: another run may lie outside, and gets no verdict
+	:param chaotic: names of results that chance decides in a single run, which may lie outside and gets no verdict
 	"""
 	print('\nWhat came out' + ('' if ranges else f' (the reference is known for {known})'))
 	rows = [['particles inside', results[0]['number'], *(r['inside'] for r in results)]]
@@ -48,8 +48,8 @@ def showOutcome(results, ranges, known, chaotic=()):
 		rows.append([label + ' *' * (key in chaotic and key in ranges), _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results)])
 	print(tabulate(rows, ['', 'reference', *[r['shape'] for r in results]], disable_numparse=True))
 	if ranges and chaotic:
-		print('* least and largest of five runs of an independent program, one for each solid. Heaps are chaotic: a single run may well lie')
-		print('  outside. What must hold is compared below where all five solids are run, and by ./run paper --only A over eight seeds.')
+		print('* Heaps are chaotic, and a body that topples late or a hard impact decides alone: a single run may lie outside. What must hold is')
+		print('  compared below where all five solids are run, and by ./run paper --only A over eight seeds.')
 
 
 def _range(ends):

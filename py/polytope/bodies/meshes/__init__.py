@@ -6,8 +6,7 @@ import numbers
 import numpy as np
 from yade import Vector3, _polytope
 
-from ...arguments import rotation, vector, vectors, warn
-from ...precision import isNumber
+from ...arguments import positive, rotation, vector, vectors, warn
 from ..clumps import union
 from ..polytopes import bodyOf, builder, ofOneColour
 from .convexParts import cut
@@ -55,8 +54,7 @@ def fromMesh(path, scale=1.0, parts=None, **body):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if it is none or the file cannot be read as a mesh or its hull is flat; naming *scale* if not positive; *parts*
 	"""
-	if not isNumber(scale) or not 0 < scale < float('inf'):
-		raise ValueError(f'scale: must be positive and finite, got {scale}')
+	scale = positive(scale, 'scale')
 	cutting = isinstance(parts, numbers.Integral) and not isinstance(parts, bool) and parts > 0
 	if not (parts is None or parts == 'objects' or cutting):
 		raise ValueError(f"parts: must be a number of parts above 0, or 'objects', got {parts!r}")

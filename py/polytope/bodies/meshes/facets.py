@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Containers and ground from mesh files, as facets of YADE's: `polytope.facets(…)`."""
 
-import math
 
 import numpy as np
 from yade import Vector3
 
-from ...arguments import number, vector, warn
+from ...arguments import positive, vector, warn
 from ..polytopes import builder, ofOneColour
 from ..yadeShapes import facetOf
 from .digits import warnOfRounding
@@ -32,9 +31,7 @@ def facets(path, scale=1.0, shift=(0, 0, 0), **body):
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* if the file cannot be read as a mesh or has no triangle with an area; naming *scale* or *shift*
 	"""
-	if not 0 < number(scale, 'scale') < math.inf:
-		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
-	moved = vector(shift, 'shift')
+	factor, moved = positive(scale, 'scale'), vector(shift, 'shift')
 	mesh = readMesh(path, 'path')
 	corners = mesh.points[mesh.triangles]
 	edges = corners - np.roll(corners, 1, axis=1)
@@ -45,6 +42,6 @@ def facets(path, scale=1.0, shift=(0, 0, 0), **body):
 	if not solid.all():
 		warn(f"path: {(~solid).sum()} of the {len(solid)} triangles of '{path}' have no area and are left out")
 	warnOfRounding(path, 'path', mesh.points, float(np.median(lengths[solid])), 'the usual length of an edge')
-	places = [float(scale) * Vector3(*point) + moved for point in mesh.points.tolist()]
+	places = [factor * Vector3(*point) + moved for point in mesh.points.tolist()]
 	pieces = ofOneColour(body)
 	return [facetOf([places[k] for k in three], **pieces) for three in mesh.triangles[solid].tolist()]

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Shapes from and to text files: YADE's own format for polyhedra, Neper's tessellations (.tess), Rockable's shapes (.shp), blocks of COMPAS (.json)."""
 
-import math
 import numbers
 import os
 
 from yade import O, Polytope, Vector3
 
-from ...arguments import number, vector
+from ...arguments import positive, vector
 from ...scene.namedBodies import namedBodies
 from ..meshes.files import isMeshFile
 from ..polytopes import builder
@@ -53,8 +52,7 @@ def readShapes(path, scale=1, shift=(0, 0, 0), names=None, parts=None, rounded=N
 		raise ValueError(f'path: must be the path of a file, got {path!r}')
 	if not os.path.exists(path):
 		raise FileNotFoundError(f"path: there is no file '{path}'")
-	if not 0 < number(scale, 'scale') < math.inf:
-		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
+	scale = positive(scale, 'scale')
 	if isMeshFile(path):
 		raise ValueError(f"path: '{path}' is a mesh; polytope.fromMesh reads it, with parts='objects' all bodies of a file")
 	suffix = os.path.splitext(path)[1].lower()

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints from text files: tables of discs, the files of YADE's BlockGen, polygons of FracMan and dfnWorks."""
 
-import math
 import os
 
-from ...arguments import namedArguments, number
+from ...arguments import namedArguments, positive
 from . import fracMan, polygons, tables
 from .rows import Rows
 
@@ -43,9 +42,8 @@ def readJoints(path, format=None, scale=1):
 		raise ValueError(f"path: '{path}' is a folder; give the path of a file in it")
 	if format is not None and format not in readers:
 		raise ValueError(f'format: must be one of {", ".join(readers)}, got {format!r}')
-	if not 0 < number(scale, 'scale') < math.inf:
-		raise ValueError(f'scale: must be positive and finite, got {scale!r}')
-	rows = Rows(path, float(scale))
+	factor = positive(scale, 'scale')
+	rows = Rows(path, factor)
 	found = readers[format or _formatOf(rows)](rows)
 	if not found:
 		raise ValueError(f"path: '{path}' has no joints; is it a file of another format? format= names it")

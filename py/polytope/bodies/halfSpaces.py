@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Half-spaces of bodies in world axes, for polytope.check()."""
+"""Half-spaces of bodies in world axes."""
 
 import numpy as np
 from yade import Vector3, _polytope
