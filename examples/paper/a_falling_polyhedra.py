@@ -7,7 +7,7 @@ and by Ipopt, warm-started from the last step's answer and cold (Fig. 6). Writes
 findings.json. Expected: all particles inside, no query without an answer, kinetic energy below 5e-4 N m g L at the end.
 Heaps are chaotic: other ranges are compared over several seeds. Ends with 1 if what must hold does not.
 
-	./run demo                                 # all five solids, with pictures: two minutes
+	./run demo                                 # all five solids, with pictures: a minute
 	./run demo --shape cube --threads 2 --vtk-every 100   # ParaView files every 100 steps
 	./run python examples/paper/a_falling_polyhedra.py --seeds 8   # as `./run paper` does: five minutes
 	./run yade -n -x examples/paper/a_falling_polyhedra.py --quick
@@ -98,7 +98,7 @@ def options():
 	every = {'vtk': 'ParaView files every so many steps; 0: none', 'ipopt': 'time Ipopt on every so many of these; 0: not at all'}
 	parser.add_argument('--vtk-every', type=wholeNotNegative, default=1000, metavar='STEPS', help=every['vtk'])
 	parser.add_argument('--sample-every', type=count, default=100, metavar='STEPS', help='time cold starts every so many steps')
-	parser.add_argument('--ipopt-every', type=wholeNotNegative, default=5, metavar='STATES', help=every['ipopt'])
+	parser.add_argument('--ipopt-every', type=wholeNotNegative, default=20, metavar='STATES', help=every['ipopt'])
 	if parser.parse_args().quick:
 		parser.set_defaults(vtk_every=0, sample_every=500, ipopt_every=7)
 	given = parser.parse_args()
