@@ -8,10 +8,9 @@ The base dips 30° towards x, a plane beside the block dips towards y, and holds
 """
 
 import argparse
-from math import cos, radians, sin, tan
+from math import cos, radians, sin
 
 import numpy as np
-from scipy.optimize import minimize
 from yade import O, RockJointMat, polytope
 
 base, friction = radians(30), radians(36)
@@ -25,8 +24,8 @@ def rock(dip):
 	return polytope.jointedRock([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), surface, (0, 0, -1)], [3, 3, 3, 3, 1.5, 4], planes)
 
 
-def factor(dip, ratio, hangingWall=False):
-	"""Of the block; *ratio*: kₛ/kₙ."""
+def scene(dip, ratio=1.0, hangingWall=False):
+	"""The block between fixed ones; *ratio*: kₛ/kₙ."""
 	O.reset()
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=ratio * stiffness, frictionAngle=friction))
 	ids = rock(dip).append()
@@ -37,6 +36,10 @@ def factor(dip, ratio, hangingWall=False):
 	if not hangingWall:
 		O.bodies.erase(wall)
 	O.engines = polytope.engines()
+
+
+def factor(*given):
+	scene(*given)
 	polytope.settle()
 	return polytope.factorOfSafety().factor
 
@@ -48,22 +51,9 @@ def limitEquilibrium(dip):
 
 
 def limitAnalysis(dip):
-	"""The largest factor at which any forces within the friction of both faces balance the weight: below it no motion, with dilation as large as friction, gains from it."""
-	faces = np.array([surface, (0, sin(dip), cos(dip))])
-	low, high = 1.0, 3.0
-	while high - low > 1e-4:
-		middle = (low + high) / 2
-		low, high = (low, middle) if _falls(faces, tan(friction) / middle) else (middle, high)
-	return low
-
-
-def _falls(faces, tangent):
-	def opens(way):
-		return [face @ way - tangent * np.linalg.norm(way - (face @ way) * face) for face in faces]
-
-	limits = [{'type': 'ineq', 'fun': opens}, {'type': 'ineq', 'fun': lambda way: 1 - way @ way}]
-	found = [minimize(lambda way: way[2], start, constraints=limits, method='SLSQP') for start in ((0.8, 0.2, -0.4), (0.8, 0.5, -0.2), (0.5, 0.8, 0))]
-	return any(one.success and one.fun < -1e-5 for one in found)
+	"""The largest factor at which any forces within the friction of both faces balance the weight."""
+	scene(dip)
+	return polytope.limitAnalysis(tolerance=1e-3).factor
 
 
 def main():

@@ -5,7 +5,7 @@ A particle is a list of half-spaces a·x ≤ d. Bodies: *fromHalfSpaces*, *fromV
 *prism*, *frustum*, *readShapes* (and *writeShapes*); not convex: *clump*; random grains: *randomGrain*, *grains*, *cloud*; fixed pieces: *plates*, *tube*, *terrain*; a mesh as YADE's facets: *facets*; a body of an extension's class: *withShape*; a rock mass cut by joints:
 *jointedRock* (*readJoints*, *meshRegion*, *regionWithout*; *rockReport*, *scanLine*, *stereonet*, *keyBlocks*); a region cut into Voronoi cells: *voronoi*. Bonds between faces: *bond*, *bonds*; rock bolts and cables: *bolt* (*Grout*, *Dowel*), *bolts*, *boltArrays*; linings and beams: *lining* (*Adhesion*); a body broken along a plane: *split*; grains
 broken by their stress: *breakGrains*. One
-pair without a scene: *contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; steps with their progress: *run*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; *factorOfSafety*. Cost and accuracy of settings:
+pair without a scene: *contact*. The usual engines: *engines*; what is wrong with a scene, and what it pays for unused: *check*; steps with their progress: *run*; at rest before joints have to bear it: *settle* (*NotAtRest*). Shaken scenes: *baseMotion*, *quietBoundary*, *velocityHistory*. Water in joints and around blocks: *water*. A rock mass: its initial stress, *inSitu*; blocks taken away, *excavate*; what moves, *history*; its factor of safety, *factorOfSafety* and *limitAnalysis*. Cost and accuracy of settings:
 *tradeoff*. Measures: *bodyStress*, *contactFabric*, *particleFabric*, *porosity*, *coordinationNumber*,
 *sizeDistribution*, *aabbExtrema*, *mechanicalEnergy*; diagrams: *contactRose*, *particleRose*, *forceHistogram*. Samples and loading
 tests: *pack*, *sample*, *triaxial*, *oedometer*, *simpleShear*, *shearBox*. Fields of all bodies and contacts as NumPy arrays: *arrays*.
@@ -63,6 +63,7 @@ from .rock.history import history
 from .rock.joint import Joint
 from .rock.jointedRock import JointedRock, JointSet, jointedRock
 from .rock.keyBlocks import KeyBlock, keyBlocks
+from .rock.limit.analysis import LimitAnalysis, limitAnalysis
 from .rock.lining import Adhesion, lining
 from .rock.regions import meshRegion, regionWithout
 from .rock.report import RockReport, rockReport, scanLine, stereonet
@@ -93,6 +94,7 @@ __all__ = [
 	'JointSet',
 	'JointedRock',
 	'KeyBlock',
+	'LimitAnalysis',
 	'NotAtRest',
 	'RockReport',
 	'VoronoiCells',
@@ -134,6 +136,7 @@ __all__ = [
 	'jointedRock',
 	'mechanicalEnergy',
 	'keyBlocks',
+	'limitAnalysis',
 	'lining',
 	'load',
 	'meshRegion',

@@ -19,7 +19,7 @@ from yade.math import atan, tan  # of YADE's numbers, in any precision
 from .bonding.bonds import madeBonds
 from .scene.stages import Reduction, refuseMatchMaker
 
-__all__ = ['StrengthReduction', 'StrengthReductionResult', 'divideStrengths', 'strengths']
+__all__ = ['StrengthReduction', 'StrengthReductionResult', 'checkedStrengths', 'divideStrengths', 'strengths']
 
 strengths = 'friction', 'cohesion', 'tension'
 """What can be divided."""
@@ -37,8 +37,7 @@ def divideStrengths(factor, reduce=strengths):
 	"""
 	if not (factor > 0 and math.isfinite(factor)):
 		raise ValueError(f'factor: must be a number above 0, got {factor}')
-	if isinstance(reduce, str) or not set(reduce) or not set(reduce) <= set(strengths):
-		raise ValueError(f'reduce: must be a sequence of one or more of {strengths}, got {reduce!r}')
+	checkedStrengths(reduce)
 	refuseMatchMaker()
 	angles, tangents, pressures = _names(reduce)
 
@@ -67,6 +66,12 @@ def divideStrengths(factor, reduce=strengths):
 	for bond in [*madeBonds(), *(joint.bond for joint in joints if joint.bond)]:
 		lower(bond)
 		divide(bond, pressures)
+
+
+def checkedStrengths(reduce):
+	"""Refuses what is no sequence of *strengths*."""
+	if isinstance(reduce, str) or not set(reduce) or not set(reduce) <= set(strengths):
+		raise ValueError(f'reduce: must be a sequence of one or more of {strengths}, got {reduce!r}')
 
 
 def _names(reduce):

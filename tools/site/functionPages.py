@@ -20,7 +20,7 @@ topics = {
 	'support': ('Rock bolts, cables, linings', 'bolt Grout Dowel bolts boltArrays lining Adhesion'),
 	'scene': ('Scenes', 'engines check run settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
-	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety'),
+	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety limitAnalysis LimitAnalysis'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
 	'measures': (
 		'Measures',

@@ -188,11 +188,9 @@ namespace {
 
 } // namespace
 
-long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern)
+std::vector<shared_ptr<PolytopeBond>> PolytopeBonds::found(
+        const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern, const Scene& where) const
 {
-	checkPattern(pattern, angle);
-	Scene& where = *Omega::instance().getScene();
-	endErased(where);
 	const auto                            all = bondablesOf(ids, where);
 	std::vector<shared_ptr<PolytopeBond>> found;
 	forNeighbours(all, where, math::max(gap, Real(0)), [&](const Bondable& a, const Bondable& b, const Vector3i& cells) {
@@ -210,16 +208,34 @@ long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Rea
 			found.back()->cellDist = by;
 		}
 	});
-	// nothing is changed before all could be made; in the order of the ids, whatever the places of the bodies
+	// in the order of the ids, whatever the places of the bodies
 	std::stable_sort(found.begin(), found.end(),
 	        [](const auto& a, const auto& b) { return std::make_pair(a->id1, a->id2) < std::make_pair(b->id1, b->id2); });
-	for (const auto& bond : found) {
+	return found;
+}
+
+boost::python::list PolytopeBonds::find(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern) const
+{
+	checkPattern(pattern, angle);
+	boost::python::list list;
+	for (const auto& bond : found(ids, gap, angle, pattern, *Omega::instance().getScene()))
+		list.append(bond);
+	return list;
+}
+
+long PolytopeBonds::make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern)
+{
+	Scene& where = *Omega::instance().getScene();
+	checkPattern(pattern, angle);
+	endErased(where);
+	const auto made = found(ids, gap, angle, pattern, where); // nothing is changed before all could be made
+	for (const auto& bond : made) {
 		bond->adoptBodies(*where.bodies);
 		bonds.push_back(bond);
 		enter(int(bonds.size()) - 1);
 		where.interactions->requestErase(bond->id1, bond->id2); // its contact
 	}
-	return long(found.size());
+	return long(made.size());
 }
 
 } // namespace yade

@@ -19,7 +19,9 @@ public:
 	/// Bonds the faces of these bodies (all, if none are given) that face each other; returns how many bonds were made. Refuses values out of
 	/// range with std::invalid_argument naming them. `gap` below 0: as far as faces count as touching.
 	long make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern);
-	long intactCount() const;
+	/// The bonds that make() would make, without making them: nothing of the scene is changed.
+	boost::python::list find(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern) const;
+	long                intactCount() const;
 	/// Intact bonds whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
 	long intactInScene() const;
 
@@ -65,11 +67,15 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.def("make", &PolytopeBonds::make, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
 		        "Make bonds between faces of these bodies (empty: all), with the values of a *PolytopeBond*; see *polytope.bond*, which "
 		        "calls it.")
+		.def("find", &PolytopeBonds::find, (boost::python::arg("ids"), boost::python::arg("gap"), boost::python::arg("angle"), boost::python::arg("pattern")),
+		        "The bonds that *make* would make, as a list, without making them: the faces that bodies have in common.")
 	);
 	// clang-format on
 
 private:
 	using Key = std::uint64_t;
+	std::vector<shared_ptr<PolytopeBond>>
+	found(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern, const Scene& where) const;
 	static Key key(Body::id_t id1, Body::id_t id2);
 
 	bool isOurs(const PolytopeBond& bond) const;

@@ -11,10 +11,9 @@ from ..arguments import namedArguments, number, warn
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..pictures.films import filmEngines
-from ..pictures.still import picture
 from ..rest.scaledMasses import scaledMassesIfPossible
 from ..rest.unrest import Unrest
-from ..scene.movers import canMove, moverOf
+from ..scene.movers import canMove
 from ..scene.namedBodies import namedBodies
 from ..scene.permanentLoads import givePermanentLoads, permanentLoads
 from ..scene.present import integrators
@@ -23,6 +22,7 @@ from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
 from .bracket import Bracket
 from .faceMaterials import materialsOf
+from .failure import Failure, inMode, told
 from .history import histories
 from .motion import Motion
 
@@ -38,8 +38,6 @@ damping = 0.4
 """Damping of NewtonIntegrator in trials: local damping takes a part of the unbalanced force, so it does not move the limit of what stands."""
 gently = 1.02
 """Largest ratio from one factor to the next where a bolt has no pretension: it bears only what blocks have moved by, and they would overshoot from a larger one."""
-partOfMode = 0.1
-"""Of the largest displacement: bodies that move more are part of the mode."""
 before, standing = 'factorOfSafety', 'factorOfSafety.standing'
 """Names of states in memory: as the scene was, and the last one at rest."""
 
@@ -61,46 +59,11 @@ class Trial:
 
 
 @dataclasses.dataclass
-class FactorOfSafety:
+class FactorOfSafety(Failure):
 	"""What *polytope.factorOfSafety* found."""
 
-	stable: float
-	"""Highest number by which strengths were divided and the scene stood."""
-	failed: float
-	"""Lowest one at which it failed."""
-	bodies: list
-	"""Ids of those that moved when it failed, the farthest first: all that moved at least a tenth as far."""
-	displacements: np.ndarray
-	"""(n, 3) theirs [m]"""
-	rotations: np.ndarray
-	"""(n, 3) theirs, as vectors along the axis [rad]"""
 	trials: list
 	"""All *Trial* in the order in which they were made."""
-
-	@property
-	def factor(self):
-		"""Middle of the bracket."""
-		return (self.stable + self.failed) / 2
-
-	@property
-	def directions(self):
-		"""(n, 3) unit vectors of the displacements"""
-		return self.displacements / np.linalg.norm(self.displacements, axis=1, keepdims=True)
-
-	def picture(self, path, **arguments):
-		"""The scene as it is, bodies coloured by how far they moved when it failed. *arguments* are those of *polytope.picture*."""
-		ways = dict(zip(self.bodies, np.linalg.norm(self.displacements, axis=1), strict=True))
-		picture(
-			path,
-			**{
-				'colorBy': lambda body: ways.get(moverOf(body.id), 0.0),
-				'legend': 'displacement [m]',
-				**arguments,
-			},
-		)
-
-	def __str__(self):
-		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {_told(self.bodies, self.displacements)}'
 
 
 @namedArguments
@@ -226,7 +189,7 @@ class _Search:
 			divideStrengths(bracket.stable, self.reduce)
 			if self._trial(bracket.stable).outcome != 'stable':
 				raise RuntimeError(
-					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {_told(*self.mode[:2])}), '
+					f'the scene does not stand with its own strengths ({own.outcome}, unbalanced force {own.unbalanced:.2g} after {own.steps} steps; {told(*self.mode[:2])}), '
 					f'nor with {most:g} times {", ".join(self.reduce)}; polytope.settle() first, a support, or more of the other strengths'
 				)
 		self.origin = self._places()
@@ -312,19 +275,10 @@ class _Search:
 	def _motion(self):
 		"""(ids, displacements, rotations) of the bodies that have moved, the farthest first."""
 		ways = self._ways()
-		order = [k for k in np.argsort(-ways) if ways[k] >= partOfMode * ways.max()]
+		order = inMode(ways)
 		moved = (self._places()[0] - self.origin[0])[order]
 		turned = [_rotation(self.origin[1][k].conjugate(), O.bodies[self.watched[k]].state.ori) for k in order]
 		return [self.watched[k] for k in order], moved, np.array(turned)
-
-
-def _told(bodies, displacements):
-	"""The first ones, for a message."""
-	modes = '; '.join(
-		f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
-		for k, way in list(zip(bodies, displacements, strict=True))[:3]
-	)
-	return modes + (f' and {len(bodies) - 3} more' if len(bodies) > 3 else '')
 
 
 def _trembling(unrest):

@@ -17,7 +17,7 @@ from yade import polytope
 project = pathlib.Path(__file__).resolve().parents[3]
 
 product, reproduction, measurement = project / 'py/polytope', project / 'examples/paper', project / 'tools/measure'
-ofTheProduct = set('PIL coacd meshio numpy scipy mpmath matplotlib tabulate tqdm trimesh vtkmodules'.split())
+ofTheProduct = set('PIL coacd cvxopt meshio numpy scipy mpmath matplotlib tabulate tqdm trimesh vtkmodules'.split())
 """Packages of others that it may use; coacd where it is installed, for meshes that are not convex."""
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from yade import Box, HyperbolicClosure, Ip2_RockJointMat_RockJointMat_RockJointPhys, MatchMaker, O, RockJointMat, Vector3, polytope, utils
 from yade.polytope.rest.unbalanced import unbalancedForce
-from yade.polytope.rock.stress.commonFaces import commonFaces
+from yade.polytope.rock.commonFaces import commonFaces
 from yade.polytope.rock.stress.field import StressField
 
 weight = 2600 * 9.81

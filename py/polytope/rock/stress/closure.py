@@ -12,7 +12,7 @@ from yade import O, Quaternion, _polytope
 from ...arguments import vectors
 from ...bodies.polytopes import isotropyTolerance
 from ...pictures.faces import rows
-from .commonFaces import materialOf, planeOf, planesOf
+from ..commonFaces import materialOf, planeOf, planesOf
 from .supports import inLine
 
 __all__ = ['closures', 'enlarge', 'restore']

@@ -6,8 +6,8 @@ from yade import Collider, ForceResetter, InteractionLoop, O, RockJointMat, Vect
 
 from ...arguments import namedArguments
 from ...scene.present import interactionLoops, meanwhile
+from ..commonFaces import commonFaces, contactOf, materialOf
 from .closure import closures, enlarge, restore
-from .commonFaces import commonFaces, contactOf, materialOf
 from .field import StressField
 from .refusals import massOf, refuseField, refuseForces, refuseScene
 from .warnings import warnOfClosure, warnOfGravity

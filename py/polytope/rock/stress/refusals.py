@@ -13,9 +13,9 @@ from ...scene.namedBodies import namedBodies
 from ...scene.present import contactSettings, interactionLoops, jointMakers, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
+from ..commonFaces import contactOf, materialOf, planesOf
 from ..faceMaterials import materialsOf
 from ..faces import areaOfFace
-from .commonFaces import contactOf, materialOf, planesOf
 
 __all__ = ['accuracy', 'forcesBorne', 'massOf', 'refuseField', 'refuseForces', 'refuseScene']
 

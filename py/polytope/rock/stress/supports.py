@@ -12,8 +12,8 @@ from yade import O, Polytope
 
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove
+from ..commonFaces import planesOf
 from ..faceMaterials import materialOfPlane
-from .commonFaces import planesOf
 
 __all__ = ['inLine']
 

@@ -7,7 +7,7 @@ from yade import O, PolytopeWater
 from ...arguments import warn
 from ...scene.movers import canMove, moverOf
 from ...scene.present import integrators
-from .commonFaces import materialOf
+from ..commonFaces import materialOf
 from .refusals import accuracy, forcesBorne
 
 __all__ = ['warnOfClosure', 'warnOfGravity']

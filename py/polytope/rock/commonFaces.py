@@ -7,8 +7,8 @@ import math
 import numpy as np
 from yade import O, PolytopeBond, PolytopeBonds
 
-from ...pictures.faces import rows
-from ..faceMaterials import materialOfPlane
+from ..pictures.faces import rows
+from .faceMaterials import materialOfPlane
 
 __all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
 
@@ -35,16 +35,14 @@ class CommonFace:
 	"""By which the faces overlap already [m]"""
 
 
-def commonFaces(chosen):
+def commonFaces(chosen=None):
 	"""Those of pairs of bodies of which one is chosen and one can move. They touch, or overlap.
 
-	:param chosen: set of ids
+	:param chosen: set of ids; default all
 	"""
-	search = PolytopeBonds()  # knows neighbours and what their faces have in common; it is not put among the engines
-	search.make(
-		[], -1, facing, PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
-	)
-	return [_face(found) for found in search.bonds if found.id1 in chosen or found.id2 in chosen]
+	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
+	found = PolytopeBonds().find([], -1, facing, pattern)
+	return [_face(one) for one in found if chosen is None or one.id1 in chosen or one.id2 in chosen]
 
 
 def _face(found):

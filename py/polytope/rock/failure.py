@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How a rock mass fails, and by how much strengths were divided then: what each way to a factor of safety tells."""
+
+import dataclasses
+
+import numpy as np
+
+from ..pictures.still import picture
+from ..scene.movers import moverOf
+
+__all__ = ['Failure', 'inMode', 'partOfMode', 'told']
+
+partOfMode = 0.1
+"""Of the largest displacement: bodies that move more are part of the mode."""
+
+
+@dataclasses.dataclass
+class Failure:
+	"""A factor of safety with its mode."""
+
+	stable: float
+	"""Highest number by which strengths were divided and the scene stood."""
+	failed: float
+	"""Lowest one at which it failed."""
+	bodies: list
+	"""Ids of those that moved when it failed, the farthest first: all that moved at least a tenth as far."""
+	displacements: np.ndarray
+	"""(n, 3) theirs [m]"""
+	rotations: np.ndarray
+	"""(n, 3) theirs, as vectors along the axis [rad]"""
+
+	@property
+	def factor(self):
+		"""Middle of the bracket."""
+		return (self.stable + self.failed) / 2
+
+	@property
+	def directions(self):
+		"""(n, 3) unit vectors of the displacements"""
+		return self.displacements / np.linalg.norm(self.displacements, axis=1, keepdims=True)
+
+	def picture(self, path, **arguments):
+		"""The scene as it is, bodies coloured by how far they moved when it failed. *arguments* are those of *polytope.picture*."""
+		ways = dict(zip(self.bodies, np.linalg.norm(self.displacements, axis=1), strict=True))
+		picture(
+			path,
+			**{
+				'colorBy': lambda body: ways.get(moverOf(body.id), 0.0),
+				'legend': 'displacement [m]',
+				**arguments,
+			},
+		)
+
+	def __str__(self):
+		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {told(self.bodies, self.displacements)}'
+
+
+def inMode(ways):
+	"""Rows of the bodies that have gone so far, the farthest first, that they are part of the mode."""
+	return [k for k in np.argsort(-ways) if ways[k] >= partOfMode * ways.max()]
+
+
+def told(bodies, displacements):
+	"""The first ones, for a message."""
+	modes = '; '.join(
+		f'body {k} by {np.linalg.norm(way):.2g} m towards ({", ".join(f"{x:.2f}" for x in way / np.linalg.norm(way))})'
+		for k, way in list(zip(bodies, displacements, strict=True))[:3]
+	)
+	return modes + (f' and {len(bodies) - 3} more' if len(bodies) > 3 else '')

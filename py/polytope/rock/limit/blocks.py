@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The scene as rigid blocks with joints where their faces lie on each other, in arrays."""
+
+import dataclasses
+import math
+
+import numpy as np
+from scipy.sparse import csgraph, csr_matrix
+from yade import O, Polytope, PolytopeWater, RockJointMat
+
+from ...bonding.bolting import madeBolts
+from ...bonding.bonds import madeBonds
+from ...scene.movers import canMove, moverOf
+from ...scene.permanentLoads import permanentLoads
+from ...scene.present import integrators
+from ...scene.stages import refuseMatchMaker, sizeOf
+from ..commonFaces import commonFaces, materialOf
+
+__all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
+
+components = 'xyzXYZ'
+
+
+@dataclasses.dataclass
+class Blocks:
+	"""Those that can move: clumps, and bodies that are in none."""
+
+	ids: list
+	centres: np.ndarray
+	"""(n, 3) [m]"""
+	loads: np.ndarray
+	"""(n, 6) weight, permanent loads and water: force [N], and moment about the centre [N·m]"""
+	free: np.ndarray
+	"""(n, 6) of the components of motion those that are not blocked"""
+	sizes: np.ndarray
+	"""(n,) edges of cubes, or squares, of the same volume [m]"""
+
+
+@dataclasses.dataclass
+class Corners:
+	"""Corners of joints, and their faces."""
+
+	one: np.ndarray
+	"""(faces,) row of the block in *Blocks*, −1: it does not move"""
+	two: np.ndarray
+	middles: np.ndarray
+	"""(faces, 3) centroids [m]"""
+	face: np.ndarray
+	"""(corners,) row of the face"""
+	places: np.ndarray
+	"""(corners, 3) [m]"""
+	frames: np.ndarray
+	"""(corners, 3, 3) columns: normal from block *one* to block *two*, two directions across"""
+	areas: np.ndarray
+	"""(corners,) parts of the face's area, whose centroid is the face's [m²]"""
+	friction: np.ndarray
+	"""(corners,) tan φ"""
+	cohesion: np.ndarray
+	"""(corners,) [Pa]"""
+	tension: np.ndarray
+	"""(corners,) tensile strength [Pa]"""
+
+
+def refuseScene():
+	"""What blocks with joints alone are no model of."""
+	if O.running:
+		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
+	if O.periodic:
+		raise ValueError('O.periodic: a factor of safety is that of blocks beside fixed ones, and a periodic cell has no fixed one')
+	if not integrators():
+		raise ValueError('O.engines: there must be a NewtonIntegrator, with gravity; set O.engines first')
+	refuseMatchMaker()
+	if any(bond.intact for bond in madeBonds()):
+		raise ValueError(
+			'polytope.bond: bonds are brittle and elastic, limit analysis has plastic joints; give joints cohesion and tensileStrength in place of bonds, or take polytope.factorOfSafety'
+		)
+	if madeBolts():
+		raise ValueError(
+			'polytope.bolt: the force of a bolt depends on how far blocks have moved, which limit analysis does not know; take polytope.factorOfSafety'
+		)
+	for body in O.bodies:
+		if body is not None and not body.isClump and not isinstance(body.shape, Polytope):
+			raise ValueError(
+				f'O.bodies: body {body.id} is a {type(body.shape).__name__}; joints are where faces of Polytopes lie on each other, so supports must be Polytopes, too'
+			)
+
+
+def blocksOf():
+	ids = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id and canMove(body)]
+	if not ids:
+		raise ValueError('O.bodies: none can move; append blocks that are not fixed')
+	gravity = np.array([float(x) for x in integrators()[0].gravity])
+	permanent = permanentLoads()
+	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater)]
+	loads = np.zeros((len(ids), 6))
+	for row, k in enumerate(ids):
+		loads[row, :3] = float(O.bodies[k].state.mass) * gravity
+		for force, moment in [*(engine.load(k) for engine in waters), *([permanent[k]] if k in permanent else [])]:
+			loads[row] += [float(x) for x in (*force, *moment)]
+	free = np.array([[component not in O.bodies[k].state.blockedDOFs for component in components] for k in ids])
+	if not (loads * free).any():
+		raise ValueError(
+			'O.engines: nothing loads the blocks; give NewtonIntegrator gravity, or blocks a permanent force (O.forces.setPermF)'
+		)
+	centres = np.array([[float(x) for x in O.bodies[k].state.pos] for k in ids])
+	return Blocks(ids, centres, loads, free, np.array([sizeOf(k) for k in ids]))
+
+
+def cornersOf(blocks):
+	"""Joints of these blocks.
+
+	:raises ValueError: naming what is no joint, and blocks that no joint connects to a fixed one
+	"""
+	faces = commonFaces()
+	row = {k: number for number, k in enumerate(blocks.ids)}
+	one, two = (
+		np.array([row.get(moverOf(k), -1) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces])
+	)
+	_refuseLoose(blocks, one, two)
+	strengths = np.array([_strengthsOf(face) for face in faces])
+	counts = [len(face.corners) for face in faces]
+	face = np.repeat(np.arange(len(faces)), counts)
+	return Corners(
+		one,
+		two,
+		np.array([one.centroid for one in faces]),
+		face,
+		np.concatenate([one.corners for one in faces]),
+		np.array([_frame(one.normal) for one in faces])[face],
+		np.concatenate([_areas(one) for one in faces]),
+		*strengths[face].T,
+	)
+
+
+def _refuseLoose(blocks, one, two):
+	count = len(blocks.ids)
+	held = np.flatnonzero(
+		~blocks.free[:, :2].all(axis=1) | ~blocks.free[:, 5]
+	)  # along an axis at least; polygons do not leave their plane anyway
+	graph = csr_matrix(
+		(
+			np.ones(len(one) + len(held)),
+			(np.append(np.where(one < 0, count, one), held), np.append(np.where(two < 0, count, two), np.full(len(held), count))),
+		),
+		(count + 1, count + 1),
+	)
+	part = csgraph.connected_components(graph, directed=False)[1]
+	loose = [k for k, number in zip(blocks.ids, part, strict=False) if number != part[-1]]
+	if loose:
+		ones = ', '.join(map(str, loose[:5])) + (' …' if len(loose) > 5 else '')
+		raise ValueError(
+			f'O.bodies: no faces that lie on each other connect {len(loose)} blocks to a fixed one ({ones}), and nothing would hold them, whatever the strengths; '
+			'erase them, fix blocks at the edge of the mass (body.dynamic=False), or put faces on each other to a millionth of their size'
+		)
+
+
+def _strengthsOf(face):
+	"""(tan φ, cohesion, tensile strength): the lower ones of the two sides."""
+	sides = [materialOf(face, k) for k in (face.id1, face.id2)]
+	for k, material in zip((face.id1, face.id2), sides, strict=True):
+		if not isinstance(material, RockJointMat):
+			raise ValueError(f'O.bodies: body {k} is of a {type(material).__name__}; strengths of joints are those of RockJointMat')
+		if material.strength is not None:
+			raise ValueError(
+				f'O.bodies: a joint of body {k} has a shear law of its own ({type(material.strength).__name__}), whose strength depends on slip; limit analysis has '
+				'Mohr-Coulomb: give strength=None, frictionAngle and cohesion, or take polytope.factorOfSafety'
+			)
+	return (
+		math.tan(min(float(material.frictionAngle) for material in sides)),
+		min(float(material.cohesion) for material in sides),
+		min(float(material.tensileStrength) for material in sides),
+	)
+
+
+def _frame(normal):
+	across = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+	across /= np.linalg.norm(across)
+	return np.column_stack([normal, across, np.cross(normal, across)])
+
+
+def _areas(face):
+	"""Half of the two triangles with the centroid beside each corner: so much at the corners has the face's area and centroid."""
+	arms = face.corners - face.centroid
+	triangles = np.linalg.norm(np.cross(arms, np.roll(arms, -1, axis=0)), axis=1) / 2
+	return (triangles + np.roll(triangles, 1)) / 2
