@@ -9,6 +9,7 @@ from yade import FrictMat, _polytope
 from ..arguments import numbersOf, vectors
 from ..bodies.clumps import union
 from ..bodies.polytopes import fromHalfSpaces
+from .joint import Joint
 
 __all__ = ['Region', 'regionOf']
 
@@ -35,6 +36,10 @@ def regionOf(normals, offsets):
 
 	:raises ValueError: naming *normals* or *offsets*: what fromHalfSpaces refuses, parts that overlap
 	"""
+	if normals is None or (isinstance(normals, (list, tuple)) and any(isinstance(one, Joint) for one in normals)):
+		raise ValueError(
+			'normals: joints cut a region of rock, and none is given; give outward normals and offsets of the half-spaces that bound it, or those of polytope.meshRegion(…)'
+		)
 	several = _areSeveral(normals)
 	pairs = list(zip(normals, offsets, strict=False)) if several else [(normals, offsets)]
 	if several and not len(normals) == len(offsets) == len(pairs):

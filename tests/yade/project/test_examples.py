@@ -143,11 +143,13 @@ def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
 
 
 def testASlopeFromAFileOfJointsFailsAlongItsBedding(runs, capsys):
-	"""Five metres high: joints read, blocks cut, at rest, factor of safety, picture and film."""
-	found = runs('slopeFromJoints', '--height', '5', '--width', '3', '--frames', '3', '--tolerance', '0.04')['found']
+	"""Five metres high: joints read, blocks cut, factor of safety by limit analysis and by strength reduction, picture and film."""
+	names = runs('slopeFromJoints', '--height', '5', '--width', '3', '--frames', '3', '--tolerance', '0.04', '--reduction')
 	assert 'sliding on bedding: 1.198' in capsys.readouterr().out
-	assert found.stable < 1.03 * 1.198 and found.failed > 0.97 * 1.198 and found.failed / found.stable <= 1.0401
-	assert all(way @ (-0.82, 0, -0.57) > 0.95 for way in found.directions)  # down the bedding
+	for found in (names['found'], names['reduced']):
+		assert found.stable < 1.03 * 1.198 and found.failed > 0.97 * 1.198 and found.failed / found.stable <= 1.0401
+	assert all(way @ (-0.82, 0, -0.57) > 0.95 for way in names['reduced'].directions)  # down the bedding
+	assert all(way @ (-0.82, 0, -0.57) > 0.7 for way in names['found'].directions)  # and it opens by the friction angle
 	assert isPicture('output/slopeFromJoints.png') and pathlib.Path('output/slopeFromJoints.gif').read_bytes().startswith(b'GIF')
 	assert len(polytope.readJoints('output/slopeFromJoints.csv')) > 10 and noFailures()
 

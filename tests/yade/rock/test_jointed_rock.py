@@ -162,3 +162,9 @@ def testWrongJointsAreRefused(arguments, named):
 def testWrongArgumentsAreRefused(arguments, named):
 	with pytest.raises(ValueError, match=f'^{named}:'):
 		polytope.jointedRock(**{'normals': box, 'offsets': half, 'jointSets': scattered, **arguments})
+
+
+@pytest.mark.parametrize('region', [(None, None), ([polytope.Joint(0.5, 1, (0, 0, 0))], [1])])
+def testJointsWithoutARegionAreRefused(region):
+	with pytest.raises(ValueError, match='^normals: joints cut a region of rock, and none is given; give .*half-spaces.*meshRegion'):
+		polytope.jointedRock(*region, scattered)
