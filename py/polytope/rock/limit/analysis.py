@@ -60,7 +60,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds, bolts, blocks that no joint connects to a fixed one
 	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them
 	"""
-	tolerance, most = number(tolerance, 'tolerance'), number(most, 'most')
+	tolerance, most = float(number(tolerance, 'tolerance')), float(number(most, 'most'))
 	if not 1e-4 <= tolerance < 1:
 		raise ValueError(f'tolerance: must be from 0.0001 to below 1, got {tolerance:g}')
 	if not 1 < most < float('inf'):

@@ -10,9 +10,10 @@ from yade import O, Polytope, PolytopeWater, RockJointMat
 
 from ...bonding.bolting import madeBolts
 from ...bonding.bonds import madeBonds
-from ...scene.movers import canMove, moverOf
+from ...scene.movers import canMove, moverOf, partsOf
 from ...scene.permanentLoads import permanentLoads
 from ...scene.present import integrators
+from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import commonFaces, materialOf
 
@@ -63,6 +64,7 @@ class Corners:
 
 def refuseScene():
 	"""What blocks with joints alone are no model of."""
+	refuseDivided()
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
 	if O.periodic:
@@ -95,7 +97,7 @@ def blocksOf():
 	loads = np.zeros((len(ids), 6))
 	for row, k in enumerate(ids):
 		loads[row, :3] = float(O.bodies[k].state.mass) * gravity
-		for force, moment in [*(engine.load(k) for engine in waters), *([permanent[k]] if k in permanent else [])]:
+		for force, moment in [*(engine.load(k) for engine in waters), *(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent))]:
 			loads[row] += [float(x) for x in (*force, *moment)]
 	free = np.array([[component not in O.bodies[k].state.blockedDOFs for component in components] for k in ids])
 	if not (loads * free).any():
@@ -104,6 +106,12 @@ def blocksOf():
 		)
 	centres = np.array([[float(x) for x in O.bodies[k].state.pos] for k in ids])
 	return Blocks(ids, centres, loads, free, np.array([sizeOf(k) for k in ids]))
+
+
+def _atCentre(load, part, k):
+	"""Permanent force on a part of a clump, and its moment about the clump's centre."""
+	force, moment = load
+	return force, moment + (O.bodies[part].state.pos - O.bodies[k].state.pos).cross(force)
 
 
 def cornersOf(blocks):
