@@ -47,11 +47,11 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	Limit analysis of rigid blocks (Livesley 1978; Ferris & Tin-Loi 2001; Portioli et al. 2014): no step is run, and the scene need not be at rest, only be appended, with O.engines for gravity. Joints are where faces of Polytopes lie on each
 	other; what blocks touch by edges and corners alone does not count. A joint bears forces at the corners of the common face: normal forces, down to the tensile strength times the area that
 	the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where forces within these strengths balance weight, permanent forces (O.forces.setPermF) and water on
-	every block (static theorem). Else it fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an interior-point method.
+	every block (static theorem). Else it fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an interior-point method with the package python3-cvxopt.
 
 	Joints are perfectly plastic, as in limit equilibrium, so the strength is that of the material before failure, residual values do not count, and stiffnesses do not matter. With friction a joint that slips opens by tan φ times its slip
-	(associated flow): the theorems hold for no other. Where blocks can open freely, in most slopes, that does not matter. Where they jam (a wedge with steep sides, blocks between fixed walls) the factor is an upper bound for rock that dilates less,
-	and may even be infinite: compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the dilation that the material has.
+	(associated flow): the theorems hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of a slope, that does not matter. Where they jam it is too high: by 4 % for the wedge of Hoek & Bray, by a fifth for columns that topple and
+	rub against each other, without bound between fixed walls. Compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the dilation that the material has.
 
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor

@@ -73,7 +73,7 @@ def quotient(a, b):
 
 
 class Scaling:
-	"""W of s = W λ, z = W⁻¹ λ."""
+	"""W, symmetric, for which s and z are the same point when they are scaled: W⁻¹ s = W z."""
 
 	def __init__(self, s, z):
 		ss, zz = _squares(s.round), _squares(z.round)
@@ -92,13 +92,6 @@ class Scaling:
 			self.size[:, None] * (2 * self.root * (self.root * v.round).sum(axis=1, keepdims=True) - _turned(v.round)), self.plain * v.plain
 		)
 
-	def over(self, v):
-		"""W⁻¹ v"""
-		turned = _turned(self.root)
-		return Cones(
-			(2 * turned * (turned * v.round).sum(axis=1, keepdims=True) - _turned(v.round)) / self.size[:, None], v.plain / self.plain
-		)
-
 	def over2(self, v):
 		"""W⁻² v"""
 		turned = _turned(self.w)
@@ -108,7 +101,7 @@ class Scaling:
 		)
 
 	def room(self, step):
-		"""Largest x with λ + x step in the cones, of a step that is scaled, too."""
+		"""Largest x with point + x step in the cones, where the step is scaled, too."""
 		at = self.point
 		size = np.sqrt(_squares(at.round))
 		unit = at.round / size[:, None]

@@ -69,7 +69,10 @@ class _Program:
 		return forces, float(self.share @ (z.round[:, 0] + z.plain[:-1]) + z.plain[-1])
 
 	def factorise(self, scaling):
-		"""Solver of Aᵀ y + Gᵀ z = bx, A x = by, G x − W² z = bz: a function of (bx, its part of λ, by, bz)."""
+		"""Solver of Aᵀ y + Gᵀ z = bx, A x = by, G x − W² z = bz: a function of (bx, its part of λ, by, bz).
+
+		Without λ, forces at a corner and its slip are as of a spring, H = Gᵀ W⁻² G. Its inverse, and what λ adds, are written out: terms of many orders of magnitude would cancel in numbers.
+		"""
 		friction, share, w = self.friction, self.share, scaling.w
 		round2, plain2 = scaling.size**2, 1 / scaling.plain**2
 		d, onlyLack = plain2[:-1], float(plain2[-1])
@@ -179,11 +182,13 @@ def leastStrength(equilibrium, load, friction, cohesion, tension, share, told=la
 	"""
 	point = _Point(_Program(equilibrium, load, friction, cohesion, tension, share))
 	for steps in range(mostSteps):
-		point.measure()
+		with np.errstate(invalid='ignore', divide='ignore', over='ignore'):  # beyond what rounding allows; seen below
+			point.measure()
 		told(point)
 		if point.isFound:
 			return LeastStrength(point.lack, point.forces, point.motion, np.column_stack([point.z.round[:, 0], point.z.plain[:-1]]), steps)
 		if not np.isfinite(point.lack):
 			break
-		point.advance()
+		with np.errstate(invalid='ignore', divide='ignore', over='ignore'):
+			point.advance()
 	raise ArithmeticError(f'after {steps} steps forces of up to {point.unbalanced:.2g} of the mean load are not balanced')
