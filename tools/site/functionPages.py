@@ -58,8 +58,11 @@ def entry(name):
 	if name in classPages.functions:
 		arguments, result, text = boost(classPages.functions[name])
 		return f'.. py:function:: {name}({arguments}) -> {result}\n\n{indented(rest(text, classPages.own))}\n'
-	kind = 'autoclass' if isinstance(getattr(polytope, name), type) else 'autofunction'
-	return f'.. {kind}:: {name}\n' + ('   :members:\n\n' if kind == 'autoclass' else '\n')
+	found = getattr(polytope, name)
+	if not isinstance(found, type):
+		return f'.. autofunction:: {name}\n\n'
+	inherits = found.__base__.__module__.startswith('yade.polytope.')
+	return f'.. autoclass:: {name}\n   :members:\n' + ('   :inherited-members:\n\n' if inherits else '\n')
 
 
 def contactClass():
