@@ -99,7 +99,6 @@ class Equilibrium:
 		"""Solver of A F Aᵀ y = b for symmetric positive (corners, 3, 3) blocks of F: a function of b, (size,) or (size, n)."""
 		from cvxopt import cholmod, matrix, spmatrix  # loaded by the first call alone
 
-		cholmod.options['supernodal'] = 2
 		faces = (self.perFace @ (self.atFace @ flexibilities @ self.atFace.transpose(0, 2, 1)).reshape(-1, 36)).reshape(-1, 6, 6)
 		one, two = (move @ faces @ move.transpose(0, 2, 1) for move in self.onBlock)
 		own = sum(per @ part.reshape(-1, 36) for per, part in zip(self.perBlock, (one, two), strict=True)).reshape(-1, 6, 6)
