@@ -61,6 +61,12 @@ public:
 		for (int k = 0; k < count_; ++k)
 			map(layer_[k].displacement);
 	}
+	/// Of each layer's springs this part stays: those of a part of the bed.
+	void keepPart(Real part)
+	{
+		for (int k = 0; k < count_; ++k)
+			layer_[k].area *= part;
+	}
 	/// Springs join or leave until the area is this [m²].
 	void setArea(Real present);
 

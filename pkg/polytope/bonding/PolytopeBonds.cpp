@@ -4,6 +4,7 @@
 #include <core/Omega.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
+#include "bond/BondOfParts.hpp"
 #include "contact/PolytopeGeom.hpp"
 #include "joint/RockJoint.hpp"
 
@@ -189,6 +190,19 @@ void PolytopeBonds::rebuild()
 	ofBody_.clear();
 	for (int k = 0; k < int(bonds.size()); ++k)
 		enter(k);
+}
+
+bool PolytopeBonds::goesOnBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2)
+{
+	const auto part = bondOfParts(whole, whole1, whole2, part1, part2, *Omega::instance().getScene()->bodies);
+	if (!part) return false;
+	if (!part->intact) { // what is left of it is where the joint has no force
+		part->force = part->moment = Vector3r::Zero();
+		part->energy               = 0;
+	}
+	bonds.push_back(part);
+	enter(int(bonds.size()) - 1);
+	return true;
 }
 
 void PolytopeBonds::postLoad(PolytopeBonds&) { rebuild(); }

@@ -21,7 +21,9 @@ public:
 	long make(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern);
 	/// The bonds that make() would make, without making them: nothing of the scene is changed.
 	boost::python::list find(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern) const;
-	long                intactCount() const;
+	/// A bond of this engine, failed or not, goes on between parts of its two bodies (bond/BondOfParts.hpp); returns whether the parts have one.
+	bool goesOnBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2);
+	long intactCount() const;
 	/// Intact bonds whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
 	long intactInScene() const;
 
@@ -59,6 +61,7 @@ With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a faile
 		.def("_takeStates", &PolytopeBonds::takeStates)
 		.def("_adoptBodies", &PolytopeBonds::adoptBodies)
 		.def("_meetBodies", &PolytopeBonds::meetBodies)
+		.def("_goesOnBetween", &PolytopeBonds::goesOnBetween)
 		.add_property("bonds", &PolytopeBonds::bondList, "All bonds (:yref:`PolytopeBond`), failed ones too, in the order in which they "
 		        "were made.")
 		.add_property("intactCount", &PolytopeBonds::intactCount, "Number of bonds that are intact.")

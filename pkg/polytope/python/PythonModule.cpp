@@ -8,6 +8,7 @@
 #include "contact/ContactOptions.hpp"
 #include "host/Extensions.hpp"
 #include "host/Vectors.hpp"
+#include "joint/JointOfParts.hpp"
 #include "joint/RockJoint.hpp"
 #include "material/RockJointMat.hpp"
 #include "material/StiffnessRules.hpp"
@@ -245,6 +246,13 @@ Contact contact(const py::object& b1, const py::object& b2, const py::object& co
 	return answer;
 }
 
+/// See JointOfParts.hpp.
+bool goesOnBetween(const boost::shared_ptr<yade::Interaction>& whole, const boost::shared_ptr<yade::Body>& whole1,
+        const boost::shared_ptr<yade::Body>& whole2, const boost::shared_ptr<yade::Body>& part1, const boost::shared_ptr<yade::Body>& part2)
+{
+	return yade::goesOnBetween(*yade::Omega::instance().getScene(), *whole, *whole1, *whole2, part1, part2);
+}
+
 /// Name of each status → answered().
 py::dict statuses()
 {
@@ -373,6 +381,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	        .add_property(
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear program.");
+	py::def("goesOnBetween", &goesOnBetween, (py::arg("whole"), py::arg("whole1"), py::arg("whole2"), py::arg("part1"), py::arg("part2")),
+	        "The rock joint of a contact goes on between parts of its two bodies; whether these have a contact.");
 	py::def("contact", &contact,
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = py::object(), py::arg("tolerance") = py::object(),
 	                py::arg("newtonTolerance") = py::object(), py::arg("solver") = py::object(),

@@ -9,7 +9,7 @@ from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 from ..arguments import warn
 from .polytopes import isotropyTolerance
 
-__all__ = ['clump', 'rigid', 'union']
+__all__ = ['clump', 'ofUnion', 'rigid', 'union']
 
 apart = 0.01
 """Gap between two parts over the smaller one's inscribed radius, above which they do not belong together: parts that a program cuts out of a mesh
@@ -38,9 +38,14 @@ def clump(parts):
 		raise ValueError(
 			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'
 		)
-	whole = union(parts)
+	made = ofUnion(parts)
 	_warnOfPartsApart(parts)
-	return _append(parts, *whole)
+	return made
+
+
+def ofUnion(parts):
+	"""A clump of parts that may overlap."""
+	return _append(parts, *union(parts))
 
 
 def rigid(parts):

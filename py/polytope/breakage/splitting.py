@@ -3,14 +3,12 @@
 
 import numbers
 
-import numpy as np
-from yade import O, Polytope, Quaternion, Vector3, _polytope
+from yade import O, Polytope
 
-from ..arguments import namedArguments, number, vector, vectors
-from ..bodies.polytopes import defaultCornerFraction, isotropyTolerance
+from ..arguments import namedArguments, number, vector
+from ..bodies.pieces import pieceOf
 from ..bonding.bonds import madeBonds
 from ..loading.sample import replaceInSamples
-from ..pictures.faces import rows
 from ..rock.jointsOfFaces import replaceInRocks
 from ..scene.ranks import refuseDivided
 
@@ -19,9 +17,6 @@ __all__ = ['split']
 thinnest = 1e-3
 """Least inscribed radius of a piece, over that of the body: a sliver of less has contacts that differ in stiffness by its size, and moves by
 rounding rather than by forces."""
-samePlane = 1e-6
-"""Of the body's size: by how much rounding may move or turn a plane of a piece, also far from the origin. The cut is farther from a face that is
-parallel to it, by *thinnest*."""
 
 
 @namedArguments
@@ -53,13 +48,7 @@ def split(id, normal, point=None, smallest=None):
 	if not 0 <= least < float('inf'):
 		raise ValueError(f'smallest: must be a length, at least 0 [m], got {smallest!r}')
 	refuseDivided()
-	# from the body's centre: small numbers wherever it is
-	normals, offsets = [state.ori * one for one in shape.normals], list(shape.offsets)
-	pieces = [_piece(body, [*normals, side * normal], [*offsets, side * height], least) for side in (1, -1)]
-	planes = [_planesOf(piece, body, normals, offsets) for piece in pieces]
-	for piece, old in zip(pieces, planes, strict=True):
-		if len(shape.faceMaterials):
-			piece.shape.faceMaterials = [int(k) for k in np.append(shape.faceMaterials, -1)[old]]
+	pieces, planes = zip(*(_piece(body, side * normal, side * height, least) for side in (1, -1)), strict=True)
 	made = tuple(O.bodies.append(piece) for piece in pieces)
 	replaceInSamples(body.id, made)
 	replaceInRocks(body, [O.bodies[k] for k in made], planes)
@@ -80,34 +69,14 @@ def _bodyOf(id):
 	return body
 
 
-def _planesOf(piece, body, normals, offsets):
-	"""For each plane of a piece which of the body's it lies on; −1: the cut. The body's as in *_piece*."""
-	turned = rows(piece.state.ori * one for one in piece.shape.normals)
-	limits = np.array(piece.shape.offsets, float) + turned @ np.array(piece.state.pos - body.state.pos, float)
-	reach = float(body.shape.circumscribedRadius)
-	apart = np.linalg.norm(turned[:, None] - rows(normals), axis=2) + np.abs(limits[:, None] - np.array(offsets, float)) / reach
-	return np.where(apart.min(axis=1) < samePlane, apart.argmin(axis=1), -1)
-
-
-def _piece(body, normals, offsets, least):
-	"""The part of a body between planes, as a body that moves with it. Planes from the body's centre, world axes."""
-	shape, state = body.shape, body.state
+def _piece(body, normal, offset, least):
+	"""Below a plane, from the body's centre, world axes; and its planes as *pieceOf* has them."""
 	try:
-		central = _polytope.ofHalfSpaces(vectors(normals, 'normals', 3), offsets, shape.dimension, shape.thickness, False, None, defaultCornerFraction)
+		piece, planes = pieceOf(body, [(normal, offset)])
 	except ValueError as error:
 		raise ValueError(f'point: the plane does not cut body {body.id} in two ({error}); choose a point inside it') from None
-	piece = _polytope.body(central, body.material, None, Quaternion.Identity, False, isotropyTolerance, shape.color)
 	if not piece.shape.inscribedRadius >= least:
 		raise ValueError(
 			f'point: the plane cuts off a piece of inscribed radius {piece.shape.inscribedRadius:.3g} m, below smallest = {least:.3g} m; move it inwards'
 		)
-	own, density = piece.state, state.mass / shape.volume  # which may not be the material's
-	arm = Vector3(own.pos)
-	own.pos = own.refPos = state.pos + arm
-	own.mass, own.inertia = density * piece.shape.volume, density * piece.shape.inertia
-	own.vel, own.angVel = state.vel + state.angVel.cross(arm), state.angVel
-	spin = own.ori.conjugate() * state.angVel
-	own.angMom = own.ori * Vector3(*(moment * rate for moment, rate in zip(own.inertia, spin, strict=True)))
-	own.blockedDOFs = state.blockedDOFs
-	piece.shape.wire, piece.mask = shape.wire, body.mask
-	return piece
+	return piece, planes

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Displacements and stresses of chosen blocks over time, in yade.plot: `polytope.history(…)` (docs/stress-and-excavation.md)."""
 
+import ast
 import numbers
 import re
 
@@ -9,9 +10,9 @@ from yade import O, Polytope, PyRunner, Vector3
 
 from ..arguments import flag, namedArguments, vector, warn
 from ..measures.stress import bodyStress
-from ..scene.movers import moverOf
+from ..scene.movers import moverOf, partsOf
 
-__all__ = ['histories', 'history', 'record']
+__all__ = ['followParts', 'histories', 'history', 'record']
 
 module = "__import__('yade.polytope.rock.history', fromlist=['record']).record"
 """A call that leaves no name among the script's own."""
@@ -48,7 +49,7 @@ def history(points, every=100, stress=False):
 	if there:
 		raise ValueError(f'points: {sorted(there)} are recorded already; take other names')
 	_forgetFormerScene()
-	engine = PyRunner(command=f'{module}({followed!r}, {bool(stress)})', iterPeriod=int(every), iterLast=O.iter)
+	engine = PyRunner(command=_command(followed, bool(stress)), iterPeriod=int(every), iterLast=O.iter)
 	O.engines = [*O.engines, engine]
 	record(followed, bool(stress))
 	return [f'{name}_{what}' for name in followed for what in _columns(bool(stress))]
@@ -67,6 +68,41 @@ def _forgetFormerScene():
 def histories():
 	"""The engines of this kind in the scene."""
 	return [engine for engine in O.engines if isinstance(engine, PyRunner) and engine.command.startswith(module)]
+
+
+def followParts(made):
+	"""Points of bodies that have been cut go on with the part that they lie in. Call it before these bodies are erased.
+
+	:param made: id → ids of the bodies that are left of it
+	"""
+	for engine in histories():
+		followed, stress = ast.literal_eval(engine.command.removeprefix(module))
+		for name, (k, local, origin) in followed.items():
+			place = O.bodies[k].state.pos + O.bodies[k].state.ori * Vector3(*local) if k in made else None
+			for part in made.get(k, []):
+				if _holds(part, place):
+					followed[name] = part, _inAxesOf(part, place), origin
+		engine.command = _command(followed, stress)
+
+
+def _command(followed, stress):
+	"""The state is in the command, which is saved with the engine."""
+	return f'{module}({followed!r}, {stress})'
+
+
+def _inAxesOf(k, place):
+	state = O.bodies[k].state
+	return tuple(map(float, state.ori.conjugate() * (place - state.pos)))
+
+
+def _holds(k, place):
+	"""Whether the point is in the body, or a part of the clump."""
+	for body in (O.bodies[part] for part in partsOf(k)):
+		local = body.state.ori.conjugate() * (place - body.state.pos)
+		beyond = max(float(n.dot(local)) - float(d) for n, d in zip(body.shape.normals, body.shape.offsets, strict=True))
+		if beyond <= within * float(body.shape.circumscribedRadius):
+			return True
+	return False
 
 
 def record(followed, stress):
@@ -109,8 +145,7 @@ def _follow(name, point):
 	else:
 		place = vector(point, f'points: {name}')
 		k = _bodyAt(name, place)
-	state = O.bodies[k].state
-	return k, tuple(map(float, state.ori.conjugate() * (place - state.pos))), tuple(map(float, place))
+	return k, _inAxesOf(k, place), tuple(map(float, place))
 
 
 def _bodyAt(name, place):
@@ -118,9 +153,7 @@ def _bodyAt(name, place):
 	for body in O.bodies:
 		if body is None or not isinstance(body.shape, Polytope) or not O.bodies[moverOf(body.id)].dynamic:
 			continue
-		local = body.state.ori.conjugate() * (place - body.state.pos)
-		beyond = max(float(n.dot(local)) - float(d) for n, d in zip(body.shape.normals, body.shape.offsets, strict=True))
-		if beyond <= within * float(body.shape.circumscribedRadius):
+		if _holds(body.id, place):
 			found += [] if moverOf(body.id) in found else [moverOf(body.id)]
 	if len(found) > 1:
 		warn(f'points: {name}: {tuple(map(float, place))} is on a face of bodies {", ".join(map(str, found))}, and moves with body {found[0]}; give a point inside one of them, or an id')

@@ -57,7 +57,7 @@ def testALegThatVanishesMakesTheOthersSwing(flat):
 	"""From W/3 about W/2: to 2/3 W, for nothing damps."""
 	weight = slabOnLegs(flat)
 	assert forceOf(0) == pytest.approx(weight / 3, rel=1e-3)
-	assert polytope.excavate([1]) == [1]
+	assert polytope.excavate([1]) == {1: []}
 	assert O.bodies[1] is None and not relaxing()
 	assert peakOf(lambda: forceOf(0), 1000) == pytest.approx(2 / 3 * weight, rel=0.01)
 
@@ -230,7 +230,7 @@ def testARegionTakesWhatMovesAndHasItsCentreInside():
 		O.bodies.append(polytope.cuboid((x, 0, 0), (0.5, 0.5, 0.5), fixed=x == 2))
 	clump = polytope.clump([polytope.cuboid((2, 0, 1), (0.5, 0.5, 0.5)), polytope.cuboid((3, 0, 1), (0.5, 0.5, 0.5))])[0]
 	O.engines = polytope.engines()
-	assert polytope.excavate(normals=[(-2, 0, 0), (1, 0, 0)], offsets=[-1.8, 3.2]) == [1, 3, clump]
+	assert polytope.excavate(normals=[(-2, 0, 0), (1, 0, 0)], offsets=[-1.8, 3.2], cut=False) == {1: [], 3: [], clump: []}
 	assert [body.id for body in O.bodies] == [0, 2, 4]
 
 
@@ -239,6 +239,7 @@ def testARegionTakesWhatMovesAndHasItsCentreInside():
 	[
 		('over', {'bodies': [1], 'over': -1}),
 		('over', {'bodies': [1], 'over': 2.5}),
+		('cut', {'bodies': [1], 'cut': 1}),
 		('bodies', {}),
 		('bodies', {'bodies': [7]}),
 		('bodies', {'bodies': []}),
@@ -265,7 +266,7 @@ def testBeforeTheFirstStepThereAreNoForcesThatCouldFade():
 	with pytest.raises(ValueError, match=r'^over: no contact bears a force yet .*polytope\.settle\(\) or polytope\.inSitu'):
 		polytope.excavate([2], over=100)
 	assert len(O.bodies) == 3 and not relaxing()
-	assert polytope.excavate([2]) == [2]
+	assert polytope.excavate([2]) == {2: []}
 
 
 def testWithoutAnIntegratorForcesCannotFade():

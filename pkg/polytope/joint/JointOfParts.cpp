@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint/JointOfParts.hpp"
+
+#include "bond/BondOfParts.hpp"
+#include "contact/PolytopeGeom.hpp"
+#include "joint/RockJoint.hpp"
+
+#include <core/InteractionLoop.hpp>
+
+#include <src/bond/BondTolerances.hpp>
+#include <src/numbers/Rotation.hpp>
+#include <src/shear/ContactOutline.hpp>
+
+namespace yade {
+namespace {
+
+	const InteractionLoop* loopOf(const Scene& scene)
+	{
+		for (const auto& engine : scene.engines)
+			if (const auto* loop = dynamic_cast<const InteractionLoop*>(engine.get())) return loop;
+		return nullptr;
+	}
+
+	bool touches(const PolytopeGeom& geom)
+	{
+		return geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
+	}
+
+	/// With its geometry alone; null where the parts are apart, and `force` does not ask for it all the same.
+	shared_ptr<Interaction> contactOf(Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
+	{
+		const InteractionLoop* const loop = loopOf(scene);
+		if (!loop) return nullptr;
+		bool       swap    = false;
+		const auto functor = loop->geomDispatcher->getFunctor2D(part1->shape, part2->shape, swap);
+		if (!functor || swap) return nullptr; // the order is that of the whole
+		functor->scene = &scene;
+		auto       made = boost::make_shared<Interaction>(part1->id, part2->id);
+		const auto find = [&] {
+			return functor->go(part1->shape, part2->shape, *part1->state, *part2->state, Vector3r::Zero(), force, made)
+			        && dynamic_cast<PolytopeGeom*>(made->geom.get());
+		};
+		if (!find()) return nullptr;
+		auto& geom = static_cast<PolytopeGeom&>(*made->geom);
+		if (whole.closure.get()) { // by which force and energy depend on the surface
+			geom.closure = whole.closure;
+			if (!find()) return nullptr;
+		}
+		geom.stiffnessRule      = whole.stiffnessRule;
+		geom.needsArea          = true;
+		made->functorCache.geom = functor;
+		return made;
+	}
+
+	/// Shear springs of a part of the bed: displaced as those of the whole at the same place, which has turned about the normal, too.
+	void takeShear(RockJointPhys& phys, const RockJointPhys& whole, const PolytopeGeom& geom)
+	{
+		const Vector3r& n    = geom.normal;
+		const auto      flat = [&](const Vector3r& x) { return Vector3r(x - n.dot(x) * n); };
+		Vector3r        centroid = geom.contactPoint;
+		Real            gyration = 0;
+		if (geom.outline.count() >= 3) {
+			const Real                     normal[3] = { n[0], n[1], n[2] };
+			const auto                     axes      = polytope::axesAround<Real, 3>(normal);
+			const polytope::OutlineMoments moments   = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
+			gyration                                 = moments.gyrationSquared();
+			for (int i = 0; i < 3; ++i)
+				centroid[i] += moments.centroid[0] * axes.m[0][i] + moments.centroid[1] * axes.m[1][i];
+		}
+		const Real     turned = whole.twistingStiffness > 0 ? Real((whole.twistingViscous - whole.twistingMoment) / whole.twistingStiffness) : Real(0);
+		const Vector3r mean   = whole.ks > 0 ? Vector3r((whole.shearViscous - whole.shearForce) / whole.ks) : Vector3r(Vector3r::Zero());
+		const Vector3r more   = turned * n.cross(centroid - whole.shearPoint);
+		phys.shearForce        = -phys.ks * flat(mean + more);
+		phys.shearPoint        = centroid;
+		phys.twistingStiffness = phys.ks * gyration;
+		phys.twistingMoment    = -phys.twistingStiffness * turned;
+		if (!phys.shearLayers.get()) return;
+		polytope::ShearLayers& layers = phys.shearLayers.make().layers;
+		layers.keepPart(phys.contactArea / layers.area());
+		layers.turn([&](Vector3r& displacement) { displacement = flat(displacement + more); });
+	}
+
+	/// Acts as a part of the bond of the whole.
+	void takeBond(RockJointPhys& phys, PolytopeGeom& geom, const shared_ptr<PolytopeBond>& bond, const Body& part1, const Body& part2)
+	{
+		phys.bond        = bond;
+		phys.contactArea = bond->area;
+		phys.setStiffnesses(1);
+		geom.normal       = bond->follow(*part1.state, *part2.state, Vector3r::Zero()).mean * Vector3r::UnitX();
+		geom.contactPoint = bond->point;
+		phys.normalForce  = geom.normal.dot(bond->force) * geom.normal;
+		phys.shearForce   = bond->force - phys.normalForce;
+		phys.shearAt(bond->point);
+	}
+
+	/// What energies are counted from in the next step.
+	void beginEnergies(RockJointPhys& phys, const PolytopeGeom& geom, const Body& part1, const Body& part2)
+	{
+		const Real overlap = geom.penetrationDepth + phys.dilation - phys.restOverlap;
+		const bool ofSurface = geom.energyPerStiffness >= 0 && phys.dilation == 0 && phys.restOverlap == 0;
+		const Real normal = phys.normalForce.isZero() ? Real(0) : Real(phys.kn * (ofSurface ? geom.energyPerStiffness : phys.energyPerStiffness(overlap)));
+		LastStepOfJoint& last = phys.lastStep.make();
+		last.arm1   = geom.contactPoint - part1.state->pos;
+		last.arm2   = geom.contactPoint - part2.state->pos;
+		last.moment = phys.momentAbout(geom.contactPoint, geom.normal) + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
+		last.stored = phys.bond ? phys.bond->energy : Real(normal + phys.shearEnergy());
+	}
+
+} // namespace
+
+bool goesOnBetween(Scene& scene, const Interaction& whole, const Body& whole1, const Body& whole2, const shared_ptr<Body>& part1,
+        const shared_ptr<Body>& part2)
+{
+	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);
+	const auto& wholePhys = static_cast<const RockJointPhys&>(*whole.phys);
+	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !touches(wholeGeom));
+	if (!made) return false;
+	auto& geom = static_cast<PolytopeGeom&>(*made->geom);
+	if (!(geom.normal.dot(wholeGeom.normal) > math::cos(Real(polytope::tolerance::facingOfParts)))) return false;
+
+	auto phys = boost::make_shared<RockJointPhys>(wholePhys);
+	phys->normalForce = phys->normalViscous = phys->shearViscous = phys->rockingMoment = Vector3r::Zero();
+	phys->twistingViscous = phys->dampedStiffness = 0;
+	phys->followsBond = false;
+	phys->bond.reset();
+	phys->lastStep.clear();
+	const auto bond = wholePhys.bond ? bondOfParts(*wholePhys.bond, whole1, whole2, *part1, *part2, *scene.bodies) : nullptr;
+	if (bond) takeBond(*phys, geom, bond, *part1, *part2);
+	else {
+		// of an open joint as much as it had
+		phys->contactArea = touches(geom) ? geom.contactArea : math::min(geom.contactArea, wholePhys.contactArea);
+		if (!(phys->contactArea > 0)) return false;
+		phys->setStiffnesses(geom.share);
+		takeShear(*phys, wholePhys, geom);
+		if (touches(geom)) phys->normalForce = phys->normalSpring(geom.penetrationDepth) * geom.normal;
+	}
+	if (wholePhys.lastStep.get()) beginEnergies(*phys, geom, *part1, *part2);
+	made->phys         = phys;
+	made->iterMadeReal = whole.iterMadeReal;
+	return scene.interactions->insert(made);
+}
+
+} // namespace yade
