@@ -24,7 +24,4 @@ constexpr Real deepestOfFaces = 0.1;
 /// ordinary stiffness. polytope.bond() has the same default.
 constexpr Real facingOfJoints = 0.01;
 
-/// Angle [rad] from the normal of a contact within which that of parts of its bodies is of the same joint: half of π/4, which parts that meet along an edge have.
-constexpr Real facingOfParts = 0.4;
-
 } // namespace polytope::tolerance

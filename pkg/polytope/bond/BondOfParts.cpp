@@ -24,23 +24,27 @@ namespace {
 		}
 	};
 
-	/// The largest one that looks along the bond.
-	boost::optional<polytope::CommonFace> commonFace(const Body& part1, const Body& part2, const Vector3r& normal)
+	/// The largest one that looks along the bond, with part 2 moved by the shift.
+	boost::optional<polytope::CommonFace> commonFace(
+	        const Body& part1, const Body& part2, const Vector3r& shift, const Vector3r& normal)
 	{
 		const auto *shape1 = convexShapeOf(part1), *shape2 = convexShapeOf(part2);
 		if (!shape1 || !shape2) return {};
-		const Real farthest = Real(polytope::tolerance::deepestOfFaces) * math::min(shape1->inscribedRadius(), shape2->inscribedRadius());
+		const Real farthest
+		        = Real(polytope::tolerance::deepestOfFaces) * math::min(shape1->inscribedRadius(), shape2->inscribedRadius());
 		boost::optional<polytope::CommonFace> largest;
-		for (const auto& face :
-		        polytope::commonFaces(placed(*shape1, *part1.state), placed(*shape2, *part2.state), farthest, polytope::tolerance::facingOfJoints))
-			if (face.axes.col(0).dot(normal) > math::cos(Real(polytope::tolerance::facingOfJoints)) && (!largest || face.area > largest->area))
+		for (const auto& face : polytope::commonFaces(placed(*shape1, *part1.state), placed(*shape2, *part2.state, shift), farthest,
+		             polytope::tolerance::facingOfJoints))
+			if (face.axes.col(0).dot(normal) > math::cos(Real(polytope::tolerance::facingOfJoints))
+			        && (!largest || face.area > largest->area))
 				largest = face;
 		return largest;
 	}
 
 	/// Each fibre has the opening of the one of the whole that is nearest.
 	/// \param place,turn of the part's axes in those of the whole
-	std::vector<Real> openingsOfPart(const PolytopeBond& whole, const PolytopeBond& part, const Vector3r& place, const Quaternionr& turn)
+	std::vector<Real> openingsOfPart(
+	        const PolytopeBond& whole, const PolytopeBond& part, const Vector3r& place, const Quaternionr& turn)
 	{
 		std::vector<Vector3r> places;
 		polytope::forFibres(whole.corners, [&](const Vector3r& at, Real, std::size_t) { places.push_back(at); });
@@ -57,17 +61,18 @@ namespace {
 
 } // namespace
 
-shared_ptr<PolytopeBond> bondOfParts(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2,
-        const BodyContainer& bodies)
+shared_ptr<PolytopeBond> bondOfParts(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1,
+        const Body& part2, const BodyContainer& bodies)
 {
 	const Side side1(*whole1.state, whole.point1, whole.frame1), side2(*whole2.state, whole.point2, whole.frame2);
 	const auto motion = polytope::bondMotion(side1.axes, side2.axes, side2.origin - side1.origin);
-	const auto face   = commonFace(part1, part2, motion.mean * Vector3r::UnitX());
+	// the area is the one that it was made with: where its two points are one
+	const auto face = commonFace(part1, part2, side1.origin - side2.origin, motion.mean * Vector3r::UnitX());
 	if (!face) return nullptr;
 
 	// the part's place and axes in the area of the whole
-	Vector3r place = motion.mean.conjugate() * (face->centroid - (side1.origin + side2.origin) / 2);
-	place[0]       = 0;
+	Vector3r place          = motion.mean.conjugate() * (face->centroid - side1.origin);
+	place[0]                = 0;
 	const Vector3r    along = motion.mean.conjugate() * face->axes.col(1);
 	const Quaternionr turn(AngleAxisr(math::atan2(along[2], along[1]), Vector3r::UnitX()));
 

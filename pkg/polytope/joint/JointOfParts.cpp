@@ -7,7 +7,6 @@
 
 #include <core/InteractionLoop.hpp>
 
-#include <src/bond/BondTolerances.hpp>
 #include <src/numbers/Rotation.hpp>
 #include <src/shear/ContactOutline.hpp>
 
@@ -27,14 +26,15 @@ namespace {
 	}
 
 	/// With its geometry alone; null where the parts are apart, and `force` does not ask for it all the same.
-	shared_ptr<Interaction> contactOf(Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
+	shared_ptr<Interaction> contactOf(
+	        Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
 	{
 		const InteractionLoop* const loop = loopOf(scene);
 		if (!loop) return nullptr;
 		bool       swap    = false;
 		const auto functor = loop->geomDispatcher->getFunctor2D(part1->shape, part2->shape, swap);
 		if (!functor || swap) return nullptr; // the order is that of the whole
-		functor->scene = &scene;
+		functor->scene  = &scene;
 		auto       made = boost::make_shared<Interaction>(part1->id, part2->id);
 		const auto find = [&] {
 			return functor->go(part1->shape, part2->shape, *part1->state, *part2->state, Vector3r::Zero(), force, made)
@@ -55,8 +55,8 @@ namespace {
 	/// Shear springs of a part of the bed: displaced as those of the whole at the same place, which has turned about the normal, too.
 	void takeShear(RockJointPhys& phys, const RockJointPhys& whole, const PolytopeGeom& geom)
 	{
-		const Vector3r& n    = geom.normal;
-		const auto      flat = [&](const Vector3r& x) { return Vector3r(x - n.dot(x) * n); };
+		const Vector3r& n        = geom.normal;
+		const auto      flat     = [&](const Vector3r& x) { return Vector3r(x - n.dot(x) * n); };
 		Vector3r        centroid = geom.contactPoint;
 		Real            gyration = 0;
 		if (geom.outline.count() >= 3) {
@@ -67,9 +67,12 @@ namespace {
 			for (int i = 0; i < 3; ++i)
 				centroid[i] += moments.centroid[0] * axes.m[0][i] + moments.centroid[1] * axes.m[1][i];
 		}
-		const Real     turned = whole.twistingStiffness > 0 ? Real((whole.twistingViscous - whole.twistingMoment) / whole.twistingStiffness) : Real(0);
-		const Vector3r mean   = whole.ks > 0 ? Vector3r((whole.shearViscous - whole.shearForce) / whole.ks) : Vector3r(Vector3r::Zero());
-		const Vector3r more   = turned * n.cross(centroid - whole.shearPoint);
+		const Real     turned = whole.twistingStiffness > 0
+		            ? Real((whole.twistingViscous - whole.twistingMoment) / whole.twistingStiffness)
+		            : Real(0);
+		const Vector3r mean
+		        = whole.ks > 0 ? Vector3r((whole.shearViscous - whole.shearForce) / whole.ks) : Vector3r(Vector3r::Zero());
+		const Vector3r more    = turned * n.cross(centroid - whole.shearPoint);
 		phys.shearForce        = -phys.ks * flat(mean + more);
 		phys.shearPoint        = centroid;
 		phys.twistingStiffness = phys.ks * gyration;
@@ -96,14 +99,26 @@ namespace {
 	/// What energies are counted from in the next step.
 	void beginEnergies(RockJointPhys& phys, const PolytopeGeom& geom, const Body& part1, const Body& part2)
 	{
-		const Real overlap = geom.penetrationDepth + phys.dilation - phys.restOverlap;
-		const bool ofSurface = geom.energyPerStiffness >= 0 && phys.dilation == 0 && phys.restOverlap == 0;
-		const Real normal = phys.normalForce.isZero() ? Real(0) : Real(phys.kn * (ofSurface ? geom.energyPerStiffness : phys.energyPerStiffness(overlap)));
-		LastStepOfJoint& last = phys.lastStep.make();
-		last.arm1   = geom.contactPoint - part1.state->pos;
-		last.arm2   = geom.contactPoint - part2.state->pos;
-		last.moment = phys.momentAbout(geom.contactPoint, geom.normal) + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
+		const Real       overlap   = geom.penetrationDepth + phys.dilation - phys.restOverlap;
+		const bool       ofSurface = geom.energyPerStiffness >= 0 && phys.dilation == 0 && phys.restOverlap == 0;
+		const Real       normal    = phys.normalForce.isZero()
+		                 ? Real(0)
+		                 : Real(phys.kn * (ofSurface ? geom.energyPerStiffness : phys.energyPerStiffness(overlap)));
+		LastStepOfJoint& last      = phys.lastStep.make();
+		last.arm1                  = geom.contactPoint - part1.state->pos;
+		last.arm2                  = geom.contactPoint - part2.state->pos;
+		last.moment                = phys.momentAbout(geom.contactPoint, geom.normal)
+		        + (phys.bond ? Vector3r(Vector3r::Zero()) : phys.normalMoment(geom.turningArm));
 		last.stored = phys.bond ? phys.bond->energy : Real(normal + phys.shearEnergy());
+	}
+
+	/// Of the pair that the collider has made, whose bodies may be the other way round.
+	bool takePlace(Scene& scene, const shared_ptr<Interaction>& made)
+	{
+		const shared_ptr<Interaction> pair = scene.interactions->find(made->getId1(), made->getId2());
+		if (pair && pair->isReal()) return false;
+		if (pair) scene.interactions->erase(pair->getId1(), pair->getId2(), pair->linIx);
+		return scene.interactions->insert(made);
 	}
 
 } // namespace
@@ -113,20 +128,21 @@ bool goesOnBetween(Scene& scene, const Interaction& whole, const Body& whole1, c
 {
 	const auto& wholeGeom = static_cast<const PolytopeGeom&>(*whole.geom);
 	const auto& wholePhys = static_cast<const RockJointPhys&>(*whole.phys);
-	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !touches(wholeGeom));
+	const auto  made      = contactOf(scene, part1, part2, wholeGeom, /*force*/ !touches(wholeGeom) || wholePhys.bond);
 	if (!made) return false;
 	auto& geom = static_cast<PolytopeGeom&>(*made->geom);
-	if (!(geom.normal.dot(wholeGeom.normal) > math::cos(Real(polytope::tolerance::facingOfParts)))) return false;
+	if (!(geom.normal.dot(wholeGeom.normal) > 0)) return false; // another side of the parts
 
-	auto phys = boost::make_shared<RockJointPhys>(wholePhys);
+	auto phys         = boost::make_shared<RockJointPhys>(wholePhys);
 	phys->normalForce = phys->normalViscous = phys->shearViscous = phys->rockingMoment = Vector3r::Zero();
 	phys->twistingViscous = phys->dampedStiffness = 0;
-	phys->followsBond = false;
+	phys->followsBond                             = false;
 	phys->bond.reset();
 	phys->lastStep.clear();
 	const auto bond = wholePhys.bond ? bondOfParts(*wholePhys.bond, whole1, whole2, *part1, *part2, *scene.bodies) : nullptr;
 	if (bond) takeBond(*phys, geom, bond, *part1, *part2);
 	else {
+		if (wholePhys.bond && !touches(geom)) return false;
 		// of an open joint as much as it had
 		phys->contactArea = touches(geom) ? geom.contactArea : math::min(geom.contactArea, wholePhys.contactArea);
 		if (!(phys->contactArea > 0)) return false;
@@ -137,7 +153,7 @@ bool goesOnBetween(Scene& scene, const Interaction& whole, const Body& whole1, c
 	if (wholePhys.lastStep.get()) beginEnergies(*phys, geom, *part1, *part2);
 	made->phys         = phys;
 	made->iterMadeReal = whole.iterMadeReal;
-	return scene.interactions->insert(made);
+	return takePlace(scene, made);
 }
 
 } // namespace yade

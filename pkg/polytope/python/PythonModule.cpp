@@ -381,7 +381,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	        .add_property(
 	                "ipoptIterations", &field<int, &ContactResult::ipoptIterations>, "Iterations of Ipopt, 0 where it was not needed.")
 	        .add_property("simplexPivots", &field<int, &ContactResult::simplexPivots>, "Pivots of the linear program.");
-	py::def("goesOnBetween", &goesOnBetween, (py::arg("whole"), py::arg("whole1"), py::arg("whole2"), py::arg("part1"), py::arg("part2")),
+	py::def("goesOnBetween", &goesOnBetween,
+	        (py::arg("whole"), py::arg("whole1"), py::arg("whole2"), py::arg("part1"), py::arg("part2")),
 	        "The rock joint of a contact goes on between parts of its two bodies; whether these have a contact.");
 	py::def("contact", &contact,
 	        (py::arg("b1"), py::arg("b2"), py::arg("contactPoint") = py::object(), py::arg("tolerance") = py::object(),

@@ -11,7 +11,7 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'lockedInForces', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial')
+here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'lockedInForces', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial', 'tunnel')
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -290,3 +290,11 @@ def testTradeoffFindsTheHeightAtRest(runs, capsys):
 	# of 0.5 m; the rocking stiffness of the paper's contact is not that of the closed form
 	assert all(0 < error < (2e-4 if name == "the paper's contact" else 2e-6) for name, error in errors.items())
 	assert float(rows[0]['answer']) == pytest.approx(float(rows[2]['answer']), rel=1e-12), 'a cold start changes nothing but the time'
+
+
+def testATunnelIsCutThroughStressedBlocks(runs):
+	names = runs('tunnel', shorter={'joints, seed=2)': 'joints, seed=2, smallest=0.3)', 'over=3000': 'over=1500'})
+	taken, cut = [old for old, left in names['gone'].items() if not left], names['cut']
+	assert taken and len(cut) > 5 and all(cut.values())
+	assert noFailures() and 0 < names['moved'][0] < 0.01
+	assert isPicture('output/tunnel.png')

@@ -93,7 +93,7 @@ def testCutOffAtOnceItSwings(flat):
 		totals.append(O.energy.total())
 		if len(totals) == 1:
 			assert O.energy['elastPotential'] == pytest.approx(stored, rel=1e-4)
-	assert max(forces) == pytest.approx(weight, rel=1e-3) and min(forces) == pytest.approx(weight / 2, rel=0.01)
+	assert max(forces) == pytest.approx(weight, rel=0.01) and min(forces) == pytest.approx(weight / 2, rel=0.01)
 	assert np.ptp(totals) < 0.01 * stored
 
 
@@ -185,7 +185,7 @@ def testBondsAreSharedByTheirArea(flat, bonded):
 	parts = bondsNow(bonded)
 	assert set(parts) == set(left) and len(left) == 2
 	assert all(part.intact for part in parts.values())
-	assert sum(part.area for part in parts.values()) == pytest.approx(0.95 * area, rel=1e-4)
+	assert sum(part.area for part in parts.values()) == pytest.approx(0.95 * area, rel=1e-6)
 	total = sum((part.force for part in parts.values()), Vector3.Zero)
 	assert (total - 0.95 * force).norm() < 1e-3 * force.norm()
 	about = sum((part.moment + (part.point - point).cross(part.force) for part in parts.values()), Vector3.Zero)
@@ -362,12 +362,14 @@ def testANotchedPolygonTurnsAsOne():
 	k = cube(flat=True)
 	state = O.bodies[k].state
 	state.angVel, state.angMom = (0, 0, 1), (0, 0, state.inertia[2])
+	state.refPos = (-0.3, -0.1, 0)
 	O.engines = polytope.engines(gravity=(0, 0, 0))
 	(left,) = polytope.excavate(normals=[(1, 0, 0), (-1, 0, 0), (0, -1, 0)], offsets=[0.5, 0.5, -0.2])[k]
 	rest, notch = O.bodies[left].state, 0.8
 	away = notch * 0.6 / (4 - notch)
 	inertia = density * (4 * 4 / 6 - notch * ((1 + 0.8**2) / 12 + 0.6**2) - (4 - notch) * away**2)
 	assert O.bodies[left].isClump and rest.mass == pytest.approx(density * (4 - notch), rel=1e-12)
+	assert np.array(rest.pos - rest.refPos, float) == pytest.approx((0.3, 0.1, 0), abs=1e-12)
 	assert rest.pos[1] == pytest.approx(-away, rel=1e-12) and rest.inertia[2] == pytest.approx(inertia, rel=1e-12)
 	assert rest.vel[0] == pytest.approx(away, rel=1e-12) and rest.angVel[2] == 1
 
@@ -486,7 +488,7 @@ def testAJointGoesOnWithWhatItHasBeenThrough():
 		part = contactOf(k).phys
 		assert not part.intact and part.tangensOfFrictionAngle == 0.25
 		assert (part.slip - slip).norm() < 1e-9 and part.dilation == whole.dilation
-		assert part.contactArea == pytest.approx(0.95, rel=1e-4) and part.cohesion == 2e3
+		assert part.contactArea == pytest.approx(0.475 * whole.contactArea, rel=1e-4) and part.cohesion == 2e3
 	O.step()
 	assert not contactOf(left[0]).phys.intact
 

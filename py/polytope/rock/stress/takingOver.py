@@ -4,7 +4,7 @@
 import itertools
 
 import numpy as np
-from yade import BaseMotion, O, Polytope, PolytopeGeom, PolytopeWater, QuietBoundary, RockJointPhys, _polytope
+from yade import BaseMotion, Collider, O, Polytope, PolytopeGeom, PolytopeWater, QuietBoundary, RockJointPhys, _polytope
 
 from ...bodies.clumps import ofUnion, rigid
 from ...bonding.bolting import madeBolts
@@ -83,6 +83,8 @@ def takeOver(rests):
 	followParts(made)
 	for k in rests:
 		O.bodies.erase(k, eraseClumpMembers=True)
+	if any(made.values()):
+		_findPairs()
 	for link, goesOn in [*((bond, bonds()._goesOnBetween) for bond in linked), *((contact, _polytope.goesOnBetween) for contact in contacts)]:
 		wholes = [gone[k] if k in gone else O.bodies[k] for k in (link.id1, link.id2)]
 		sides = [[part.body for part in parts[k]] if k in gone else [O.bodies[k]] for k in (link.id1, link.id2)]
@@ -91,13 +93,31 @@ def takeOver(rests):
 	return made
 
 
+def _findPairs():
+	"""Of the new bodies: contacts with parts of clumps that lie flush depend on each other."""
+	for engine in O.engines:
+		if isinstance(engine, Collider) and not engine.dead:
+			engine()
+
+
 def _append(k, rest):
 	"""Id of one body of parts."""
 	bodies = [part.body for part in rest]
 	if len(bodies) == 1:
-		return O.bodies.append(bodies[0])
-	overlap = O.bodies[k].isClump and not _addsUp(k)
-	return (ofUnion if overlap else rigid)(bodies)[0]
+		made = O.bodies.append(bodies[0])
+	else:
+		overlap = O.bodies[k].isClump and not _addsUp(k)
+		made = (ofUnion if overlap else rigid)(bodies)[0]
+		_keepReference(O.bodies[made].state, O.bodies[k].state)
+	for part in rest:
+		_keepReference(part.body.state, O.bodies[part.of].state)
+	return made
+
+
+def _keepReference(state, former):
+	"""Displacement and rotation go on."""
+	back = former.refOri * former.ori.conjugate()
+	state.refPos, state.refOri = former.refPos + back * (state.pos - former.pos), back * state.ori
 
 
 def _addsUp(k):
