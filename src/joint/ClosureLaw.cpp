@@ -4,7 +4,6 @@
 #include "joint/JointTolerances.hpp"
 
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 namespace polytope {
@@ -24,30 +23,36 @@ namespace {
 		return sum;
 	}
 
-	std::map<std::string, const NormalLaw*>& ownLaws()
-	{
-		static std::map<std::string, const NormalLaw*> all;
-		return all;
-	}
-
 } // namespace
 
 NormalLaw::NormalLaw(const char* name_, Function pressure_, Function tangent_, Function energy_)
         : name(name_), pressure(pressure_), tangent(tangent_), energy(energy_)
 {
-	ownLaws().emplace(name, this);
+	all().push_back(this);
+}
+
+std::vector<const NormalLaw*>& NormalLaw::all()
+{
+	static std::vector<const NormalLaw*> made;
+	return made;
 }
 
 const NormalLaw& NormalLaw::named(const std::string& name)
 {
-	const auto found = ownLaws().find(name);
-	if (found == ownLaws().end())
-		throw std::runtime_error("the normal law " + name + " is not known: load the library that has it first");
-	return *found->second;
+	for (const NormalLaw* law : all())
+		if (law->name == name) return *law;
+	throw std::runtime_error("the normal law " + name + " is not known: load the library that has it first");
+}
+
+std::string NormalLaw::fault() const
+{
+	if (&named(name) == this) return "";
+	return "there is a normal law " + std::string(name) + " already: give this one another name";
 }
 
 ClosureLaw ClosureLaw::own(const NormalLaw& law, Real p, Real q)
 {
+	if (const std::string fault = law.fault(); !fault.empty()) throw std::invalid_argument("law: " + fault);
 	ClosureLaw made;
 	made.own_ = &law;
 	made.p_   = p;

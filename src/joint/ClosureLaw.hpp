@@ -5,6 +5,7 @@
 #include "numbers/Real.hpp"
 
 #include <string>
+#include <vector>
 
 /// Normal laws of joints that stiffen as they close. All is over the joint's stiffness k [Pa/m]: σ/k is a length, that of the linear spring with the same
 /// pressure. Reversible: loading and unloading follow the same curve. In tension each is the linear spring. Besides these two a program has laws of its own.
@@ -19,7 +20,8 @@
 namespace polytope {
 
 /// A law of a program's own, for closures δ > 0: functions of δ and of two parameters p, q. It must outlive all contacts that have it, as a static object of a library
-/// does; its name, which archives have in its place, is known from then on, so it is made once.
+/// does; its name, which archives have in its place, is known from then on, so it is made once. Nothing is looked at then: ClosureLaw::own() refuses a name that
+/// another law has, ClosureLaw::fault() says whether the functions belong together.
 struct POLYTOPE_API NormalLaw {
 	using Function = Real (*)(Real closure, Real p, Real q);
 
@@ -28,6 +30,10 @@ struct POLYTOPE_API NormalLaw {
 	NormalLaw& operator=(const NormalLaw&) = delete;
 	/// Refuses (std::runtime_error) a name that there is none of.
 	static const NormalLaw& named(const std::string& name);
+	/// Those that were made, in this order; of several with one name the first has it.
+	static std::vector<const NormalLaw*>& all();
+	/// Names another law of its name that was made before it; an empty text: there is none.
+	std::string fault() const;
 
 	const char* const name;
 	const Function    pressure; ///< σ/k [m]: 0 at δ = 0, rising
@@ -44,7 +50,7 @@ public:
 	/// \param exponent e
 	/// \param length   σ₀/k [m], above 0
 	static ClosureLaw power(Real exponent, Real length);
-	/// One of a program's own. \param p, q its parameters
+	/// One of a program's own. Refuses (std::invalid_argument) a law whose name another one has. \param p, q its parameters
 	static ClosureLaw own(const NormalLaw& law, Real p = 0, Real q = 0);
 	/// Joint of two sides, each of which closes by half of its own law: of the same kind; parameters are the means, which is exact
 	/// for hyperbolas at low and at high stress, and for powers with the same exponent and reference stress.
@@ -62,6 +68,11 @@ public:
 	Real tangent(Real closure) const;  ///< dσ/dδ over k [-]
 	Real energy(Real closure) const;   ///< ∫ σ/k dδ [m²]
 	Real closure(Real pressure) const; ///< that gives σ/k [m]
+
+	/// Whether these belong together: a sentence that names the law and what does not, or an empty one. At closures from tolerance::leastClosure on, by
+	/// tolerance::closureOctaves octaves, all are finite, and the pressure rises from 0; in each octave it grows by the integral of the tangent, and the energy by that of the
+	/// pressure, to tolerance::closureAgreement. It takes a tenth of a millisecond: for where a law is given, not for each contact.
+	std::string fault() const;
 
 private:
 	Real end() const;

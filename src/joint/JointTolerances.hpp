@@ -11,6 +11,21 @@ constexpr double closureEnd = 0.99;
 /// Steps of the search for the closure of a program's own law at a pressure: halving alone needs as many as the numbers have digits.
 constexpr int mostClosureSteps = 200;
 
+/// Whether a law's pressure, tangent and energy belong together is looked at from this closure on [m], a tenth of a micrometre, by so many octaves, to 1.7 m: joints and
+/// contacts of what is built or falls close by micrometres to millimetres. Laws with another unit of length have it there.
+constexpr double leastClosure   = 1e-7;
+constexpr int    closureOctaves = 24;
+
+/// Of that closure: one that counts as none, below all roundings of closed forms.
+constexpr double noClosure = 1e-20;
+
+/// Relative difference of what grows to the integral of what it should be that is not called a fault: what a law that was written down wrong is off by is more, and
+/// closed forms lose digits at small closures.
+constexpr double closureAgreement = 1e-3;
+
+/// Halvings of an octave by which its integrals are found: a bend or jump of the tangent is then within a 30 000th of it.
+constexpr unsigned mostClosureHalvings = 15;
+
 /// Of the maximum closure: the energy's closed form loses digits with the square of closures below this; a series takes its place, whose terms fall
 /// by this factor.
 constexpr double smallClosure = 0.05;

@@ -117,4 +117,73 @@ TEST(ClosureLaw, OfAProgramsOwnIsKnownByItsName)
 	EXPECT_THROW(NormalLaw::named("another"), std::runtime_error);
 }
 
+TEST(ClosureLaw, ANameThatIsTakenIsRefused)
+{
+	EXPECT_EQ(hyperbola.fault(), "");
+	{
+		const NormalLaw again("ClosureLawTest", hyperbola.pressure, hyperbola.tangent, hyperbola.energy);
+		EXPECT_EQ(again.fault(), "there is a normal law ClosureLawTest already: give this one another name");
+		EXPECT_THROW(ClosureLaw::own(again, 1), std::invalid_argument);
+		EXPECT_EQ(&NormalLaw::named("ClosureLawTest"), &hyperbola);
+		NormalLaw::all().pop_back(); // it ends here
+	}
+	EXPECT_NO_THROW(ClosureLaw::own(hyperbola, 1));
+}
+
+TEST(ClosureLaw, LawsWhoseFunctionsBelongTogetherHaveNoFault)
+{
+	EXPECT_EQ(ClosureLaw().fault(), "");
+	for (const double most : { 1e-6, 1e-5, 2e-4, 1e-2, 1. })
+		EXPECT_EQ(ClosureLaw::hyperbola(most).fault(), "") << most;
+	for (const double exponent : { 0., 0.3, 0.5, 0.9 })
+		for (const double length : { 1e-6, 1e-4, 1e-1 })
+			EXPECT_EQ(ClosureLaw::power(exponent, length).fault(), "") << exponent << ' ' << length;
+	for (const double most : { 1e-5, 2e-4, 1e-2, 1e-1 })
+		EXPECT_EQ(ClosureLaw::own(hyperbola, most).fault(), "") << most;
+}
+
+/// One that stiffens at a closure p to q times its stiffness: the tangent jumps.
+TEST(ClosureLaw, ATangentThatJumpsIsNoFault)
+{
+	const NormalLaw twoSlopes(
+	        "ClosureLawTest twoSlopes", [](Real u, Real p, Real q) { return u < p ? u : p + q * (u - p); },
+	        [](Real u, Real p, Real q) { return u < p ? Real(1) : q; },
+	        [](Real u, Real p, Real q) { return u < p ? u * u / 2 : p * p / 2 + (u - p) * (p + q * (u - p) / 2); });
+	for (const double p : { 3e-6, 1e-4, 1.1e-2 })
+		EXPECT_EQ(ClosureLaw::own(twoSlopes, p, 50).fault(), "") << p;
+	NormalLaw::all().pop_back();
+}
+
+/// The same hyperbola with one of its functions, or its end, written down wrong.
+TEST(ClosureLaw, WhatDoesNotBelongTogetherIsNamed)
+{
+	const auto said = [](NormalLaw::Function pressure, NormalLaw::Function tangent, NormalLaw::Function energy, Real p = 2e-4) {
+		const NormalLaw   law("ClosureLawTest wrong", pressure, tangent, energy);
+		const std::string text = ClosureLaw::own(law, p).fault();
+		NormalLaw::all().pop_back();
+		return text;
+	};
+	const auto begins     = [](const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; };
+	const std::string law = "the normal law ClosureLawTest wrong (p = 0.0002, q = 0): ";
+
+	const auto slope = said(hyperbola.pressure, [](Real u, Real p, Real) { return 1 / (1 - partOf(u, p)); }, hyperbola.energy);
+	EXPECT_TRUE(begins(slope, law + "its pressure is not the integral of its tangent: from ")) << slope;
+	const auto work = said(
+	        hyperbola.pressure, hyperbola.tangent, [](Real u, Real p, Real q) { return hyperbola.energy(u, p, q) * Real(1.01); });
+	EXPECT_TRUE(begins(work, law + "its energy is not the integral of its pressure: from 1e-07 to 2e-07 m it grows by ")) << work;
+	const auto pole = said([](Real u, Real p, Real) { return u / (1 - u / p); },
+	        [](Real u, Real p, Real) { return 1 / ((1 - u / p) * (1 - u / p)); },
+	        [](Real u, Real p, Real) { return p * p * (-u / p - std::log(std::abs(1 - u / p))); });
+	EXPECT_TRUE(begins(pole, law + "the pressure must rise: from ")) << pole;
+	const auto step = said(
+	        [](Real u, Real p, Real q) { return hyperbola.pressure(u, p, q) + Real(1e-9); }, hyperbola.tangent, hyperbola.energy);
+	EXPECT_TRUE(begins(step, law + "pressure and energy must be 0 at closure 0: ")) << step;
+	const auto none = said(hyperbola.pressure, hyperbola.tangent, hyperbola.energy, std::nan(""));
+	EXPECT_NE(none.find("pressure, tangent and energy must be finite for every closure: at 1e-07 m they are nan"), std::string::npos)
+	        << none;
+	const auto soft = said([](Real u, Real, Real) { return u / (1 + u); }, [](Real u, Real, Real) { return -1 / ((1 + u) * (1 + u)); },
+	        [](Real u, Real, Real) { return u - std::log(1 + u); });
+	EXPECT_TRUE(begins(soft, law + "the pressure must rise: ")) << soft;
+}
+
 } // namespace
