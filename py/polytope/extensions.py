@@ -4,7 +4,6 @@
 import collections
 import os
 import pathlib
-import struct
 import sys
 
 import yade.wrapper
@@ -19,10 +18,6 @@ Extension = collections.namedtuple('Extension', 'path name classes')
 Extension.__doc__ = (
 	"""A library that is loaded: its *path* (str), the *name* it was built with and the names of its *classes* (tuple of str)."""
 )
-
-
-_refused = {}
-"""Path and time of files that were refused → why: a library stays in the process, and its classes do not register again, so that YADE would say another thing."""
 
 
 def extensions():
@@ -43,41 +38,22 @@ def load(path):
 	:returns: what was loaded: (path, name, classes), see *Extension*
 	:raises FileNotFoundError: if there is no such file
 	:raises ValueError: naming *path* and the reason where it does not fit: no path, a folder, a file that is cut off, built for another precision, another YADE or
-	    another version of this plug-in, no extension at all, a class that there is already or that has the index of another
+	    another version of this plug-in, no extension at all, a class or normal law whose name there is already, a class that has the index of another
 	"""
 	if not isinstance(path, (str, os.PathLike)):
 		raise ValueError(f'path: must be the path of a library that yade_polytope_add_extension has built, got {path!r}')
 	file = pathlib.Path(path).resolve()
-	if file.is_dir():
-		raise ValueError(f'path: {file} is a folder; give the path of the library in it')
-	if not file.is_file():
+	if not file.exists():
 		raise FileNotFoundError(f'path: there is no file {file}; build the extension first (docs/extending.md)')
-	key = file, file.stat().st_mtime_ns
-	fault = _refused.get(key) or _faultOfFile(file)
-	if not fault:
-		try:
-			extension = Extension(*_polytope.loadExtension(str(file)))
-		except RuntimeError as error:
-			fault = _refused[key] = str(error)
-	if fault:
-		raise ValueError(f'path: the extension {file} is not loaded: {fault}')
+	try:
+		extension = Extension(*_polytope.loadExtension(str(file)))
+	except RuntimeError as error:
+		raise ValueError(f'path: the extension {file} is not loaded: {error}') from None
 	_makeKnown(extension.classes)
 	paths = [one for one in os.environ.get(variable, '').split(os.pathsep) if one]
 	if str(file) not in paths:
 		os.environ[variable] = os.pathsep.join([*paths, str(file)])
 	return extension
-
-
-def _faultOfFile(file):
-	"""Whether a library ends before the table of its sections, which is its last part; empty: no, or it is no library. The dynamic linker does not ask: it maps what
-	is not there into memory, and the process ends where it reads that."""
-	with file.open('rb') as opened:
-		head = opened.read(64)
-	if len(head) < 64 or head[:6] != b'\x7fELF\x02\x01':  # of 64 bits, least significant byte first
-		return ''
-	(start,), (size, count) = struct.unpack_from('<Q', head, 40), struct.unpack_from('<2H', head, 58)
-	here, end = file.stat().st_size, start + size * count
-	return f'its file is cut off: it has {here} of {end} bytes; copy it or build it again' if here < end else ''
 
 
 def _makeKnown(classes):

@@ -27,7 +27,7 @@ namespace {
 	Real energy(Real u, Real v, Real)
 	{
 		const Real x = math::min(Real(u / v), end), beyond = u - x * v;
-		return v * v * (-x - math::log(1 - x)) + beyond * (v * x / (1 - x) + beyond / 2 / ((1 - x) * (1 - x)));
+		return v * v * (-x - math::log1p(-x)) + beyond * (v * x / (1 - x) + beyond / 2 / ((1 - x) * (1 - x)));
 	}
 
 	const polytope::NormalLaw hyperbola("OwnHyperbola", pressure, tangent, energy);

@@ -9,11 +9,17 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
+#include <src/joint/ClosureLaw.hpp>
+
 #include "BuildInfo.hpp"
+#include <polytope/config.hpp>
 #include <yade-polytope/Fingerprint.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <dlfcn.h>
+#include <elf.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <list>
@@ -33,12 +39,37 @@ namespace {
 		return all;
 	}
 
+	std::string bytesOf(const std::string& path)
+	{
+		std::error_code none;
+		if (std::filesystem::is_directory(path, none))
+			throw std::runtime_error("it is a folder; give the path of the library in it");
+		if (!std::filesystem::exists(path, none)) throw std::runtime_error("there is no such file; build the extension first");
+		std::ifstream file(path, std::ios::binary);
+		std::string   bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+		if (!file.is_open() || file.bad()) throw std::runtime_error("its file cannot be read");
+		return bytes;
+	}
+
+	/// Where a library ends before the table of its sections, which is its last part. The dynamic linker does not ask: it maps what is not there into memory, and the
+	/// process ends where it reads that.
+	void refusePart(const std::string& bytes)
+	{
+		Elf64_Ehdr head;
+		if (bytes.size() < sizeof(head)) return;
+		std::memcpy(&head, bytes.data(), sizeof(head));
+		if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_ident[EI_CLASS] != ELFCLASS64) return;
+		const std::size_t end = head.e_shoff + std::size_t(head.e_shentsize) * head.e_shnum;
+		if (bytes.size() < end)
+			throw std::runtime_error("its file is cut off: it has " + std::to_string(bytes.size()) + " of "
+			        + std::to_string(end) + " bytes; copy it or build it again");
+	}
+
 	/// NAME=VALUE lines of the text that the library has about itself; empty if it has none.
 	std::map<std::string, std::string> ownText(const std::string& path)
 	{
-		std::ifstream     file(path, std::ios::binary);
-		const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-		if (!file.good() && !file.eof()) throw std::runtime_error("the file cannot be read");
+		const std::string bytes = bytesOf(path);
+		refusePart(bytes);
 		std::map<std::string, std::string> values;
 		const std::string                  mark  = std::string("yade-polytope-") + "extension\n"; // in two: this library is none
 		const std::size_t                  start = bytes.find(mark);
@@ -65,6 +96,9 @@ namespace {
 		if (own["yade"] != info::yadeVersion)
 			return "it was built for YADE " + own["yade"] + ", and this is YADE " + info::yadeVersion + again;
 		if (own["features"] != info::yadeFeatures) return "it was built for a YADE with the features " + own["features"] + again;
+		if (own["abi"] != std::to_string(POLYTOPE_ABI))
+			return "it was built for the binary interface " + own["abi"] + " of yade-polytope, and this one has "
+			        + std::to_string(POLYTOPE_ABI) + again;
 		if (own["headers"] != YADE_POLYTOPE_FINGERPRINT)
 			return "it was built for yade-polytope " + own["version"] + " with other headers than those of this one ("
 			        + info::version + ")" + again;
@@ -96,29 +130,58 @@ namespace {
 		return "";
 	}
 
-	/// Makes the library's classes known to YADE's factory; those names are taken out of its list again where they are refused.
+	/// What is wrong with the normal laws that were made after the first so many; empty if nothing is.
+	std::string faultOfLaws(std::size_t before)
+	{
+		const auto& all = polytope::NormalLaw::all();
+		for (std::size_t k = before; k < all.size(); ++k)
+			if (const std::string fault = all[k]->fault(); !fault.empty()) return fault;
+		return "";
+	}
+
+	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of those lists again.
 	Extension opened(const std::string& path, const std::string& name)
 	{
-		Names& all = ClassFactory::instance().pluginClasses;
+		Names& all  = ClassFactory::instance().pluginClasses;
+		auto&  laws = polytope::NormalLaw::all();
 		Names  known;
 		known.swap(all);
-		void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
-		Names       classes;
+		const std::size_t before  = laws.size();
+		void* const       library = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+		Names             classes;
 		classes.swap(all);
 		all.swap(known);
-		if (!library) throw std::runtime_error(dlerror());
-		const std::string fault = faultOf(classes, all);
-		if (!fault.empty()) throw std::runtime_error(fault);
-		return { path, name, { classes.begin(), classes.end() } };
+		std::string fault = library ? faultOf(classes, all) : dlerror();
+		if (fault.empty()) fault = faultOfLaws(before);
+		if (fault.empty()) return { path, name, { classes.begin(), classes.end() } };
+		laws.resize(before);
+		throw std::runtime_error(fault);
+	}
+
+	using File = std::pair<std::string, std::filesystem::file_time_type>;
+
+	/// Files that were refused, with the reason: a library stays in the process, and its classes do not register again, so that the next answer would be another one.
+	std::map<File, std::string>& refused()
+	{
+		static std::map<File, std::string> all;
+		return all;
 	}
 
 	/// What was not loaded before this is.
 	Extension& add(const std::string& path)
 	{
-		std::map<std::string, std::string> own   = ownText(path);
-		const std::string                  fault = misfit(own);
-		if (!fault.empty()) throw std::runtime_error(fault);
-		loaded().push_back(opened(path, own["name"]));
+		std::error_code none;
+		const File      file { path, std::filesystem::last_write_time(path, none) };
+		if (const auto found = refused().find(file); found != refused().end()) throw std::runtime_error(found->second);
+		try {
+			std::map<std::string, std::string> own   = ownText(path);
+			const std::string                  fault = misfit(own);
+			if (!fault.empty()) throw std::runtime_error(fault);
+			loaded().push_back(opened(path, own["name"]));
+		} catch (const std::exception& error) {
+			refused()[file] = error.what();
+			throw;
+		}
 		return loaded().back();
 	}
 

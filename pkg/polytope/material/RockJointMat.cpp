@@ -102,6 +102,10 @@ void RockJointMat::refuseForLaws() const
 	const auto refuse = [](const char* name, const std::string& message) { throw std::invalid_argument(name + (": " + message)); };
 	if (closure && tensileStrength > 0)
 		refuse("tensileStrength", "a joint with a closure of its own has none, for its spring is linear in tension; leave it at 0");
+	if (closure) {
+		const std::string fault = closure->law(normalStiffness).fault();
+		if (!fault.empty()) refuse("closure", fault);
+	}
 	if (!strength) {
 		if (reduction != 1) refuse("reduction", "belongs to a shear law; give the material one with strength=…, or leave it at 1");
 		return;

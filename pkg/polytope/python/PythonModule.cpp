@@ -158,6 +158,11 @@ bool givesStiffnesses(const boost::shared_ptr<yade::Functor>& functor, const boo
 	return giver && material1 && material2 && giver->stiffnesses(*material1, *material2, 1, 1, 1);
 }
 
+std::string faultOfClosure(const boost::shared_ptr<yade::JointClosure>& closure, const yade::Real& stiffness)
+{
+	return closure->law(stiffness).fault();
+}
+
 /// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.
 boost::shared_ptr<yade::Body> bodyOf(const py::object& given, const char* name)
 {
@@ -333,6 +338,8 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("givesStiffnesses", &givesStiffnesses, (py::arg("functor"), py::arg("material1"), py::arg("material2")),
 	        "Whether an Ip2 functor of an extension says how stiff contacts of two materials can be "
 	        "(GivesJointStiffness::stiffnesses).");
+	py::def("faultOfClosure", &faultOfClosure, (py::arg("closure"), py::arg("stiffness")),
+	        "What does not belong together in a normal law, of a material of this stiffness; empty: nothing.");
 	py::def("timeStepLimits", &timeStepLimits,
 	        "Safe time steps [s] (src/timestep/StableTimeStep.hpp) from the present *contacts* and from the *material* of contacts "
 	        "that may be, as "

@@ -6,7 +6,7 @@ from .bodies import bodyFindings
 from .contacts import contactFindings
 from .costs import costFindings, takeCosts
 from .engines import engineFindings
-from .extensions import derivedShapes
+from .extensions import derivedShapes, ownClosures
 from .falling import falling
 from .findings import Check, Finding
 from .lostStrengths import hanging, lostStrengths
@@ -24,7 +24,7 @@ def check(O, costs=False):
 	"""Checks the present scene for what is wrong. Most of it YADE would not tell.
 
 	It looks at: missing or misplaced engines, bounds, contact functors, physics and laws for shapes and materials that can meet, laws that
-	apply forces as for spheres, margins with a stiffness per area, shapes of extensions without a margin or with one that is none, contact models whose unit of stiffness is another, contacts
+	apply forces as for spheres, margins with a stiffness per area, shapes of extensions without a margin or with one that is none, normal laws that do not fit together, contact models whose unit of stiffness is another, contacts
 	without any damping whose model does not conserve energy, polygons that meet what they cannot touch, positions and velocities that are not
 	numbers, polytopes in the same place or deep in each other, boxes without thickness, engines that are there twice, controllers for spheres
 	only, YADE's density scaling, bodies that have YADE's default material in place of the scene's, bodies too large for a periodic cell, bonds whose engine is missing, numerical damping beside a moving base or a
@@ -64,7 +64,7 @@ def checkOf(O, engines):
 	"""Checks the scene as it would be with these engines; None: its own."""
 	scene = SceneToCheck(O, engines)
 	lost = list(notNumbers(scene))
-	found = [*lost, *engineFindings(scene), *pairFindings(scene), *defaultMaterial(scene), *bodyFindings(scene), *derivedShapes(scene), *contactFindings(scene)]
+	found = [*lost, *engineFindings(scene), *pairFindings(scene), *defaultMaterial(scene), *bodyFindings(scene), *derivedShapes(scene), *ownClosures(scene), *contactFindings(scene)]
 	if not lost:
 		places = list(placeFindings(scene))
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to

@@ -9,7 +9,7 @@ from ..bodies.polytopes import isotropyTolerance
 from ..scene.ownFunctors import ownClasses, ownContactsOf
 from ..scene.present import isPerArea, jointMaterials
 
-__all__ = ['contactsToChoose', 'derivedShapes', 'marginsPerArea', 'unknownStiffness']
+__all__ = ['contactsToChoose', 'derivedShapes', 'marginsPerArea', 'ownClosures', 'unknownStiffness']
 
 
 def derivedShapes(scene):
@@ -42,6 +42,14 @@ def faultOfMargin(shape):
 		fault = str(error).removeprefix('shape: ')
 		return f'{fault}; its attributes are {own}' if fault.startswith('its margin') else ''
 	return ''
+
+
+def ownClosures(scene):
+	"""Normal laws whose parameters were changed after the material had them, which then looked at them."""
+	for material in jointMaterials(scene.bodies):
+		fault = _polytope.faultOfClosure(material.closure, material.normalStiffness) if material.closure else ''
+		if fault:
+			yield 'joint laws', f'closure of RockJointMat {material.label!r}: {fault}', 'give it parameters with which it is as docs/extending.md says'
 
 
 def contactsToChoose(one, other):

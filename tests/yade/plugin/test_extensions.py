@@ -26,17 +26,17 @@ def run(*command, **options):
 	return done.stdout
 
 
-def built(name, variant='as it is', **changed):
-	"""Path of the library of an example, from a copy of its sources, with other contents of a file `changed`. YADE's headers take a minute, so that copies
-	and what was compiled stay in the build folder for the next run."""
+def built(name, variant='as it is', prefix=overlay, options=(), examples=project / 'examples/extend', **changed):
+	"""Path of the library of an example, from a copy of its sources, with other contents of a file `changed`, against the headers in a prefix. YADE's headers take a minute, so
+	that copies and what was compiled stay in the build folder for the next run."""
 	folder = build / 'testExtensions' / variant.replace(' ', '_') / name
 	source, made = folder / 'sources', folder / 'build'
 	source.mkdir(parents=True, exist_ok=True)
-	for path in (project / 'examples/extend' / name).iterdir():
+	for path in (examples / name).iterdir():
 		text = changed.get(path.stem, path.read_text())
 		if not (source / path.name).is_file() or (source / path.name).read_text() != text:
 			(source / path.name).write_text(text)
-	run('cmake', '-S', source, '-B', made, '-G', 'Ninja', f'-DCMAKE_PREFIX_PATH={overlay}', '-DCMAKE_BUILD_TYPE=Release')
+	run('cmake', '-S', source, '-B', made, '-G', 'Ninja', f'-DCMAKE_PREFIX_PATH={prefix}', '-DCMAKE_BUILD_TYPE=Release', *options)
 	run('ninja', '-C', made)
 	assert not re.search(rf'{project}/(src|pkg)/', run('ninja', '-C', made, '-t', 'deps')), 'it has seen source files'
 	return made / f'{name}.so'
@@ -156,19 +156,20 @@ def testHiddenVisibilityIsUndoneOrRefused():
 	assert 'hidden visibility' in refused(built('ownPhysics', 'forced', CMakeLists=hidden % forced))
 
 
-def refused(library):
-	"""What polytope.load() says; YADE itself, started with the library in its environment, says the same and goes on."""
+def refused(library, **environment):
+	"""What polytope.load() says; YADE itself, started with the library in its environment, says the same and goes on, and so does polytope.load() then."""
 	script = """
 from yade import polytope
 try: polytope.load(sys.argv[1])
-except ValueError as error: answer(str(error))
+except ValueError as error: text = str(error)
+answer([text, hasattr(yade, "OwnJointMat"), polytope.extensions()])
 """
-	text, _ = inYade(script, library)
-	assert text.startswith(f'path: the extension {library} is not loaded: '), text
-	known, warning = inYade('answer(hasattr(yade, "OwnJointMat"))', YADE_POLYTOPE_EXTENSIONS=str(library))
-	assert known is False and f'WARNING: the extension {library} is not loaded: ' in warning
-	reason = text.split('is not loaded: ', 1)[1]
-	assert reason[:60] in warning
+	begin = f'the extension {library} is not loaded: '
+	(text, *known), _ = inYade(script, library, **environment)
+	assert text.startswith(f'path: {begin}') and known == [False, []], text
+	reason = text.split(begin, 1)[1]
+	again, warning = inYade(script, library, YADE_POLYTOPE_EXTENSIONS=str(library), **environment)
+	assert again == [text, False, []] and f'WARNING: {begin}{reason}.' in warning
 	return reason
 
 
@@ -190,6 +191,83 @@ def testWhatDoesNotFitIsRefused(here, there, reason, joint, tmp_path):
 	assert reason in refused(library)
 
 
+@pytest.fixture(scope='module')
+def otherAbi(tmp_path_factory):
+	"""The headers of this plug-in, with another number of the binary interface."""
+	prefix = tmp_path_factory.mktemp('otherAbi')
+	shutil.copytree(overlay / 'include/yade-polytope-double', prefix / 'include/yade-polytope-double')
+	(cmake,) = overlay.glob('lib*/**/cmake/yade-polytope')
+	shutil.copytree(cmake, prefix / cmake.relative_to(overlay))
+	config = prefix / 'include/yade-polytope-double/polytope/config.hpp'
+	text = config.read_text()
+	changed = re.sub(r'(#define POLYTOPE_ABI) \d+', r'\1 77', text)
+	assert changed != text
+	config.write_text(changed)
+	return prefix
+
+
+def testAnExtensionBuiltWithAnotherInterfaceIsRefused(otherAbi):
+	library = built('ownPhysics', 'other abi', prefix=otherAbi)
+	assert refused(library).startswith('it was built for the binary interface 77 of yade-polytope, and this one has ')
+
+
+def testTheSumOfTheHeadersChangesWithThem(tmp_path):
+	"""By which an extension is compared with the plug-in: the same for the same headers, another one where one of them, or the configuration, has another line."""
+	source, into = tmp_path / 'source', tmp_path / 'into'
+	name = 'host/FlatArchive.hpp'
+	(source / 'host').mkdir(parents=True)
+	shutil.copy(project / 'pkg/polytope' / name, source / name)
+	sums = into / 'yade-polytope/Fingerprint.hpp'
+
+	def made():
+		options = {'SOURCE': source, 'PREFIX': 'yade-polytope', 'INTO': into, 'HEADERS': name, 'CORE': '', 'STAMP': tmp_path / 'stamp'}
+		run('cmake', *(f'-D{key}={value}' for key, value in options.items()), f'-DFINGERPRINT={sums}', '-P', project / 'cmake/publicHeaders.cmake')
+		return re.search(r'YADE_POLYTOPE_FINGERPRINT "(\w{64})"', sums.read_text())[1]
+
+	first = made()
+	assert made() == first
+	with (source / name).open('a') as file:
+		file.write('// another line\n')
+	second = made()
+	assert second != first
+	(into / 'polytope').mkdir()
+	(into / 'polytope/config.hpp').write_text('#define POLYTOPE_ABI 2\n')
+	assert made() not in (first, second)
+
+
+@pytest.fixture(scope='module')
+def longDouble():
+	"""Environment of YADE in long double, with this plug-in."""
+	if not (build / 'longdouble/overlay.complete').is_file():
+		pytest.skip('the plug-in is not built for long double')
+	(path,) = pathlib.Path('/usr/lib').glob('*/yade-longdouble/py')
+	return {'PYTHONPATH': str(path)}
+
+
+def testExtensionsOfTwoPrecisions(joint, longDouble):
+	"""The function builds for the precision that it is asked for. Each YADE refuses the other's; that of long double has its closed form, with more digits than double."""
+	wide = built('ownPhysics', 'long double', options=['-DYADE_POLYTOPE_PRECISION=longdouble'])
+	assert refused(wide).startswith('it was built for the precision longdouble, and this YADE computes in double;')
+	assert refused(joint, **longDouble).startswith('it was built for the precision double, and this YADE computes in longdouble;')
+	script = (
+		block
+		+ """
+polytope.load(sys.argv[1])
+scene(1e8, -5e-6)
+O.dt = 1e-12
+O.step()
+c = O.interactions[0, 1]
+u, k, v, area = c.geom.penetrationDepth, 1e8, O.materials[0].maximumClosure, c.geom.contactArea
+force = area * k * u / (1 - u / v)
+answer([str(c.phys.normalForce[2] / force - 1), str(u), polytope.buildInfo()['precision'], str(1 + type(u)(2)**-60 == 1)])
+"""
+	)
+	(ratio, depth, precision, rounded), _ = inYade(script, wide, **longDouble)
+	assert precision == 'longdouble' and rounded == 'False'
+	assert float(depth) == pytest.approx(5e-6, rel=1e-6)
+	assert abs(float(ratio)) < 2**-58
+
+
 def testWhatIsNoExtensionIsRefused(tmp_path):
 	library = tmp_path / 'none.so'
 	shutil.copy(build / 'src/libpolytope_core.a', library)
@@ -202,17 +280,12 @@ def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
 	whole = joint.read_bytes()
 	library = tmp_path / 'part.so'
 	library.write_bytes(whole[: int(part * len(whole))])
-	script = """
-from yade import polytope
-try: polytope.load(sys.argv[1])
-except ValueError as error: answer(str(error))
-"""
-	text, _ = inYade(script, library)
-	begin, end = f'path: the extension {library} is not loaded: its file is cut off: it has', 'bytes; copy it or build it again'
-	assert text == f'{begin} {int(part * len(whole))} of {len(whole)} {end}'
+	text = f'its file is cut off: it has {int(part * len(whole))} of {len(whole)} bytes; copy it or build it again'
+	assert refused(library) == text
 
 
-def testPathsThatAreNoneAreNamed(joint, tmp_path):
+def testWhatIsNoFileIsRefused(joint, tmp_path):
+	"""By polytope.load, and at the start in YADE_POLYTOPE_EXTENSIONS, where the others are loaded."""
 	script = """
 from yade import polytope
 def said(path):
@@ -223,8 +296,12 @@ answer([said(path) for path in (None, 5, sys.argv[1], sys.argv[1] + '/none.so')]
 	(nothing, number, folder, missing), _ = inYade(script, tmp_path)
 	assert nothing == 'path: must be the path of a library that yade_polytope_add_extension has built, got None'
 	assert number.endswith('got 5')
-	assert folder == f'path: {tmp_path} is a folder; give the path of the library in it'
+	assert folder == f'path: the extension {tmp_path} is not loaded: it is a folder; give the path of the library in it'
 	assert missing.startswith(f'path: there is no file {tmp_path}/none.so')
+	known, warning = inYade('answer(hasattr(yade, "OwnJointMat"))', YADE_POLYTOPE_EXTENSIONS=f'{tmp_path}:{tmp_path}/none.so:{joint}')
+	assert known is True
+	assert f'WARNING: the extension {tmp_path} is not loaded: it is a folder; give the path of the library in it.' in warning
+	assert f'WARNING: the extension {tmp_path}/none.so is not loaded: there is no such file; build the extension first.' in warning
 
 
 def testARefusalIsTheSameAgain(joint, tmp_path):

@@ -2,7 +2,7 @@
 """The example of a normal law of one's own: in all that a scene shows it is the plug-in's own hyperbola."""
 
 import pytest
-from test_extensions import built, inYade
+from test_extensions import built, inYade, project
 
 
 @pytest.fixture(scope='module')
@@ -41,3 +41,62 @@ def testItIsThePlugInsHyperbolaInAllThatASceneShows(hyperbola, tmp_path):
 	assert seen[1][9:12] != [0, 0, 0]
 	again, _ = inYade(scene + 'O.load(sys.argv[1])\nO.run(100, True)\nanswer(state())\n', saved, YADE_POLYTOPE_EXTENSIONS=str(hyperbola))
 	assert again == pytest.approx(later, rel=1e-9, abs=1e-9)
+
+
+@pytest.fixture(scope='module')
+def wrong():
+	"""A library whose law has the name of the example's, and an energy that is not the integral of its pressure."""
+	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
+	other = text.replace('class OwnHyperbola', 'class OtherHyperbola').replace('(OwnHyperbola', '(OtherHyperbola').replace('~OwnHyperbola', '~OtherHyperbola')
+	changed = other.replace('beyond / 2 /', 'beyond / 3 /')
+	assert '"OwnHyperbola"' in changed and changed != other != text
+	return built('hyperbolicJoint', 'wrong', hyperbolicJoint=changed)
+
+
+def testALawThatDoesNotFitTogetherIsRefused(wrong):
+	"""When a material is to have it: the sentence names the law, its parameters and what is wrong; nothing is changed."""
+	script = """
+from yade import polytope
+polytope.load(sys.argv[1])
+material = RockJointMat(normalStiffness=2e8)
+def said(call):
+	try: call()
+	except ValueError as error: return str(error)
+def give(): material.closure = OtherHyperbola(maximumClosure=4e-4)
+answer([said(give), said(lambda: RockJointMat(closure=OtherHyperbola(maximumClosure=4e-4))), material.closure is None])
+"""
+	(given, made, none), _ = inYade(script, wrong)
+	begin = 'closure: the normal law OwnHyperbola (p = 0.0004, q = 0): its energy is not the integral of its pressure: from '
+	assert given.startswith(begin) and made.startswith(begin) and none is True
+
+
+def testCheckLooksAtParametersThatWereChangedLater(hyperbola):
+	script = (
+		scene
+		+ """
+polytope.load(sys.argv[1])
+scene(OwnHyperbola)
+before = [one.what for one in polytope.check(O)]
+O.materials[0].closure.maximumClosure = float('nan')
+answer([before, [[one.what, one.seen] for one in polytope.check(O)]])
+"""
+	)
+	(before, after), _ = inYade(script, hyperbola)
+	assert before == []
+	assert any(what == 'joint laws' and 'the normal law OwnHyperbola (p = nan, q = 0): pressure, tangent and energy must be finite' in seen for what, seen in after), after
+
+
+def testANameThatALawHasIsRefused(hyperbola, wrong):
+	"""By polytope.load and at the start, after which YADE goes on with the law that was there."""
+	script = """
+from yade import polytope
+polytope.load(sys.argv[1])
+try: polytope.load(sys.argv[2])
+except ValueError as error: text = str(error)
+answer([text, hasattr(yade, 'OtherHyperbola'), len(polytope.extensions()), RockJointMat(closure=OwnHyperbola(maximumClosure=1e-3)).closure.maximumClosure])
+"""
+	(text, *rest), _ = inYade(script, hyperbola, wrong)
+	reason = 'there is a normal law OwnHyperbola already: give this one another name'
+	assert text == f'path: the extension {wrong} is not loaded: {reason}' and rest == [False, 1, 1e-3]
+	known, warning = inYade('answer([hasattr(yade, "OwnHyperbola"), hasattr(yade, "OtherHyperbola")])', YADE_POLYTOPE_EXTENSIONS=f'{hyperbola}:{wrong}')
+	assert known == [True, False] and f'WARNING: the extension {wrong} is not loaded: {reason}.' in warning
