@@ -6,12 +6,14 @@ include(PublicHeaders)
 
 # A header is public if an extension includes it (first list), or if one of those does (second list). All others may change at any time.
 set(plugin_headers
+	contact/ContactForce.hpp # steps of a law
 	contact/MarginContact.hpp # contacts of bodies with margins
 	contact/MixedPairs.hpp # contacts with YADE's own shapes
 	contact/PolytopeGeom.hpp # a contact, and the functor that others derive from
 	host/FlatArchive.hpp # POLYTOPE_SAVED_FLAT
 	material/JointLaws.hpp # normal laws of joints
 	material/StiffnessRules.hpp # what a functor of physics tells
+	shape/FamilyBound.hpp # boxes of shapes with a family
 	shape/Polytope.hpp # the shape
 	shape/ShapeFamily.hpp # what a shape of another base tells
 	shape/WallShape.hpp # a wall as a half-space

@@ -14,7 +14,7 @@ __all__ = ['classes', 'plain', 'rewrite']
 classes = (
 	'BartonBandisStrength BaseMotion Bo1_Polytope_Aabb ContinuouslyYieldingStrength Gl1_Polytope Gl1_PolytopeGeom HyperbolicClosure Ig2_Box_Polytope_PolytopeGeom Ig2_Facet_Polytope_PolytopeGeom Ig2_Polytope_Polytope_PolytopeGeom '
 	'Ig2_Sphere_Polytope_PolytopeGeom Ig2_Wall_Polytope_PolytopeGeom Ip2_RockJointMat_RockJointMat_RockJointPhys '
-	'Law2_PolytopeGeom_RockJointPhys_MohrCoulomb Polytope PolytopeBolt PolytopeBoltCrossing PolytopeBolts PolytopeBond PolytopeBonds PolytopeCheckpoint PolytopeCollider PolytopeGeom PolytopeGeomFunctor PolytopeMarginFunctor PolytopeTimeStepper '
+	'Law2_PolytopeGeom_RockJointPhys_MohrCoulomb Polytope PolytopeBolt PolytopeBoltCrossing PolytopeBolts PolytopeBond PolytopeBonds PolytopeCheckpoint PolytopeCollider PolytopeFamilyBound PolytopeGeom PolytopeGeomFunctor PolytopeMarginFunctor PolytopeTimeStepper '
 	'PolytopeVTKRecorder PolytopeWater PowerClosure QuietBoundary RockJointMat RockJointPhys VelocityHistory'
 ).split()
 

@@ -20,7 +20,7 @@ groups = {
 		'Shape and contact geometry',
 		(
 			'Polytope PolytopeGeom PolytopeGeomFunctor PolytopeMarginFunctor Ig2_Polytope_Polytope_PolytopeGeom Ig2_Sphere_Polytope_PolytopeGeom Ig2_Facet_Polytope_PolytopeGeom '
-			'Ig2_Box_Polytope_PolytopeGeom Ig2_Wall_Polytope_PolytopeGeom Bo1_Polytope_Aabb Gl1_Polytope Gl1_PolytopeGeom'
+			'Ig2_Box_Polytope_PolytopeGeom Ig2_Wall_Polytope_PolytopeGeom Bo1_Polytope_Aabb PolytopeFamilyBound Gl1_Polytope Gl1_PolytopeGeom'
 		).split(),
 	),
 	'joints': (

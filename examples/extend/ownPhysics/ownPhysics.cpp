@@ -2,11 +2,10 @@
 //
 // Joints that close along a hyperbola (Bandis, Lumsden & Barton 1983): σ = k u/(1 − u/V), with Coulomb's friction. A material, its physics with the functor that
 // makes them, and the law.
+#include <yade-polytope/contact/ContactForce.hpp>
 #include <yade-polytope/contact/PolytopeGeom.hpp>
 
-#include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
-#include <pkg/dem/FrictPhys.hpp>
 
 namespace yade {
 
@@ -84,14 +83,9 @@ public:
 		const Real open = math::max(1 - u / phys.maximumClosure, Real(1e-6)), force = area * phys.initialStiffness * u / open;
 		phys.kn = area * phys.initialStiffness / (open * open); // PolytopeTimeStepper reads it
 		phys.ks = area * phys.shearStiffness;
-		geom.rotate(phys.shearForce);
-		phys.shearForce -= phys.ks * geom.shearIncrement();
-		const Real most = force * phys.tangensOfFrictionAngle, shear = phys.shearForce.norm();
-		if (shear > most) phys.shearForce *= most / shear;
-		phys.normalForce     = force * geom.normal;
-		const Vector3r shift = scene->isPeriodic ? scene->cell->intrShiftPos(c->cellDist) : Vector3r(Vector3r::Zero());
-		applyForceAtContactPoint(-(phys.normalForce + phys.shearForce), geom.contactPoint, c->getId1(),
-		        Body::byId(c->getId1(), scene)->state->pos, c->getId2(), Body::byId(c->getId2(), scene)->state->pos + shift);
+		phys.normalForce = force * geom.normal;
+		followShear(geom, phys);
+		addContactForce(geom, phys, *c, *scene);
 		return true;
 	}
 	FUNCTOR2D(PolytopeGeom, OwnJointPhys);

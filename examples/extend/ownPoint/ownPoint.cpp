@@ -21,6 +21,7 @@ public:
 		               &material2      = *Body::byId(c->getId2(), scene)->material;
 		auto settings                  = this->settings(stiffnessRuleOfNew(*scene, material1, material2));
 		settings.section               = true;
+		settings.geometryAcrossGap     = c->isReal() || force; // of a pair that comes apart: the law ends it
 		auto* const             known  = static_cast<PolytopeGeom*>(c->geom.get());
 		auto                    memory = known ? known->memory() : polytope::PairMemory();
 		polytope::ContactResult result;

@@ -24,15 +24,40 @@ namespace {
 		result.point  = foot + (margin1 - depth / 2) * normal;
 	}
 
-	/// Of a ball with half-spaces. \param sign +1: the ball is body 1
-	void meetBall(const CoreOfBody& ball, const CoreOfBody& other, int sign, polytope::ContactResult& result)
+	/// Of a segment or point with half-spaces. \param sign +1: the segment is body 1. Returns its place along the segment.
+	Real meetSegment(const CoreOfBody& segment, const CoreOfBody& other, int sign, polytope::ContactResult& result)
 	{
-		const Vector3r way     = ball.origin - other.origin;
-		const auto     nearest = polytope::closestPoint(*other.convex, Vector3r(other.rotation.transpose() * way));
-		const Vector3r outward = other.rotation * nearest.outward, foot = other.rotation * nearest.point;
-		const Real     depth = ball.margin + other.margin - nearest.distance;
-		if (sign > 0) setWay(result, -outward, depth, Vector3r::Zero(), ball.margin);
+		const Matrix3r turn  = other.rotation.transpose();
+		const auto     found = polytope::closestOnSegment(
+                        *other.convex, Vector3r(turn * (segment.origin - other.origin)), Vector3r(turn * segment.way));
+		const Vector3r outward = other.rotation * found.nearest.outward, foot = other.rotation * found.nearest.point;
+		const Real     depth = segment.margin + other.margin - found.nearest.distance;
+		if (sign > 0) setWay(result, -outward, depth, found.along * segment.way, segment.margin);
 		else setWay(result, outward, depth, foot, other.margin);
+		return found.along;
+	}
+
+	/// Of two segments or points. Returns their places, negative where they cross: there is no answer.
+	polytope::Vector2 meetSegments(const CoreOfBody& one, const CoreOfBody& other, polytope::ContactResult& result)
+	{
+		const auto     along = polytope::closestOnSegments(one.origin, one.way, other.origin, other.way);
+		const Vector3r way   = other.origin + along[1] * other.way - one.origin - along[0] * one.way;
+		const Real     gap   = way.norm();
+		if (!(gap > 0)) return polytope::Vector2::Constant(-1);
+		setWay(result, way / gap, one.margin + other.margin - gap, along[0] * one.way, one.margin);
+		return along;
+	}
+
+	/// No polygon: that is no solid here.
+	bool isSolid(const CoreOfBody& core) { return !core.convex || core.convex->dimension() == 3; }
+
+	/// Place and motion of a segment that others carry, where it is touched.
+	void moveWithEnds(const CoreOfBody& core, const Real& along, State& foot)
+	{
+		const State &start = *core.end1, &end = *core.end2;
+		foot.pos    = start.pos + along * (end.pos - start.pos);
+		foot.vel    = start.vel + along * (end.vel - start.vel);
+		foot.angVel = start.angVel + along * (end.angVel - start.angVel);
 	}
 
 	/// Of half-spaces with half-spaces. Returns false where there is no answer.
@@ -69,25 +94,25 @@ bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr
 	const Vector3r place2 = state2.pos + shift2;
 	const auto     one    = familyOf(*shape1).core(*shape1, state1.pos, state1.ori, place2);
 	const auto     other  = familyOf(*shape2).core(*shape2, place2, state2.ori, state1.pos);
-	if (!one || !other || (!one->convex && !other->convex)) return failed(c);
+	if (!one || !other || !isSolid(*one) || !isSolid(*other)) return failed(c);
 	if (!c->isReal() && stiffnessRuleOfNew(*scene, *c) == StiffnessRule::PerArea) return failed(c);
 	polytope::ContactResult result;
-	if (!one->convex) meetBall(*one, *other, +1, result);
-	else if (!other->convex) meetBall(*other, *one, -1, result);
+	polytope::Vector2       along = polytope::Vector2::Zero(); // of those that are segments
+	if (!one->convex && !other->convex) along = meetSegments(*one, *other, result);
+	else if (!one->convex) along[0] = meetSegment(*one, *other, +1, result);
+	else if (!other->convex) along[1] = meetSegment(*other, *one, -1, result);
 	else if (!meet(*one, *other, settings(StiffnessRule::PerContact), result)) return failed(c);
+	if (along[0] < 0 || !math::isfinite(result.depth)) return failed(c);
 	result.inContact     = result.depth > 0;
 	result.hasGeometry   = true;
 	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
 	result.infeasibility = -result.depth / 2; // the largest ball between two surfaces has the depth as its diameter
 	result.energy        = result.inContact ? result.depth * result.depth / 2 : Real(0);
-	return apply(result, one->origin, state1, state2, shift2, force, c);
-}
-
-bool PolytopeMarginFunctor::goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
-        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
-{
-	c->swapOrder();
-	return go(shape2, shape1, state2, state1, -shift2, force, c);
+	if (!one->end1 && !other->end1) return apply(result, one->origin, state1, state2, shift2, force, c);
+	State foot1, foot2;
+	if (one->end1) moveWithEnds(*one, along[0], foot1);
+	if (other->end1) moveWithEnds(*other, along[1], foot2);
+	return apply(result, one->origin, one->end1 ? foot1 : state1, other->end1 ? foot2 : state2, shift2, force, c);
 }
 
 } // namespace yade

@@ -22,12 +22,6 @@ namespace yade {
 	public:                                                                                                                            \
 		bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,        \
 		        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override;                             \
-		bool goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2, \
-		        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override                              \
-		{                                                                                                                          \
-			c->swapOrder();                                                                                                    \
-			return go(shape2, shape1, state2, state1, -shift2, force, c);                                                      \
-		}                                                                                                                          \
 		FUNCTOR2D(SHAPE, Polytope);                                                                                                \
 		DEFINE_FUNCTOR_ORDER_2D(SHAPE, Polytope);                                                                                  \
 		YADE_CLASS_BASE_DOC(KLASS, PolytopeGeomFunctor, DOC);                                                                      \

@@ -141,6 +141,13 @@ bool Ig2_Polytope_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, con
 	return query(*convex1, frame1, *convex2, state1, state2, shift2, force, c);
 }
 
+bool PolytopeGeomFunctor::goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
+        const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	c->swapOrder();
+	return go(shape2, shape1, state2, state1, -shift2, force, c);
+}
+
 PolytopeGeom& PolytopeGeomFunctor::geometry(const shared_ptr<Interaction>& c)
 {
 	if (!c->geom) {

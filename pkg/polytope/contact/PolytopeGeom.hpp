@@ -149,6 +149,10 @@ public:
 	boost::python::dict       stats() const;
 	void                      resetStats();
 
+	/// Exchanges the bodies: go() has them in the order of the functor's classes.
+	bool goReverse(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
+	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c) override;
+
 	/// Refuses settings, which other functors than that of two polytopes do not have.
 	void pyHandleCustomCtorArgs(boost::python::tuple& arguments, boost::python::dict& named) override;
 	/// Names of the settings.

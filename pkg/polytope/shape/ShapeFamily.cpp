@@ -48,6 +48,12 @@ void ShapeFamily::extend(const Shape& shape, const State& state, Vector3r& low, 
 	high                = high.cwiseMax(Vector3r(state.pos + half));
 }
 
+void ShapeFamily::addForce(const Body& body, const Vector3r& place, const Vector3r& force, ForceContainer& forces) const
+{
+	forces.addForce(body.id, force);
+	forces.addTorque(body.id, Vector3r(place - body.state->pos).cross(force));
+}
+
 const ShapeFamily& familyOf(const Shape& shape)
 {
 	static const ShapeFamily unknown;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <core/Body.hpp>
+#include <core/ForceContainer.hpp>
 #include <core/Shape.hpp>
 #include <core/State.hpp>
 
@@ -20,7 +22,7 @@
 ///     const FamilyOf<MyShape, MyFamily> family; // in the library that has MyShape, at namespace level
 ///
 /// The functions' own answers are those for a shape of which nothing is known. They are called by several threads at once, and must not throw. What is not
-/// asked here: other contacts, which have functors for each pair of classes, and boxes, which have bound functors.
+/// asked here: other contacts, which have functors for each pair of classes, and boxes, which have bound functors (FamilyBound.hpp has one by the bounding radius).
 namespace yade {
 
 using Planes = std::vector<polytope::Plane>; ///< world axes
@@ -45,12 +47,16 @@ struct Placing {
 	Real     near;  ///< bodies farther than this from the point do not matter [m]
 };
 
-/// A body as half-spaces and a ball around each of their points: world axes.
+/// A body as a core and a ball around each of its points: world axes. The core is half-spaces, or, without an interior, a segment or a point.
 struct CoreOfBody {
-	std::shared_ptr<const polytope::ConvexShape> convex; ///< null: the origin alone
-	Real                                         margin; ///< the ball's radius [m]
-	Vector3r                                     origin;
-	Matrix3r                                     rotation;
+	std::shared_ptr<const polytope::ConvexShape>
+	         convex; ///< a polyhedron or a half-space; null: the segment from the origin along `way`
+	Real     margin; ///< the ball's radius [m]
+	Vector3r origin;
+	Matrix3r rotation;
+	Vector3r way = Vector3r::Zero(); ///< zero: the origin alone [m]
+	/// Of the segment's ends, where these are bodies of their own that move it, as nodes do a beam; null: it moves as its body.
+	const State *end1 = nullptr, *end2 = nullptr;
 };
 
 class ShapeFamily {
@@ -85,6 +91,10 @@ public:
 	{
 		return std::nullopt;
 	}
+
+	/// Adds a contact's force [N], which acts at a place of the body, to what the scene sums for each body. By itself: to the body, with its torque about the body's centre. A
+	/// body that others carry, as nodes do a beam: to these. Laws ask it by addContactForce() (contact/ContactForce.hpp); those of the plug-in and YADE's do not.
+	virtual void addForce(const Body& body, const Vector3r& place, const Vector3r& force, ForceContainer& forces) const;
 
 	/// Faces to be drawn, in its own axes; null: none.
 	virtual std::shared_ptr<const polytope::Polyhedron> surface(const Shape&) const { return nullptr; }

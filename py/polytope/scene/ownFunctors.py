@@ -13,6 +13,18 @@ def ownClasses(base):
 	return [made for made in (getattr(yade.wrapper, name) for name in names) if issubclass(made, base)]
 
 
+def ownFunctors(base):
+	"""Those of them that are made for classes of their own: not what several have in common."""
+	made = []
+	for functor in ownClasses(base):
+		try:
+			functor().bases
+		except RuntimeError:  # of YADE: without FUNCTOR2D
+			continue
+		made.append(functor)
+	return made
+
+
 def _steps(shape, base):
 	"""How many classes a class of shapes, by its name, is derived from another; None: it is not."""
 	made, known = getattr(yade.wrapper, shape, None), getattr(yade.wrapper, base, None)
@@ -29,7 +41,7 @@ def _stepsOfPair(bases, one, other):
 
 def ownContactsOf(one, other):
 	"""Names of the contact functors that extensions have for two classes of shapes, by their names, or for the nearest that these are derived from."""
-	steps = {made.__name__: _stepsOfPair(made().bases, one, other) for made in ownClasses(PolytopeGeomFunctor)}
+	steps = {made.__name__: _stepsOfPair(made().bases, one, other) for made in ownFunctors(PolytopeGeomFunctor)}
 	fitting = {name: count for name, count in steps.items() if count is not None}
 	return [name for name, count in fitting.items() if count == min(fitting.values())]
 
@@ -39,7 +51,7 @@ def ownContacts(shapes, functors):
 	choice is the user's, and none of them is among these."""
 	taken = {tuple(sorted(functor.bases)) for functor in functors}
 	pairs = {}
-	for made in ownClasses(PolytopeGeomFunctor):
+	for made in ownFunctors(PolytopeGeomFunctor):
 		bases = made().bases
 		if any(_stepsOfPair(bases, one, other) is not None for one in shapes for other in shapes):
 			pairs.setdefault(tuple(sorted(bases)), []).append(made)
@@ -50,7 +62,7 @@ def ownBounds(shapes, functors):
 	"""Bound functors of extensions for these classes of shapes (names), and those that YADE has for shapes of its own that extensions have contacts for. Of several
 	for one class the first."""
 	taken = {base for functor in functors for base in functor.bases}
-	made = [own() for own in ownClasses(BoundFunctor)]
+	made = [own() for own in ownFunctors(BoundFunctor)]
 	touched = {base for own in ownContacts(shapes, []) for base in own.bases}
 	yades = (getattr(yade.wrapper, f'Bo1_{shape}_Aabb', None) for shape in sorted(touched))
 	chosen = {}
@@ -66,7 +78,7 @@ def ownLaws(contacts, physics, laws):
 	none of them is among these."""
 	geoms, phys = ({type(functor).__name__.rsplit('_', 1)[-1] for functor in functors} for functors in (contacts, physics))
 	taken, pairs = [law.bases for law in laws], {}
-	for made in ownClasses(LawFunctor):
+	for made in ownFunctors(LawFunctor):
 		bases = made().bases
 		if len(bases) == 2 and bases[0] in geoms and bases[1] in phys and bases not in taken:
 			pairs.setdefault(tuple(bases), []).append(made)

@@ -29,9 +29,14 @@ scene(Ig2_Polytope_Polytope_OwnPoint(), Quaternion.Identity, 0.5)
 found = repr(polytope.check(O))
 O.run(5000, True)
 c = O.interactions[0, 1]
-answer([seen, found, float(c.phys.normalForce[2] / (9.81 * O.bodies[1].state.mass)), float(O.bodies[1].state.angVel.norm())])
+weight, turning = float(c.phys.normalForce[2] / (9.81 * O.bodies[1].state.mass)), float(O.bodies[1].state.angVel.norm())
+O.bodies[1].state.pos += Vector3(0, 0, 0.01)  # apart from one step to the next
+O.bodies[1].state.vel = (0, 0, 0)
+O.run(2, True)
+answer([seen, found, weight, turning, O.interactions.countReal(), float(O.forces.f(1).norm())])
 """
-	((own, plain), found, weight, turning), _ = inYade(script, library)
+	((own, plain), found, weight, turning, contacts, force), _ = inYade(script, library)
+	assert contacts == 0 and force == 0
 	assert own[0] == plain[0] == 0 and own[4] == plain[4] == 'contact'
 	assert abs(own[1]) < 1e-12 and plain[1] < -1e-3
 	assert own[2:4] == pytest.approx([0, 0], abs=1e-12)  # all else is the plug-in's
@@ -49,15 +54,16 @@ polytope.load(sys.argv[1])
 O.materials.append(CohFrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5, label='grid', normalCohesion=1e9, shearCohesion=1e9, momentRotationLaw=True))
 rock = O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
 O.engines = [ForceResetter(), PolytopeCollider([Bo1_Polytope_Aabb(), Bo1_GridConnection_Aabb(), Bo1_Sphere_Aabb()], verletDist=0.02),
-	InteractionLoop([Ig2_GridConnection_Polytope_PolytopeGridGeom(), Ig2_GridNode_GridNode_GridNodeGeom6D()],
+	InteractionLoop([Ig2_GridConnection_Polytope_PolytopeGeom(), Ig2_GridNode_GridNode_GridNodeGeom6D()],
 		[Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)],
-		[Law2_PolytopeGridGeom_FrictPhys_CundallStrack(), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
+		[Law2_PolytopeGeom_FrictPhys_OnNodes(), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
 	NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.6)]
 for y in (-0.25, 0.25):
 	a, b = [O.bodies.append(gridNode([x, y, 0], 0.05, material='grid', fixed=True)) for x in (-1, 1)]
 	O.bodies.append(gridConnection(a, b, 0.05, material='grid'))
 block = O.bodies.append(polytope.cuboid(center=(0.2, 0.05, 0.45), extents=(0.4, 0.4, 0.4), material=rock))
 O.dt = 5e-5
+found = [one.seen for one in polytope.check(O)]
 O.run(20000, True)
 weight = 9.81 * float(O.bodies[block].state.mass)
 contacts = polytope.arrays().contacts
@@ -65,9 +71,10 @@ statuses = [contacts.statuses[k] for k in range(len(contacts.ids)) if block in c
 recorder = PolytopeVTKRecorder(fileName=sys.argv[2], recorders=['contacts'], ascii=True)
 recorder()
 touching = [i.geom.status for i in O.interactions if block in (i.id1, i.id2)]
-answer([[float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) for x in O.bodies[block].state.vel], [contacts.statusNames[s] for s in statuses], touching])
+answer([found, [float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) for x in O.bodies[block].state.vel], [contacts.statusNames[s] for s in statuses], touching])
 """
-	(forces, speed, statuses, touching), _ = inYade(script, library, tmp_path / 'grid')
+	(found, forces, speed, statuses, touching), _ = inYade(script, library, tmp_path / 'grid')
+	assert found == []
 	assert max(map(abs, speed)) < 1e-4
 	assert sum(forces) == pytest.approx(-1, rel=1e-3)
 	assert forces[2] == forces[5] == 0  # the connections themselves

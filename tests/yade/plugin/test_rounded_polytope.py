@@ -229,23 +229,49 @@ answer([float(body.shape.volume), [float(x) for x in body.state.inertia], float(
 	assert radius == 0.3 and massAgain == pytest.approx(mass, rel=1e-12) and momentsAgain == pytest.approx(moments, rel=1e-9)
 
 
-def testAThinPrismIsARoundedSegment(rounded):  # noqa: F811
-	"""What docs/extending.md says of cores without an interior: the volume is that of a cylinder with two half balls, and flat points are refused."""
+def testAThinPrismIsARoundedSegmentOrTriangle(rounded):  # noqa: F811
+	"""What docs/extending.md says of cores without an interior: the volume is that of a cylinder with two half balls, contacts have their closed forms, and flat points are refused."""
 	script = (
 		start
 		+ """
 material()
-prism = polytope.withShape(polytope.cuboid((0, 0, 0), (1, 5e-5, 5e-5)), RoundedPolytope(radius=0.1))
+half = 5e-5
+prism = lambda center, orientation=Quaternion.Identity, **more: polytope.withShape(polytope.cuboid(center, (1, half, half), orientation=orientation, **more), RoundedPolytope(radius=r))
+def triangle(center, **more):
+	body = polytope.fromVertices([(x, y, z) for x, y in ((0, 0), (1, 0), (0, 1)) for z in (-half, half)], center=center, **more)
+	return polytope.withShape(body, RoundedPolytope(radius=r))
 def said():
 	try: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
 	except ValueError as error: return str(error)
-answer([float(prism.shape.volume), said()])
+volume, refusal = float(prism((0, 0, 0)).shape.volume), said()
+d, across = 0.01, Quaternion((0, 0, 1), math.pi / 2)
+seen = []
+for make in (
+	lambda: [prism((0, 0, 0), fixed=True), prism((0.3, 0.2, 2 * (r + half) - d), across)],
+	lambda: [prism((0, 0, 0), fixed=True), prism((0.3, 0, 2 * (r + half) - d))],
+	lambda: [triangle((0, 0, 0), fixed=True), triangle((0.1, 0, 2 * (r + half) - d))],
+	lambda: [triangle((0, 0, 0), fixed=True), prism((0.05, 0, 2 * (r + half) - d), across)],
+	lambda: [triangle((0, 0, 0), fixed=True), utils.sphere((0, 0, r + half + 0.2 - d), 0.2)],
+	lambda: [utils.wall(0, axis=2, sense=1), triangle((0, 0, r + half - d))],
+):
+	O.reset(); material()
+	O.bodies.append(make())
+	O.engines = [ForceResetter(), InsertionSortCollider(bounds(), verletDist=0), loop()]
+	O.dt = 1e-9
+	O.step()
+	(c,) = [i for i in O.interactions if i.isReal]
+	towards = 1 if c.id1 == 0 else -1
+	seen.append([float(c.geom.penetrationDepth) - d, float((towards * c.geom.normal - Vector3(0, 0, 1)).norm())])
+answer([volume, refusal, seen])
 """
 	)
-	(volume, refusal), _ = inYade(script, rounded)
+	(volume, refusal, seen), _ = inYade('from yade import utils\n' + script, rounded)
 	r = 0.1
 	assert 0 < volume / (2 * math.pi * r**2 + 4 / 3 * math.pi * r**3) - 1 < 2e-3
 	assert refusal.startswith('points: ')
+	assert len(seen) == 6
+	for depth, normal in seen:
+		assert depth == pytest.approx(0, abs=1e-12) and normal == pytest.approx(0, abs=1e-9)
 
 
 def testShapesOfRockableKeepTheirRadius(rounded):  # noqa: F811
