@@ -236,7 +236,15 @@ def testTheSumOfTheHeadersChangesWithThem(tmp_path):
 
 
 @pytest.fixture(scope='module')
-def longDouble():
+def wide():
+	"""The example, built for long double by the function for CMake."""
+	if not (overlay / 'include/yade-polytope-longdouble').is_dir():
+		pytest.skip('the plug-in is not built for long double')
+	return built('ownPhysics', 'long double', options=['-DYADE_POLYTOPE_PRECISION=longdouble'])
+
+
+@pytest.fixture(scope='module')
+def inLongDouble():
 	"""Environment of YADE in long double, with this plug-in."""
 	if not (build / 'longdouble/overlay.complete').is_file():
 		pytest.skip('the plug-in is not built for long double')
@@ -244,11 +252,13 @@ def longDouble():
 	return {'PYTHONPATH': str(path)}
 
 
-def testExtensionsOfTwoPrecisions(joint, longDouble):
-	"""The function builds for the precision that it is asked for. Each YADE refuses the other's; that of long double has its closed form, with more digits than double."""
-	wide = built('ownPhysics', 'long double', options=['-DYADE_POLYTOPE_PRECISION=longdouble'])
+def testAnExtensionForLongDoubleIsRefusedInDouble(wide):
 	assert refused(wide).startswith('it was built for the precision longdouble, and this YADE computes in double;')
-	assert refused(joint, **longDouble).startswith('it was built for the precision double, and this YADE computes in longdouble;')
+
+
+def testLongDoubleHasItsOwnExtensions(joint, wide, inLongDouble):
+	"""That for double is refused; its own has the closed form, with more digits than double."""
+	assert refused(joint, **inLongDouble).startswith('it was built for the precision double, and this YADE computes in longdouble;')
 	script = (
 		block
 		+ """
@@ -262,7 +272,7 @@ force = area * k * u / (1 - u / v)
 answer([str(c.phys.normalForce[2] / force - 1), str(u), polytope.buildInfo()['precision'], str(1 + type(u)(2)**-60 == 1)])
 """
 	)
-	(ratio, depth, precision, rounded), _ = inYade(script, wide, **longDouble)
+	(ratio, depth, precision, rounded), _ = inYade(script, wide, **inLongDouble)
 	assert precision == 'longdouble' and rounded == 'False'
 	assert float(depth) == pytest.approx(5e-6, rel=1e-6)
 	assert abs(float(ratio)) < 2**-58
