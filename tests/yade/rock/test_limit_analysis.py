@@ -425,3 +425,13 @@ def testThatOfStrengthReduction():
 	assert 80 < len(ids) < 200
 	assert found.factor == pytest.approx(limit.factor, rel=0.02) and found.factor == pytest.approx(math.tan(math.radians(40)) / math.tan(math.radians(35)), rel=0.03)
 	assert len(set(limit.bodies) & set(found.bodies)) > 0.7 * len(found.bodies), (len(ids), limit, found)
+
+
+def testABlockThatTwistsOnItsBase():
+	"""About its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the face, as the page says."""
+	block = onSlope(0.0, (0.5, 0.5, 0.5), frictionAngle=0, cohesion=1e5)
+	O.bodies[block].state.blockedDOFs = 'xyzXY'
+	O.forces.setPermT(block, (0, 0, 4e4))
+	found = polytope.limitAnalysis(tolerance=fine)
+	expect(found, 1e5 / math.sqrt(2) / 4e4)
+	assert found.bodies == [block] and found.rotations[0] == pytest.approx((0, 0, 0.04), abs=1e-3)

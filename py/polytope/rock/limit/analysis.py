@@ -32,7 +32,7 @@ class LimitTrial:
 
 @dataclasses.dataclass
 class LimitAnalysis(Failure):
-	"""What *polytope.limitAnalysis* found. Displacements and rotations are those with which the mass begins to fail, of a size such that the block that goes farthest for its size goes by a fiftieth of it."""
+	"""What *polytope.limitAnalysis* found. Displacements and rotations are those with which the mass begins to fail, of a size such that the block that goes and turns most for its size moves by a fiftieth of it."""
 
 	trials: list
 	"""All *LimitTrial* in the order in which they were made."""
@@ -142,6 +142,7 @@ class _Search:
 		"""(ids, displacements, rotations) of the blocks that move, the farthest first."""
 		motion = self.motion.reshape(-1, 6) * self.blocks.free
 		ways = np.linalg.norm(motion[:, :3], axis=1)
-		size = partOfSize / float((ways / self.blocks.sizes).max())
+		turns = np.linalg.norm(motion[:, 3:], axis=1) * self.blocks.sizes / (2 * self.length)  # of a face
+		size = partOfSize / float(((ways + turns) / self.blocks.sizes).max())
 		order = inMode(ways)
 		return [self.blocks.ids[k] for k in order], size * motion[order, :3], size / self.length * motion[order, 3:]
