@@ -421,6 +421,7 @@ def testThatOfStrengthReduction():
 	O.engines = polytope.engines(damping=0.4)
 	limit = polytope.limitAnalysis()
 	polytope.settle(unbalanced=1e-4, elastic=False, densityScaling=True)
+	assert polytope.limitAnalysis().factor == pytest.approx(limit.factor, rel=0.01)  # the faces are the same
 	found = polytope.factorOfSafety(tolerance=0.02)
 	assert 80 < len(ids) < 200
 	assert found.factor == pytest.approx(limit.factor, rel=0.02) and found.factor == pytest.approx(math.tan(math.radians(40)) / math.tan(math.radians(35)), rel=0.03)
@@ -435,3 +436,10 @@ def testABlockThatTwistsOnItsBase():
 	found = polytope.limitAnalysis(tolerance=fine)
 	expect(found, 1e5 / math.sqrt(2) / 4e4)
 	assert found.bodies == [block] and found.rotations[0] == pytest.approx((0, 0, 0.04), abs=1e-3)
+
+
+def testThePackageThatLacksIsNamed(monkeypatch):
+	onSlope(dip, (0.5, 0.5, 0.1))
+	monkeypatch.setitem(sys.modules, 'cvxopt', None)
+	with pytest.raises(ImportError, match='limitAnalysis needs the package python3-cvxopt; sudo apt install'):
+		polytope.limitAnalysis()

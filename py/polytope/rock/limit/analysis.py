@@ -58,6 +58,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	:param float most: factor at which to give up, and by which strengths are multiplied where it is below 1
 	:returns: *LimitAnalysis*
 	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds, bolts, blocks that no joint connects to a fixed one
+	:raises ImportError: python3-cvxopt is not installed
 	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them
 	"""
 	tolerance, most = float(number(tolerance, 'tolerance')), float(number(most, 'most'))

@@ -97,7 +97,10 @@ def blocksOf():
 	loads = np.zeros((len(ids), 6))
 	for row, k in enumerate(ids):
 		loads[row, :3] = float(O.bodies[k].state.mass) * gravity
-		for force, moment in [*(engine.load(k) for engine in waters), *(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent))]:
+		for force, moment in [
+			*(engine.load(k) for engine in waters),
+			*(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent)),
+		]:
 			loads[row] += [float(x) for x in (*force, *moment)]
 	free = np.array([[component not in O.bodies[k].state.blockedDOFs for component in components] for k in ids])
 	if not (loads * free).any():

@@ -97,7 +97,12 @@ class Equilibrium:
 
 	def factorise(self, flexibilities):
 		"""Solver of A F Aᵀ y = b for symmetric positive (corners, 3, 3) blocks of F: a function of b, (size,) or (size, n)."""
-		from cvxopt import cholmod, matrix, spmatrix  # loaded by the first call alone
+		try:
+			from cvxopt import cholmod, matrix, spmatrix  # loaded by the first call alone
+		except ImportError as error:
+			raise ImportError(
+				f'polytope.limitAnalysis needs the package python3-cvxopt; sudo apt install python3-cvxopt ({error})'
+			) from None
 
 		faces = (self.perFace @ (self.atFace @ flexibilities @ self.atFace.transpose(0, 2, 1)).reshape(-1, 36)).reshape(-1, 6, 6)
 		one, two = (move @ faces @ move.transpose(0, 2, 1) for move in self.onBlock)
