@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from yade import FrictMat, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
+from yade import FrictMat, HyperbolicClosure, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
 from yade.polytope.rock.history import histories
 from yade.polytope.scene.relaxing import relaxing
 
@@ -81,20 +81,22 @@ def testCutOffAtOnceItSwings(flat):
 	"""A quarter is cut off: the floor bears from all of the weight to half of it, about the three quarters; the energy stays that which it had."""
 	weight = onFloor(flat=flat)
 	undamped()
+	O.engines[-1].dead = True
+	O.dt = 2e-5  # the energy swings by the square of this
 	O.trackEnergy = True
 	O.step()
 	stored = O.energy['elastPotential']
 	assert stored == pytest.approx(weight**2 / 2 / kn, rel=1e-4)
 	(left,) = polytope.excavate(**above(1.5, flat))[1]
 	contact, forces, totals = contactOf(left), [], []
-	for _ in range(400):
+	for _ in range(1000):
 		O.step()
 		forces.append(float(contact.phys.normalForce.norm()))
 		totals.append(O.energy.total())
 		if len(totals) == 1:
 			assert O.energy['elastPotential'] == pytest.approx(stored, rel=1e-4)
 	assert max(forces) == pytest.approx(weight, rel=0.01) and min(forces) == pytest.approx(weight / 2, rel=0.01)
-	assert np.ptp(totals) < 0.01 * stored
+	assert np.ptp(totals) < 1e-3 * stored
 
 
 @pytest.mark.parametrize('flat', [False, True])
@@ -158,7 +160,7 @@ def hanging(flat, bonded):
 	else:
 		O.bodies.append(polytope.cuboid((0, 0, 0.5), (1, 0.5, 0.5), fixed=True))
 		O.bodies.append(polytope.cuboid((0, 0, -0.5), (1, 0.5, 0.5)))
-	O.engines = polytope.engines(gravity=(300, -gravity, 0) if flat else (300, 40, -gravity))
+	O.engines = polytope.engines(gravity=(60, -gravity, 0) if flat else (60, 8, -gravity))
 	O.bodies[1].state.pos += (0, 1e-6, 0) if flat else (0, 0, 1e-6)
 	if bonded:
 		polytope.bond(tensileStrength=1e6, cohesion=1e6)
@@ -180,7 +182,7 @@ def testBondsAreSharedByTheirArea(flat, bonded):
 	whole = bondsNow(bonded)[1]
 	area, moments, point, stored = whole.area, whole.secondMoments, Vector3(whole.point), whole.energy
 	force, moment = Vector3(whole.force), Vector3(whole.moment)
-	assert whole.edgeStress > 0 and whole.intact
+	assert 1e5 < whole.edgeStress < 1e6 and whole.intact
 	left = polytope.excavate(**slot(), over=1000)[1]
 	parts = bondsNow(bonded)
 	assert set(parts) == set(left) and len(left) == 2
@@ -256,7 +258,7 @@ def stressedMass(**strength):
 	return mass
 
 
-def oblique(half=0.8):
+def oblique(half=1.2):
 	"""A convex region in its middle that no joint is parallel to."""
 	normals = np.array([(1, 0.2, 0), (-1, 0.1, 0), (0, 1, 0.1), (0, -1, 0.1), (0.1, 0, 1), (0, 0.1, -1)])
 	normals /= np.linalg.norm(normals, axis=1)[:, None]
@@ -298,14 +300,14 @@ def forcesNow():
 
 @pytest.mark.parametrize('scene, region', [(stressedMass, oblique), (lambda: stressedMass(cohesion=1e6, tensileStrength=1e6), oblique), (flatMass, flatRegion)])
 def testAStressedMassIsAtRestWhereItIsCutAndAllIsHeld(scene, region):
-	"""No jump of any force or torque beyond 1e-5 of what neighbours are pressed with, and no block moves by more than 1e-4 of a joint's closure."""
+	"""No force or torque on any body jumps by 1e-5 of what neighbours are pressed with, and no block moves by 1e-4 of a joint's closure."""
 	scene()
 	before = forcesNow()
 	pressed = max(float(contact.phys.normalForce.norm()) for contact in O.interactions if contact.isReal)
 	volume = sum(float(body.shape.volume) for body in O.bodies)
 	gone = polytope.excavate(**region(), over=10**7)
 	left = [k for several in gone.values() for k in several]
-	assert len(left) > 3 and any(not several for several in gone.values()) or len(left) > 5
+	assert len(left) > 5
 	places = {body.id: Vector3(body.state.pos) for body in O.bodies}
 	after = forcesNow()
 	for k, (force, torque) in after.items():
@@ -488,9 +490,23 @@ def testAJointGoesOnWithWhatItHasBeenThrough():
 		part = contactOf(k).phys
 		assert not part.intact and part.tangensOfFrictionAngle == 0.25
 		assert (part.slip - slip).norm() < 1e-9 and part.dilation == whole.dilation
-		assert part.contactArea == pytest.approx(0.475 * whole.contactArea, rel=1e-4) and part.cohesion == 2e3
+		assert part.cohesion == 2e3
+	assert sum(contactOf(k).phys.contactArea for k in left) == pytest.approx(0.95 * whole.contactArea, rel=1e-6)
 	O.step()
 	assert not contactOf(left[0]).phys.intact
+
+
+def testAJointThatStiffensAsItClosesBearsThePartsWeight():
+	weight = onFloor(closure=HyperbolicClosure(maximumClosure=1e-4))
+	O.engines = polytope.engines()
+	polytope.settle()
+	(left,) = polytope.excavate(**above(1, False), over=1000)[1]
+	part = contactOf(left).phys
+	assert part.normalForce.norm() == pytest.approx(weight, rel=1e-3)
+	O.step()
+	assert part.normalForce.norm() == pytest.approx(weight, rel=1e-3)
+	polytope.settle()
+	assert part.normalForce.norm() == pytest.approx(weight / 2, rel=1e-3)
 
 
 def testAClumpOnAFloorIsCutAsOneBody():

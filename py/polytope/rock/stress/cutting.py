@@ -106,19 +106,29 @@ def _section(normals, limits, z):
 
 def restsOf(k, region):
 	"""What is left of a body or clump of polytopes outside of the region: a list of bodies, each a list of *Part*; empty: nothing; None: all, untouched."""
-	found = [_partsOf(O.bodies[part], region) for part in partsOf(k)]
+	bodies = [O.bodies[part] for part in partsOf(k)]
+	if all(_isBeside(body, region) for body in bodies):
+		return None
+	found = [_partsOf(body, region) for body in bodies]
 	if all(inside == 0 for _, inside in found):
 		return None
 	return _together([group for groups, _ in found for group in groups])
 
 
+def _leastOf(body):
+	return thinnest * float(body.shape.inscribedRadius)
+
+
+def _isBeside(body, region):
+	return region.at(body).isBeside(worldVertices(body), 2 * _leastOf(body))
+
+
 def _partsOf(body, region):
 	"""(groups of parts outside, number of cells inside) of a convex body."""
-	region = region.at(body)
-	corners, least = worldVertices(body), thinnest * float(body.shape.inscribedRadius)
-	if region.isBeside(corners, 2 * least):
+	if _isBeside(body, region):
 		return [[Part(body.id, *pieceOf(body, []))]], 0
-	if region.holdsAll(corners, 2 * least):
+	region, least = region.at(body), _leastOf(body)
+	if region.holdsAll(worldVertices(body), 2 * least):
 		return [], 1
 	centre = np.array(body.state.pos, float)
 	groups, inside = {}, 0
