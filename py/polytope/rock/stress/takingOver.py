@@ -69,28 +69,54 @@ def takeOver(rests):
 
 	:param rests: id of each body or clump → a list of bodies, each a list of cutting.Part; empty: nothing is left
 	:returns: id → ids of these bodies
+	:raises ValueError: if contacts with parts of one clump do not add up; the scene is as it was
 	"""
-	gone = {part: O.bodies[part] for k in rests for part in partsOf(k)}
-	contacts = [contact for contact in O.interactions if contact.isReal and (contact.id1 in gone or contact.id2 in gone)]
-	linked = [bond for bond in madeBonds() if bond.id1 in gone or bond.id2 in gone]
+	former = {part: O.bodies[part] for k in rests for part in partsOf(k)}
+	contacts = [contact for contact in O.interactions if contact.isReal and (contact.id1 in former or contact.id2 in former)]
+	linked = [bond for bond in madeBonds() if bond.id1 in former or bond.id2 in former]
 	made = {k: [_append(k, rest) for rest in several] for k, several in rests.items()}
-	parts = {k: [] for k in gone}
+	parts = {k: [] for k in former}
 	for part in itertools.chain.from_iterable(itertools.chain.from_iterable(rests.values())):
 		parts[part.of].append(part)
+	if any(parts.values()):
+		try:
+			_goOn(contacts, linked, parts)
+		except ValueError:
+			_erase(k for several in made.values() for k in several)
+			raise
 	for k, own in parts.items():
-		replaceInRocks(gone[k], [part.body for part in own], [part.planes for part in own])
+		replaceInRocks(former[k], [part.body for part in own], [part.planes for part in own])
 	_replaceInWaters(parts)
 	followParts(made)
-	for k in rests:
-		O.bodies.erase(k, eraseClumpMembers=True)
-	if any(made.values()):
-		_findPairs()
-	for link, goesOn in [*((bond, bonds()._goesOnBetween) for bond in linked), *((contact, _polytope.goesOnBetween) for contact in contacts)]:
-		wholes = [gone[k] if k in gone else O.bodies[k] for k in (link.id1, link.id2)]
-		sides = [[part.body for part in parts[k]] if k in gone else [O.bodies[k]] for k in (link.id1, link.id2)]
-		for one, other in itertools.product(*sides):
-			goesOn(link, *wholes, one, other)
+	_erase(rests)
 	return made
+
+
+def _erase(ids):
+	for k in ids:
+		O.bodies.erase(k, eraseClumpMembers=True)
+
+
+def _goOn(contacts, linked, parts):
+	"""Bonds first: contacts ask for them."""
+	_findPairs()
+	for bond in linked:
+		_betweenParts(bond, bonds()._goesOnBetween, parts)
+	for contact in contacts:
+		pairs = _betweenParts(contact, _polytope.goesOnBetween, parts)
+		area = sum(float(O.interactions[pair].phys.contactArea) for pair in pairs)
+		if area > (1 + addsUp) * float(contact.phys.contactArea):
+			raise ValueError(
+				f'normals: contacts with the parts of a body that is not convex do not add up, between what is left of {contact.id1} and {contact.id2}: {area:.3g} m² '
+				f'for {float(contact.phys.contactArea):.3g} m² (docs/contact-force.md, internal faces); a region of fewer faces, or another place of them, or cut=False'
+			)
+
+
+def _betweenParts(link, goesOn, parts):
+	"""The pairs of parts between which a contact or bond goes on."""
+	sides = [[part.body for part in parts[k]] if k in parts else [O.bodies[k]] for k in (link.id1, link.id2)]
+	wholes = O.bodies[link.id1], O.bodies[link.id2]
+	return [(one.id, other.id) for one, other in itertools.product(*sides) if goesOn(link, *wholes, one, other)]
 
 
 def _findPairs():
@@ -125,6 +151,8 @@ def _addsUp(k):
 	return abs(parts - float(O.bodies[k].state.mass)) <= sameMass * parts
 
 
+addsUp = 0.01
+"""Of a contact's area: by how much the areas of its parts may be more, for the rims of new edges."""
 sameMass = 1e-9
 """Of a clump's mass: by how much the sum over its parts may be more by rounding; else they overlap."""
 
