@@ -28,7 +28,7 @@ polytope.settle()
 
 forces = arch.forces
 print('  x [m]   y [m]  N [kN]  Q [kN]  M [kN m]')
-for point, n, q, m in zip(forces.points, forces.normal, forces.shear, forces.moment):
+for point, n, q, m in zip(forces.points, forces.normal, forces.shear, forces.moment, strict=True):
 	print(f'{point[0]:7.2f} {point[1]:7.2f} {n / 1e3:7.2f} {q / 1e3:7.2f} {m / 1e3:9.3f}')
 weight = sum(float(O.bodies[k].state.mass) for k in key) * 9.81
 lifted = sum(one.force[1] * (1 if one.id2 in key else -1) for one in arch.adhesion if one.id1 in key or one.id2 in key)

@@ -109,7 +109,7 @@ def slidingWedge(given):
 def roofWedge(given):
 	blocks = BlockGeometry.read(geometry / 'd_roof_wedge.json')
 
-	def angle(model):
+	def angle(model, pressed):
 		nonlocal closed
 		scene = RoofWedge(blocks, timeStepFraction=timeStep, contactModel=model).build()
 		if pressed:
@@ -122,7 +122,7 @@ def roofWedge(given):
 
 	closed = None
 	for pressed, way in ((False, 'joint forces set'), (True, 'boundary stress')):
-		found = each(angle, f'D, {way}')
+		found = each(lambda model, pressed=pressed: angle(model, pressed), f'D, {way}')
 		yield f'D: critical angle [°], {way}', closed, *found
 
 
@@ -180,7 +180,7 @@ def heap(faces, model, given):
 
 def heaps(given):
 	for name in given.solids:
-		found = each(lambda model: heap(solids[name], model, given), f'A, {name}')
+		found = each(lambda model, solid=solids[name]: heap(solid, model, given), f'A, {name}')
 		yield f'A: porosity, {name}', None, *[one[0] for one in found]
 		yield f'A: coordination number, {name}', None, *[one[1].mean for one in found]
 		yield f'A: the same without rattlers, {name}', None, *[one[1].mechanical for one in found]

@@ -9,10 +9,10 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Body, Box, Facet, Polytope, Sphere, Wall
 
-from ..measures.arrays import arrays
-from ..scene.movers import sameClump
 from ..bodies.halfSpaces import halfSpacesOf
 from ..bodies.inSphere import depthInSphere
+from ..measures.arrays import arrays
+from ..scene.movers import sameClump
 from .overlapEnergy import Thrown
 from .standIns import standIn
 

@@ -7,13 +7,13 @@ import math
 import numpy as np
 from yade import Box, Facet, Polytope, RockJointMat, Wall
 
+from ..bodies.halfSpaces import halfSpacesOf
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
-from ..bodies.halfSpaces import halfSpacesOf
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 

@@ -3,9 +3,9 @@
 
 import numpy as np
 
+from ..bodies.halfSpaces import halfSpacesOf
 from ..bodies.polytopes import fromHalfSpaces
 from ..pictures.faces import worldVertices
-from ..bodies.halfSpaces import halfSpacesOf
 
 __all__ = ['standIn']
 

@@ -101,7 +101,7 @@ def _table(name, lines):
 		raise ValueError(f'record: {name!r} has no numbers')
 	columns = len(rows[0][1])
 	values = []
-	for number, words in rows:
+	for line, words in rows:
 		try:
 			values.append([float(word) for word in words])
 		except ValueError:
@@ -110,9 +110,9 @@ def _table(name, lines):
 				if not values
 				else 'columns are separated by blanks or commas, and decimals begin with a point'
 			)
-			raise ValueError(f'record: {name!r}, line {number}: must have numbers, got {' '.join(words)[:60]!r}; {hint}') from None
+			raise ValueError(f'record: {name!r}, line {line}: must have numbers, got {' '.join(words)[:60]!r}; {hint}') from None
 		if len(words) != columns:
-			raise ValueError(f'record: {name!r}, line {number}: has {len(words)} columns, the lines before have {columns}')
+			raise ValueError(f'record: {name!r}, line {line}: has {len(words)} columns, the lines before have {columns}')
 	if columns not in (2, 4):
 		raise ValueError(
 			f'record: {name!r} has {columns} columns; must be time and one value, or time and three. Values without times, several in a line, are read by '

@@ -72,7 +72,7 @@ def keyBlocks(rock, free, frictionAngle, cohesion=0.0, density=2600.0, gravity=(
 	for body, parts in enumerate(rock.bodies):
 		if len(parts) > 1:
 			continue
-		(normals, offsets), labels = rock.blocks[parts[0]], rock.faces[parts[0]]
+		(normals, _), labels = rock.blocks[parts[0]], rock.faces[parts[0]]
 		loose = (labels < 0) & (normals @ faces.T > 1 - rounding).any(axis=1)
 		if loose.any() and (labels[~loose] >= 0).all():
 			move = _motion(normals, loose, weight * float(rock.volumes[parts[0]]))

@@ -68,7 +68,7 @@ class Lining:
 	@property
 	def forces(self):
 		"""LiningForces of now, as NumPy arrays: ``matplotlib.pyplot.plot(lining.forces.distances, lining.forces.moment)``."""
-		rows = [_section(one, behind, self._axis) for one, (_, behind) in zip(self.bonds, self.joints)]
+		rows = [_section(one, behind, self._axis) for one, (_, behind) in zip(self.bonds, self.joints, strict=True)]
 		table = np.array(rows, float).reshape(-1, 6)
 		return LiningForces(table[:, :3], self._distances.copy(), table[:, 3], table[:, 4], table[:, 5])
 
@@ -140,7 +140,7 @@ def lining(
 	ids = O.bodies.append(made)
 	count = len(ids)
 	joints = [(ids[k - 1], ids[k]) for k in range(1, count)] + ([(ids[-1], ids[0])] if closed else [])
-	for joint, length, cosine in zip(joints, chain.lengths, chain.cosines):
+	for joint, length, cosine in zip(joints, chain.lengths, chain.cosines, strict=True):
 		bond(list(joint), frictionAngle=0, **_stiffnesses(modulus, ratio, thickness, width, length, cosine), **strengths)
 	stuck = sum(
 		bond([ids[k], other], gap=adhesion.gap, tensileStrength=adhesion.tensileStrength, cohesion=adhesion.shearStrength)

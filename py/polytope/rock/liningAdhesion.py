@@ -52,7 +52,7 @@ def blocksNear(made, chain, width, axis, adhesion, flat):
 		corners = np.array(other.shape.vertices, float) @ turn.T + np.array(other.state.pos, float)
 		low, high = corners.min(axis=0) - margin, corners.max(axis=0) + margin
 		near += [(k, other.id) for k, box in enumerate(boxes) if (low <= box[1]).all() and (box[0] <= high).all()]
-	for one in [made[0], *(O.bodies[number] for number in sorted({number for _, number in near}))]:
+	for one in [made[0], *(O.bodies[k] for k in sorted({k for _, k in near}))]:
 		if not isinstance(one.material, RockJointMat) or not isPerArea(one.material, makers):
 			which = 'the lining' if one is made[0] else f'block {one.id}'
 			raise ValueError(

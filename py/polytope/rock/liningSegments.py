@@ -70,7 +70,7 @@ def divided(points, axis, closed, longest):
 		remedy = 'the first one need not be given again with closed' if closed and k == len(legs) - 1 else 'leave one out'
 		raise ValueError(f'points: point {k} and the next one are the same; {remedy}')
 	counts = [1 if longest is None else max(1, math.ceil(leg / longest - outOfPlane)) for leg in legs]
-	found = [a + (b - a) * j / count for a, b, count in zip(whole, whole[1:], counts) for j in range(count)]
+	found = [a + (b - a) * j / count for a, b, count in zip(whole[:-1], whole[1:], counts, strict=True) for j in range(count)]
 	return np.array(found if closed else [*found, line[-1]])
 
 

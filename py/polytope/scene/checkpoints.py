@@ -117,7 +117,7 @@ def _goOn(fileName):
 	for engine in engines:
 		if len(engines) == 1:  # else each has a name of its own
 			engine.fileName = fileName
-		for k, force, torque in zip(engine.loaded, engine.permanentForces, engine.permanentTorques):
+		for k, force, torque in zip(engine.loaded, engine.permanentForces, engine.permanentTorques, strict=True):
 			O.forces.setPermF(k, force)
 			O.forces.setPermT(k, torque)
 		if engine.onSignal:

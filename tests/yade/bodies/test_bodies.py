@@ -179,7 +179,7 @@ def testConcaveOutlineIsRefused(make, size):
 	volume = make([(size * x, size * y) for x, y in pentagon[:5]]).shape.volume
 	for outline in (pentagon, pentagon[::-1], sorted(pentagon)):
 		assert make([(size * x, size * y) for x, y in outline]).shape.volume == pytest.approx(volume, rel=1e-9)
-	assert make((point for point in corners[:3])).shape.volume > 0, 'an iterator'
+	assert make(point for point in corners[:3]).shape.volume > 0, 'an iterator'
 
 
 def testMeshFile(tmp_path):
@@ -383,7 +383,7 @@ def testMaterialsOfNoBodyAreRefused(name, value):
 		material = kind()
 		setattr(material, name, value)
 		index = O.materials.append(material)
-		for how in (material, index, lambda: material):
+		for how in (material, index, lambda made=material: made):
 			with pytest.raises(ValueError, match=f'^material: its {name} must be positive and finite, got '):
 				polytope.cuboid((0, 0, 0), (1, 1, 1), material=how)
 	with pytest.raises(ValueError, match=f'^material: its {name}'):

@@ -30,7 +30,8 @@ def rock(seed=1):
 
 
 def writeObj(path, mesh, digits='%.9f'):
-	path.write_text(''.join(f'v {digits} {digits} {digits}\n' % tuple(v) for v in mesh.vertices) + ''.join('f %d %d %d\n' % tuple(f + 1) for f in mesh.faces))
+	vertices = (f'v {digits} {digits} {digits}\n' % tuple(vertex) for vertex in mesh.vertices)
+	path.write_text(''.join(vertices) + ''.join('f {} {} {}\n'.format(*(face + 1)) for face in mesh.faces))
 	return path
 
 

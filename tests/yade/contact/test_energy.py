@@ -89,7 +89,7 @@ def testFlatDampedDropBalances():
 def testSlidingDissipatesFrictionTimesWay():
 	"""A flat block pushed at 1 m/s slides to rest: μ N s, and the kinetic energy it had."""
 	joint(normalStiffness=stiffness, frictionAngle=0.3)
-	newton = loop(normalDamping=1, gravity=(0, 0, -gravity))
+	loop(normalDamping=1, gravity=(0, 0, -gravity))
 	floor, block = blockOnFloor(density * 0.2 * gravity / stiffness, half=(.5, .5, .1))
 	block.state.blockedDOFs = 'XYZ'
 	mass = block.state.mass
@@ -174,7 +174,7 @@ def testDilationLiftsAtTheCostOfShear():
 	block.state.vel = (0.01, 0, block.state.vel[2])
 	O.trackEnergy = True
 	weight = density * gravity
-	pushed, height = 0., block.state.pos[2]
+	pushed = 0.
 	O.run(3000, True)
 	while O.iter < 12000:
 		O.step()

@@ -74,7 +74,7 @@ def wedge(factor, shearStiffness):
 	O.reset()
 	one, two, face, top = (normalOf(*joint) for joint in ((45, 105), (70, 235), (65, 185), (12, 195)))
 	strengths = (24e3, radians(20)), (48e3, radians(30))
-	for label, (cohesion, friction) in zip('AB', strengths, strict=True):
+	for label in 'AB':
 		O.materials.append(
 			RockJointMat(
 				label=label, density=2600, normalStiffness=1e9, shearStiffness=shearStiffness, frictionAngle=radians(60), cohesion=1e9

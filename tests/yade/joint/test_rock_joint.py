@@ -388,7 +388,7 @@ def testDilationWidensTheJointBySlip():
 	psi, limit = 0.1, 5e-5
 	floor, block, i = pressed(dict(frictionAngle=0.5, dilationAngle=psi, dilationLimit=limit), velocity=(0.01, 0, 0))
 	slip = 0
-	for step in range(300):
+	for _ in range(300):
 		O.step()
 		opening = min(slip * tan(psi), limit)  # slip up to the last step
 		assert i.phys.dilation == pytest.approx(opening, rel=1e-12)

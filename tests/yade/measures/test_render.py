@@ -35,7 +35,7 @@ def drawn(path, **options):
 def shareLike(image, channel):
 	"""Share of the pixels in which this channel is more than twice each of the others."""
 	others = [k for k in range(3) if k != channel]
-	return np.mean((image[:, :, channel] > 2 * image[:, :, others].max(axis=2)))
+	return np.mean(image[:, :, channel] > 2 * image[:, :, others].max(axis=2))
 
 
 def testPictureShowsTheBodiesInTheirColours(tmp_path):

@@ -159,7 +159,7 @@ def testRadialBlocksPressARing(dimension):
 	number, radius, push = 12, 3.0, 3e5
 	points = ringPoints(number, radius)
 	made = polytope.lining(**along(points, dimension), closed=True, **beam)
-	for k, (a, b) in enumerate(zip(points, points[1:] + points[:1])):
+	for a, b in zip(points, points[1:] + points[:1], strict=True):
 		corners = [np.array(p) * s for p in (a, b) for s in (1, 1.2)]
 		middle = np.mean(corners, axis=0)
 		corners = [middle + (p - middle) * 0.98 for p in corners]  # apart from each other

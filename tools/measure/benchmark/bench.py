@@ -68,7 +68,7 @@ def machine(programs):
 	with open(built / 'compile_commands.json') as file:
 		flags = [entry['command'].split(' -o ')[0] for entry in json.load(file) if entry['file'].endswith(('/ContactQuery.cpp', '/Kernels.cpp'))]
 	return {
-	        'date': datetime.datetime.now(datetime.timezone.utc).isoformat(timespec='seconds'),
+	        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
 	        'revision': output(*git, 'rev-parse', 'HEAD'),
 	        'changed': bool(output(*git, 'status', '--porcelain', '--untracked-files=no')),
 	        'revisionDate': output(*git, 'show', '-s', '--format=%cI', 'HEAD'),

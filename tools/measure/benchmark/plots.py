@@ -34,7 +34,7 @@ def costAgainstPlanes(kernels, path):
 		points = sorted((planesOf[name], kernels[method, name].median) for name in planesOf if (method, name) in kernels)
 		# a cube's pair and a hull's may have the same number of planes: the hulls go on where the solids end
 		if points:
-			axes.plot(*zip(*points), 'o-', color=color, label=method, markersize=4, linewidth=2 if method.startswith('ours') else 1)
+			axes.plot(*zip(*points, strict=True), 'o-', color=color, label=method, markersize=4, linewidth=2 if method.startswith('ours') else 1)
 	axes.set(xscale='log', yscale='log', xlabel='planes of both bodies', ylabel='µs a pair', title='Touching pair: regular solids, then random hulls')
 	axes.grid(True, which='both', alpha=0.25)
 	axes.legend(fontsize=8, ncols=2)

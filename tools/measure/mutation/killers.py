@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests that are to notice a mutant: which of them come past it, how long they take, and the first that fails."""
 
-import hashlib
 import json
 import math
 import os
@@ -12,7 +11,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 memory = 4 << 30
 """Most that a test may take [bytes]: a loop that a mutant makes endless may fill an array."""

@@ -126,9 +126,16 @@ def before(path, results):
 	return (found['mutants'], found['doNotCompile']) if same else ([], [])
 
 
+def say(text):
+	print(f'{datetime.datetime.now():%H:%M:%S} {text}', flush=True)
+
+
+def inCore(mutant):
+	return mutant.file.startswith('src/')
+
+
 def main():
 	arguments = parsed()
-	say = lambda text: print(f'{datetime.datetime.now():%H:%M:%S} {text}', flush=True)
 	end = time.monotonic() + 60 * arguments.minutes
 	arguments.output = arguments.output.resolve()
 	arguments.output.mkdir(parents=True, exist_ok=True)
@@ -143,7 +150,6 @@ def main():
 	schemata.write()
 	schemata.configure()
 	schemata.checkSyntax(arguments.jobs)
-	inCore = lambda mutant: mutant.file.startswith('src/')
 	order = random.Random(arguments.seed)
 
 	def judge(tests, row, takes):

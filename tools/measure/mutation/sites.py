@@ -61,7 +61,10 @@ class Mutant:
 
 def withoutComments(text):
 	"""The text with blanks for comments, so that columns stay."""
-	blank = lambda match: re.sub(r'[^\n]', ' ', match.group())
+
+	def blank(match):
+		return re.sub(r'[^\n]', ' ', match.group())
+
 	return re.sub(r'//[^\n]*|/\*.*?\*/', blank, text, flags=re.DOTALL)
 
 

@@ -10,7 +10,10 @@ import subprocess
 __all__ = ['origin']
 
 
-def origin(project=pathlib.Path(__file__).resolve().parents[4]):
+sources = pathlib.Path(__file__).resolve().parents[4]
+
+
+def origin(project=sources):
 	"""Recorded when a run begins.
 
 	:param project: folder of the sources
@@ -24,7 +27,7 @@ def origin(project=pathlib.Path(__file__).resolve().parents[4]):
 		revision = ''
 	return {
 		'revision': revision or 'unknown',
-		'date': datetime.datetime.now(datetime.timezone.utc).strftime('%Y-%m-%d'),
+		'date': datetime.datetime.now(datetime.UTC).strftime('%Y-%m-%d'),
 		'machine': processor(),
 		'cores': os.cpu_count(),
 		'load': round(os.getloadavg()[0], 2),
