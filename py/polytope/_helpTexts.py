@@ -30,7 +30,7 @@ signs = {
 	r'\\frac(\d)(\d)': r'\1/\2',
 	r'\\frac\{([^{}]*)\}\{([^{}]*)\}': r'(\1)/(\2)',
 }
-"""Of LaTeX, and what stands for them."""
+"""Commands of LaTeX → what stands for them in plain text."""
 letters = {
 	'alpha': 'α',
 	'beta': 'β',

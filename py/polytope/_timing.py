@@ -11,7 +11,7 @@ from .scene.present import geometryFunctors, interactionLoops
 __all__ = ['meansSoFar', 'resetTimes', 'timed']
 
 leastBlock = 1e6
-"""Of one block of timed steps [ns]: a thousand times the clock's own resolution."""
+"""The least time of one block of timed steps [ns]: a thousand times the clock's own resolution."""
 
 
 def resetTimes():

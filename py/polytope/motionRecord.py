@@ -13,7 +13,7 @@ noContact = 'none'
 _booked = ('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative')
 """Terms of O.energy that the contact law records (RockJoint law: fracture needs strength, which no body here has)."""
 _springs = ('spring', 'normalStored', 'shearStored')
-"""Of the contact: force of the normal spring [N], energy of the normal and of the shear spring [J]."""
+"""What of a contact is recorded: force of the normal spring [N], energy of the normal and of the shear spring [J]."""
 
 
 class MotionRecord:

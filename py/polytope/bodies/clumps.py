@@ -102,5 +102,5 @@ def _warnOfPartsApart(parts):
 
 
 def _quaternion(axes):
-	"""Of the rotation whose matrix has these columns."""
+	"""Quaternion of the rotation whose matrix has these columns."""
 	return Quaternion(Matrix3(*axes.flatten().tolist())).normalized()

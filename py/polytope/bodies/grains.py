@@ -20,9 +20,9 @@ curveError = 0.01
 inMillimetres = 2
 """Opening [m] of the largest sieve above which the curve's sizes were perhaps meant in mm: no sieve is so large."""
 mostGrains = 10_000_000
-"""Of one call: of so many kilograms a script asks by a mistake in its units."""
+"""The most that one call makes: a script that asks for more has mistaken its units."""
 trialShapes = 200
-"""Of which the mean volume is taken, for a sample of so many grains: its error is a percent or so."""
+"""Shapes whose mean volume is taken, for a sample of a given number of grains: its error is a percent or so."""
 tries = 500
 """Random places for each body of a cloud."""
 fewestVertices, mostVertices = 4, 200
@@ -119,7 +119,7 @@ def _massOfOne(sizes, passing, density, shape):
 
 
 def _meanCube(least, largest):
-	"""Of the sizes between two sieves: where mass is uniform over the logarithm of the size, numbers fall with its cube."""
+	"""Mean of the cubes of the sizes between two sieves: where mass is uniform over the logarithm of the size, numbers fall with its cube."""
 	return 3 * math.log(largest / least) / (least**-3 - largest**-3)
 
 
@@ -227,7 +227,7 @@ def _isSolid(shape):
 
 
 def _radius(part):
-	"""Of a ball about its position that holds it [m]."""
+	"""Radius of a ball about its position that holds it [m]."""
 	return float(part.shape.radius if isinstance(part.shape, Sphere) else part.shape.circumscribedRadius)
 
 

@@ -41,10 +41,10 @@ still = (0, 0, 0)
 """Default velocities."""
 
 colours = random.Random()
-"""Of bodies without a given one: a generator of their own, so that the script's random numbers are not affected."""
+"""Draws the colours of bodies that are given none: a generator of its own, so that the script's random numbers are not affected."""
 
 concave = 1e-6
-"""Of an outline's extent: how deep a point may lie inside the hull, and still be one of a straight side, written with six digits."""
+"""How deep a point may lie inside the hull, over the outline's extent, and still be one of a straight side, written with six digits."""
 
 
 randomColor = (-1, -1, -1)

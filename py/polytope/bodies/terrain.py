@@ -16,7 +16,7 @@ __all__ = ['terrain']
 thicknessFraction = 0.1
 """Default thickness below the lowest point, over the horizontal extent."""
 flat = 1e-9
-"""Of a mesh's triangle, its horizontal area over the square of its longest edge, below which it is vertical and is left out."""
+"""A mesh's triangle whose horizontal area, over the square of its longest edge, is below this is vertical and is left out."""
 
 
 @builder(lacks=('center', 'orientation'))
@@ -65,7 +65,7 @@ def _ofMesh(path):
 
 
 def _looksUp(points, triangles):
-	"""Of a closed mesh, which triangles have the outside above them; of another one all."""
+	"""Which triangles of a closed mesh have the outside above them; of another one all."""
 	import trimesh
 
 	solid = trimesh.Trimesh(points, triangles)  # joins equal points, which files as STL repeat

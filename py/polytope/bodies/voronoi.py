@@ -147,7 +147,7 @@ def _cells(points, normals, offsets, corners, box):
 
 
 def _neighbours(images, number, corners):
-	"""Of the first *number* points, those whose cells share a face with theirs, and maybe more.
+	"""Points whose cells share a face with those of the first *number* points, and maybe more.
 
 	Eight points far outside bound every cell and make a triangulation of points in one plane possible. Every point of the region is nearer
 	to a seed than to any of them.

@@ -40,7 +40,7 @@ class Dowel:
 
 	@classmethod
 	def ofBar(cls, diameter, youngsModulus, foundation, yieldStress, rockStrength):
-		"""Of a round bar: a beam on an elastic foundation on each side of the joint, and Bjurström's strength.
+		"""Dowel of a round bar: a beam on an elastic foundation on each side of the joint, and Bjurström's strength.
 
 		K = E I β³ with β⁴ = k/(4 E I) and I = π d⁴/64; F = 0.67 d² √(σ_y σ_c) (Bjurström 1974, as in Lorig 1985).
 

@@ -20,7 +20,7 @@ largest = 50.0
 earth = 9.7, 9.9
 """Gravity at its surface [m/s²]: lengths are in m, times in s, whatever the unit of mass."""
 tonnes = 0.3, 30.0
-"""Of what can be a body [t/m³]; less than that is no body's density in m and kg, g, lb or t."""
+"""Densities of what can be a body, in t/m³; less than that is no body's density in m and kg, g, lb or t."""
 tooStiff = 1e-6
 """Overlap over the inscribed radius under a body's own weight below which its density is taken for one in other units than its stiffness: one of some
 t/m³ beside N and m makes it a thousandth of what was meant."""
@@ -39,7 +39,7 @@ def bodyFindings(scene):
 
 
 def _materials(scene, kind):
-	"""Those of this class, of bodies and of their faces."""
+	"""Materials of this class, of bodies and of their faces."""
 	found = {id(material): material for body in scene.bodies for material in materialsOf(body)}
 	return [material for material in found.values() if isinstance(material, kind)]
 
@@ -58,7 +58,7 @@ def density(scene):
 
 
 def _densityInOtherUnits(scene, material):
-	"""Of a scene in m and s."""
+	"""Finds a density that is one in other units, in a scene in m and s."""
 	density, gravity = float(material.density), scene.gravity()
 	seen = f'density of {type(material).__name__} {material.label!r} is {density:g}, less than that of any rock in kg/m³'
 	if density < tonnes[0]:

@@ -16,7 +16,7 @@ sameFace = 1 - 1e-6
 
 
 def contactFindings(scene):
-	"""Of the scene's own engines: nothing is known yet of the contacts that others make."""
+	"""Findings about the contacts of the scene's own engines: nothing is known yet of the contacts that others make."""
 	if scene.ownEngines:
 		yield from failures(scene)
 		yield from severalPieces(scene)

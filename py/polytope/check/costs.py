@@ -85,7 +85,7 @@ def verletDist(scene):
 
 
 def boxes(scene):
-	"""Those of YADE's collider are of circumscribed balls where bodies can turn."""
+	"""Boxes of YADE's collider are those of circumscribed balls where bodies can turn."""
 	if not scene.colliders or isinstance(scene.colliders[0], PolytopeCollider) or scene.O.periodic:
 		return
 	room = float(scene.colliders[0].verletDist)
@@ -114,7 +114,7 @@ def _contacts(scene):
 
 
 def _radius(body):
-	"""Of the largest ball inside [m]; infinite for shapes of which that is not known."""
+	"""Radius of the largest ball inside [m]; infinite for shapes of which that is not known."""
 	if isinstance(body.shape, Polytope):
 		return float(body.shape.inscribedRadius)
 	return float(body.shape.radius) if isinstance(body.shape, Sphere) else math.inf

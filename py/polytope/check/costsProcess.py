@@ -21,7 +21,7 @@ from .plane import makePolygons
 __all__ = ['change', 'stepTimes']
 
 seconds, rounds = 0.12, 2
-"""Of timed steps for each change in a round, and rounds over all changes: the machine may be busy during one."""
+"""Time of timed steps for each change in a round [s], and rounds over all changes: the machine may be busy during one."""
 warmUp = 3
 """Steps before them: boxes and the contacts' warm-start data are computed again."""
 
@@ -48,7 +48,7 @@ def load(scene, loads):
 
 
 def stepTime(scene, loads, changes):
-	"""Of the scene with these changes [µs]; infinite if it does not run."""
+	"""Time of a step of the scene with these changes [µs]; infinite if it does not run."""
 	try:
 		load(scene, loads)
 		for name, value in changes:

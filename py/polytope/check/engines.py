@@ -111,7 +111,7 @@ def _roundFrom(scene, engine):
 
 
 def bondsAndBolts(scene):
-	"""Those that are lost, or of which others know nothing."""
+	"""Bonds and bolts that are lost, or of which others know nothing."""
 	for what, kind, removed, loss in (
 		('bonds', PolytopeBonds, removedBonds, lambda engine: f'whose {engine.intactInScene} bonds were intact: those bodies are loose'),
 		('bolts', PolytopeBolts, removedBolts, lambda engine: f'of which {engine.actingInScene} held blocks: they hold nothing now'),

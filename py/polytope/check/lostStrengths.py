@@ -63,6 +63,6 @@ def hanging(scene):
 
 
 def _material(body, normal):
-	"""Of the face that looks most along *normal*."""
+	"""Material of the face that looks most along *normal*."""
 	along = body.state.ori.conjugate() * normal
 	return materialOfPlane(body, int(np.argmax([float(own.dot(along)) for own in body.shape.normals])))

@@ -30,7 +30,7 @@ class Thrown:
 		self.gravity = scene.gravity() or (standardGravity if scene.inMetres() else 0.0)
 
 	def speed(self, one, other, at, otherAt):
-		"""Of two polytopes, which stand where `at` and `otherAt` do: that speed [m/s], infinite for a deep overlap, 0 for none worth telling."""
+		"""Speed at which their contact throws two polytopes that stand where `at` and `otherAt` do [m/s]: infinite for a deep overlap, 0 for none worth telling."""
 		try:
 			# the chord: of a body within another, too, on which a contact surface would not act
 			chord = float(_polytope.contact(at, otherAt, contactModel='boon2012', contactPoint='chebyshevCentre').depth)
@@ -46,7 +46,7 @@ class Thrown:
 		return math.inf if chord > 2 * deep * min(_radius(body) for body in (one, other)) else fast
 
 	def speedOfDepth(self, body, sphere, depth):
-		"""Of a polytope and a sphere that overlap by so much: per area over the sphere's section at this depth, as their contact has it."""
+		"""Speed of a polytope and a sphere that overlap by so much: per area over the sphere's section at this depth, as their contact has it."""
 		if not depth > 0:
 			return 0.0
 		radius = float(sphere.shape.radius)

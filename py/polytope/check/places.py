@@ -24,7 +24,7 @@ softest = 0.1
 some thousandths are usual, and forces are computed for small ones."""
 
 half = 0.5
-"""Of the cell's edge, in its own axes: bounds of a body above which YADE's collider gives up."""
+"""Extent of a body's bounds over the cell's edge, in the cell's axes, above which YADE's collider gives up."""
 
 
 def placeFindings(scene):
@@ -78,7 +78,7 @@ def _anyRests(scene, bodies, supports):
 
 
 def _distances(support, points):
-	"""Of points to a box, facet or wall as one in their middle meets it, at least [m]; below zero: in it."""
+	"""Least distances of points from a box, facet or wall as a body in their middle meets it [m]; below zero: in it."""
 	normals, offsets = halfSpacesOf(support, points.mean(axis=0))
 	return (points @ normals.T - offsets).max(axis=1)
 

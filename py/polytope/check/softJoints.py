@@ -24,13 +24,13 @@ from ..scene.present import isPerArea, jointMakers
 __all__ = ['softJoints', 'stableTilt']
 
 lost = math.radians(1)
-"""Of the stable angle, above which it is told [rad]."""
+"""Loss of the stable angle above which it is told [rad]."""
 level = 0.9
 """Cosine between gravity and a face on which a body can be said to stand."""
 together = 0.02
-"""Of the body's circumscribed radius: distance of two faces that are one joint, settled or not yet in touch."""
+"""Distance of two faces that are one joint, settled or not yet in touch, over the body's circumscribed radius."""
 rounding = 1e-9
-"""Of the circumscribed radius: corners that are on a plane."""
+"""Distance of corners that are on a plane, over the circumscribed radius."""
 beside = 0.5
 """Cosine between a contact's normal and the face on which a body stands, below which the contact holds its side."""
 most = 1000
@@ -38,7 +38,7 @@ most = 1000
 looks = 20
 """Bodies of which is found out what they touch, those first that lose most."""
 leastTurn, mostTurn, turns = 1e-6, 0.5, 400
-"""Of a leaning block, on which the largest tangent is looked for [rad]: of joints so stiff that it is below them the loss is far below *lost*."""
+"""Angles of a leaning block, among which the largest tangent is looked for [rad]: of joints so stiff that it is below them the loss is far below *lost*."""
 rounds = 20
 """To find N, whose slope is sought; each makes the error several times smaller."""
 
@@ -113,7 +113,7 @@ class Base(NamedTuple):
 
 	body: object
 	material: object
-	"""Of this face."""
+	"""The material of this face."""
 	normal: np.ndarray
 	"""Outward, world axes."""
 	corners: np.ndarray

@@ -39,7 +39,7 @@ def historyOf(given):
 
 
 def integrator():
-	"""That of O.engines. ValueError where there is none."""
+	"""The NewtonIntegrator of O.engines. ValueError where there is none."""
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
 	if not integrators():

@@ -16,7 +16,7 @@ __all__ = ['quietBoundary']
 outward = np.cos(0.01)
 """Cosine of the largest angle between the normal of the boundary and that of a face which belongs to it: what settling turns bodies by."""
 unheld = 0.01
-"""Of a free body's weight: the force that it may lack to be at rest."""
+"""Force that a free body may lack to be at rest, over its weight."""
 
 
 @namedArguments
@@ -155,7 +155,7 @@ def _refuseUnheld(ids, gravity, borne):
 
 
 def _support(body, gravity, borne):
-	"""That holds a fixed body where it is; none of one that is free."""
+	"""Force that holds a fixed body where it is; none for one that is free."""
 	if set('xyz') - set(body.state.blockedDOFs):
 		return Vector3.Zero
 	return -(borne + permanentLoads().get(body.id, (Vector3.Zero,))[0] + body.state.mass * gravity)

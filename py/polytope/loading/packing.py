@@ -25,7 +25,7 @@ from .walls import WalledSample, boundaryMask, meetWalls, sixWalls, smooth, with
 __all__ = ['pack', 'sample']
 
 reached = 1e-4
-"""Of the porosity: deviation at which compression ends."""
+"""Deviation of the porosity at which compression ends."""
 
 
 densest = 0.35

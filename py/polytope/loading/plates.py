@@ -10,7 +10,7 @@ from .walls import boundaryMask, withoutEachOther
 __all__ = ['force', 'moveTo', 'plate', 'replaced']
 
 thickness = 0.25
-"""Of plates over the sample's length: what a shear box may be displaced without opening to its side."""
+"""Thickness of plates over the sample's length: what a shear box may be displaced without opening to its side."""
 
 
 def plate(lower, upper, material):

@@ -56,7 +56,7 @@ def tooDeep(overlap):
 
 
 def idsOfSample(ids):
-	"""Of bodies and clumps that can move.
+	"""Ids of the bodies and clumps that can move.
 
 	:raises ValueError: naming *ids*
 	"""

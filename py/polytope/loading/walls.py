@@ -14,7 +14,7 @@ from .servo import Servo, actOn, eased
 __all__ = ['WalledSample', 'boundaryMask', 'meetWalls', 'sixWalls', 'smooth', 'withoutEachOther']
 
 boundaryMask = 2**31 - 1
-"""Of walls and plates: they meet bodies of every mask, and not each other, see withoutEachOther()."""
+"""Mask of walls and plates: they meet bodies of every mask, and not each other, see withoutEachOther()."""
 selfMask = 2**30
 
 

@@ -16,7 +16,7 @@ from ..scene.namedBodies import namedBodies
 __all__ = ['porosity', 'solidVolume', 'volumeInside', 'volumeWithin']
 
 thin = 1e-9
-"""Of the body's size: an intersection with a box whose inscribed ball is smaller has no volume."""
+"""An intersection with a box whose inscribed ball is smaller than this, over the body's size, has no volume."""
 
 
 def porosity(lower=None, upper=None, ids=None, region=None):

@@ -9,7 +9,7 @@ from yade import O, _polytope, mpy
 __all__ = ['passOn', 'share', 'states', 'takeStates']
 
 _tag = 7302
-"""Of these messages."""
+"""MPI's tag of these messages."""
 
 
 def share():
@@ -29,7 +29,7 @@ def share():
 
 
 def passOn(moved):
-	"""Those of bodies that change ranks; every rank has to call it.
+	"""Passes on the sums of bodies that change ranks; every rank has to call it.
 
 	:param moved: ids for each rank
 	"""

@@ -244,7 +244,7 @@ def _withCollider(parallelCollide):
 
 
 def _withIdleRanks(checkAndCollide):
-	"""Of a rank without bodies that have a box, which is rank 0 where nothing is fixed, the integrator leaves 0, and the collider takes it that no
+	"""The collider's check, for ranks without bodies that have a box, too. On such a rank, which is rank 0 where nothing is fixed, the integrator leaves 0, and the collider takes it that no
 	step was done: all ranks would search for pairs in every step."""
 
 	@functools.wraps(checkAndCollide)

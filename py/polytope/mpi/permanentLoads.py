@@ -25,7 +25,7 @@ def take(loads):
 
 
 def passOn(moved):
-	"""Those of bodies that have changed ranks; every rank has to call it.
+	"""Passes on the loads of bodies that have changed ranks; every rank has to call it.
 
 	:param moved: ids for each rank
 	"""

@@ -16,7 +16,7 @@ __all__ = ['beyondTheMiddle', 'reallocate']
 
 
 def beyondTheMiddle(own, other, surplus):
-	"""Of this rank's bodies that the other rank knows, those beyond the plane half way between the centres of mass of both ranks' bodies.
+	"""This rank's bodies that the other rank knows and that lie beyond the plane half way between the centres of mass of both ranks' bodies.
 
 	:param own, other: ranks
 	:param surplus: by how many more bodies this rank has than half of both; unused, for the plane follows the bodies
@@ -81,7 +81,7 @@ def _neighbours(ids):
 
 
 def _missing(lists):
-	"""Of the ids for each rank those of bodies that it does not have: a copy must not take the place of a body that is its own."""
+	"""Ids, for each rank, of the bodies that it does not have: a copy must not take the place of a body that is its own."""
 	asked = mpy.comm.alltoall(list(lists))
 	return mpy.comm.alltoall([[k for k in ids if O.bodies[k] is None] for ids in asked])
 

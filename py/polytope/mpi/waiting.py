@@ -14,7 +14,7 @@ from yade import mpy
 __all__ = ['agree', 'forAll', 'forForces']
 
 share = 0.05
-"""Of the time waited so far: how late rank 0 may notice that it can go on."""
+"""How late rank 0 may notice that it can go on, over the time waited so far."""
 
 _sleeps = False
 

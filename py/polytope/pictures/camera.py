@@ -12,7 +12,7 @@ viewAngle = 24
 """Vertical opening of the camera [degrees]; small, so that bodies of equal size appear equal."""
 
 centred = 1e-6
-"""Of the distance of the camera: by so much the picture may be off its middle, less than a hundredth of a pixel."""
+"""By how much the picture may be off its middle, over the distance of the camera: less than a hundredth of a pixel."""
 
 alongUp = 1e-6
 """Sine of the angle between view and up below which up says nothing."""

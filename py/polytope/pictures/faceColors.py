@@ -9,7 +9,7 @@ from .looks import colorMap, rgbOf, shadesFor, usualFixedColor
 __all__ = ['FaceColors', 'faceColors', 'ofFaces']
 
 palette = ('#0072b2', '#e69f00', '#009e73', '#cc79a7', '#56b4e9', '#d55e00', '#f0e442')
-"""Of the numbers from 0 on; colour-blind readers tell them apart (Okabe & Ito 2008, "Color universal design", without black)."""
+"""Colours of the numbers from 0 on; colour-blind readers tell them apart (Okabe & Ito 2008, "Color universal design", without black)."""
 
 
 def faceColors(bodies, colorBy, valueRange):
@@ -26,7 +26,7 @@ def faceColors(bodies, colorBy, valueRange):
 
 
 class FaceColors:
-	"""Of numbers below the length of the palette one each, so that a number has the same colour in all pictures; of others the shades of a scale."""
+	"""Colours of numbers: below the length of the palette one each, so that a number has the same colour in all pictures; of others the shades of a scale."""
 
 	def __init__(self, polytopes, numbers):
 		self._numbers = numbers

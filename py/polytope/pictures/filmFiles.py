@@ -80,7 +80,7 @@ def _colorsOf(images):
 
 
 def _palette(images):
-	"""Of all these images, (256, 3) bytes. A colour counts by the root of the number of its pixels: a large floor would else take nearly
+	"""Palette of all these images, (256, 3) bytes. A colour counts by the root of the number of its pixels: a large floor would else take nearly
 	all. That of most pixels, which is the background's, is kept as it is."""
 	from PIL import Image
 

@@ -28,7 +28,7 @@ and the picture's margin is 4 %."""
 
 
 class Frames:
-	"""Of one film.
+	"""The frames of one film.
 
 	:param look: arguments of *polytope.animate*
 	:raises ValueError: naming the argument
@@ -93,7 +93,7 @@ class Frames:
 		return drawable(O.bodies if self._ids is None else [O.bodies[k] for k in self._ids if k < count])
 
 	def _style(self, body):
-		"""That of its first frame, for a body that cannot move: which of them stand before the others changes in a run."""
+		"""Style of a body: for one that cannot move that of the first frame, since which of them stand before the others changes in a run."""
 		if body.dynamic:
 			return 'solid'
 		if body.id not in self._styles:
@@ -129,7 +129,7 @@ def _paint(folder, low, high):
 
 
 def _farthest(points):
-	"""Those of the points that are outermost in any of the directions, which are spread over a sphere (a Fibonacci lattice)."""
+	"""The points that are outermost in any of the directions, which are spread over a sphere (a Fibonacci lattice)."""
 	height = 1 - (2 * np.arange(directions) + 1) / directions
 	angle = np.pi * (1 + 5**0.5) * np.arange(directions)
 	ways = np.stack([np.cos(angle) * np.sqrt(1 - height**2), np.sin(angle) * np.sqrt(1 - height**2), height], axis=-1)

@@ -14,7 +14,7 @@ __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
 
 
 def unbalancedForce(watched=None):
-	"""Of the body that is least at rest: resultant, along what it can move, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
+	"""Unbalanced force of the body that is least at rest: its resultant, along what it can move, over its weight, or over half of what contacts, bonds and bolts press and pull it with, where that is more.
 
 	:param watched: ids, of clumps their own; None: all that can move
 	"""

@@ -32,7 +32,7 @@ still = 1e-9
 away = 0.5
 """Way over the body's size, from which on one that slides faster and faster slides away, where nothing else is unrest."""
 farAway = 2
-"""The same, in two spans on end, of one beside others that may come to rest."""
+"""Way over the size in each of two spans on end, from which on one beside others that may come to rest slides away."""
 leaning = 2.0
 """Angle of a body that still moves, from which on it topples [°]: blocks turn by some tenths as their joints close."""
 named = 3
@@ -100,7 +100,7 @@ class Unrest:
 		return float(forces.max(initial=0.0))
 
 	def displaced(self):
-		"""Of bodies that stood on others when it began, those that have moved by more than their size, as (id, way [m]), the farthest first."""
+		"""Bodies that stood on others when it began and have moved by more than their size, as (id, way [m]), the farthest first."""
 		ways = _ways(self.origin, placesById())
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in self.stood and ways[k] > sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])

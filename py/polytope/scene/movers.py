@@ -23,7 +23,7 @@ def isMover(body):
 
 
 def movers():
-	"""Those bodies of the scene."""
+	"""The bodies of the scene that forces move by themselves."""
 	return [body for body in O.bodies if body is not None and isMover(body)]
 
 

@@ -8,7 +8,7 @@ __all__ = ['ownBounds', 'ownClasses', 'ownContacts', 'ownContactsOf', 'ownLaws']
 
 
 def ownClasses(base):
-	"""Those that extensions derive from this class of YADE's or the plug-in's, in the order in which they were loaded."""
+	"""Classes that extensions derive from this class of YADE's or the plug-in's, in the order in which they were loaded."""
 	names = (name for _, _, classes in _polytope.extensions() for name in classes)
 	return [made for made in (getattr(yade.wrapper, name) for name in names) if issubclass(made, base)]
 
@@ -32,7 +32,7 @@ def _steps(shape, base):
 
 
 def _stepsOfPair(bases, one, other):
-	"""The same for two classes and those that a functor is made for, in the order that is nearer; None: it is made for others."""
+	"""Steps of derivation from two classes to those that a functor is made for, in the order that is nearer; None: it is made for others."""
 	if len(bases) != 2:
 		return None
 	ways = [(_steps(one, first), _steps(other, second)) for first, second in (bases, bases[::-1])]

@@ -13,7 +13,7 @@ from .present import interactionLoops
 __all__ = ['Reduction', 'Stage', 'partOfSize', 'refuseMatchMaker', 'sizeOf']
 
 partOfSize = 0.02
-"""Of the size of the largest watched body: the way at which it has failed, by default."""
+"""The way at which a watched body has failed, by default, over the size of the largest one."""
 
 
 def refuseMatchMaker():

@@ -24,7 +24,7 @@ singlePrecision = 1e-6
 facetNoise = 4.0
 """Distance over the largest error of a coordinate up to which points count as coplanar, where that is more: they are rounded in three coordinates; and a margin."""
 mostNoise = 0.01
-"""Of the extent, at most."""
+"""The most that this distance may be, over the extent."""
 farOut = 1000.0
 """Distance from the origin over the extent from which on a body that is none may be one whose file has too few digits."""
 enough = 0.01

@@ -16,7 +16,7 @@ faces = {
 	'wedge': ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
 	'hexahedron': ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
 }
-"""Of cells of volumes, by their corners; cells of higher order have the same corners first."""
+"""Faces of the cells of volumes, by their corners; cells of higher order have the same corners first."""
 sides = {'triangle': 3, 'quad': 4}
 
 

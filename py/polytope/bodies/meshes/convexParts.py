@@ -14,7 +14,7 @@ __all__ = ['Cuts', 'cut']
 enough = 0.01
 """Relative difference of the volumes of the mesh and of its parts up to which it is asked for no finer ones."""
 concavities = 0.05, 0.02, 0.01
-"""Of a part that CoACD cuts no further (its *threshold*): the usual one, and finer ones, down to its least, while the volume is not met."""
+"""Concavity of a part that CoACD cuts no further (its *threshold*): the usual one, and finer ones, down to its least, while the volume is not met."""
 
 far = 1000.0
 """Distance from the origin over the extent from which on a mesh is cut about its middle: volumes are sums of products with that distance."""

@@ -91,7 +91,7 @@ def _inOrder(labels):
 
 
 def _edges(faces):
-	"""Of triangles, each with its smaller point first: three for each triangle."""
+	"""Edges of triangles, each with its smaller point first: three for each triangle."""
 	return np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
 
 

@@ -19,7 +19,7 @@ remedy = 'compas.json_dump(assembly, path) writes assemblies of compas_assembly,
 
 
 def bodies(path, place, **body):
-	"""Of all blocks; those that are supports are fixed, unless *fixed* is given.
+	"""Bodies of all blocks; those that are supports are fixed, unless *fixed* is given.
 
 	:param place: from coordinates of the file to a point [m]
 	"""

@@ -18,7 +18,7 @@ fits = 1e-6
 
 
 def bodies(path, place, **body):
-	"""Of all cells.
+	"""Bodies of all cells.
 
 	:param place: from coordinates of the file to a point [m]
 	"""

@@ -25,7 +25,7 @@ flat = 1e-9
 
 
 class NoBody(ValueError):
-	"""Of a shape, why it is none."""
+	"""Says of a shape why it is no body."""
 
 
 @dataclasses.dataclass
@@ -39,7 +39,7 @@ class Shape:
 
 
 def bodies(path, place, names=None, parts=None, rounded=None, **body):
-	"""Of all shapes that are bodies, or of those with these names.
+	"""Bodies of all shapes that can be one, or of those with these names.
 
 	:param place: from coordinates of the file to a point [m]
 	:param parts: of shapes that are not convex, at most; None: their hulls
@@ -127,7 +127,7 @@ def _body(path, shape, place, parts, rounded, body):
 
 
 def _plate(shape, points, radius, body):
-	"""Of points in a plane; twice the radius thick."""
+	"""Body of points that lie in a plane; it is twice the radius thick."""
 	across = np.linalg.svd(points - points.mean(axis=0))[2][-1]
 	return _inflated(shape, [*(points + radius * across), *(points - radius * across)], radius, body, across)
 

@@ -17,7 +17,7 @@ head = f"""# Polyhedra: {remedy}.
 
 
 def bodies(path, place, **body):
-	"""Of all polyhedra of a file.
+	"""Bodies of all polyhedra of a file.
 
 	:param place: from coordinates of the file to a point [m]
 	"""
