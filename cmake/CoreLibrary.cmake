@@ -27,6 +27,7 @@ set(POLYTOPE_CORE_HEADERS
 	numbers/Lanes.hpp # LpBasis
 	numbers/Tolerances.hpp # defaults of ContactSettings
 	program/LpBasis.hpp # ConvexShape keeps that of its inscribed ball
+	program/PlaneCode.hpp # PairMemory and ContactResult have planes by their codes
 	joint/ClosureLaw.hpp # ContactSettings may have one
 	surface/KeptVertices.hpp # PairMemory keeps them
 	surface/SurfaceTolerances.hpp # KeptVertices has room for as many

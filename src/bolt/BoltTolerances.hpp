@@ -23,7 +23,8 @@ constexpr int    mostCuts = 40;
 /// any length; slip begins all at once over one of them.
 constexpr double elementOverTransfer = 0.2;
 
-/// That length of the longest elements, where there can't be enough of them: their grout is then a ten-thousandth from rigid, and sinh stays finite.
+/// Element length × √(grout stiffness/axial stiffness of the steel) of the longest elements, where there cannot be enough of them: their grout is then a
+/// ten-thousandth from rigid, and sinh stays finite.
 constexpr double longestElement = 10;
 
 /// Elements of the grouted part in one block: at least, so that slip can spread, and at most, for the time that a step takes.

@@ -66,46 +66,43 @@ POLYTOPE_INLINE bool dismissedByLastWeights(const PairInput& in, const ContactSe
 
 /// Turns the frame to the optimum's dual direction and moves its origin to x, unless the overlap is so thick, or has turned so little, that
 /// the digits of the present frame are enough. Whether it did; x and dual go along.
-template <class R, int D, int W>
-POLYTOPE_INLINE bool alignFrame(const PairInput& in, StartBasis start, bool pivoted, const LpBasis<R, D>& basis, ContactFrame<R, D>& f,
-        PairPlanes<R, D>& planes, R* x, R* dual)
+template <class R, int D, int W> POLYTOPE_INLINE bool alignFrame(const PairQuery<R, D>& q, StartBasis start, bool pivoted)
 {
-	const R thickness = -basis.infeasibility / f.size;
+	const R thickness = -q.basis.infeasibility / q.frame.size;
 	if (thickness > R(tolerance::thin)) return false;
-	const bool aimed = start == StartBasis::LastContact ? !leans<R, D>(dual, thickness) : !pivoted && start != StartBasis::AimedFar;
+	const bool aimed = start == StartBasis::LastContact ? !leans<R, D>(q.dual, thickness) : !pivoted && start != StartBasis::AimedFar;
 	if (aimed) return false;
-	const Rotation<R, D> turn = aim<R, D>(f, dual, x);
-	placePair<R, D, W>(in, f, planes);
-	turnVector<R, D>(turn, dual);
+	const Rotation<R, D> turn = aim<R, D>(q.frame, q.dual, q.x);
+	placePair<R, D, W>(q.in, q.frame, q.planes);
+	turnVector<R, D>(turn, q.dual);
 	for (int k = 0; k < D; ++k)
-		x[k] = 0;
+		q.x[k] = 0;
 	return true;
 }
 
-/// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program; x: its point, dual: n_λ, both in the
-/// planes' frame. `atOrigin`: the frame's origin is the last step's point.
+/// Contact point, normal, depth and section of the paper's contact (Eqs 10-18) after the linear program, whose point is x. `atOrigin`: the frame's origin
+/// is the last step's point.
 template <class R, int D, int W>
-POLYTOPE_INLINE void paperContact(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
-        const LpBasis<R, D>& basis, LpStatus lp, bool touching, bool atOrigin, R* x, R* dual, StageTimer& timer, PairMemory& memory,
-        ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void paperContact(const PairQuery<R, D>& q, bool optimal, bool touching, bool atOrigin, StageTimer& timer)
 {
-	const R       grown  = touching ? R(0) : growUntilTouching<R, D>(planes, basis.infeasibility, R(tolerance::gapSkin) * f.size);
-	ContactStatus status = lp == LpStatus::Undecided
-	        ? ContactStatus::LpNotConverged
-	        : contactPoint<R, D, W>(settings, planes, f, basis, memory, touching, atOrigin, x, dual, workspace, out);
+	PairPlanes<R, D>& planes = q.planes;
+	ContactResult&    out    = q.out;
+	const R           apart  = q.basis.infeasibility;
+	const R           grown  = touching ? R(0) : growUntilTouching<R, D>(planes, apart, R(tolerance::gapSkin) * q.frame.size);
+	ContactStatus     status = optimal ? contactPoint<R, D, W>(q, touching, atOrigin) : ContactStatus::LpNotConverged;
 	timer.end(out.centreNanoseconds);
 
 	R                   n[D];
-	const ContactStatus normal = contactNormal<R, D, W>(in, settings, planes, f, x, dual, n);
+	const ContactStatus normal = contactNormal<R, D, W>(q, n);
 	if (touching) {
 		if (status == ContactStatus::Contact) status = normal;
 		out.depth  = chord<R, D, W>(planes, n);
 		out.energy = out.depth * out.depth / 2;
-	} else out.depth = depthAcrossGap<R, D>(planes, n, grown, basis.infeasibility, dual);
-	publishContact<R, D>(in, f, status, x, n, memory, out);
-	if (settings.section)
-		contactSection<R, D>(in, settings, f, planes, x, n, x, workspace.polygons(sectionNumbers(planes.total)), workspace, out);
-	failUnlessFinite<D>(memory, out);
+	} else out.depth = depthAcrossGap<R, D>(planes, n, grown, apart, q.dual);
+	publishContact<R, D>(q, status, q.x, n);
+	if (q.settings.section)
+		contactSection<R, D>(q, planes, q.x, n, q.x, q.workspace.polygons(sectionNumbers(planes.total)));
+	failUnlessFinite<D>(q.memory, out);
 }
 
 /// `Surface`: for models that have one (hasSurface()), and for them alone: the other contacts' instructions are not to change with it.
@@ -121,9 +118,11 @@ POLYTOPE_INLINE void contactKernel(
 		return;
 	}
 
-	PairPlanes<R, D> planes = pairRows<R, D>(in, workspace);
-	LpBasis<R, D>    basis;
-	const StartBasis start = startBasis<R, D, W>(in, settings, limits, memory, f, planes, basis);
+	PairPlanes<R, D>      planes = pairRows<R, D>(in, workspace);
+	LpBasis<R, D>         basis;
+	R                     x[D], dual[D];
+	const PairQuery<R, D> q { in, settings, limits, f, planes, basis, x, dual, memory, workspace, out };
+	const StartBasis      start = startBasis<R, D, W>(q);
 	if (start == StartBasis::NoPose) {
 		fail(memory, out);
 		return;
@@ -141,8 +140,7 @@ POLYTOPE_INLINE void contactKernel(
 		fail(memory, out);
 		return;
 	}
-	R dual[D];
-	publishProgram<R, D>(in, f, planes, basis, lp, limits, memory, dual, out);
+	publishProgram<R, D>(q, lp);
 	timer.end(out.lpNanoseconds);
 	const bool touching = basis.infeasibility < -limits.tolerance;
 	out.inContact       = touching;
@@ -153,21 +151,19 @@ POLYTOPE_INLINE void contactKernel(
 	out.hasGeometry      = true;
 	memory.dualDirection = out.dualDirection;
 
-	R x[D];
 	for (int k = 0; k < D; ++k)
 		x[k] = basis.point[k];
-	const bool aligned = alignFrame<R, D, W>(in, start, pivots > 0, basis, f, planes, x, dual);
+	const bool aligned = alignFrame<R, D, W>(q, start, pivots > 0), optimal = lp != LpStatus::Undecided;
 	if constexpr (Surface) {
 		const R grown = touching
 		        ? R(0)
 		        : growUntilTouching<R, D>(planes, basis.infeasibility, skinAcrossGap<R>(basis.infeasibility, f.size));
 		basis.infeasibility -= grown;
-		surfaceContact<R, D, W>(in, settings, limits, planes, f, basis, lp != LpStatus::Undecided, !touching, grown, x, dual,
-		        memory, workspace, out);
+		surfaceContact<R, D, W>(q, optimal, !touching, grown);
 		timer.end(out.centreNanoseconds);
 	} else {
 		const bool atOrigin = start == StartBasis::LastContact && !aligned;
-		paperContact<R, D, W>(in, settings, planes, f, basis, lp, touching, atOrigin, x, dual, timer, memory, workspace, out);
+		paperContact<R, D, W>(q, optimal, touching, atOrigin, timer);
 	}
 }
 

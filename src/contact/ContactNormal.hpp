@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/ContactFrame.hpp"
-#include "contact/ContactTypes.hpp"
 #include "contact/InnerPotential.hpp"
+#include "contact/PairQuery.hpp"
 
 /// Contact normal at the contact point: the average of two gradients (Boon et al. 2012, Eq. 17), and the direction that replaces it where
 /// there is none.
@@ -22,17 +21,17 @@ template <class R, int D> POLYTOPE_INLINE void lineOfCentres(const PairInput& in
 }
 
 /// Eq. 17 from both gradients (not of unit length); where a body has none the other's, where neither has the dual direction.
-template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
-        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+template <class R, int D, int W> POLYTOPE_INLINE ContactStatus averagedNormal(const PairQuery<R, D>& q, R* n)
 {
+	const ContactSettings& settings = q.settings;
+
 	R   weight[2];
 	R   g[2][D];
 	int directed = 0;
 	for (int body = 0; body < 2; ++body) {
-		innerPotentialGradient<R, D, W>(planes, body, x, in.shape[body]->cornerRadius(), g[body]);
+		innerPotentialGradient<R, D, W>(q.planes, body, q.x, q.in.shape[body]->cornerRadius(), g[body]);
 		const R    length = norm<R, D>(g[body]);
-		const bool has    = length > R(tolerance::direction) * f.size;
+		const bool has    = length > R(tolerance::direction) * q.frame.size;
 		directed += has;
 		weight[body] = has ? (body == 0 ? R(1) : R(-1)) * settings.normalWeight[body] / length : R(0);
 	}
@@ -51,19 +50,17 @@ POLYTOPE_INLINE ContactStatus averagedNormal(const PairInput& in, const ContactS
 	        || !(length > R(tolerance::direction) * (directed == 2 ? settings.normalWeight[0] + settings.normalWeight[1] : R(0)))) {
 		status = ContactStatus::NormalFromDual;
 		for (int k = 0; k < D; ++k)
-			n[k] = dual[k];
+			n[k] = q.dual[k];
 		length = norm<R, D>(n);
 	}
 	return length > R(tolerance::direction) * R(directed == 0) ? status : ContactStatus::NoDirection;
 }
 
-/// Unit normal at x. Leaves slacks for the depth.
-template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus contactNormal(const PairInput& in, const ContactSettings& settings, const PairPlanes<R, D>& planes,
-        const ContactFrame<R, D>& f, const R* x, const R* dual, R* n)
+/// Unit normal at the contact point. Leaves slacks for the depth.
+template <class R, int D, int W> POLYTOPE_INLINE ContactStatus contactNormal(const PairQuery<R, D>& q, R* n)
 {
-	const ContactStatus status = averagedNormal<R, D, W>(in, settings, planes, f, x, dual, n);
-	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(in, f, n);
+	const ContactStatus status = averagedNormal<R, D, W>(q, n);
+	if (status == ContactStatus::NoDirection) lineOfCentres<R, D>(q.in, q.frame, n);
 	const R length = norm<R, D>(n);
 	for (int k = 0; k < D; ++k)
 		n[k] /= length;

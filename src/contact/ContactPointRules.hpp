@@ -11,20 +11,18 @@
 /// The contact point by each of the rules of ContactPoint, from the linear program's point.
 namespace polytope {
 
-/// Newton from `start`, in axes turned to the overlap's own where the contact's axes lose digits; x and dual turn with them.
-template <class R, int D, int W>
-POLYTOPE_INLINE CentreStatus newtonCentre(
-        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, R* start, R accept, R* x, R* dual, ContactResult& out)
+/// Newton from `start`, in axes turned to the overlap's own where the contact's axes lose digits; all that is in the frame turns with them.
+template <class R, int D, int W> POLYTOPE_INLINE CentreStatus newtonCentre(const PairQuery<R, D>& q, R* start, R accept)
 {
 	for (int turns = 0;; ++turns) {
-		const CentreStatus centre = analyticCentre<R, D, W>(planes, start, accept, out.newtonIterations, out.decrement);
+		const CentreStatus centre = analyticCentre<R, D, W>(q.planes, start, accept, q.out.newtonIterations, q.out.decrement);
 		if (centre != CentreStatus::Skewed || turns == tolerance::turns) return centre;
-		const Rotation<R, D> turn = stiffAxes<R, D>(planes);
-		turnPlanes<R, D, W>(turn, planes);
-		turnFrame<R, D>(f, turn);
+		const Rotation<R, D> turn = stiffAxes<R, D>(q.planes);
+		turnPlanes<R, D, W>(turn, q.planes);
+		turnFrame<R, D>(q.frame, turn);
 		turnVector<R, D>(turn, start);
-		turnVector<R, D>(turn, x);
-		turnVector<R, D>(turn, dual);
+		turnVector<R, D>(turn, q.x);
+		turnVector<R, D>(turn, q.dual);
 	}
 }
 
@@ -40,41 +38,37 @@ template <class R, int D> POLYTOPE_INLINE ContactStatus ipoptCentre(const PairPl
 /// Where the search for the analytic centre begins: the last step's point, which the frame's origin is (`atOrigin`) or both bodies have
 /// carried along, else the centre of the optimal basis' planes; from x, the linear program's point, as far as that is inside. `deep`: of
 /// the overlap at x.
-template <class R, int D, int W>
-POLYTOPE_INLINE void startOfCentre(const ContactSettings& settings, const PairPlanes<R, D>& planes, const ContactFrame<R, D>& f,
-        const LpBasis<R, D>& basis, const PairMemory& memory, bool atOrigin, R deep, const R* x, R* start)
+template <class R, int D, int W> POLYTOPE_INLINE void startOfCentre(const PairQuery<R, D>& q, bool atOrigin, R deep, R* start)
 {
-	if (atOrigin && smallestOffset<R, D, W>(planes) > R(tolerance::carriedRoom) * deep) {
+	if (atOrigin && smallestOffset<R, D, W>(q.planes) > R(tolerance::carriedRoom) * deep) {
 		for (int k = 0; k < D; ++k)
 			start[k] = 0;
 		return;
 	}
 	R target[D];
 	for (int k = 0; k < D; ++k)
-		start[k] = x[k];
-	if (settings.warmStart && memory.hasPoint) carriedPoint<R, D>(f, memory.point, target);
-	else simplexCentre<R, D>(basis, deep, x, target);
-	moveInside<R, D, W>(planes, start, target);
+		start[k] = q.x[k];
+	if (q.settings.warmStart && q.memory.hasPoint) carriedPoint<R, D>(q.frame, q.memory.point, target);
+	else simplexCentre<R, D>(q.basis, deep, q.x, target);
+	moveInside<R, D, W>(q.planes, start, target);
 }
 
-/// Eq. 10: x from the linear program's point, or `start`, to the analytic centre by the chosen solver; frame, planes and dual turn with it.
+/// Eq. 10: x from the linear program's point, or `start`, to the analytic centre by the chosen solver; all that is in the frame turns with it.
 /// Where Newton does not converge, Ipopt, if the build has it.
-template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus centrePoint(const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f, bool touching,
-        R deep, R* start, R* x, R* dual, ContactResult& out)
+template <class R, int D, int W> POLYTOPE_INLINE ContactStatus centrePoint(const PairQuery<R, D>& q, bool touching, R deep, R* start)
 {
+	R* const      x       = q.x;
+	const bool    newton  = q.settings.solver == CentreSolver::Newton;
 	ContactStatus outcome = touching ? ContactStatus::Contact : ContactStatus::Separated;
 	// a remaining distance to the centre changes the depth by at most the same fraction
-	const R            accept = minOf<R>(settings.newtonTolerance, R(tolerance::depth) * f.size / deep);
-	const CentreStatus centre = settings.solver == CentreSolver::Newton ? newtonCentre<R, D, W>(planes, f, start, accept, x, dual, out)
-	                                                                    : CentreStatus::NotConverged;
+	const R            accept = minOf<R>(q.settings.newtonTolerance, R(tolerance::depth) * q.frame.size / deep);
+	const CentreStatus centre = newton ? newtonCentre<R, D, W>(q, start, accept) : CentreStatus::NotConverged;
 	if (centre == CentreStatus::NotConverged || centre == CentreStatus::Skewed) {
 		// planes are rounded by the larger body's size: an overlap may be thinner, with no inside in this frame
 		R room;
-		mostViolated<R, D, W>(planes, x, room);
-		const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(planes, x, out) : ContactStatus::RoundingLimited;
-		if (byIpopt == ContactStatus::CentreByIpopt ? settings.solver == CentreSolver::Newton : room > 0 || touching)
-			outcome = byIpopt;
+		mostViolated<R, D, W>(q.planes, x, room);
+		const ContactStatus byIpopt = room > 0 ? ipoptCentre<R, D>(q.planes, x, q.out) : ContactStatus::RoundingLimited;
+		if (byIpopt == ContactStatus::CentreByIpopt ? newton : room > 0 || touching) outcome = byIpopt;
 		return outcome;
 	}
 	for (int k = 0; k < D; ++k)
@@ -83,22 +77,19 @@ POLYTOPE_INLINE ContactStatus centrePoint(const ContactSettings& settings, PairP
 }
 
 /// x: from the linear program's point to the contact point. `atOrigin`: the frame's origin is the last step's point.
-template <class R, int D, int W>
-POLYTOPE_INLINE ContactStatus contactPoint(const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
-        const LpBasis<R, D>& basis, const PairMemory& memory, bool touching, bool atOrigin, R* x, R* dual, ContactWorkspace& workspace,
-        ContactResult& out)
+template <class R, int D, int W> POLYTOPE_INLINE ContactStatus contactPoint(const PairQuery<R, D>& q, bool touching, bool atOrigin)
 {
-	if (settings.contactPoint == ContactPoint::AnalyticCentre) {
-		const R deep = touching ? -basis.infeasibility : R(tolerance::gapSkin) * f.size;
+	if (q.settings.contactPoint == ContactPoint::AnalyticCentre) {
+		const R deep = touching ? -q.basis.infeasibility : R(tolerance::gapSkin) * q.frame.size;
 		R       start[D];
-		startOfCentre<R, D, W>(settings, planes, f, basis, memory, atOrigin, deep, x, start);
-		return centrePoint<R, D, W>(settings, planes, f, touching, deep, start, x, dual, out);
+		startOfCentre<R, D, W>(q, atOrigin, deep, start);
+		return centrePoint<R, D, W>(q, touching, deep, start);
 	}
-	if (settings.contactPoint == ContactPoint::Centroid) {
+	if (q.settings.contactPoint == ContactPoint::Centroid) {
 		OverlapMass<R, D> overlap;
-		if (Overlap<R, D, W>(planes, x, 2 * f.size, workspace).mass(x, overlap))
+		if (Overlap<R, D, W>(q.planes, q.x, 2 * q.frame.size, q.workspace).mass(q.x, overlap))
 			for (int k = 0; k < D; ++k)
-				x[k] = overlap.centroid[k];
+				q.x[k] = overlap.centroid[k];
 	}
 	return touching ? ContactStatus::Contact : ContactStatus::Separated; // x, the linear program's point, is the Chebyshev centre
 }

@@ -119,7 +119,7 @@ namespace {
 			beyond |= code | int(unsigned(least) - unsigned(code));
 		if (beyond >= 0) return true;
 		for (int code : basis)
-			if (code < 0 || (code >> 1) >= count[code & 1]) return false;
+			if (code < 0 || planeOfCode(code) >= count[bodyOfCode(code)]) return false;
 		return true;
 	}
 

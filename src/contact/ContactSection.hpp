@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/ContactFrame.hpp"
 #include "contact/ContactOutlineWriter.hpp"
-#include "contact/ContactTypes.hpp"
+#include "contact/PairQuery.hpp"
 #include "numbers/Tolerances.hpp"
-#include "program/PairPlanes.hpp"
 
 #include <cmath>
 
@@ -121,26 +119,28 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 	return section;
 }
 
-/// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through x, normal to n. `buffer`: of sectionNumbers().
+/// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through `origin`, normal to
+/// n, of what the planes bound. `buffer`: of sectionNumbers().
 template <class R, int D>
-POLYTOPE_INLINE void contactSection(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f,
-        const PairPlanes<R, D>& planes, const R* x, const R* n, const R* point, R* buffer, ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void contactSection(
+        const PairQuery<R, D>& q, const PairPlanes<R, D>& planes, const R* origin, const R* n, const R* point, R* buffer)
 {
-	const Section<R, D> section = clipPlane(planes, x, n, 2 * f.size, buffer);
-	out.area                    = section.area;
-	if (D == 2) out.area *= minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness());
-	out.sectionCentroid = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, section.centroid));
+	const ContactFrame<R, D>& f       = q.frame;
+	const Section<R, D>       section = clipPlane(planes, origin, n, 2 * f.size, buffer);
+	q.out.area                        = section.area;
+	if (D == 2) q.out.area *= minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness());
+	q.out.sectionCentroid = worldPoint<R, D>(q.in, f, toBody<R, D>(f, f.home, section.centroid));
 	if constexpr (D == 3) {
-		if (!settings.outline) return;
+		if (!q.settings.outline) return;
 		const Rotation<R, 3>    axes = axesAround<R, 3>(n);
-		ContactOutlineWriter<R> writer(f, out.normal, point, workspace.points(section.count));
+		ContactOutlineWriter<R> writer(f, q.out.normal, point, q.workspace.points(section.count));
 		for (int k = 0; k < section.count; ++k) {
 			R p[3];
 			for (int m = 0; m < 3; ++m)
-				p[m] = x[m] + section.corner[2 * k] * axes.m[0][m] + section.corner[2 * k + 1] * axes.m[1][m];
+				p[m] = origin[m] + section.corner[2 * k] * axes.m[0][m] + section.corner[2 * k + 1] * axes.m[1][m];
 			writer.add(p);
 		}
-		writer.publish(out);
+		writer.publish(q.out);
 	}
 }
 

@@ -109,7 +109,7 @@ struct ContactSettings : ContactOptions {
 struct PairMemory {
 	bool               hasBasis = false;         ///< `basis` is known, and, without a point, `weights`
 	bool               hasPoint = false;         ///< `point` and `dualDirection` are known
-	std::array<int, 4> basis { { 0, 0, 0, 0 } }; ///< 2 × plane index + (0: body 1, 1: body 2)
+	std::array<int, 4> basis { { 0, 0, 0, 0 } }; ///< codes of its planes (program/PlaneCode.hpp)
 	/// LP dual λ of the basis' first planes (the last one's is the rest).
 	Vector3                weights { Vector3::Zero() };
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame

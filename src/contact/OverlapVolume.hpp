@@ -219,7 +219,7 @@ private:
 		return count;
 	}
 
-	/// Those but the first, which has cut, from the nearest to the farthest: near ones leave little for the others to cut, and what is farther than any
+	/// Cuts by the planes behind the first, from the nearest to the farthest: near ones leave little for the others to cut, and what is farther than any
 	/// vertex cuts nothing.
 	POLYTOPE_INLINE void cutByOthers(int count)
 	{

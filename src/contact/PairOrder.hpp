@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/ContactTypes.hpp"
+#include "program/PlaneCode.hpp"
 #include "shape/ConvexShape.hpp"
 
 #include <utility>
@@ -41,7 +42,7 @@ inline bool secondGoesFirst(
 inline void exchangeBodies(PairMemory& memory)
 {
 	for (int& code : memory.basis)
-		code ^= 1;
+		code = exchangedCode(code);
 	const Vector3 first  = memory.point[0];
 	memory.point[0]      = memory.point[1];
 	memory.point[1]      = first;
@@ -56,7 +57,7 @@ inline void exchangeBodies(InternalPlanes& planes)
 	std::swap(planes.end[0], planes.end[1]);
 }
 
-/// Those of the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
+/// The planes for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.
 inline void exchangeBodies(BoundingPlanes& planes, const Vector3& centre2, int dimension)
 {
 	std::swap(planes.count[0], planes.count[1]);
@@ -71,7 +72,7 @@ inline void exchangeBodies(BoundingPlanes& planes, const Vector3& centre2, int d
 inline void exchangeBodies(ContactResult& result, const Vector3& centre2, int dimension)
 {
 	for (int& code : result.basis)
-		code ^= 1;
+		code = exchangedCode(code);
 	result.normal        = -result.normal;
 	result.dualDirection = -result.dualDirection;
 	if (!result.hasGeometry) return;

@@ -14,11 +14,15 @@ namespace polytope {
 template <class R, int D> struct PairSurface {
 	SurfaceSums<R, D>     sums;
 	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out
+	KeptVertices*         kept;         ///< of the last step, and then of this; or null
+	bool                  energy;       ///< whether the energy is asked for
+	R                     size;         ///< of a body that the overlap lies in
 	PairPlanes<R, D>      nearest;      ///< those of the program that matter
 	R*                    spare;        ///< room for a section
 	R                     deepest;      ///< largest pressure, −s* of the program
-	R                     size;         ///< of a body that the overlap lies in
 	SurfaceStatus         status;
+
+	POLYTOPE_INLINE PairSurface(R size_, bool energy_, KeptVertices* kept_) : kept(kept_), energy(energy_), size(size_) { }
 
 	/// Part of the solid's contact that is this contact's: all pieces add up to one.
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
@@ -26,13 +30,14 @@ template <class R, int D> struct PairSurface {
 
 /// From the vertices of the pair's feasible set, its planes tight as in the last step, or found anew. False if they do not say what it is.
 template <class R, int W, class Spare>
-POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, bool energy,
-        KeptVertices* kept, FeasibleBuffers<R>& set, const Spare& spare, PairSurface<R, 3>& surface)
+POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, FeasibleBuffers<R>& set,
+        const Spare& spare, PairSurface<R, 3>& surface)
 {
+	KeptVertices* const     kept   = surface.kept;
 	const PairPlanes<R, 3>& planes = near ? near->planes() : all;
 	FeasibleSet<R, W>       vertices(planes, surface.size, set);
 	if (!(near ? vertices.explore(basis) : vertices.recall(*kept, all.first))) return false;
-	FeasibleSums<R> sums(set, energy, surface.sums);
+	FeasibleSums<R> sums(set, surface.energy, surface.sums);
 	if (surface.on) sums.clip(planes, R(tolerance::pieceBox) * surface.size, spare(planes.total), *surface.on);
 	surface.sums.kept = !near;
 	if (!near) surface.deepest = vertices.largestPressure();
@@ -42,12 +47,14 @@ POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R
 	return true;
 }
 
-/// The contact surface of the planes that matter, with room for a section of all in `spare`; energy only if asked for. `kept`: of the last step, and then
-/// of this, or null. `optimum`: gives the program's, or null where there is none; it is asked only if the kept vertices do not say what the surface is.
+/// The contact surface of the planes that matter, with room for a section of all in `spare`. `optimum`: gives the program's, or null where there is none;
+/// it is asked only if the kept vertices do not say what the surface is.
 template <class R, int D, int W, class Optimum>
-POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const Optimum& optimum, R size, bool energy, KeptVertices* kept,
-        ContactWorkspace& workspace, PairSurface<R, D>& surface)
+POLYTOPE_INLINE void findSurface(
+        const PairPlanes<R, D>& planes, const Optimum& optimum, ContactWorkspace& workspace, PairSurface<R, D>& surface)
 {
+	KeptVertices* const kept = surface.kept;
+	const R             size = surface.size;
 	using Near      = NearPlanes<R, D, W>;
 	using Buffers   = SurfaceBuffers<R, D>;
 	using Set       = FeasibleBuffers<R>;
@@ -57,12 +64,11 @@ POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const Optimum& 
 	R* const   walkNumbers = numbers + own + ofSet;
 	int *const setIndices = indices + Near::indicesNeeded(planes.total), *const walkIndices = setIndices + Set::indicesNeeded(most);
 	surface.spare = walkNumbers + Buffers::numbersNeeded(most);
-	surface.size  = size;
 	Set        set(most, numbers + own, setIndices);
 	const auto spare = [&](int total) { return Buffers(total, walkNumbers, walkIndices); };
 	if constexpr (D == 3) {
 		if (kept && kept->vertices > 0 && !kept->exchanged
-		        && surfaceOfVertices<R, W>(planes, static_cast<Near*>(nullptr), nullptr, energy, kept, set, spare, surface))
+		        && surfaceOfVertices<R, W>(planes, static_cast<Near*>(nullptr), nullptr, set, spare, surface))
 			return;
 		if (kept) kept->vertices = 0;
 	}
@@ -73,10 +79,10 @@ POLYTOPE_INLINE void findSurface(const PairPlanes<R, D>& planes, const Optimum& 
 	LpBasis<R, D> basis = *found;
 	Near          near(planes, basis, size, numbers, indices);
 	if constexpr (D == 3) {
-		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, energy, kept, set, spare, surface)) return;
+		if (surfaceOfVertices<R, W>(planes, &near, basis.plane, set, spare, surface)) return;
 	}
 	surface.nearest          = near.planes();
-	const SurfaceParts parts = energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
+	const SurfaceParts parts = surface.energy ? SurfaceParts::Cells : near.facing() ? SurfaceParts::Facing : SurfaceParts::Contact;
 	surface.status           = contactSurface<R, D, W>(
                 surface.nearest, basis.plane, D + 1, size, surface.deepest, parts, spare(surface.nearest.total), surface.sums, surface.on);
 }

@@ -56,17 +56,17 @@ POLYTOPE_INLINE void publishSeparation(
 	rememberWeights<D>(basis.weight, memory);
 }
 
-/// The result before the contact point is computed, and the memory for the next step. `dual`: n_λ in the planes' frame.
-template <class R, int D>
-POLYTOPE_INLINE void publishProgram(const PairInput& in, const ContactFrame<R, D>& f, const PairPlanes<R, D>& planes,
-        const LpBasis<R, D>& basis, LpStatus lp, const ProgramLimits<R>& limits, PairMemory& memory, R* dual, ContactResult& out)
+/// The result before the contact point is computed, with the dual direction, and the memory for the next step.
+template <class R, int D> POLYTOPE_INLINE void publishProgram(const PairQuery<R, D>& q, LpStatus lp)
 {
-	rememberBasis<R, D>(planes, basis, memory, out);
+	const LpBasis<R, D>& basis = q.basis;
+	rememberBasis<R, D>(q.planes, basis, q.memory, q.out);
 	const bool separated = lp == LpStatus::Separated;
-	out.infeasibility    = separated ? separatedBound<R, D>(basis, limits.reach, in, -limits.tolerance) : basis.infeasibility;
-	out.status           = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
-	dualDirection<R, D>(planes, basis, dual);
-	out.dualDirection = worldDirection<R, D>(f, dual);
+	q.out.infeasibility
+	        = separated ? separatedBound<R, D>(basis, q.limits.reach, q.in, -q.limits.tolerance) : basis.infeasibility;
+	q.out.status = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
+	dualDirection<R, D>(q.planes, basis, q.dual);
+	q.out.dualDirection = worldDirection<R, D>(q.frame, q.dual);
 }
 
 } // namespace polytope

@@ -7,15 +7,17 @@
 /// Planes of the bodies, given in their own axes, in the frame of the contact: of one, or all into the rows of the pair.
 namespace polytope {
 
-/// Planes of `shape` into pair rows from `begin` on: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes
-/// `centre` (of the smaller body) and from there `origin` (of the rows' frame) are given: so a normal's rounding acts over the
-/// overlap only. `own`: T, from the rows' frame to the body's axes.
+/// Planes of a body into its rows: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes the frame's `centre` (of the smaller
+/// body) and from there its `origin` are given: so a normal's rounding acts over the overlap only. T: from the frame to the body's axes.
 template <class R, int D, int W>
-POLYTOPE_INLINE void placePlanes(
-        const ConvexShape& shape, const Rotation<R, D>& own, const R* centre, const R* origin, PairPlanes<R, D>& out, int begin, int end)
+POLYTOPE_INLINE void placePlanes(const PairInput& in, const ContactFrame<R, D>& f, int body, PairPlanes<R, D>& out)
 {
-	using V = typename Lanes<R, W>::Type;
-	V T[D][D], C[D], O[D];
+	using V                       = typename Lanes<R, W>::Type;
+	const ConvexShape&    shape   = *in.shape[body];
+	const Rotation<R, D>& own     = f.own[body];
+	const R *             centre = f.centre[body], *origin = f.origin[body];
+	const int             begin = out.begin(body), end = out.end(body);
+	V                     T[D][D], C[D], O[D];
 	for (int j = 0; j < D; ++j) {
 		C[j] = broadcast<R, W>(centre[j]);
 		O[j] = broadcast<R, W>(origin[j]);
@@ -64,8 +66,7 @@ template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, c
 template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {
 	for (int body = 0; body < 2; ++body)
-		placePlanes<R, D, W>(
-		        *in.shape[body], f.own[body], f.centre[body], f.origin[body], planes, planes.begin(body), planes.end(body));
+		placePlanes<R, D, W>(in, f, body, planes);
 }
 
 /// As placePair() in the smaller body's own frame, where its planes stay as they are.
@@ -73,14 +74,13 @@ template <class R, int D, int W>
 POLYTOPE_INLINE void placePairAtHome(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {
 	const ConvexShape& own   = *in.shape[f.home];
-	const int          begin = planes.begin(f.home), count = own.paddedCount(), other = 1 - f.home;
+	const int          begin = planes.begin(f.home), count = own.paddedCount();
 	for (int i = 0; i < count; i += W) {
 		for (int k = 0; k < D; ++k)
 			store<R, W>(planes.normal[k] + begin + i, load<R, W>(own.normalArray(k) + i));
 		store<R, W>(planes.offset + begin + i, load<R, W>(own.offsetArray() + i));
 	}
-	placePlanes<R, D, W>(
-	        *in.shape[other], f.own[other], f.centre[other], f.origin[other], planes, planes.begin(other), planes.end(other));
+	placePlanes<R, D, W>(in, f, 1 - f.home, planes);
 }
 
 } // namespace polytope

@@ -20,21 +20,6 @@ enum class StartBasis {
 	NoPose,      ///< positions or rotations that are not finite
 };
 
-/// Lengths that the program's answers are judged by [m].
-template <class R> struct ProgramLimits {
-	R tolerance;    ///< the bodies touch where s* < −tolerance
-	R dismissAbove; ///< a lower bound of s* above this ends the linear program
-	R reach;        ///< no point of the overlap is farther from any plane (a wall's only plane: than the body is wide)
-};
-
-template <class R, int D>
-POLYTOPE_INLINE ProgramLimits<R> programLimits(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f)
-{
-	const R tolerance = settings.tolerance * f.size;
-	const R larger    = in.shape[1 - f.home]->boundingRadius();
-	return { tolerance, settings.geometryAcrossGap ? R(padOffset) : -tolerance, 2 * (larger < R(padOffset) ? larger : f.size) };
-}
-
 /// Solves the basis given by codes (PairMemory::basis) in the frame; false if it cannot be used. `dual`: its dual direction.
 template <class R, int D>
 POLYTOPE_INLINE bool startFrom(
@@ -42,7 +27,7 @@ POLYTOPE_INLINE bool startFrom(
 {
 	R          normals[D + 1][D];
 	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
-		framePlane<R, D>(in, f, codes[k] & 1, codes[k] >> 1, a, d);
+		framePlane<R, D>(in, f, bodyOfCode(codes[k]), planeOfCode(codes[k]), a, d);
 		for (int j = 0; j < D; ++j)
 			normals[k][j] = a[j];
 	};
@@ -50,7 +35,7 @@ POLYTOPE_INLINE bool startFrom(
 	for (int j = 0; j < D; ++j) {
 		dual[j] = 0;
 		for (int k = 0; k <= D; ++k)
-			dual[j] += R((codes[k] & 1) == 0) * basis.weight[k] * normals[k][j];
+			dual[j] += R(bodyOfCode(codes[k]) == 0) * basis.weight[k] * normals[k][j];
 	}
 	return true;
 }
@@ -64,7 +49,7 @@ POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R,
 	if (!ball || !(in.shape[f.home]->inscribedRadius() <= in.shape[1 - f.home]->inscribedRadius())) return false;
 	basis = *ball;
 	for (int k = 0; k <= D; ++k)
-		memory.basis[k] = 2 * ball->plane[k] + f.home;
+		memory.basis[k] = planeCode(f.home, ball->plane[k]);
 	return true;
 }
 
@@ -77,7 +62,7 @@ POLYTOPE_INLINE bool startFromBall(const PairInput& in, const ContactFrame<R, D>
 	for (int attempt = 0; attempt < 2; ++attempt, ball = 1 - ball) {
 		if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) continue;
 		for (int k = 0; k <= D; ++k)
-			memory.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
+			memory.basis[k] = planeCode(ball, in.shape[ball]->inscribedBasis()[k]);
 		if (startFrom<R, D>(in, f, memory.basis, basis, dual)) return true;
 	}
 	for (int k = 0; k < D; ++k)
@@ -87,11 +72,14 @@ POLYTOPE_INLINE bool startFromBall(const PairInput& in, const ContactFrame<R, D>
 }
 
 /// Sets frame, planes and basis.
-template <class R, int D, int W>
-POLYTOPE_INLINE StartBasis startBasis(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
-        PairMemory& memory, ContactFrame<R, D>& f, PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
+template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const PairQuery<R, D>& q)
 {
-	const bool known = settings.warmStart && memory.hasBasis;
+	const PairInput&    in     = q.in;
+	PairMemory&         memory = q.memory;
+	ContactFrame<R, D>& f      = q.frame;
+	PairPlanes<R, D>&   planes = q.planes;
+	LpBasis<R, D>&      basis  = q.basis;
+	const bool          known  = q.settings.warmStart && memory.hasBasis;
 	setCentres<R, D>(in, f);
 	if (known && memory.hasPoint && followContact<R, D>(in, f, memory.point, memory.dualDirection)) {
 		placePair<R, D, W>(in, f, planes);
@@ -110,7 +98,7 @@ POLYTOPE_INLINE StartBasis startBasis(const PairInput& in, const ContactSettings
 		return StartBasis::OwnBall;
 	}
 	const bool some = last || startFromBall<R, D>(in, f, memory, basis, dual);
-	if (some && lowerBound<R, D>(basis, limits.reach) > limits.dismissAbove) return StartBasis::Separating;
+	if (some && lowerBound<R, D>(basis, q.limits.reach) > q.limits.dismissAbove) return StartBasis::Separating;
 
 	const R away = maxOf<R>(1, norm<R, D>(basis.point) / f.size);
 	R       origin[D];

@@ -3,23 +3,19 @@
 
 namespace polytope {
 
+namespace {
+
+	/// In the order of ContactStatus.
+	constexpr const char* statusNames[] = { "separated", "contact", "normalFromOneBody", "normalFromDual", "roundingLimited", "centreByIpopt",
+		"centreNotConverged", "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed", "surfaceIncomplete" };
+	static_assert(sizeof(statusNames) / sizeof(*statusNames) == contactStatusCount, "each status has a name");
+
+} // namespace
+
 const char* statusName(ContactStatus status)
 {
-	switch (status) {
-		case ContactStatus::Separated: return "separated";
-		case ContactStatus::Contact: return "contact";
-		case ContactStatus::NormalFromOneBody: return "normalFromOneBody";
-		case ContactStatus::NormalFromDual: return "normalFromDual";
-		case ContactStatus::RoundingLimited: return "roundingLimited";
-		case ContactStatus::CentreByIpopt: return "centreByIpopt";
-		case ContactStatus::CentreNotConverged: return "centreNotConverged";
-		case ContactStatus::IpoptNotAvailable: return "ipoptNotAvailable";
-		case ContactStatus::LpNotConverged: return "lpNotConverged";
-		case ContactStatus::NoDirection: return "noDirection";
-		case ContactStatus::Failed: return "failed";
-		case ContactStatus::SurfaceIncomplete: return "surfaceIncomplete";
-	}
-	return "unknown";
+	const int k = int(status);
+	return k >= 0 && k < contactStatusCount ? statusNames[k] : "unknown";
 }
 
 } // namespace polytope

@@ -34,14 +34,8 @@ constexpr bool answered(ContactStatus status)
 		case ContactStatus::NormalFromDual:
 		case ContactStatus::RoundingLimited:
 		case ContactStatus::CentreByIpopt: return true;
-		case ContactStatus::CentreNotConverged:
-		case ContactStatus::IpoptNotAvailable:
-		case ContactStatus::LpNotConverged:
-		case ContactStatus::NoDirection:
-		case ContactStatus::Failed:
-		case ContactStatus::SurfaceIncomplete: return false;
+		default: return false;
 	}
-	return false;
 }
 
 /// The name scripts see, e.g. "contact".

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/ContactFrame.hpp"
-#include "contact/ContactTypes.hpp"
 #include "contact/PenetrationDepth.hpp"
 #include "contact/SurfaceOnPieces.hpp"
 #include "contact/WarmStart.hpp"
@@ -100,37 +98,37 @@ template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
 }
 
-/// After the linear program; x: its point, in the planes' frame. `across`: of a pair that does not touch, whose bodies were
-/// grown by `grown` until it does.
+/// After the linear program, whose point is x. `across`: of a pair that does not touch, whose bodies were grown by `grown` until it does.
 template <class R, int D, int W>
-POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& settings, const ProgramLimits<R>& limits,
-        PairPlanes<R, D>& planes, ContactFrame<R, D>& f, const LpBasis<R, D>& basis, bool optimal, bool across, R grown, R* x, R* dual,
-        PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
 {
+	const ContactSettings&    settings = q.settings;
+	const ContactFrame<R, D>& f        = q.frame;
+	PairPlanes<R, D>&         planes   = q.planes;
+	ContactResult&            out      = q.out;
+	const R* const            dual     = q.dual;
+
 	const bool energy = settings.energy || settings.contactModel == ContactModel::Spring || settings.closure;
-	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(in, settings, planes, f, x, dual, out);
-	PairSurface<R, D>    surface;
+	if (settings.bounding && !across) boundingPlanesOf<R, D, W>(q);
+	KeptVertices* const  kept = settings.warmStart && !across ? &q.memory.surface : nullptr;
+	PairSurface<R, D>    surface(f.size + grown, energy, kept);
 	SurfaceOnPiece<R, D> piece;
 	ExtendedPieces<R, D> extended(planes);
 	LpBasis<R, D>        solid;
-	R                    size = f.size + grown;
 	if (settings.internal && !across && beginOnPieces<R, D>(f, *settings.internal, planes, extended, piece.clips)) {
-		surface.on = &piece;
-		size       = maxOf<R>(f.size, sizeOfOverlap<R>(in, *settings.internal));
+		surface.on   = &piece;
+		surface.size = maxOf<R>(f.size, sizeOfOverlap<R>(q.in, *settings.internal));
 	}
 	const auto optimum = [&]() POLYTOPE_INLINE_LAMBDA -> const LpBasis<R, D>* {
-		if (!surface.on) return &basis;
-		return programOnPieces<R, D, W>(in, *settings.internal, limits, planes, f, size, solid) ? &solid : nullptr;
+		if (!surface.on) return &q.basis;
+		return programOnPieces<R, D, W>(q, surface.size, solid) ? &solid : nullptr;
 	};
 	// one call, so that the code of the surface is there once: a second time only where the solid of several pieces has none
 	for (bool found = false; !found;) {
-		findSurface<R, D, W>(
-		        planes, optimum, size, energy, settings.warmStart && !across ? &memory.surface : nullptr, workspace, surface);
-		found = !surface.on || slidesOnPieces<R, D>(in, f, limits, *settings.internal, surface);
+		findSurface<R, D, W>(planes, optimum, q.workspace, surface);
+		found = !surface.on || slidesOnPieces<R, D>(q.in, f, q.limits, *settings.internal, surface);
 		extended.restore();
-		if (found) continue;
-		surface = PairSurface<R, D>();
-		size    = f.size;
+		if (!found) surface = PairSurface<R, D>(f.size, energy, kept);
 	}
 	out.surfaceKept = surface.sums.kept;
 
@@ -150,7 +148,7 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	for (int k = 0; k < D && across; ++k)
 		n[k] = directed ? dual[k] / norm<R, D>(dual) : R(k == D - 1);
 	for (int k = 0; k < D; ++k)
-		point[k] = centre[k] = sums.pressure > 0 && (!across || found) ? sums.centre[k] / sums.pressure : x[k];
+		point[k] = centre[k] = sums.pressure > 0 && (!across || found) ? sums.centre[k] / sums.pressure : q.x[k];
 	if (directed && !across) {
 		out.turningArm = lineOfAction<R, D>(load, length, n, centre, point);
 		// where one body pierces the other, pressures cancel and leave a couple, whose line of action is anywhere
@@ -185,24 +183,24 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 	out.energy = !energy ? R(-1) : (perArea ? load.energy / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
 	out.share  = surface.share();
 	area *= out.share;
-	out.area = D == 2 ? area * minOf<R>(in.shape[0]->thickness(), in.shape[1]->thickness()) : area;
+	out.area = D == 2 ? area * minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness()) : area;
 
 	if (across) {
 		out.turningArm = out.energy = 0;
-		R most;
-		mostViolated<R, D, W>(planes, point, most); // leaves the slacks
-		out.depth = depthAcrossGap<R, D>(planes, n, grown, basis.infeasibility + grown, dual);
+		R least;
+		mostViolated<R, D, W>(planes, point, least); // leaves the slacks
+		out.depth = depthAcrossGap<R, D>(planes, n, grown, q.basis.infeasibility + grown, dual);
 	}
 
 	// across a gap the program's own point will do as well
 	const bool whole = across || found || surface.status == SurfaceStatus::None;
-	publishContact<R, D>(in, f,
+	publishContact<R, D>(q,
 	        !optimal            ? ContactStatus::LpNotConverged
 	                : !whole    ? ContactStatus::SurfaceIncomplete
 	                : !directed ? ContactStatus::NoDirection
 	                : across    ? ContactStatus::Separated
 	                            : ContactStatus::Contact,
-	        point, n, memory, out);
+	        point, n);
 	out.sectionCentroid = out.point;
 	if constexpr (D == 3) {
 		if (settings.outline) { // where friction acts: the plane in which the contact surface of two faces lies
@@ -214,12 +212,12 @@ POLYTOPE_INLINE void surfaceContact(const PairInput& in, const ContactSettings& 
 				plane[k] = far > 0 ? sums.mainNormal[k] / far : n[k];
 				place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : point[k];
 			}
-			contactSection<R, 3>(in, settings, f, bounds, place, plane, point, surface.spare, workspace, out);
+			contactSection<R, 3>(q, bounds, place, plane, point, surface.spare);
 			out.area            = all;
 			out.sectionCentroid = out.point;
 		}
 	}
-	failUnlessFinite<D>(memory, out);
+	failUnlessFinite<D>(q.memory, out);
 }
 
 } // namespace polytope

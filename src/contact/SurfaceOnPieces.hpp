@@ -71,17 +71,16 @@ POLYTOPE_APART R internalDepth(const PairInput& in, const ContactFrame<R, D>& f,
 	return 2 * least;
 }
 
-/// The planes that bound the overlap, with their slacks at its analytic centre. x and dual turn with the frame.
-template <class R, int D, int W>
-POLYTOPE_APART void boundingPlanesOf(const PairInput& in, const ContactSettings& settings, PairPlanes<R, D>& planes, ContactFrame<R, D>& f,
-        R* x, R* dual, ContactResult& out)
+/// The planes that bound the overlap, with their slacks at its analytic centre. What is in the frame turns with it.
+template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<R, D> q)
 {
-	R centre[D];
+	BoundingPlanes& bounding = *q.settings.bounding;
+	R               centre[D];
 	for (int k = 0; k < D; ++k)
-		centre[k] = x[k];
-	newtonCentre<R, D, W>(planes, f, centre, R(settings.newtonTolerance), x, dual, out);
-	boundingPlanes<R, D, W>(planes, centre, *settings.bounding);
-	settings.bounding->point = worldPoint<R, D>(in, f, toBody<R, D>(f, f.home, centre));
+		centre[k] = q.x[k];
+	newtonCentre<R, D, W>(q, centre, R(q.settings.newtonTolerance));
+	boundingPlanes<R, D, W>(q.planes, centre, bounding);
+	bounding.point = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, centre));
 }
 
 /// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece and as far as the solid goes on beyond it.
@@ -100,24 +99,23 @@ template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const In
 	return size;
 }
 
-/// The program of the extended piece, from the ball of the body that has no internal face. False where it has no optimum to find a surface from.
-template <class R, int D, int W>
-POLYTOPE_APART bool programOnPieces(const PairInput& in, const InternalPlanes& internal, const ProgramLimits<R>& limits,
-        PairPlanes<R, D>& planes, const ContactFrame<R, D>& f, R size, LpBasis<R, D>& basis)
+/// The program of the extended piece, from the ball of the body that has no internal face: its optimum. `size`: of a body that the overlap lies in.
+/// False where it has no optimum to find a surface from.
+template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R, D> q, R size, LpBasis<R, D>& optimum)
 {
-	const int ball = internal.count[0] > 0 ? 1 : 0;
-	if (!(in.shape[ball]->inscribedRadius() < R(padOffset))) return false;
+	const int ball = q.settings.internal->count[0] > 0 ? 1 : 0;
+	if (!(q.in.shape[ball]->inscribedRadius() < R(padOffset))) return false;
 	PairMemory start;
 	R          dual[D];
 	for (int k = 0; k <= D; ++k)
-		start.basis[k] = 2 * in.shape[ball]->inscribedBasis()[k] + ball;
-	if (!startFrom<R, D>(in, f, start.basis, basis, dual)) return false;
-	recallBasis<R, D>(planes, start, basis);
-	ProgramLimits<R> all = limits;
+		start.basis[k] = planeCode(ball, q.in.shape[ball]->inscribedBasis()[k]);
+	if (!startFrom<R, D>(q.in, q.frame, start.basis, optimum, dual)) return false;
+	recallBasis<R, D>(q.planes, start, optimum);
+	ProgramLimits<R> all = q.limits;
 	all.dismissAbove     = R(padOffset);
 	int pivots           = 0;
-	return solvePhaseOne<R, D, W>(StartBasis::Aimed, planes, all, size, basis, pivots) == LpStatus::Optimal
-	        && basis.infeasibility < -limits.tolerance;
+	return solvePhaseOne<R, D, W>(StartBasis::Aimed, q.planes, all, size, optimum, pivots) == LpStatus::Optimal
+	        && optimum.infeasibility < -q.limits.tolerance;
 }
 
 /// The extended piece in place of the piece. What lies on the piece is kept within `clips`; false if they have no room.

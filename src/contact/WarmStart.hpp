@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/ContactFrame.hpp"
-#include "contact/ContactTypes.hpp"
+#include "contact/PairQuery.hpp"
 #include "program/BasisSolver.hpp"
-#include "program/PairPlanes.hpp"
+#include "program/PlaneCode.hpp"
 
 #include <cmath>
 
@@ -39,31 +38,30 @@ template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weigh
 		memory.weights[k] = weights[k];
 }
 
-/// `n`: unit normal in the planes' frame; x: contact point. The next step begins there.
+/// `point`: the contact point, where the next step begins; `n`: unit normal; both in the planes' frame.
 template <class R, int D>
-POLYTOPE_INLINE void publishContact(const PairInput& in, const ContactFrame<R, D>& f, ContactStatus status, const R* x, const R* n,
-        PairMemory& memory, ContactResult& out)
+POLYTOPE_INLINE void publishContact(const PairQuery<R, D>& q, ContactStatus status, const R* point, const R* n)
 {
-	out.status      = status;
-	memory.point    = { toBody<R, D>(f, 0, x), toBody<R, D>(f, 1, x) };
-	memory.hasPoint = true;
-	out.normal      = worldDirection<R, D>(f, n);
-	out.point       = worldPoint<R, D>(in, f, memory.point[f.home]);
+	const ContactFrame<R, D>& f = q.frame;
+	q.out.status                = status;
+	q.memory.point              = { toBody<R, D>(f, 0, point), toBody<R, D>(f, 1, point) };
+	q.memory.hasPoint           = true;
+	q.out.normal                = worldDirection<R, D>(f, n);
+	q.out.point                 = worldPoint<R, D>(q.in, f, q.memory.point[f.home]);
 }
 
 template <class R, int D> POLYTOPE_INLINE void recallBasis(const PairPlanes<R, D>& planes, const PairMemory& memory, LpBasis<R, D>& basis)
 {
 	for (int k = 0; k <= D; ++k)
-		basis.plane[k] = (memory.basis[k] >> 1) + ((memory.basis[k] & 1) ? planes.first : 0);
+		basis.plane[k] = rowOfCode(memory.basis[k], planes.first);
 }
 
 template <class R, int D>
 POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {
 	for (int k = 0; k <= D; ++k) {
-		const bool second = basis.plane[k] >= planes.first;
-		memory.basis[k]   = 2 * (basis.plane[k] - (second ? planes.first : 0)) + second;
-		out.weights[k]    = basis.weight[k];
+		memory.basis[k] = codeOfRow(basis.plane[k], planes.first);
+		out.weights[k]  = basis.weight[k];
 	}
 	memory.hasBasis = true;
 	out.basis       = memory.basis;
@@ -80,8 +78,8 @@ POLYTOPE_INLINE bool separatedByWeights(const PairInput& in, const PairMemory& m
 	R sum[2][D] = {}, world[2][D];
 	R least = 0, square = 0, rest = 1;
 	for (int k = 0; k <= D; ++k) {
-		const int          index  = memory.basis[k] >> 1;
-		const bool         second = memory.basis[k] & 1;
+		const int          index  = planeOfCode(memory.basis[k]);
+		const bool         second = bodyOfCode(memory.basis[k]) == 1;
 		const ConvexShape& shape  = *in.shape[second];
 		const R            weight = maxOf<R>(k < D ? R(memory.weights[k]) : rest, 0);
 		// added to both sums, to one as zero: selecting the sum would go through memory

@@ -51,7 +51,7 @@ public:
 	/// dual feasible whatever the other body does.
 	Real                      inscribedRadius() const { return inscribedRadius_; }
 	const std::array<int, 4>& inscribedBasis() const { return inscribedBasis_; }
-	/// That basis solved, in the body's axes; null where it has too few digits (planes nearly parallel), and for a half-space.
+	/// The inscribed ball's basis, solved in the body's axes; null where it has too few digits (planes nearly parallel), and for a half-space.
 	template <int D> const LpBasis<Real, D>* inscribedBall() const
 	{
 		const auto& ball = std::get<std::optional<LpBasis<Real, D>>>(inscribedBall_);

@@ -14,7 +14,7 @@
 namespace polytope {
 namespace {
 
-	/// That the origin spans with a face's triangle.
+	/// Moments of the tetrahedron that the origin spans with a face's triangle.
 	void addTetrahedron(SolidMoments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
 	{
 		const Real    volume = a.dot(b.cross(c)) / 6;

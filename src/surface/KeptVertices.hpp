@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "program/PlaneCode.hpp"
 #include "surface/SurfaceTolerances.hpp"
 
 #include <array>
@@ -19,7 +20,7 @@ struct KeptVertices {
 	std::uint8_t vertices  = 0; ///< 0: nothing is kept; of edges there are twice as many
 	std::uint8_t exchanged = 0; ///< whether the bodies are in the other order than they were then
 
-	/// 2 × index + (0: body 1, 1: body 2), or noPressure.
+	/// Codes of planes (PlaneCode.hpp), or noPressure.
 	std::array<std::uint16_t, mostPlanes> plane;
 	/// Places of four planes in that list; the plane of no pressure comes last.
 	std::array<std::array<std::uint8_t, 4>, mostVertices> tight;
@@ -31,15 +32,15 @@ struct KeptVertices {
 	{
 		const int name = plane[std::size_t(k)];
 		if (name == noPressure) return total;
-		const int index = name >> 1, own = (name & 1) ? rowsOfBody1 + index : index;
-		return own < ((name & 1) ? total : rowsOfBody1) ? own : -1;
+		const int own = rowOfCode(name, rowsOfBody1);
+		return own < (bodyOfCode(name) ? total : rowsOfBody1) ? own : -1;
 	}
 
-	/// The number of a row; −1 if it has none.
+	/// The code of a row; −1 if it has none that fits.
 	static int name(int row, int rowsOfBody1)
 	{
-		const int second = row >= rowsOfBody1, index = row - (second ? rowsOfBody1 : 0);
-		return index < mostOfBody ? 2 * index + second : -1;
+		const int code = codeOfRow(row, rowsOfBody1);
+		return planeOfCode(code) < mostOfBody ? code : -1;
 	}
 };
 

@@ -2,6 +2,7 @@
 #include "contact/PolytopeGeom.hpp"
 
 #include <src/numbers/Rotation.hpp>
+#include <src/program/PlaneCode.hpp>
 
 #include <core/Scene.hpp>
 #include <pkg/common/ElastMat.hpp>
@@ -75,7 +76,7 @@ polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 	const std::vector<int>&  codes = *internalFaces.get();
 	const std::vector<Real>& ends  = *internalEnds.get();
 	for (std::size_t k = 0; k < codes.size(); ++k)
-		planes.add(codes[k] & 1, codes[k] >> 1, { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
+		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]), { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
 	return planes;
 }
 
@@ -86,7 +87,7 @@ bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < planes.count[body]; ++k) {
 			const polytope::Plane& end = planes.end[body][k];
-			codes.push_back(2 * planes.plane[body][k] + body);
+			codes.push_back(polytope::planeCode(body, planes.plane[body][k]));
 			ends.insert(ends.end(), { end.normal[0], end.normal[1], end.normal[2], end.offset });
 		}
 	// poses are rounded, and where a support ends with them
@@ -119,7 +120,7 @@ namespace {
 	bool fit(const std::vector<int>& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
 	{
 		for (int code : codes)
-			if (code < 0 || (code >> 1) >= ((code & 1) ? convex2 : convex1).planeCount()) return false;
+			if (code < 0 || polytope::planeOfCode(code) >= (polytope::bodyOfCode(code) ? convex2 : convex1).planeCount()) return false;
 		return true;
 	}
 
