@@ -48,9 +48,8 @@ class PolytopeGeom : public ScGeom {
 public:
 	virtual ~PolytopeGeom() = default;
 
-	/// 2 × plane + body, of each plane of a basis.
+	/// Codes of planes (src/program/PlaneCode.hpp): those of a basis, and of others.
 	using BasisCodes = std::array<std::uint16_t, 4>;
-	/// 2 × plane + body.
 	using PlaneCodes = Seldom<std::vector<int>>;
 	/// Four numbers for each plane.
 	using PlaneEnds = Seldom<std::vector<Real>>;
@@ -71,12 +70,31 @@ public:
 	/// Corners of the outline in the world.
 	std::vector<Vector3r> cornersOfOutline() const;
 	boost::python::list   outlineCorners() const;
+	/// The joint acts as a bond of its faces in this step (RockJointBond.cpp). Of the law's, this alone is written into a geometry: until the next query
+	/// all who ask a contact where its force acts, and with what energy (window, files, arrays, time step), have the bond's answer. Depth, area and
+	/// status stay the overlap's.
+	void actAsBond(const Vector3r& bondNormal, const Vector3r& bondPoint, Real bondEnergyPerStiffness)
+	{
+		normal             = bondNormal;
+		contactPoint       = bondPoint;
+		energyPerStiffness = bondEnergyPerStiffness;
+	}
 	polytope::FaceForce   faceForce() const { return polytope::FaceForce(faceForceCode); }
 	std::string           statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,
-	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: point, :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2), :yref:`penetrationDepth<ScGeom.penetrationDepth>` and :yref:`contactArea<PolytopeGeom.contactArea>` by the :yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`. Models with a surface: a force of stiffness times depth (per area: times area, too) along the normal through the point is the gradient of an elastic energy; on faces its point is the centre of the pressure (docs/contact-force.md). Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for :yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose :yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2*, which YADE's physics take their stiffness from, are the bodies' sizes when the contact began: half the edge of the cube (polygons: square) of the same volume (area), a sphere's radius; a wall, a box, a facet and a body that cannot move count as large as the other body.)""",
+	R"""(Geometry of one contact of a :yref:`Polytope` [Boon2012]_: point, :yref:`normal<GenericSpheresContact.normal>` (from body 1 to body 2),
+:yref:`penetrationDepth<ScGeom.penetrationDepth>` and :yref:`contactArea<PolytopeGeom.contactArea>` by the
+:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`. Models with a surface: a force of stiffness times depth (per area: times area,
+too) along the normal through the point is the gradient of an elastic energy; on faces its point is the centre of the pressure
+(docs/contact-force.md). While a rock joint acts as a bond (:yref:`RockJointPhys.bond`), its law writes the bond's normal, point and
+:yref:`energyPerStiffness<PolytopeGeom.energyPerStiffness>` in place of the overlap's. Being a :yref:`ScGeom`, it works with every ``Law2_ScGeom_*`` (with *sphericalBodies* = False for
+:yref:`Law2_ScGeom_FrictPhys_CundallStrack`) and with :yref:`GlobalStiffnessTimeStepper` (whose
+:yref:`defaultDt<GlobalStiffnessTimeStepper.defaultDt>` must be set, to 0.2 $\\sqrt{m/k_n}$ or so: until the first contact it takes the step of a
+P-wave, which YADE knows for spheres only); :yref:`refR1<GenericSpheresContact.refR1>` and *refR2*, which YADE's physics take their stiffness from,
+are the bodies' sizes when the contact began: half the edge of the cube (polygons: square) of the same volume (area), a sphere's radius; a wall, a
+box, a facet and a body that cannot move count as large as the other body.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball "
 		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
 		((Real, contactArea, 0, Attr::readonly, "Of the contact surface as seen along the normal, or, *boon2012*, in which the plane "
@@ -123,7 +141,12 @@ public:
 		.add_property("outline", &PolytopeGeom::outlineCorners, "Corners of the contact area as seen along the normal, a list of points [m] "
 		        "in the plane through the contact point: the face over which a rock joint between polyhedra shears. Empty for others, and "
 		        "until the next step after loading a scene.")
-		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody* (*boon2012*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear program's separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear program's point is used); *noDirection* (coincident bodies, and bodies that pierce each other); *failed* (last step's geometry is kept); *surfaceIncomplete* (*foundation*, *spring*: a part of the surface was not found).)""")
+		.add_property("status", &PolytopeGeom::statusText, R"""(How the last query ended: *contact*; *separated*; *normalFromOneBody*
+(*boon2012*: the point lies deeper than the corner radius in one body, the other's normal is used); *normalFromDual* (in both: the linear program's
+separating direction is used); *roundingLimited* (overlap as thin as rounding); *centreByIpopt* (Newton did not converge to the point, Ipopt found
+it); *centreNotConverged* (neither Newton nor Ipopt converged), *ipoptNotAvailable* (the build has none), *lpNotConverged* (in these three the linear
+program's point is used); *noDirection* (coincident bodies, and bodies that pierce each other); *failed* (last step's geometry is kept);
+*surfaceIncomplete* (*foundation*, *spring*: a part of the surface was not found).)""")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(PolytopeGeom, ScGeom);

@@ -5,7 +5,8 @@
 // The overlap of two bodies is a foundation that takes pressure only. Where such a joint tilts, part of its faces parts, and where it is pulled all
 // of them: the overlap, and with it the area that the strength acts on, would vanish at tilts that the strength allows. So from the step in which
 // the faces lie on each other all over, force and moment are those of springs over the whole area that the faces have in common, in tension and
-// in compression. While all of it is pressed, both are the same.
+// in compression. While all of it is pressed, both are the same. The contact's geometry then has normal, point and energy of the bond
+// (PolytopeGeom::actAsBond()).
 #include "joint/RockJointStep.hpp"
 
 #include <src/bond/BondTolerances.hpp>
@@ -118,8 +119,7 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 		phys.bond.reset();
 		return false;
 	}
-	geom.normal       = normal;
-	geom.contactPoint = bond.point;
+	geom.actAsBond(normal, bond.point, (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn);
 	const Pair                atBond(contact, geom, scene);
 	std::optional<DampedPair> damped;
 	if (damps()) damped.emplace(atBond, phys, stiffnessSums);
@@ -137,7 +137,6 @@ bool Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::actsAsBond(
 	if (!apply(atBond, phys)) return true;
 	if (damped) takePart(atBond, *damped, phys);
 
-	geom.energyPerStiffness = (bond.energy - shear.squaredNorm() / (2 * phys.ks)) / phys.kn;
 	if (!scene->trackEnergy) phys.lastStep.clear();
 	else {
 		work.plastic        = bond.yields() ? bond.plasticWork() : Real(0);

@@ -101,7 +101,7 @@ Real Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedPair::damper(
 			motion += (rocks ? turning(one.mover, direction)
 			                 : translating(one.mover, direction) + turning(one.mover, one.arm.cross(direction)))
 			        / one.limit;
-	const Real damper = 2 * fraction * math::sqrt(stiffness / inverse) * (rocks ? gyrationSquared : Real(1));
+	const Real damper = fraction * criticalDamper(stiffness, inverse) * (rocks ? gyrationSquared : Real(1));
 	return damper * motion * dt > 1 ? 1 / (motion * dt) : damper;
 }
 
@@ -138,18 +138,20 @@ Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::shearDamper(
 Vector3r Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::rockingDamper(
         const Pair& pair, const DampedPair& damped, const RockJointPhys& phys, Real normal) const
 {
-	Real        gyrationSquared = phys.contactArea / 12;
-	const auto* polygon         = dynamic_cast<const Polytope*>(pair.body1->shape.get());
-	if (polygon && polygon->dimension == 2) {
-		const auto* other = static_cast<const Polytope*>(pair.body2->shape.get()); // polygons meet polygons only
-		gyrationSquared   = math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
-	}
-	const Vector3r rocking = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
-	const Real     rate    = rocking.norm();
+	const Real     gyrationSquared = rockingGyrationSquared(*pair.body1, *pair.body2, phys);
+	const Vector3r rocking         = pair.spin() - pair.geom.normal.dot(pair.spin()) * pair.geom.normal;
+	const Real     rate            = rocking.norm();
 	if (!(rate > 0)) return Vector3r::Zero();
 	const Vector3r moment = -damped.damper(rockingDamping, phys.kn, rocking / rate, gyrationSquared) * rocking;
 	const Real     limit = math::sqrt(3 * gyrationSquared) * normal, size = moment.norm();
 	return size > limit ? Vector3r(limit / size * moment) : moment;
+}
+
+Real rockingGyrationSquared(const Body& body1, const Body& body2, const RockJointPhys& phys)
+{
+	const auto *polygon = dynamic_cast<const Polytope*>(body1.shape.get()), *other = dynamic_cast<const Polytope*>(body2.shape.get());
+	if (!polygon || !other || polygon->dimension != 2) return phys.contactArea / 12;
+	return math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
 }
 
 Real inverseDampedMass(const Body& body1, const Body& body2, const Vector3r& normal, const RockJointPhys& phys, const StiffnessSums& sums,

@@ -111,26 +111,17 @@ namespace {
 		return axes * angular.asDiagonal() * axes.transpose();
 	}
 
-	/// Of the area that Law2_PolytopeGeom_RockJointPhys_MohrCoulomb spreads its rocking damper over.
-	Real gyrationSquared(const Pair& pair, const RockJointPhys& phys)
-	{
-		const auto *polygon = dynamic_cast<const Polytope*>(pair.body1.shape.get()),
-		           *other   = dynamic_cast<const Polytope*>(pair.body2.shape.get());
-		if (!polygon || !other || polygon->dimension != 2) return phys.contactArea / 12;
-		return math::pow(phys.contactArea / math::min(polygon->thickness, other->thickness), 2) / 12;
-	}
-
 	void addDampers(const Pair& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
 	        polytope::ContactSprings& springs)
 	{
 		const Real inverse = inverseDampedMass(pair.body1, pair.body2, pair.geom.normal, phys, law.stiffnessSums, pair.scene);
 		if (!(inverse > 0)) return;
-		const Real normal    = 2 * math::sqrt(phys.kn / inverse);
+		const Real normal    = criticalDamper(phys.kn, inverse);
 		springs.normalDamper = law.normalDamping * normal;
-		springs.shearDamper  = law.shearDamping * 2 * math::sqrt(phys.ks / inverse);
+		springs.shearDamper  = law.shearDamping * criticalDamper(phys.ks, inverse);
 		if (phys.ks > 0) springs.twistingDamper = springs.shearDamper * phys.twistingStiffness / phys.ks;
 		if (law.rockingDamping > 0)
-			springs.rockingDamper = law.rockingDamping * normal * gyrationSquared(pair, phys) * across(pair.geom.normal);
+			springs.rockingDamper = law.rockingDamping * normal * rockingGyrationSquared(pair.body1, pair.body2, phys) * across(pair.geom.normal);
 	}
 
 	using AllSprings = std::vector<const HasSprings*>;

@@ -7,14 +7,14 @@ import os
 import numpy as np
 import pytest
 from scenes import gravity, joint, loop, stepper
-from yade import NewtonIntegrator, O, Vector3, polytope
+from yade import BartonBandisStrength, ContinuouslyYieldingStrength, HyperbolicClosure, NewtonIntegrator, O, Vector3, polytope
 
 kn, ks = 1e9, 4e8
 
 
-def driven(velocity, overlap=0., **strength):
-	"""A block bonded on top of a fixed one, moved by the script at this velocity."""
-	joint(normalStiffness=kn, shearStiffness=ks, frictionAngle=0.5)
+def driven(velocity, overlap=0., ofJoint={}, **strength):
+	"""A block bonded on top of a fixed one, moved by the script at this velocity. *ofJoint*: attributes of the joint's material."""
+	joint(normalStiffness=kn, shearStiffness=ks, frictionAngle=0.5, **ofJoint)
 	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.4, 0.3), fixed=True))
 	O.bodies.append(polytope.cuboid((0, 0, 0.6 - overlap), (0.5, 0.4, 0.3), fixed=True))
 	loop(True)
@@ -93,6 +93,32 @@ def testPressedItFailsWithFrictionAndTheJointGoesOn(overlap):
 	for _ in range(100):
 		O.step()
 	assert O.forces.f(1)[2] == pytest.approx(normal, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+	'ofJoint',
+	[
+		{},
+		dict(dilationAngle=math.radians(1)),
+		dict(dilationAngle=0.2, cohesion=1e5, residualCohesion=1e4, tensileStrength=1e4, residualTensileStrength=1e3, residualFrictionAngle=0.4),
+		dict(closure=HyperbolicClosure(maximumClosure=1e-3), dilationAngle=0.2),
+		dict(strength=BartonBandisStrength(JRC=10, JCS=1e8)),
+		dict(strength=ContinuouslyYieldingStrength(initialFrictionAngle=0.9)),
+	],
+	ids=['plain', 'dilation', 'residual', 'closure', 'Barton-Bandis', 'yielding'],
+)
+def testTheOverlapOfABondPressesOnNoJointThatFollowsIt(ofJoint):
+	"""Whatever the joint is: where the bond had no force it has that of its dilation alone, and of the overlap (here 80 kN) nothing."""
+	overlap = 1e-4
+	bond = driven((0.1, 0, 0), overlap, ofJoint, tensileStrength=1e9, cohesion=1e4, frictionAngle=0.5, bendingShare=0)
+	runUntilItFails(bond)
+	assert bond.failure == 'shear' and bond.overlap == pytest.approx(overlap, rel=1e-9)
+	for _ in range(10):
+		O.step()
+		phys = O.interactions[0, 1].phys
+		assert phys.restOverlap == bond.overlap
+		assert phys.normalForce.norm() <= phys.kn * phys.dilation * 1.05 + 2e-3 * kn * 0.8 * overlap
+	assert (phys.dilation > 0) == ('dilationAngle' in ofJoint or isinstance(ofJoint.get('strength'), BartonBandisStrength))
 
 
 def testABrickHangsByItsBondAMillimetreOffCentre():
