@@ -40,7 +40,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeBolt, Serializable,
-	R"""(One rock bolt or cable, made by *polytope.bolt(…)* and kept by :yref:`PolytopeBolts` (docs/support.md): steel along a straight line, without mass, held by a face plate at its head and by an anchor at its end or by grout. Along it lie stations: the plate, the anchor, and the nodes that bear on a block through grout; between two neighbouring stations is an element of steel.)""",
+	R"""(One rock bolt or cable, made by *polytope.bolt(…)* and kept by :yref:`PolytopeBolts` (docs/support.md): steel along a straight line,
+without mass, held by a face plate at its head and by an anchor at its end or by grout. Along it lie stations: the plate, the anchor, and the nodes
+that bear on a block through grout; between two neighbouring stations is an element of steel.)""",
 		((Vector3r, head, Vector3r::Zero(), Attr::readonly, "Head, where the bolt was made [m]."))
 		((Vector3r, end, Vector3r::Zero(), Attr::readonly, "End, where the bolt was made [m]."))
 		((Real, area, 0, Attr::readonly, "Cross-section of the steel [m²]."))

@@ -37,7 +37,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PolytopeBoltCrossing, Serializable,
-	R"""(Where a :yref:`PolytopeBolt` goes over from one block that holds it to the next (docs/support.md): it pulls the two blocks together along the line between two points, the ends of what steel is free of grout there, and where it is grouted on both sides of a joint it resists shear as a dowel.)""",
+	R"""(Where a :yref:`PolytopeBolt` goes over from one block that holds it to the next (docs/support.md): it pulls the two blocks together along
+the line between two points, the ends of what steel is free of grout there, and where it is grouted on both sides of a joint it resists shear as a
+dowel.)""",
 		((Body::id_t, id1, Body::ID_NONE, Attr::readonly, "Block on the side of the head; of a clump, a member."))
 		((Body::id_t, id2, Body::ID_NONE, Attr::readonly, "Block on the side of the end."))
 		((Real, start, 0, Attr::readonly, "Where the free steel begins, from the bolt's head [m]."))

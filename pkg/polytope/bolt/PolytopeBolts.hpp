@@ -29,9 +29,12 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeBolts, GlobalEngine,
-	R"""(Forces of all rock bolts and cables on the :yref:`Polytopes<Polytope>` that hold them, after the :yref:`InteractionLoop` and before :yref:`NewtonIntegrator` (*polytope.bolt(…)* puts it there and makes the bolts; docs/support.md). A bolt has no mass: slip and tension along it are those of equilibrium for where the blocks are. Forces on blocks come in opposite pairs, so that both momenta are kept to rounding.
+	R"""(Forces of all rock bolts and cables on the :yref:`Polytopes<Polytope>` that hold them, after the :yref:`InteractionLoop` and before
+:yref:`NewtonIntegrator` (*polytope.bolt(…)* puts it there and makes the bolts; docs/support.md). A bolt has no mass: slip and tension along it are
+those of equilibrium for where the blocks are. Forces on blocks come in opposite pairs, so that both momenta are kept to rounding.
 
-With O.trackEnergy: *elastPotential* (stored), *plastDissip* (yield of steel, slip of grout, yield of dowels) and *fractureDissip* (where steel broke). One engine of this kind a scene.)""",
+With O.trackEnergy: *elastPotential* (stored), *plastDissip* (yield of steel, slip of grout, yield of dowels) and *fractureDissip* (where steel
+broke). One engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBolt>>, bolts, , (Attr::hidden | Attr::triggerPostLoad), "All bolts"))
 		((bool, unbreakable, false, Attr::noSave, "Steel does not yield or break, grout does not slip: for coming to rest under loads that "
 		        "begin at once, see *polytope.settle*. Not saved."))

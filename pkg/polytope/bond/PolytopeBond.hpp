@@ -53,7 +53,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PolytopeBond, Serializable,
-	R"""(One bond between two :yref:`Polytopes<Polytope>`, made by *polytope.bond(…)* and kept by :yref:`PolytopeBonds` (docs/bonds.md). Its area and frames are those in which it was made and do not follow the bodies' overlap. Axis 0 of its frame is its normal, from body 1 to body 2, axes 1 and 2 are the principal axes of its area. Stiffnesses and strengths may be changed in a run and take effect in the next step.)""",
+	R"""(One bond between two :yref:`Polytopes<Polytope>`, made by *polytope.bond(…)* and kept by :yref:`PolytopeBonds` (docs/bonds.md). Its area
+and frames are those in which it was made and do not follow the bodies' overlap. Axis 0 of its frame is its normal, from body 1 to body 2, axes 1 and
+2 are the principal axes of its area. Stiffnesses and strengths may be changed in a run and take effect in the next step.)""",
 		((Body::id_t, id1, Body::ID_NONE, Attr::readonly, "First body."))
 		((Body::id_t, id2, Body::ID_NONE, Attr::readonly, "Second body."))
 		((Vector3i, cellDist, Vector3i::Zero(), Attr::readonly, "Periodic scenes: by how many cells body 2 is shifted, as "

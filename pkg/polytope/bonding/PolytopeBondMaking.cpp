@@ -105,7 +105,7 @@ namespace {
 
 	[[noreturn]] void refuseBond(const std::string& message) { throw std::invalid_argument(message); }
 
-	/// Those of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
+	/// Strengths of the joint between the two materials, where it has any: a joint without strength of its own is bonded for good.
 	void takeStrengths(PolytopeBond& bond, const RockJointMat* m1, const RockJointMat* m2)
 	{
 		Real tension = std::numeric_limits<Real>::infinity(), cohesion = tension;

@@ -47,9 +47,14 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeBonds, GlobalEngine,
-	R"""(Forces and moments of all bonds between :yref:`Polytopes<Polytope>`, after the :yref:`InteractionLoop` and before :yref:`NewtonIntegrator` (*polytope.bond(…)* puts it there and makes the bonds; docs/bonds.md). While a bond is intact it acts in place of the contact of its two bodies; when it has failed their ordinary contact goes on. Force and moment follow from where the two bodies are and have an energy; both momenta are kept to rounding. Bonds fail where $\sigma+\beta\sigma_b>\sigma_t$ with the mean normal stress $\sigma$ (tension positive) and the largest one by bending $\sigma_b$, or $\tau+\beta\tau_t>c-\sigma\tan\phi$ with the mean shear stress and the largest one by twisting.
+	R"""(Forces and moments of all bonds between :yref:`Polytopes<Polytope>`, after the :yref:`InteractionLoop` and before
+:yref:`NewtonIntegrator` (*polytope.bond(…)* puts it there and makes the bonds; docs/bonds.md). While a bond is intact it acts in place of the contact
+of its two bodies; when it has failed their ordinary contact goes on. Force and moment follow from where the two bodies are and have an energy; both
+momenta are kept to rounding. Bonds fail where $\sigma+\beta\sigma_b>\sigma_t$ with the mean normal stress $\sigma$ (tension positive) and the largest
+one by bending $\sigma_b$, or $\tau+\beta\tau_t>c-\sigma\tan\phi$ with the mean shear stress and the largest one by twisting.
 
-With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One engine of this kind a scene.)""",
+With O.trackEnergy: *elastPotential* (stored) and *fractureDissip* (what a failed bond had stored, less what the joint that follows it stores). One
+engine of this kind a scene.)""",
 		((vector<shared_ptr<PolytopeBond>>, bonds, , (Attr::hidden | Attr::triggerPostLoad), "All bonds, failed ones too"))
 		((bool, unbreakable, false, Attr::noSave, "No bond fails: for coming to rest under loads that begin at once, see *polytope.settle*. "
 		        "Not saved."))

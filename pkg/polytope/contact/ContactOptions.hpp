@@ -36,7 +36,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Polytope_Polytope_PolytopeGeom, PolytopeGeomFunctor,
-	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Its attributes are the settings of all contacts of the scene: functors of other pairs have none of their own. Nothing is thrown or printed in the loop: outcomes are in :yref:`PolytopeGeom.status` and counted in *stats()*.)""",
+	R"""(Creates or updates a :yref:`PolytopeGeom` for two :yref:`Polytopes<Polytope>` [Boon2012]_. Its attributes are the settings of all
+contacts of the scene: functors of other pairs have none of their own. Nothing is thrown or printed in the loop: outcomes are in
+:yref:`PolytopeGeom.status` and counted in *stats()*.)""",
 		((string, contactModel, "surface", Attr::triggerPostLoad, "*surface*: *foundation* for contacts with a stiffness per area [Pa/m], "
 		        "*spring* for those with a stiffness per contact [N/m], YADE's own physics among them. *foundation*, *spring*: one of them "
 		        "for all contacts: point, normal, depth and area of a force that is the gradient of an energy, the volume of the linear "

@@ -119,7 +119,11 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointPhys, FrictPhys,
-	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses [N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present friction, peak or residual.)""",
+	R"""(Physics of one rock joint contact, made by :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` for
+:yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`. :yref:`kn<NormPhys.kn>` and :yref:`ks<NormShearPhys.ks>` are the contact's present stiffnesses
+[N/m]. :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the whole forces, viscous parts included. All
+values may be changed during a run and take effect in the next step; :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the present
+friction, peak or residual.)""",
 		((Real, normalStiffness, 0, , "Normal stiffness per area [Pa/m]: $k_n$ is this times :yref:`contactArea<RockJointPhys.contactArea>` "
 		        "in each step; 0: stiffness per contact."))
 		((Real, shearStiffness, 0, , "Shear stiffness per area [Pa/m], in the same way for $k_s$."))

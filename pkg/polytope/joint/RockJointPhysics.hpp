@@ -22,10 +22,21 @@ public:
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,
-	R"""(Creates a :yref:`RockJointPhys` from two :yref:`RockJointMats<RockJointMat>`. Stiffnesses are those of the joint, so equal materials give exactly their value; of two different ones each contributes half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of friction angles, cohesions, tensile strengths, dilation angles and limits the smaller holds (the residual angle of a material without one is its friction angle). A closure or a shear law of its own (:yref:`RockJointMat.closure`, :yref:`RockJointMat.strength`) the joint has if both materials have one of the same kind, else it is a linear spring, and Mohr-Coulomb: of hyperbolas the mean of the maximum closures, of powers of the stress the means; of roughness (each scaled to its joint's length), wall strength, friction angles and exponents the smaller, of peak displacements and reference stresses the larger.
+	R"""(Creates a :yref:`RockJointPhys` from two :yref:`RockJointMats<RockJointMat>`. Stiffnesses are those of the joint, so equal materials give
+exactly their value; of two different ones each contributes half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of friction angles, cohesions,
+tensile strengths, dilation angles and limits the smaller holds (the residual angle of a material without one is its friction angle). A closure or a
+shear law of its own (:yref:`RockJointMat.closure`, :yref:`RockJointMat.strength`) the joint has if both materials have one of the same kind, else it
+is a linear spring, and Mohr-Coulomb: of hyperbolas the mean of the maximum closures, of powers of the stress the means; of roughness (each scaled to
+its joint's length), wall strength, friction angles and exponents the smaller, of peak displacements and reference stresses the larger.
 
-Where faces have materials of their own (:yref:`faceMaterials<Polytope.faceMaterials>`), that of the face which lies closest to the plane of the contact is the joint's; of two faces that lie on each other both count, like two materials. A contact that ends and is made again is one of the face that it then lies on. Stiffnesses of faces should not be above those of the bodies' own materials, by which :yref:`PolytopeTimeStepper` chooses the step before bodies touch.)""",
-		((bool, stiffnessPerArea, true, , R"""(False: as if all materials had :yref:`stiffnessPerArea<RockJointMat.stiffnessPerArea>` = False. With a stiffness per area, contacts whose geometry is not a :yref:`PolytopeGeom` have no contact area: a :yref:`ScGeom` (two spheres) gets $A=\pi\min(R_1,R_2)^2$ once and for all, anything else 1 m². Their law is YADE's own :yref:`Law2_ScGeom_FrictPhys_CundallStrack`, which takes a :yref:`RockJointPhys` as any :yref:`FrictPhys` and has to be in the loop besides this plug-in's.)"""))
+Where faces have materials of their own (:yref:`faceMaterials<Polytope.faceMaterials>`), that of the face which lies closest to the plane of the
+contact is the joint's; of two faces that lie on each other both count, like two materials. A contact that ends and is made again is one of the face
+that it then lies on. Stiffnesses of faces should not be above those of the bodies' own materials, by which :yref:`PolytopeTimeStepper` chooses the
+step before bodies touch.)""",
+		((bool, stiffnessPerArea, true, , R"""(False: as if all materials had :yref:`stiffnessPerArea<RockJointMat.stiffnessPerArea>` = False.
+With a stiffness per area, contacts whose geometry is not a :yref:`PolytopeGeom` have no contact area: a :yref:`ScGeom` (two spheres) gets
+$A=\pi\min(R_1,R_2)^2$ once and for all, anything else 1 m². Their law is YADE's own :yref:`Law2_ScGeom_FrictPhys_CundallStrack`, which takes a
+:yref:`RockJointPhys` as any :yref:`FrictPhys` and has to be in the loop besides this plug-in's.)"""))
 		((long, intactUntilStep, -1, , "Joints made in steps up to this one are :yref:`intact<RockJointPhys.intact>`, later ones start with "
 		        "residual values; -1: all are intact. Set it to *O.iter* when the rock mass is assembled, so that blocks that meet later "
 		        "are not bonded."))

@@ -20,7 +20,10 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeWater, GlobalEngine,
-	R"""(Presses on the faces of :yref:`Polytopes<Polytope>` with the pressure of water, after the :yref:`InteractionLoop` and before :yref:`NewtonIntegrator` (*polytope.water(…)* makes it and puts it there; docs/water.md). The pressure is a field in space that is linear in pieces and does not change; in each step it is integrated exactly over the faces where they are. Several engines of this kind add up. Other shapes have no water.)""",
+	R"""(Presses on the faces of :yref:`Polytopes<Polytope>` with the pressure of water, after the :yref:`InteractionLoop` and before
+:yref:`NewtonIntegrator` (*polytope.water(…)* makes it and puts it there; docs/water.md). The pressure is a field in space that is linear in pieces
+and does not change; in each step it is integrated exactly over the faces where they are. Several engines of this kind add up. Other shapes have no
+water.)""",
 		((vector<Vector3r>, points, , Attr::readonly, "Of each piece: the point at which it has its value [m]."))
 		((vector<Real>, values, , Attr::readonly, "Of each piece: pressure at its point [Pa]. Where value and gradient make it negative "
 		        "there is none."))

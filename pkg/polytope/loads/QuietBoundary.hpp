@@ -16,7 +16,11 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(QuietBoundary, PartialEngine,
-	R"""(Quiet boundary [Lysmer1969]_: dashpots on the outer faces of bodies that let waves out of the model, as if it went on there. *polytope.quietBoundary(…)* makes it and computes the lists, each with a value for each of :yref:`ids<PartialEngine.ids>`. The force on a face of area $A$, at its centroid, is $A\rho c_p$ times the normal part of $2v_i-v$ plus $A\rho c_s$ times its tangential part, with the velocity $v$ of the face and that of a wave that comes in there, $v_i$ (:yref:`history<QuietBoundary.history>`); to this comes the force that held the body at rest (:yref:`supports<QuietBoundary.supports>`).)""",
+	R"""(Quiet boundary [Lysmer1969]_: dashpots on the outer faces of bodies that let waves out of the model, as if it went on there.
+*polytope.quietBoundary(…)* makes it and computes the lists, each with a value for each of :yref:`ids<PartialEngine.ids>`. The force on a face of area
+$A$, at its centroid, is $A\rho c_p$ times the normal part of $2v_i-v$ plus $A\rho c_s$ times its tangential part, with the velocity $v$ of the face
+and that of a wave that comes in there, $v_i$ (:yref:`history<QuietBoundary.history>`); to this comes the force that held the body at rest
+(:yref:`supports<QuietBoundary.supports>`).)""",
 		((Vector3r, normal, Vector3r(0, 0, -1), , "Outward normal of the boundary, of length 1."))
 		((vector<Real>, normalDashpots, , , "$A\\rho c_p$ [N·s/m]."))
 		((vector<Real>, shearDashpots, , , "$A\\rho c_s$ [N·s/m]."))

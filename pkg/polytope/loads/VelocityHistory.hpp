@@ -20,7 +20,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(VelocityHistory, Serializable,
-	R"""(A velocity over time, for :yref:`BaseMotion` and :yref:`QuietBoundary`; *polytope.velocityHistory(…)* makes it from a record. Linear between the given instants, zero before the first one; after the last one the last velocity goes on.)""",
+	R"""(A velocity over time, for :yref:`BaseMotion` and :yref:`QuietBoundary`; *polytope.velocityHistory(…)* makes it from a record. Linear
+between the given instants, zero before the first one; after the last one the last velocity goes on.)""",
 		((vector<Real>, times, , Attr::readonly, "Instants of the simulation (O.time) [s], increasing."))
 		((vector<Vector3r>, velocities, , Attr::readonly, "Velocity at each of them [m/s]."))
 		, /*ctor*/

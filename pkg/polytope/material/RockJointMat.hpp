@@ -22,7 +22,7 @@ public:
 		postLoad(*this);
 	}
 
-	/// Those that YADE makes of the attributes would not name the argument where it is a law of the wrong kind.
+	/// These name the argument where it is a law of the wrong kind, as the properties that YADE makes of attributes would not.
 	shared_ptr<JointClosure>  getClosure() const { return closure; }
 	shared_ptr<JointStrength> getStrength() const { return strength; }
 	void                      setClosure(const boost::python::object& given);
@@ -31,7 +31,11 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RockJointMat, FrictMat,
-	R"""(Material of rock blocks, given by the joints between them [Hart1988]_: stiffnesses, Mohr-Coulomb strength and dilation of a joint whose two sides are of this material. :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` says how two different materials combine, :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb` what the values do. Values out of range are refused when set. Of the inherited attributes, :yref:`density<Material.density>` gives the bodies their mass; :yref:`young<ElastMat.young>` and :yref:`poisson<ElastMat.poisson>` are used by YADE's own functors (:yref:`Ip2_FrictMat_FrictMat_FrictPhys`) alone.)""",
+	R"""(Material of rock blocks, given by the joints between them [Hart1988]_: stiffnesses, Mohr-Coulomb strength and dilation of a joint whose
+two sides are of this material. :yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` says how two different materials combine,
+:yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb` what the values do. Values out of range are refused when set. Of the inherited attributes,
+:yref:`density<Material.density>` gives the bodies their mass; :yref:`young<ElastMat.young>` and :yref:`poisson<ElastMat.poisson>` are used by YADE's
+own functors (:yref:`Ip2_FrictMat_FrictMat_FrictPhys`) alone.)""",
 		((Real, normalStiffness, 1e9, Attr::triggerPostLoad, "Normal stiffness $k_n$ of the joint, above 0: [Pa/m] (times the contact area) "
 		        "or [N/m] for each contact, see :yref:`stiffnessPerArea<RockJointMat.stiffnessPerArea>`. With the contact model *boon2012* "
 		        "contact normals are closer to that of the body with the larger value, see :yref:`PolytopeGeom.normalWeight`."))

@@ -22,7 +22,11 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeCheckpoint, PeriodicEngine,
-	R"""(Saves the scene at every *iterPeriod* steps or *realPeriod* seconds, and keeps the last two states: ``<fileName>.yade`` and ``<fileName>.previous.yade``, which :yref:`O.load<Omega.load>` reads. A state is written to ``<fileName>.writing.yade``, made safe on the disk and then renamed, so a process that is killed at any moment leaves complete states. *polytope.checkpoint* makes one that also saves when the process gets SIGTERM or SIGINT, *polytope.continueFrom* loads the newest. Put it at the end of *O.engines*: engines after it would not run in the step that is saved.)""",
+	R"""(Saves the scene at every *iterPeriod* steps or *realPeriod* seconds, and keeps the last two states: ``<fileName>.yade`` and
+``<fileName>.previous.yade``, which :yref:`O.load<Omega.load>` reads. A state is written to ``<fileName>.writing.yade``, made safe on the disk and
+then renamed, so a process that is killed at any moment leaves complete states. *polytope.checkpoint* makes one that also saves when the process gets
+SIGTERM or SIGINT, *polytope.continueFrom* loads the newest. Put it at the end of *O.engines*: engines after it would not run in the step that is
+saved.)""",
 		((string, fileName, "checkpoint", , "Beginning of the files' names; may contain folders, which are created where they are missing."))
 		((bool, onSignal, false, , "Whether the run is saved and stopped at the end of the step in which SIGTERM or SIGINT comes; "
 		        "*polytope.checkpoint* and *polytope.continueFrom* set up what it needs."))

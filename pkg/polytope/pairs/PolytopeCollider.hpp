@@ -20,9 +20,15 @@ public:
 	YADE_CLASS_BASE_DOC(PolytopeCollider, InsertionSortCollider,
 	R"""(Collider for scenes with :yref:`Polytopes<Polytope>`. Used in place of :yref:`InsertionSortCollider`, with the same attributes, but other methods:
 
-It takes account of rotations, so that polytopes get tight boxes: a box is enlarged for the rotation of the next :yref:`targetInterv<InsertionSortCollider.targetInterv>` steps, up to a displacement of :yref:`verletDist<InsertionSortCollider.verletDist>` at its farthest vertex, and made anew before the body has turned farther than that. A body that turns so far in four steps gets the box of its circumscribed ball, which contains it in every orientation. Boxes, facets and other shapes of YADE's get new boxes in each step in which they turn.
+It takes account of rotations, so that polytopes get tight boxes: a box is enlarged for the rotation of the next
+:yref:`targetInterv<InsertionSortCollider.targetInterv>` steps, up to a displacement of :yref:`verletDist<InsertionSortCollider.verletDist>` at its
+farthest vertex, and made anew before the body has turned farther than that. A body that turns so far in four steps gets the box of its circumscribed
+ball, which contains it in every orientation. Boxes, facets and other shapes of YADE's get new boxes in each step in which they turn.
 
-It finds boxes that overlap by a grid, with all threads, in a time that grows as the number of bodies. When some bodies have moved out of their boxes, these alone get new ones, and partners; all do after :yref:`targetInterv<InsertionSortCollider.targetInterv>` steps. Two free polytopes whose boxes overlap, but which stay apart while they are in them (their linear program says so), have no :yref:`Interaction` until then. In periodic cells pairs are those of InsertionSortCollider, and found by it.
+It finds boxes that overlap by a grid, with all threads, in a time that grows as the number of bodies. When some bodies have moved out of their boxes,
+these alone get new ones, and partners; all do after :yref:`targetInterv<InsertionSortCollider.targetInterv>` steps. Two free polytopes whose boxes
+overlap, but which stay apart while they are in them (their linear program says so), have no :yref:`Interaction` until then. In periodic cells pairs
+are those of InsertionSortCollider, and found by it.
 
 Where bodies were added since a :yref:`PolytopeTimeStepper` has found the time step, it is called first, so that they do not move with a step that was not made for them.)""");
 	// clang-format on

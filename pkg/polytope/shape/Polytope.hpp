@@ -69,9 +69,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Polytope, Shape,
-	R"""(Convex polyhedron (or, with :yref:`dimension<Polytope.dimension>` 2, convex polygon) given by half-spaces $\vec a_i\cdot\vec x\le d_i$ in the body's frame, whose origin is the centroid and whose axes are the principal axes of inertia [Boon2012]_. Usually made by the functions of the module ``yade.polytope`` (*regular*, *cuboid*, *fromHalfSpaces*, *fromVertices*, *fromMesh*, *polygon*), which also set mass, inertia, position and orientation of the body. Planes cannot be changed after construction (mass and inertia would no longer fit): make a new shape.
+	R"""(Convex polyhedron (or, with :yref:`dimension<Polytope.dimension>` 2, convex polygon) given by half-spaces $\vec a_i\cdot\vec x\le d_i$ in
+the body's frame, whose origin is the centroid and whose axes are the principal axes of inertia [Boon2012]_. Usually made by the functions of the
+module ``yade.polytope`` (*regular*, *cuboid*, *fromHalfSpaces*, *fromVertices*, *fromMesh*, *polygon*), which also set mass, inertia, position and
+orientation of the body. Planes cannot be changed after construction (mass and inertia would no longer fit): make a new shape.
 
-A plane that repeats another one to rounding is dropped. Planes that own no face are kept, since each one weighs in the analytic centre [Boon2012]_ (section 2.2), and in the other contact points' normals too: planes through all edges and vertices of two cubes turn the contact normal by up to 10° and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with *keepRedundant=False* does; *fromVertices* and *fromMesh* make no such planes.)""",
+A plane that repeats another one to rounding is dropped. Planes that own no face are kept, since each one weighs in the analytic centre [Boon2012]_
+(section 2.2), and in the other contact points' normals too: planes through all edges and vertices of two cubes turn the contact normal by up to 10°
+and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with
+*keepRedundant=False* does; *fromVertices* and *fromMesh* make no such planes.)""",
 		((vector<Vector3r>, normals, , (Attr::readonly | Attr::hidden | planesAsText * Attr::noSave),
 		        "Of the planes while they are given, saved or loaded: otherwise empty, the shape has them once for all bodies"))
 		((vector<Real>, offsets, , (Attr::readonly | Attr::hidden | planesAsText * Attr::noSave), "In the same way"))

@@ -17,7 +17,7 @@ inline const Polytope* polytopeOf(const Body& body)
 	return shape && shape->convex() ? shape : nullptr;
 }
 
-/// The same without what scripts see of it.
+/// The shape for the core, without what scripts see of it.
 inline const polytope::ConvexShape* convexShapeOf(const Body& body)
 {
 	const Polytope* const shape = polytopeOf(body);

@@ -26,16 +26,27 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeTimeStepper, TimeStepper,
-	R"""(Sets and updates *O.dt* for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes :yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
+	R"""(Sets and updates *O.dt* for :yref:`Polytopes<Polytope>` (and spheres, walls, boxes and facets among them) from before the first contact
+on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for example, and do not set *O.dt*. It takes
+:yref:`timestepSafetyCoefficient<PolytopeTimeStepper.timestepSafetyCoefficient>` times the smallest of these (docs/time-step.md):
 
-* *contacts*, *rocking*: $\tau$ of all present contacts, bonds (:yref:`PolytopeBonds`) and bolts (:yref:`PolytopeBolts`), normal and shear springs with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and, which :yref:`GlobalStiffnessTimeStepper` neglects, the rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
-* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`). Evaluated when bodies are added and with each tenth update.
+* *contacts*, *rocking*: $\tau$ of all present contacts, bonds (:yref:`PolytopeBonds`) and bolts (:yref:`PolytopeBolts`), normal and shear springs
+  with their arms, the dampers of :yref:`Law2_PolytopeGeom_RockJointPhys_MohrCoulomb`, and, which :yref:`GlobalStiffnessTimeStepper` neglects, the
+  rocking of faces on each other, of both contact models. $\tau=1/\omega$ without dampers, with the highest frequency $\omega$ that any body has
+  between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
+* *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor
+  (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`).
+  Evaluated when bodies are added and with each tenth update.
 
-and no more than what *motion* allows: in a step no two bodies that may meet before the next update move against each other by more than :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times the smaller one's inscribed radius. What has left the others, or moves along with all that is near, does not count. (In periodic cells, on several processes and where nothing else limits the step it is the way of each body alone.)
+and no more than what *motion* allows: in a step no two bodies that may meet before the next update move against each other by more than
+:yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times the smaller one's inscribed radius. What has left the others, or moves along with all that
+is near, does not count. (In periodic cells, on several processes and where nothing else limits the step it is the way of each body alone.)
 
-In a scene in which nothing can move it takes a hundredth of the smallest *virtPeriod* of O.engines (*period*), if there is a :yref:`PolytopeCollider`: what such an engine puts into the scene gets its own step before it moves.
+In a scene in which nothing can move it takes a hundredth of the smallest *virtPeriod* of O.engines (*period*), if there is a
+:yref:`PolytopeCollider`: what such an engine puts into the scene gets its own step before it moves.
 
-Bodies that cannot move limit nothing, blocked degrees of freedom do not count, a clump has the contacts of its members. O.dt stays as it is in a scene where nothing limits it. Not for MPI, where each process has its own bodies only.)""",
+Bodies that cannot move limit nothing, blocked degrees of freedom do not count, a clump has the contacts of its members. O.dt stays as it is in a
+scene where nothing limits it. Not for MPI, where each process has its own bodies only.)""",
 		((Real, timestepSafetyCoefficient, 0.4, Attr::triggerPostLoad, "Fraction of $\\tau$ that is taken [-], above 0, at most 2. Up to 1 "
 		        "any heap is stable as long as its contacts do not change; the default leaves a margin for those that appear until the next "
 		        "update, and lets slopes of jointed rock come to rest. As *fraction* of *polytope.stableTimeStep*."))

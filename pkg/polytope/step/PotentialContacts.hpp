@@ -14,7 +14,8 @@
 ///
 /// Its stiffnesses are those that the scene's own Ip2 functor gives the body's material and that of any other body, called with a
 /// contact that is not in the scene. Considered are a contact at the farthest vertex (a stiffness per contact, or by the bodies' sizes) and
-/// one on a whole face (a stiffness per area), each with the arm, and the latter with the rocking, that belongs to it. A body in contact with several others at once is held more stiffly: contactLimit() includes these contacts once they exist.
+/// one on a whole face (a stiffness per area), each with the arm, and the latter with the rocking, that belongs to it. A body in contact with several
+/// others at once is held more stiffly: contactLimit() includes these contacts once they exist.
 namespace yade {
 
 class PotentialContacts {
