@@ -144,7 +144,7 @@ def main():
 	showStates(firsts)
 
 	findings = Findings('A', 'Falling polyhedra', given.output, shown(given))
-	report = FallingPolyhedraReport(findings, given, results, expected, scatter)
+	report = FallingPolyhedraReport(findings, given, results, expected, scatter, scatterSeeds)
 	comesToRest(report)
 	costs(ContactCostReport(findings, given, report.firsts))
 	report.figures()

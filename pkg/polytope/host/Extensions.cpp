@@ -39,7 +39,7 @@ namespace {
 		return all;
 	}
 
-	std::string bytesOf(const std::string& path)
+	std::string contentOf(const std::string& path)
 	{
 		std::error_code none;
 		if (std::filesystem::is_directory(path, none))
@@ -68,7 +68,7 @@ namespace {
 	/// NAME=VALUE lines of the text that the library has about itself; empty if it has none.
 	std::map<std::string, std::string> ownText(const std::string& path)
 	{
-		const std::string bytes = bytesOf(path);
+		const std::string bytes = contentOf(path);
 		refusePart(bytes);
 		std::map<std::string, std::string> values;
 		const std::string                  mark  = std::string("yade-polytope-") + "extension\n"; // in two: this library is none

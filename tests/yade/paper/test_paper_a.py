@@ -139,7 +139,7 @@ def made(**changes):
 def judged(tmp_path, results, seeds=8):
 	findings = Findings('A', '', tmp_path)
 	given = types.SimpleNamespace(number=200, steps=7000, seed=1, seeds=seeds, no_pictures=True, reference=True)
-	script.comesToRest(FallingPolyhedraReport(findings, given, results, script.expected, script.scatter))
+	script.comesToRest(FallingPolyhedraReport(findings, given, results, script.expected, script.scatter, script.scatterSeeds))
 	return [row['quantity'] for row in findings.content['rows'] if row['good'] is False]
 
 

@@ -8,7 +8,7 @@ compared over the seeds, with their scatter.
 import math
 import statistics
 
-from scipy.stats import chi2, norm
+from scipy.stats import f, t
 
 from .run import halfStep, quantities
 
@@ -26,10 +26,12 @@ class FallingPolyhedraReport:
 	:param list results: of all runs, see FallingRun
 	:param dict expected: name in the results → (from, to)
 	:param dict scatter: name in the results → standard deviations between seeds of the least and the largest of the solids
+	:param int scatterSeeds: of how many seeds they are
 	"""
 
-	def __init__(self, findings, given, results, expected, scatter):
+	def __init__(self, findings, given, results, expected, scatter, scatterSeeds):
 		self.findings, self.given, self.results, self.expected, self.scatter = findings, given, results, expected, scatter
+		self.freedom = scatterSeeds - 1
 		self.firsts = [r for r in results if r['seed'] == given.seed]
 		self.ofSolid = {r['shape']: [other for other in results if other['shape'] == r['shape']] for r in self.firsts}
 		self.several = given.seeds >= fewestSeeds
@@ -73,19 +75,19 @@ class FallingPolyhedraReport:
 	def extremes(self, key):
 		"""Least and largest of the five solids. The reference has those of five single runs: the mean of our seeds must differ from it by no
 		more than 99 % of such differences do, at the scatter between seeds that was measured once. It does not grow with that of this run,
-		which must itself be no larger."""
+		which must itself be no larger, by the distributions of Student and Fisher."""
 		if not self.given.reference or len(self.ofSolid) != 5:
 			return
 		extremes = zip((min, max), ('least', 'largest'), self.expected[key], self.scatter[key], strict=True)
 		for pick, word, reference, deviation in extremes:
 			values = [pick(r[key] for r in runs) for runs in zip(*self.ofSolid.values(), strict=True)]
-			half = rounded(norm.ppf(0.995) * deviation * math.sqrt(1 + 1 / len(values)))
+			half = rounded(t.ppf(0.995, self.freedom) * deviation * math.sqrt(1 + 1 / len(values)))
 			must = rounded(reference - half), rounded(reference + half)
 			note = f'reference, of one run of each solid: {reference:g}, ± 99 % at a scatter of {deviation:g} between seeds'
 			title = f'{quantities[key]}: {word} of the solids'
 			self.findings.row(title, rounded(statistics.fmean(values)), accept=must, note=note + '; ours: mean of the seeds' * self.several)
 			if self.several:
-				most = rounded(deviation * math.sqrt(chi2.ppf(0.995, len(values) - 1) / (len(values) - 1)))
+				most = rounded(deviation * math.sqrt(f.ppf(0.995, len(values) - 1, self.freedom)))
 				self.findings.row(f'{title}, scatter between seeds', rounded(statistics.stdev(values)), accept=(0, most), note='99.5 % of such samples are below')
 
 	def singleRuns(self):
