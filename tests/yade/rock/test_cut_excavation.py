@@ -291,7 +291,7 @@ def forcesNow():
 	found = {}
 	for body in O.bodies:
 		if body.dynamic and not body.isClumpMember:
-			parts = [O.bodies[k] for k in (body.shape.members if body.isClump else [body.id])]
+			parts = [body, *(O.bodies[k] for k in (body.shape.members if body.isClump else ()))]
 			force = sum((O.forces.f(part.id) for part in parts), Vector3.Zero)
 			torque = sum((O.forces.t(part.id) + (part.state.pos - body.state.pos).cross(O.forces.f(part.id)) for part in parts), Vector3.Zero)
 			found[body.id] = force, torque
@@ -547,3 +547,30 @@ def testACutGoesOnAfterSavingAndLoading(tmp_path):
 		places.append([tuple(map(float, O.bodies[k].state.pos)) for k in left])
 		assert not relaxing() and all(contactOf(k).phys.bond.intact for k in left)
 	assert np.array(places[0]) == pytest.approx(np.array(places[1]), abs=1e-12)
+
+
+def testPartsAreBondedWhereContactsWithAClumpWouldNotAddUp():
+	"""An arch through a slab between plates, which press on parts about corners that point inwards: nothing jumps, either, and what is bonded stays together."""
+	material(normalStiffness=2e10, shearStiffness=1e10)
+	size, thick = 8, 0.75
+	joints = [polytope.JointSet(math.radians(60), math.radians(90), 2.3), polytope.JointSet(math.radians(25), math.radians(270), 2.1)]
+	polytope.jointedRock([*np.eye(3), *-np.eye(3)], [size, thick, size] * 2, joints, seed=2).append()
+	for axis, half in enumerate(((1, thick, size), (size + 2, 1, size), (size + 2, thick + 2, 1))):
+		for side in (-1, 1):
+			O.bodies.append(polytope.cuboid(side * np.eye(3)[axis] * ((thick if axis == 1 else size) + 1), half, fixed=True))
+	O.engines = polytope.engines(gravity=(0, 0, -gravity))
+	k = density * gravity * np.diag((0.6, 0.6, 1))
+	polytope.inSitu(-100 * k, gradient=[0 * k, 0 * k, k])
+	before = forcesNow()
+	pressed = max(float(contact.phys.normalForce.norm()) for contact in O.interactions if contact.isReal)
+	arch = [(math.cos(a), 0, math.sin(a)) for a in np.linspace(0, math.pi, 13)]
+	with pytest.warns(UserWarning, match='^cut: what is left of blocks .* is bodies that are bonded to each other'):
+		polytope.excavate(normals=[*arch, (0, 0, -1)], offsets=[2.5] * 13 + [2], over=10**7)
+	places = {body.id: Vector3(body.state.pos) for body in O.bodies}
+	for k, (force, torque) in forcesNow().items():
+		known = before.get(k, (Vector3(0, 0, O.bodies[k].state.mass * gravity), Vector3.Zero))
+		assert (force - known[0]).norm() < 1e-5 * pressed and (torque - known[1]).norm() < 1e-5 * pressed
+	O.run(100, wait=True)
+	assert max(float((body.state.pos - places[body.id]).norm()) for body in O.bodies) < 1e-3 * 2.5e6 / 2e10
+	(engine,) = (engine for engine in O.engines if isinstance(engine, PolytopeBonds))
+	assert engine.intactCount > 3 and all(bond.tensileStrength == math.inf for bond in engine.bonds if bond.intact)
