@@ -207,9 +207,10 @@ def cornersOf(body):
 	return sorted(points, key=lambda point: math.atan2(point[1] - middle[1], point[0] - middle[0]))
 
 
-def rotated(point, angle=math.radians(30)):
-	x, y = point
-	return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
+def rotated(point):
+	"""By 30°, the dip of their base."""
+	(x, y), c, s = point, math.cos(math.radians(30)), math.sin(math.radians(30))
+	return x * c - y * s, x * s + y * c
 
 
 def testASlopeWithTheAngleOfALinearProgramInThePlane():
