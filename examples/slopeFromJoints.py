@@ -38,7 +38,7 @@ offsets = [depth, base, options.width, 0, options.height, base, 0]
 
 
 def told(what):
-	print(f'{what} ({time.time() - began:.0f} s)', flush=True)
+	print(f'{what} ({time.time() - began:.0f} s, {sum(os.times()[:4]):.0f} s of processors)', flush=True)
 
 
 def survey(path):
