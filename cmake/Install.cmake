@@ -3,10 +3,6 @@
 # `cmake --install`: into the installed YADE itself, whose prefix is the default one. Under another --prefix links to YADE's libraries lie beside the
 # plug-in, and YADE runs with it where YADE_PREFIX names that prefix. DESTDIR holds for both. `cmake -P uninstall.cmake` in the build
 # folder removes it all. Components: plugin (what runs) and doc.
-if(CMAKE_INSTALL_PREFIX_INITIALIZED_TO_DEFAULT)
-	set_property(CACHE CMAKE_INSTALL_PREFIX PROPERTY VALUE "${YADE_PREFIX}")
-endif()
-include(GNUInstallDirs)
 set(plugin_dir "${YADE_INSTALL_DIR}/polytope-py")
 
 # else files of an earlier version would remain beside the new ones
