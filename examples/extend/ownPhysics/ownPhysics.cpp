@@ -81,8 +81,8 @@ public:
 		const Real u = geom.penetrationDepth, area = geom.contactArea;
 		if (u <= 0) return false; // apart: YADE deletes the contact
 		const Real open = math::max(1 - u / phys.maximumClosure, Real(1e-6)), force = area * phys.initialStiffness * u / open;
-		phys.kn = area * phys.initialStiffness / (open * open); // PolytopeTimeStepper reads it
-		phys.ks = area * phys.shearStiffness;
+		phys.kn          = area * phys.initialStiffness / (open * open); // PolytopeTimeStepper reads it
+		phys.ks          = area * phys.shearStiffness;
 		phys.normalForce = force * geom.normal;
 		followShear(geom, phys);
 		addContactForce(geom, phys, *c, *scene);
