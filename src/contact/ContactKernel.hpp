@@ -100,8 +100,7 @@ POLYTOPE_INLINE void paperContact(const PairQuery<R, D>& q, bool optimal, bool t
 		out.energy = out.depth * out.depth / 2;
 	} else out.depth = depthAcrossGap<R, D>(planes, n, grown, apart, q.dual);
 	publishContact<R, D>(q, status, q.x, n);
-	if (q.settings.section)
-		contactSection<R, D>(q, planes, q.x, n, q.x, q.workspace.polygons(sectionNumbers(planes.total)));
+	if (q.settings.section) contactSection<R, D>(q, planes, q.x, n, q.x, q.workspace.polygons(sectionNumbers(planes.total)));
 	failUnlessFinite<D>(q.memory, out);
 }
 

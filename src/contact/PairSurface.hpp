@@ -55,9 +55,9 @@ POLYTOPE_INLINE void findSurface(
 {
 	KeptVertices* const kept = surface.kept;
 	const R             size = surface.size;
-	using Near      = NearPlanes<R, D, W>;
-	using Buffers   = SurfaceBuffers<R, D>;
-	using Set       = FeasibleBuffers<R>;
+	using Near               = NearPlanes<R, D, W>;
+	using Buffers            = SurfaceBuffers<R, D>;
+	using Set                = FeasibleBuffers<R>;
 	const int  most = planes.total + 2 * padWidth, own = Near::numbersNeeded(planes.total), ofSet = Set::numbersNeeded(most);
 	R* const   numbers = workspace.polygons(own + ofSet + Buffers::numbersNeeded(most) + sectionNumbers(most));
 	int* const indices = workspace.indices(Near::indicesNeeded(planes.total) + Set::indicesNeeded(most) + Buffers::indicesNeeded(most));

@@ -62,9 +62,8 @@ template <class R, int D> POLYTOPE_INLINE void publishProgram(const PairQuery<R,
 	const LpBasis<R, D>& basis = q.basis;
 	rememberBasis<R, D>(q.planes, basis, q.memory, q.out);
 	const bool separated = lp == LpStatus::Separated;
-	q.out.infeasibility
-	        = separated ? separatedBound<R, D>(basis, q.limits.reach, q.in, -q.limits.tolerance) : basis.infeasibility;
-	q.out.status = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
+	q.out.infeasibility  = separated ? separatedBound<R, D>(basis, q.limits.reach, q.in, -q.limits.tolerance) : basis.infeasibility;
+	q.out.status         = lp == LpStatus::Undecided ? ContactStatus::LpNotConverged : ContactStatus::Separated;
 	dualDirection<R, D>(q.planes, basis, q.dual);
 	q.out.dualDirection = worldDirection<R, D>(q.frame, q.dual);
 }

@@ -12,9 +12,9 @@ namespace polytope {
 template <class R, int D, int W>
 POLYTOPE_INLINE void placePlanes(const PairInput& in, const ContactFrame<R, D>& f, int body, PairPlanes<R, D>& out)
 {
-	using V                       = typename Lanes<R, W>::Type;
-	const ConvexShape&    shape   = *in.shape[body];
-	const Rotation<R, D>& own     = f.own[body];
+	using V                      = typename Lanes<R, W>::Type;
+	const ConvexShape&    shape  = *in.shape[body];
+	const Rotation<R, D>& own    = f.own[body];
 	const R *             centre = f.centre[body], *origin = f.origin[body];
 	const int             begin = out.begin(body), end = out.end(body);
 	V                     T[D][D], C[D], O[D];

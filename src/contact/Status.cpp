@@ -6,8 +6,9 @@ namespace polytope {
 namespace {
 
 	/// In the order of ContactStatus.
-	constexpr const char* statusNames[] = { "separated", "contact", "normalFromOneBody", "normalFromDual", "roundingLimited", "centreByIpopt",
-		"centreNotConverged", "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed", "surfaceIncomplete" };
+	constexpr const char* statusNames[]
+	        = { "separated", "contact", "normalFromOneBody", "normalFromDual", "roundingLimited", "centreByIpopt", "centreNotConverged",
+		          "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed", "surfaceIncomplete" };
 	static_assert(sizeof(statusNames) / sizeof(*statusNames) == contactStatusCount, "each status has a name");
 
 } // namespace

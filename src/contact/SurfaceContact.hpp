@@ -99,8 +99,7 @@ template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 }
 
 /// After the linear program, whose point is x. `across`: of a pair that does not touch, whose bodies were grown by `grown` until it does.
-template <class R, int D, int W>
-POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
+template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
 {
 	const ContactSettings&    settings = q.settings;
 	const ContactFrame<R, D>& f        = q.frame;

@@ -39,8 +39,7 @@ template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weigh
 }
 
 /// `point`: the contact point, where the next step begins; `n`: unit normal; both in the planes' frame.
-template <class R, int D>
-POLYTOPE_INLINE void publishContact(const PairQuery<R, D>& q, ContactStatus status, const R* point, const R* n)
+template <class R, int D> POLYTOPE_INLINE void publishContact(const PairQuery<R, D>& q, ContactStatus status, const R* point, const R* n)
 {
 	const ContactFrame<R, D>& f = q.frame;
 	q.out.status                = status;

@@ -82,8 +82,8 @@ engine of this kind a scene.)""",
 
 private:
 	using Key = std::uint64_t;
-	std::vector<shared_ptr<PolytopeBond>>
-	found(const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern, const Scene& where) const;
+	std::vector<shared_ptr<PolytopeBond>> found(
+	        const std::vector<int>& ids, const Real& gap, const Real& angle, const PolytopeBond& pattern, const Scene& where) const;
 	static Key key(Body::id_t id1, Body::id_t id2);
 
 	bool isOurs(const PolytopeBond& bond) const;

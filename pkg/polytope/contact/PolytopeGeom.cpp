@@ -76,7 +76,8 @@ polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 	const std::vector<int>&  codes = *internalFaces.get();
 	const std::vector<Real>& ends  = *internalEnds.get();
 	for (std::size_t k = 0; k < codes.size(); ++k)
-		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]), { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
+		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]),
+		        { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
 	return planes;
 }
 
@@ -120,7 +121,8 @@ namespace {
 	bool fit(const std::vector<int>& codes, const polytope::ConvexShape& convex1, const polytope::ConvexShape& convex2)
 	{
 		for (int code : codes)
-			if (code < 0 || polytope::planeOfCode(code) >= (polytope::bodyOfCode(code) ? convex2 : convex1).planeCount()) return false;
+			if (code < 0 || polytope::planeOfCode(code) >= (polytope::bodyOfCode(code) ? convex2 : convex1).planeCount())
+				return false;
 		return true;
 	}
 

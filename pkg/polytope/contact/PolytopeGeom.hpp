@@ -79,8 +79,8 @@ public:
 		contactPoint       = bondPoint;
 		energyPerStiffness = bondEnergyPerStiffness;
 	}
-	polytope::FaceForce   faceForce() const { return polytope::FaceForce(faceForceCode); }
-	std::string           statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
+	polytope::FaceForce faceForce() const { return polytope::FaceForce(faceForceCode); }
+	std::string         statusText() const { return polytope::statusName(polytope::ContactStatus(statusCode)); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PolytopeGeom, ScGeom,

@@ -121,7 +121,8 @@ namespace {
 		springs.shearDamper  = law.shearDamping * criticalDamper(phys.ks, inverse);
 		if (phys.ks > 0) springs.twistingDamper = springs.shearDamper * phys.twistingStiffness / phys.ks;
 		if (law.rockingDamping > 0)
-			springs.rockingDamper = law.rockingDamping * normal * rockingGyrationSquared(pair.body1, pair.body2, phys) * across(pair.geom.normal);
+			springs.rockingDamper = law.rockingDamping * normal * rockingGyrationSquared(pair.body1, pair.body2, phys)
+			        * across(pair.geom.normal);
 	}
 
 	using AllSprings = std::vector<const HasSprings*>;
