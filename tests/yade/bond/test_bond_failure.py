@@ -115,10 +115,10 @@ def testTheOverlapOfABondPressesOnNoJointThatFollowsIt(ofJoint):
 	assert bond.failure == 'shear' and bond.overlap == pytest.approx(overlap, rel=1e-9)
 	for _ in range(10):
 		O.step()
-		phys = O.interactions[0, 1].phys
-		assert phys.restOverlap == bond.overlap
-		assert phys.normalForce.norm() <= phys.kn * phys.dilation * 1.05 + 2e-3 * kn * 0.8 * overlap
-	assert (phys.dilation > 0) == ('dilationAngle' in ofJoint or isinstance(ofJoint.get('strength'), BartonBandisStrength))
+		phys = O.interactions[0, 1].phys  # None: a joint that nothing presses on has ended
+		dilation = phys.dilation if phys else 0
+		assert abs(O.forces.f(1)[2]) <= kn * 0.8 * (dilation * 1.05 + 2e-3 * overlap)
+	assert 'dilationAngle' not in ofJoint or (dilation > 0 and phys.restOverlap == bond.overlap)
 
 
 def testABrickHangsByItsBondAMillimetreOffCentre():
