@@ -58,6 +58,19 @@ configure() { # FOLDER PRECISION
 	echo "$buildKey" >"$1/key"
 }
 
+# Whether the plug-in is compiled file by file, without optimisation (docs/developing.md): for commands that measure nothing.
+developing() {
+	[ "${YADE_POLYTOPE_DEVELOP:-}" = 1 ] || return
+	case $command in build | test | yade | python | shell) ;; *) return 1 ;; esac
+}
+
+# The build folder for that, or for use: what was compiled for the other stays in it.
+setDevelop() { # FOLDER
+	local develop=OFF
+	if developing; then develop=ON; fi
+	grep -qx "POLYTOPE_DEVELOP:BOOL=$develop" "$1/CMakeCache.txt" || step "configuring" "tools/packages.txt lists what is needed." cmake -DPOLYTOPE_DEVELOP="$develop" "$1"
+}
+
 buildFolder() { [ "$1" = double ] && echo "$build" || echo "$build/$1"; } # PRECISION
 
 # One number for all that the plug-in, or with `tests` its test programs, are compiled from.
@@ -97,6 +110,7 @@ buildPrecision() { # PRECISION TARGETS…
 	(
 		takeLock 9 build # two calls at a time build one after the other
 		configure "$folder" "$name"
+		setDevelop "$folder"
 		case " $* " in *" overlay "*) rm -f "$folder/sources" ;; esac
 		step "building$of" "All messages of the compiler are in the log." ninja -C "$folder" "$@"
 		case " $* " in *" overlay "*) sourcesKey >"$folder/sources" ;; esac

@@ -313,6 +313,29 @@ def testBuildsForAnotherYadeArePutAway(clone, tmp_path):
 	assert len(keys) == 2
 
 
+@pytest.mark.parametrize(
+	'was,command,asked,becomes',
+	[
+		('OFF', 'build', '1', 'ON'),
+		('OFF', 'build', '', None),
+		('OFF', 'bench', '1', None),
+		('ON', 'test', '1', None),
+		('ON', 'test', '', 'OFF'),
+		('ON', 'accuracy', '1', 'OFF'),
+	],
+)
+def testWhatIsMeasuredIsNoBuildForDeveloping(clone, tmp_path, was, command, asked, becomes):
+	"""The build folder is changed to it, and back, by the commands that honour YADE_POLYTOPE_DEVELOP; the others build for use."""
+	(clone / 'build').mkdir()
+	(clone / 'build/CMakeCache.txt').write_text(f'POLYTOPE_DEVELOP:BOOL={was}\n')
+	functions = (clone / 'tools/inside.sh').read_text()
+	functions = functions[functions.index('# Whether the plug-in is compiled file by file'):functions.index('buildFolder()')]
+	script = f'{functions}\nstep() {{ shift 2; echo "$1 $2"; }}\ncommand={command}\nsetDevelop "$project/build"'
+	done = shell(clone, tmp_path, script, YADE_POLYTOPE_DEVELOP=asked)
+	assert done.returncode == 0, done.stderr
+	assert done.stdout == (f'cmake -DPOLYTOPE_DEVELOP={becomes}\n' if becomes else '')
+
+
 def testSlowTestsAreThere():
 	"""A test that is renamed or moved keeps its place in the list."""
 	for line in (project / 'tests/yade/slow.txt').read_text().splitlines():

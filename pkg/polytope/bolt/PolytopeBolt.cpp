@@ -3,7 +3,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeBolt));
+POLYTOPE_CLASSES((PolytopeBolt));
 
 void PolytopeBolt::prepare()
 {

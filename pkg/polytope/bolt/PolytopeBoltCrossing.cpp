@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeBoltCrossing));
+POLYTOPE_CLASSES((PolytopeBoltCrossing));
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeBolts));
+POLYTOPE_CLASSES((PolytopeBolts));
 
 void PolytopeBolts::action()
 {

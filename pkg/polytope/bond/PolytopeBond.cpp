@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeBond));
+POLYTOPE_CLASSES((PolytopeBond));
 
 bool PolytopeBond::hasItsBodies(const BodyContainer& bodies) const { return body1_.isStill(id1, bodies) && body2_.isStill(id2, bodies); }
 

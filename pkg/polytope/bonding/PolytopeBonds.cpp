@@ -10,7 +10,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeBonds));
+POLYTOPE_CLASSES((PolytopeBonds));
 
 namespace {
 

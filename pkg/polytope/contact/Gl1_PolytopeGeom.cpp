@@ -9,7 +9,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Gl1_PolytopeGeom));
+POLYTOPE_CLASSES((Gl1_PolytopeGeom));
 
 void Gl1_PolytopeGeom::go(
         const shared_ptr<IGeom>& geom, const shared_ptr<Interaction>& contact, const shared_ptr<Body>&, const shared_ptr<Body>&, bool)

@@ -12,7 +12,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeMarginFunctor));
+POLYTOPE_CLASSES((PolytopeMarginFunctor));
 
 namespace {
 

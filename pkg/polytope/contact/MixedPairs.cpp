@@ -16,7 +16,7 @@
 
 namespace yade {
 
-YADE_PLUGIN(
+POLYTOPE_CLASSES(
         (Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
 
 namespace {

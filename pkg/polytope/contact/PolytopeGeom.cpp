@@ -20,7 +20,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeGeom)(PolytopeGeomFunctor)(Ig2_Polytope_Polytope_PolytopeGeom));
+POLYTOPE_CLASSES((PolytopeGeom)(PolytopeGeomFunctor)(Ig2_Polytope_Polytope_PolytopeGeom));
 
 polytope::PairMemory PolytopeGeom::memory() const
 {

@@ -7,7 +7,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((RockJointPhys));
+POLYTOPE_CLASSES((RockJointPhys));
 
 static_assert(sizeof(RockJointPhys) <= prefetch::physicsBytes, "what is read in each step is prefetched");
 

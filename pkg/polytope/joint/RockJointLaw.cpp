@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
+POLYTOPE_CLASSES((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Ip2_RockJointMat_RockJointMat_RockJointPhys));
+POLYTOPE_CLASSES((Ip2_RockJointMat_RockJointMat_RockJointPhys));
 
 namespace {
 

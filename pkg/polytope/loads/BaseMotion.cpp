@@ -6,7 +6,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((BaseMotion));
+POLYTOPE_CLASSES((BaseMotion));
 
 void BaseMotion::action()
 {

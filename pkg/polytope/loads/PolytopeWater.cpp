@@ -12,7 +12,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeWater));
+POLYTOPE_CLASSES((PolytopeWater));
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((QuietBoundary));
+POLYTOPE_CLASSES((QuietBoundary));
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((VelocityHistory));
+POLYTOPE_CLASSES((VelocityHistory));
 
 void VelocityHistory::postLoad(VelocityHistory&)
 {

@@ -5,7 +5,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((JointClosure)(HyperbolicClosure)(PowerClosure)(JointStrength)(BartonBandisStrength)(ContinuouslyYieldingStrength));
+POLYTOPE_CLASSES((JointClosure)(HyperbolicClosure)(PowerClosure)(JointStrength)(BartonBandisStrength)(ContinuouslyYieldingStrength));
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((RockJointMat));
+POLYTOPE_CLASSES((RockJointMat));
 
 namespace {
 

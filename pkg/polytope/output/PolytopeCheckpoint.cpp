@@ -17,7 +17,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeCheckpoint));
+POLYTOPE_CLASSES((PolytopeCheckpoint));
 
 namespace {
 

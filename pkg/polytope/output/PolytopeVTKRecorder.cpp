@@ -31,7 +31,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeVTKRecorder));
+POLYTOPE_CLASSES((PolytopeVTKRecorder));
 CREATE_LOGGER(PolytopeVTKRecorder);
 
 using namespace vtkFiles;

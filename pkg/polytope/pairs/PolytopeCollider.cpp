@@ -12,7 +12,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeCollider));
+POLYTOPE_CLASSES((PolytopeCollider));
 
 bool PolytopeCollider::mustRunForAll() const
 {

@@ -9,7 +9,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Gl1_Polytope));
+POLYTOPE_CLASSES((Gl1_Polytope));
 
 bool Gl1_Polytope::wire;
 bool Gl1_Polytope::edges;

@@ -15,7 +15,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Polytope)(Bo1_Polytope_Aabb));
+POLYTOPE_CLASSES((Polytope)(Bo1_Polytope_Aabb));
 
 namespace {
 

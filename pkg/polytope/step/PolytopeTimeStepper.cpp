@@ -11,7 +11,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeTimeStepper));
+POLYTOPE_CLASSES((PolytopeTimeStepper));
 
 namespace {
 
