@@ -21,6 +21,6 @@
 /// YADE_PLUGIN, and the registration: POLYTOPE_CLASSES((One)(Another)); in namespace yade.
 #define POLYTOPE_CLASSES(classes)                                                                                                          \
 	namespace {                                                                                                                        \
-		BOOST_PP_SEQ_FOR_EACH(POLYTOPE_REGISTER_EACH, ~, classes)                                                                  \
+	BOOST_PP_SEQ_FOR_EACH(POLYTOPE_REGISTER_EACH, ~, classes)                                                                          \
 	}                                                                                                                                  \
 	YADE_PLUGIN(classes)

@@ -8,7 +8,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((PolytopeFamilyBound));
+POLYTOPE_CLASSES((PolytopeFamilyBound));
 
 void PolytopeFamilyBound::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*)
 {
