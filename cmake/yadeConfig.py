@@ -6,6 +6,7 @@ Usage: yadeConfig.py <YADE library folder>/py/yade/config.py
 The file is executed alone: YADE's libraries are not loaded. It reads HOME and YADE_PREFIX (and may move an old
 settings folder), so it gets an empty home and no prefix.
 """
+
 import os
 import runpy
 import sys

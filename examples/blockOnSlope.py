@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """3DEC's blocks on a slope, 10 m wide: they stand, slide or topple, on stiff and on soft joints, beside theory (docs/from-3dec.md).
 
-	./run python examples/blockOnSlope.py          ends with 1 where a block does not do what theory says"""
+./run python examples/blockOnSlope.py          ends with 1 where a block does not do what theory says"""
 
 import sys
 import warnings

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A cube of bonded Voronoi cells falls onto a floor and breaks; prints what is left of its bonds, draws it.
 
-	./run python examples/bondedCube.py
+./run python examples/bondedCube.py
 """
+
 from math import radians
 
 from yade import O, RockJointMat, Vector3, polytope
@@ -18,5 +19,14 @@ made = polytope.bond(ids=cells, tensileStrength=2e6, cohesion=4e6)
 polytope.run(until=0.15)
 
 failures = [bond.failure for bond in polytope.bonds().bonds]
-print(made, 'bonds:', polytope.bonds().intactCount, 'intact,', failures.count('tension'), 'failed in tension,', failures.count('shear'), 'in shear')
+print(
+	made,
+	'bonds:',
+	polytope.bonds().intactCount,
+	'intact,',
+	failures.count('tension'),
+	'failed in tension,',
+	failures.count('shear'),
+	'in shear',
+)
 polytope.picture('output/bondedCube.png')

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A cube of bonded Voronoi cells is crushed between two plates; prints its strength and where the work of the plate went, draws it.
 
-	./run python examples/crushedCube.py
+./run python examples/crushedCube.py
 """
+
 from math import radians
 
 from yade import NewtonIntegrator, O, RockJointMat, polytope
@@ -31,6 +32,10 @@ print(f'largest stress {strength / 1e6:.2f} MPa; {polytope.bonds().intactCount} 
 print(f'work {work:.5g} J:', ', '.join(f'{name} {100 * value / work:.2f} %' for name, value in parts.items()))
 print(f'missing: {100 * (1 - sum(parts.values()) / work):.2f} %')
 polytope.picture(
-	'output/crushedCube.png', colorBy='displacement', legend='moved [m]', fixed=lambda body: 'glass' if body.id == plate else 'solid',
-	view=(-0.6, -1, 0.25), size=(1200, 1000)
+	'output/crushedCube.png',
+	colorBy='displacement',
+	legend='moved [m]',
+	fixed=lambda body: 'glass' if body.id == plate else 'solid',
+	view=(-0.6, -1, 0.25),
+	size=(1200, 1000),
 )

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sixteen columns topple over a stepped base: at which friction angle, beside limit equilibrium (Goodman & Bray 1976). Half a minute.
 
-	./run python examples/goodmanBray.py           ends with 1 where both are half a degree apart"""
+./run python examples/goodmanBray.py           ends with 1 where both are half a degree apart"""
 
 import sys
 from math import cos, degrees, radians, sin, tan

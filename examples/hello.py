@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One block falls onto a floor; prints the contact it rests on.
 
-	./run python examples/hello.py          or, in YADE:  ./run yade -n -x examples/hello.py
+./run python examples/hello.py          or, in YADE:  ./run yade -n -x examples/hello.py
 """
+
 from math import radians
 
 from yade import O, RockJointMat, polytope

@@ -29,12 +29,16 @@ seconds = time.thread_time() - start
 volume = abs(blocky.volumes.sum() / size**3 - 1)
 areas = np.bincount(blocky.sets, blocky.areas) / size**3
 area = np.abs(areas / asked - 1).max()
-print(f'{len(blocky.joints)} discs cut {len(blocky.blocks)} blocks in {seconds:.1f} s; volumes are off by {volume:.1g}, areas of the sets by {100 * area:.2g} %')
+print(
+	f'{len(blocky.joints)} discs cut {len(blocky.blocks)} blocks in {seconds:.1f} s; volumes are off by {volume:.1g}, areas of the sets by {100 * area:.2g} %'
+)
 print(f'they end inside blocks: {100 * blocky.areas.sum() / blocky.sections.sum():.0f} % of the area that was cut is joints')
 
 start = time.thread_time()
 true = polytope.jointedRock(box, [size / 2] * 6, sets, smallest=1e-3, seed=1)
-print(f'joints separate {len(true.bodies)} bodies; the largest has {max(map(len, true.bodies))} blocks ({time.thread_time() - start:.1f} s)')
+print(
+	f'joints separate {len(true.bodies)} bodies; the largest has {max(map(len, true.bodies))} blocks ({time.thread_time() - start:.1f} s)'
+)
 
 # a tunnel of 8 × 6 m along the north through a smaller piece of the same rock
 tunnel = (box, [4, 4, 50, 50, 3, 3])

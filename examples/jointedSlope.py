@@ -45,8 +45,10 @@ rock = polytope.jointedRock(
 	smallest=0.3,
 	seed=3,
 )
-print(f'{len(rock.blocks)} blocks of {len(rock.joints)} joints, {np.quantile(rock.volumes, 0.1):.2g} … {np.quantile(rock.volumes, 0.9):.2g} m³ '
-      f'(10 and 90 %), {rock.volumes.sum():.6f} m³ in all; {rock.uncut} cuts were left out')
+print(
+	f'{len(rock.blocks)} blocks of {len(rock.joints)} joints, {np.quantile(rock.volumes, 0.1):.2g} … {np.quantile(rock.volumes, 0.9):.2g} m³ '
+	f'(10 and 90 %), {rock.volumes.sum():.6f} m³ in all; {rock.uncut} cuts were left out'
+)
 
 O.materials.append(RockJointMat(density=2600, normalStiffness=2e8, shearStiffness=1e8, frictionAngle=radians(45)))
 for planes in rock.blocks:
@@ -85,7 +87,9 @@ moved(radians(45), 1.0)
 settling, _ = moved(radians(37), 2.0)
 stands, _ = moved(radians(37), 1.0)
 slides, number = moved(radians(33), 1.0)
-print(f'friction 37°: {1000 * settling:.1f} mm, then {1e6 * stands:.0f} µm in a second; 33°: {1000 * slides:.0f} mm, {number} blocks by 5 cm and more (bedding dips 35°)')
+print(
+	f'friction 37°: {1000 * settling:.1f} mm, then {1e6 * stands:.0f} µm in a second; 33°: {1000 * slides:.0f} mm, {number} blocks by 5 cm and more (bedding dips 35°)'
+)
 print('queries without an answer:', O.engines[2].geomDispatcher.functors[0].stats()['failures'])
 moved(radians(20), 1.0)
 polytope.picture('output/jointedSlope.png', colorBy='displacement', legend='moved [m]', fixed='solid', view=(-1, -0.6, 0.42))

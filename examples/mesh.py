@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A mesh file as particle: twenty pebbles of one OBJ file fall into a tray; draws them. (Particles are the meshes' convex hulls.)
 
-	./run python examples/mesh.py          writes output/pebbles.png
+./run python examples/mesh.py          writes output/pebbles.png
 """
+
 import os
 from math import radians
 

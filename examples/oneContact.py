@@ -6,6 +6,7 @@ half-spaces of both bodies; the depth is the chord along the normal through it.
 
 	./run python examples/oneContact.py [FILE.png]          writes output/one-contact.png
 """
+
 import os
 import sys
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files for ParaView: polyhedra fall, and every 100 steps are recorded as real polyhedra, with their contacts.
 
-	./run python examples/paraview.py          then open output/paraview/bodies.pvd and contacts.pvd in ParaView
+./run python examples/paraview.py          then open output/paraview/bodies.pvd and contacts.pvd in ParaView
 """
+
 import os
 import sys
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Polygons (2-D): blocks slide out of a hopper; draws where they are after two seconds.
 
-	./run python examples/polygons.py          writes output/polygons.png
+./run python examples/polygons.py          writes output/polygons.png
 """
+
 from math import cos, pi, radians, sin
 from random import Random
 

@@ -69,7 +69,11 @@ for name, friction in (('bedding', 40), ('steep', 45)):
 	O.materials.append(RockJointMat(label=name, density=2600, normalStiffness=5e8, shearStiffness=2.5e8, frictionAngle=radians(friction)))
 ids = rock.append(jointMaterials=['bedding', *['steep'] * (rock.entries - 1)], material='steep')  # the first set is the bedding
 for k, planes in zip(ids, rock.bodies, strict=True):  # blocks at the bottom and at the back hold the slope
-	O.bodies[k].dynamic = not any(rock.faces[block][plane] < 0 and (normal[2] < -0.99 or normal[0] > 0.99) for block in planes for plane, normal in enumerate(rock.blocks[block][0]))
+	O.bodies[k].dynamic = not any(
+		rock.faces[block][plane] < 0 and (normal[2] < -0.99 or normal[0] > 0.99)
+		for block in planes
+		for plane, normal in enumerate(rock.blocks[block][0])
+	)
 told(f'{len(ids)} blocks of {len(joints)} joints, {sum(not O.bodies[k].dynamic for k in ids)} of them fixed')
 
 O.engines = polytope.engines(damping=0.4)
@@ -83,7 +87,9 @@ found.picture('output/slopeFromJoints.png', **view)
 told('output/slopeFromJoints.png')
 
 if options.reduction:
-	steps = polytope.settle(unbalanced=1e-4, elastic=False, densityScaling=True)  # joints have friction alone, which comes back after a swing
+	steps = polytope.settle(
+		unbalanced=1e-4, elastic=False, densityScaling=True
+	)  # joints have friction alone, which comes back after a swing
 	told(f'at rest after {steps} steps of {O.dt:.2g} s')
 	reduced = polytope.factorOfSafety(tolerance=options.tolerance)
 	told(f'by strength reduction: {reduced}')

@@ -127,7 +127,9 @@ def settle(name, model, rule, fraction):
 	seconds = scenes[name](model, rules[rule])
 	engine = PolytopeTimeStepper()
 	if fraction == 'sqrt':
-		O.dt = 0.2 * math.sqrt(min(float(b.state.mass) for b in O.bodies if b.dynamic and b.state.mass > 0) / O.materials[0].normalStiffness)
+		O.dt = 0.2 * math.sqrt(
+			min(float(b.state.mass) for b in O.bodies if b.dynamic and b.state.mass > 0) / O.materials[0].normalStiffness
+		)
 	else:
 		engine.timestepSafetyCoefficient = fraction
 		O.engines = O.engines + [engine]
@@ -143,8 +145,11 @@ def settle(name, model, rule, fraction):
 	height = float(np.mean([float(state.pos[2]) for state in moving]))
 	label = fraction if fraction == 'sqrt' else f'{fraction:g}'
 	stopped = '' if O.time >= seconds else f', stopped at {O.time:.2f} s'
-	print(f'{name:9} {model:12} {rule:10} {label:>4} {O.iter:8} steps {took:6.1f} s  unbalanced {float(utils.unbalancedForce()):7.1e}  '
-	      f'fastest {fastest:7.1e} m/s  mean height {height:.3f} m  dt {float(O.dt):.2e} s  {max(limits, key=limits.get)}{stopped}', flush=True)
+	print(
+		f'{name:9} {model:12} {rule:10} {label:>4} {O.iter:8} steps {took:6.1f} s  unbalanced {float(utils.unbalancedForce()):7.1e}  '
+		f'fastest {fastest:7.1e} m/s  mean height {height:.3f} m  dt {float(O.dt):.2e} s  {max(limits, key=limits.get)}{stopped}',
+		flush=True,
+	)
 
 
 def chosen(words, all):

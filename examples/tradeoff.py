@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cost and accuracy of settings in a scene of your own: three blocks dropped on each other, four settings, one table.
 
-	./run python examples/tradeoff.py          prints the table, writes output/tradeoff.csv
+./run python examples/tradeoff.py          prints the table, writes output/tradeoff.csv
 """
+
 import os
 from math import radians
 
@@ -58,7 +59,9 @@ if __name__ == '__main__':  # true no more after `from yade import *`, which bri
 	weight, perArea = 9.81 * 2600 * 0.2**3, 2.5e8
 	atRest = 0.5
 	for blocks, middle, width in ((3, 0, 0.2), (2, 0.01, 0.18), (1, 0.03, 0.18)):
-		load = blocks * weight  # on this contact; it acts where the blocks above have their centre, and an elastic foundation yields and tilts
+		load = (
+			blocks * weight
+		)  # on this contact; it acts where the blocks above have their centre, and an elastic foundation yields and tilts
 		arm = (0.02 * 2 + 0.02 * (3 - blocks)) / 2 - middle
 		stiffness = perArea * width * 0.2
 		atRest -= load / stiffness + load * arm / (stiffness * width**2 / 12) * (0.04 - middle)

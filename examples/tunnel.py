@@ -17,7 +17,11 @@ sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 east, west = radians(90), radians(270)
 joints = [polytope.JointSet(radians(60), east, 2.3), polytope.JointSet(radians(25), west, 2.1)]
 polytope.jointedRock(sides, [size, size, thick, thick, size, size], joints, seed=2).append()
-for centre, half in (((size + 1, 0, 0), (1, thick, size)), ((0, thick + 1, 0), (size + 2, 1, size)), ((0, 0, size + 1), (size + 2, thick + 2, 1))):
+for centre, half in (
+	((size + 1, 0, 0), (1, thick, size)),
+	((0, thick + 1, 0), (size + 2, 1, size)),
+	((0, 0, size + 1), (size + 2, thick + 2, 1)),
+):
 	for side in (-1, 1):  # plates all around
 		O.bodies.append(polytope.cuboid(side * np.array(centre), half, fixed=True))
 O.engines = polytope.engines()
@@ -30,7 +34,9 @@ arch = [(cos(a), 0, sin(a)) for a in np.linspace(0, pi, 13)]
 blocks = len(O.bodies)
 gone = polytope.excavate(normals=[*arch, (0, 0, -1)], offsets=[2.5] * 13 + [2], over=3000)
 cut = {old: left for old, left in gone.items() if left}
-print(f'{blocks - 6} blocks: {len(gone) - len(cut)} taken whole, {len(cut)} cut by the outline, of which {sum(map(len, cut.values()))} are left')
+print(
+	f'{blocks - 6} blocks: {len(gone) - len(cut)} taken whole, {len(cut)} cut by the outline, of which {sum(map(len, cut.values()))} are left'
+)
 polytope.settle(elastic=False)
 ids = [left for several in cut.values() for left in several]
 moved = max((float((O.bodies[k].state.pos - O.bodies[k].state.refPos).norm()), k) for k in ids)

@@ -7,6 +7,7 @@ FOLDER has the JUnit files of the run: core.xml (ctest) and one a precision (pyt
 have run; --expect-precision: so should the tests in this precision. With CI=true in the environment, ends with 1 if anything was skipped
 that tools/skipsAllowed.txt does not allow.
 """
+
 import argparse
 import collections
 import os
@@ -17,13 +18,13 @@ import xml.etree.ElementTree
 
 # what the core's tests consist of: a part that the build left out for want of a package has no test at all
 coreParts = {
-        'the core, with GoogleTest': r'^(?!Clang\.|Fuzz\.|Search$|Instructions$|WithoutIpopt$|InstructionSet\.)',
-        'the core without Ipopt (is Ipopt missing?)': r'^WithoutIpopt$',
-        'the core with lesser instruction sets': r'^InstructionSet\.',
-        'instructions of a query': r'^Instructions$',
-        'fuzz corpus': r'^Fuzz\.',
-        'search': r'^Search$',
-        "the core's files looked at by clang": r'^Clang\.',
+	'the core, with GoogleTest': r'^(?!Clang\.|Fuzz\.|Search$|Instructions$|WithoutIpopt$|InstructionSet\.)',
+	'the core without Ipopt (is Ipopt missing?)': r'^WithoutIpopt$',
+	'the core with lesser instruction sets': r'^InstructionSet\.',
+	'instructions of a query': r'^Instructions$',
+	'fuzz corpus': r'^Fuzz\.',
+	'search': r'^Search$',
+	"the core's files looked at by clang": r'^Clang\.',
 }
 
 
@@ -53,7 +54,9 @@ def allSkipped(folder, core, precisions):
 		names, skipped = skippedIn(path)
 		found += [(f'{path.stem}: {name}', reason) for name, reason in skipped]
 		if core and path.stem == 'core':
-			found += [(f'core: {part}', 'not built') for part, pattern in coreParts.items() if not any(re.search(pattern, name) for name in names)]
+			found += [
+				(f'core: {part}', 'not built') for part, pattern in coreParts.items() if not any(re.search(pattern, name) for name in names)
+			]
 	if core and not (folder / 'core.xml').exists():
 		found.append(('core', 'not built'))
 	return found + [(f'precision {name}', 'this YADE has none') for name in precisions if not (folder / f'{name}.xml').exists()]
@@ -81,7 +84,9 @@ def main(arguments=None):
 			print(f'      {name}')
 		if len(names) > 8:
 			print(f'      … and {len(names) - 8} more')
-	unexpected = [f'{name}: {reason}' for name, reason in found if not any(pattern.search(f'{name}: {reason}') for pattern in allowedPatterns())]
+	unexpected = [
+		f'{name}: {reason}' for name, reason in found if not any(pattern.search(f'{name}: {reason}') for pattern in allowedPatterns())
+	]
 	if os.environ.get('CI', '').lower() in ('true', '1') and unexpected:
 		print(f'CI: {len(unexpected)} of them are not allowed by tools/skipsAllowed.txt; the first: {unexpected[0]}')
 		return 1

@@ -89,7 +89,12 @@ def options():
 	parser.add_argument('--threads', type=count, default=O.numThreads, help=inSameState)
 	parser.add_argument('--seed', type=int, default=1, help='of the orientations')
 	parser.add_argument('--seeds', type=count, default=1, help='so many runs of each solid, with this seed and the next ones')
-	parser.add_argument('--contact-model', choices=contactModels, default='boon2012', help='the others are those of a contact surface, which read no contact point')
+	parser.add_argument(
+		'--contact-model',
+		choices=contactModels,
+		default='boon2012',
+		help='the others are those of a contact surface, which read no contact point',
+	)
 	parser.add_argument('--contact-point', choices=contactPoints, default='analyticCentre')
 	for name, (kind, meaning) in parameters.items():
 		option = ''.join('-' + letter.lower() if letter.isupper() else letter for letter in name)
@@ -140,7 +145,12 @@ def main():
 	save(results, given.output)
 	firsts = [r for r in results if r['seed'] == given.seed]
 	showCosts(firsts)
-	showOutcome(firsts, expected if given.reference else {}, f'{fullNumber} particles, {fullSteps} steps and the usual parameters', (*scatter, *byChance))
+	showOutcome(
+		firsts,
+		expected if given.reference else {},
+		f'{fullNumber} particles, {fullSteps} steps and the usual parameters',
+		(*scatter, *byChance),
+	)
 	showStates(firsts)
 
 	findings = Findings('A', 'Falling polyhedra', given.output, shown(given))

@@ -72,7 +72,13 @@ def options():
 	show('--normal-weight', type=weight, default=1.0, help="of the abutment's face in the normal: 0.5 (equal) to 1 (rigid: horizontal)")
 	show('--corner-radius', type=positive, help='[block heights], not below the overlaps; None: 0.1, or the largest overlap')
 	rules = *contactPoints, 'spring'
-	show('--contact-point', choices=rules, nargs='+', default=['centroid', 'analyticCentre'], help='or the contact model spring; each by itself')
+	show(
+		'--contact-point',
+		choices=rules,
+		nargs='+',
+		default=['centroid', 'analyticCentre'],
+		help='or the contact model spring; each by itself',
+	)
 	show('--solver', choices=solvers, nargs='+', default=solvers, help='of the analytic centre; newton is always run')
 	show('--rotations', type=positive, nargs=2, metavar=('FIRST', 'LAST'), help='[°]; None: 0.25, and 0.81366 of alignment, here 15')
 	show('--points', type=number(least=5, whole=True), help=f'of each curve; None: {points}, quick {quickPoints}')

@@ -132,8 +132,15 @@ def slumpingSlope(given):
 
 	def angle(model):
 		scene = SlumpingSlope(**blocks, contactModel=model).build()
-		reduction = FrictionReduction(scene.freeIds, start=scene.frictionAngle, steps=[math.radians(step) for step in steps],
-			checkEvery=100, stableSpeed=1e-6, failedDistance=0.1, mostSteps=100000)
+		reduction = FrictionReduction(
+			scene.freeIds,
+			start=scene.frictionAngle,
+			steps=[math.radians(step) for step in steps],
+			checkEvery=100,
+			stableSpeed=1e-6,
+			failedDistance=0.1,
+			mostSteps=100000,
+		)
 		return math.degrees(reduction.run().critical)
 
 	limit = math.degrees(criticalFrictionAngle(blocks['free'], blocks['fixed']).angle)
@@ -157,7 +164,9 @@ def collisions(given):
 		'contact_point': Collision.contactPoint,
 	}
 	for name, label in (('vertexFace', 'F1'), ('edgeEdge', 'F2')):
-		found = each(lambda model, name=name: CollisionRun(types.SimpleNamespace(**blocks), name, contactModel=model).largestRise()[0], label)
+		found = each(
+			lambda model, name=name: CollisionRun(types.SimpleNamespace(**blocks), name, contactModel=model).largestRise()[0], label
+		)
 		yield f'F: largest rise of energy in 200 steps [J], {label}', 0, *found
 
 
@@ -197,7 +206,9 @@ parts = {'B': beam, 'C': slidingWedge, 'D': roofWedge, 'E': slumpingSlope, 'F': 
 
 
 def main():
-	parser = argparse.ArgumentParser(description=' '.join(__doc__.split('\n\n')[0].split()), formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+	parser = argparse.ArgumentParser(
+		description=' '.join(__doc__.split('\n\n')[0].split()), formatter_class=argparse.ArgumentDefaultsHelpFormatter
+	)
 	parser.add_argument('--quick', action='store_true', help='coarser friction steps, 100 bodies instead of 200, cubes alone')
 	parser.add_argument('--only', choices=parts, nargs='+', default=list(parts))
 	parser.add_argument('--solids', choices=solids, nargs='+', help='of the heaps; None: all, quick: cubes')

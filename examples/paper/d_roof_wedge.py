@@ -121,7 +121,14 @@ def search(given):
 		between = None
 		if given.reference:
 			progress.total += 1
-			between = RoofWedgeCase(given, prismLabel, 1, progress, blocks=BlockGeometry.read(scriptFile().parent / 'geometry' / 'd_roof_prism.json'), contactModel='surface')
+			between = RoofWedgeCase(
+				given,
+				prismLabel,
+				1,
+				progress,
+				blocks=BlockGeometry.read(scriptFile().parent / 'geometry' / 'd_roof_prism.json'),
+				contactModel='surface',
+			)
 	return both, cases, touching, between
 
 

@@ -9,7 +9,10 @@ from yade import O, RockJointMat, polytope
 size, depth, weight = 6.0, 100.0, 2600 * 9.81  # of the mass; of its top below ground [m]; ρ g
 O.materials.append(RockJointMat(density=2600, normalStiffness=2e10, shearStiffness=1e10, frictionAngle=radians(35)))
 sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-joints = [polytope.JointSet(radians(dip), radians(direction), spacing) for dip, direction, spacing in ((50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6))]
+joints = [
+	polytope.JointSet(radians(dip), radians(direction), spacing)
+	for dip, direction, spacing in ((50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6))
+]
 mass = polytope.jointedRock(sides, [size / 2] * 6, joints)
 for k, made in zip(mass.append(), mass.faces, strict=True):
 	O.bodies[k].dynamic = not (made < 0).any()  # blocks at the boundary are the fixed ones

@@ -24,5 +24,7 @@ polytope.water(pressures=[((back, foot), weight * full), ((0, 0), 0)], faces=fac
 polytope.settle()
 length, load = foot / sin(plane), float(O.bodies[block].state.mass) * g
 uplift, thrust = weight * full * length / 2, weight * full**2 / 2
-closed = (cohesion * length + (load * cos(plane) - uplift - thrust * sin(plane)) * tan(friction)) / (load * sin(plane) + thrust * cos(plane))
+closed = (cohesion * length + (load * cos(plane) - uplift - thrust * sin(plane)) * tan(friction)) / (
+	load * sin(plane) + thrust * cos(plane)
+)
 print(f'factor of safety {polytope.factorOfSafety().factor:.3f}, closed form {closed:.3f}')

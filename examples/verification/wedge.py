@@ -5,7 +5,9 @@ from math import radians
 
 from yade import O, RockJointMat, polytope
 
-one, two, face, top = (polytope.JointSet(radians(dip), radians(direction), 1).normal for dip, direction in ((45, 105), (70, 235), (65, 185), (12, 195)))
+one, two, face, top = (
+	polytope.JointSet(radians(dip), radians(direction), 1).normal for dip, direction in ((45, 105), (70, 235), (65, 185), (12, 195))
+)
 for label, cohesion, friction in (('A', 24e3, 20), ('B', 48e3, 30), ('wedge', 1e9, 80)):  # a joint has the lower strength of its two sides
 	O.materials.append(
 		RockJointMat(

@@ -13,7 +13,20 @@ from yade import Material, O, Quaternion, Vector3, _polytope, utils
 
 from .precision import isNumber, real
 
-__all__ = ['flag', 'maskOf', 'materialOf', 'namedArguments', 'number', 'numbersOf', 'positive', 'randomOf', 'rotation', 'vector', 'vectors', 'warn']
+__all__ = [
+	'flag',
+	'maskOf',
+	'materialOf',
+	'namedArguments',
+	'number',
+	'numbersOf',
+	'positive',
+	'randomOf',
+	'rotation',
+	'vector',
+	'vectors',
+	'warn',
+]
 
 infinite = float('inf')
 package = os.path.dirname(os.path.abspath(__file__)) + os.sep

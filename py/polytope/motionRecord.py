@@ -202,7 +202,10 @@ class MotionRecord:
 			'springs': (self.elastPotential, self.elasticEnergy()),
 			'normal damper': (taken(self.normDampDissip), normal),
 			'friction and shear damper': (taken(self.plastDissip + self.shearDampDissip + self.shearStored), shear),
-			'sum': (self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative, -self._work(force, couple)),
+			'sum': (
+				self.elastPotential + self.plastDissip + self.normDampDissip + self.shearDampDissip + self.nonconservative,
+				-self._work(force, couple),
+			),
 		}
 		return {name: float(np.abs(law - own).max()) for name, (law, own) in pairs.items()}
 

@@ -4,6 +4,7 @@
 In YADE's double these are Python's floats. Its wider precisions return a type of their own, yade.minieigenHP.Real, and accept
 that, Python's and mpmath's numbers.
 """
+
 import numbers
 
 from yade import minieigenHP

@@ -60,7 +60,10 @@ class TradeoffTable(list):
 
 	def __init__(self, rows, reference):
 		super().__init__(rows)
-		true, first = self[reference].answer if isinstance(reference, str) else reference, next((row.timeStep for row in rows if row.timeStep), 0)
+		true, first = (
+			self[reference].answer if isinstance(reference, str) else reference,
+			next((row.timeStep for row in rows if row.timeStep), 0),
+		)
 		for row in rows:
 			row.cost = row.stepMicroseconds * first / row.timeStep if row.stepMicroseconds and row.timeStep else None
 			if row.answer is not None and not np.isfinite(row.answer).all():
@@ -118,7 +121,9 @@ def tradeoff(build, settings, measure, reference, timedSeconds=0.5):
 		raise CalledAgain('tradeoff: called by one of its own processes')
 	task = {'build': _placeOf('build', build), 'measure': _placeOf('measure', measure), 'timedSeconds': timedSeconds}
 	if not isinstance(settings, dict) or not settings or not 0 <= number(timedSeconds, 'timedSeconds') < math.inf:
-		raise ValueError(f'settings, timedSeconds: must be a dictionary with at least one entry and a time from 0 on, got {settings!r}, {timedSeconds!r}')
+		raise ValueError(
+			f'settings, timedSeconds: must be a dictionary with at least one entry and a time from 0 on, got {settings!r}, {timedSeconds!r}'
+		)
 	rows = [Row(name, _checked(build, name, changes)) for name, changes in settings.items()]
 	if not isinstance(reference, str):
 		reference = numbersOf(reference, 'reference') if hasattr(reference, '__len__') else number(reference, 'reference')
@@ -133,7 +138,9 @@ def _placeOf(name, function):
 	"""(file, name): where another process finds a function."""
 	file = getattr(getattr(function, '__code__', None), 'co_filename', '')
 	if not pathlib.Path(file).is_file() or '<' in function.__qualname__:
-		raise ValueError(f'{name}: must be a function written with def at the top of a file, so that other processes can load it, got {function!r}')
+		raise ValueError(
+			f'{name}: must be a function written with def at the top of a file, so that other processes can load it, got {function!r}'
+		)
 	return [str(pathlib.Path(file).resolve()), function.__name__]
 
 
@@ -146,7 +153,9 @@ def _checked(build, setting, changes):
 			raise ValueError('timeStep and timeStepFactor must be above 0')
 		_builds.available(changes.get('precision', 'double'))
 	except (AttributeError, TypeError, ValueError) as error:
-		raise ValueError(f'settings[{setting!r}]: {error}; a change is a number or text: an argument of build, or one of {", ".join(ownNames)}') from None
+		raise ValueError(
+			f'settings[{setting!r}]: {error}; a change is a number or text: an argument of build, or one of {", ".join(ownNames)}'
+		) from None
 	return changes
 
 
@@ -159,7 +168,11 @@ def _run(task):
 	with tempfile.TemporaryDirectory() as folder:
 		environment, answer = {**_builds.environment(kind), inside: folder}, pathlib.Path(folder) / 'answer.json'
 		ended = subprocess.run(command, env=environment, input=json.dumps(task), text=True, capture_output=True)
-		return json.loads(answer.read_text()) if answer.is_file() else {'note': f'ended with exit code {ended.returncode}: {ended.stderr.strip()[-200:]}'}
+		return (
+			json.loads(answer.read_text())
+			if answer.is_file()
+			else {'note': f'ended with exit code {ended.returncode}: {ended.stderr.strip()[-200:]}'}
+		)
 
 
 def answerTo():

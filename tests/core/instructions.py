@@ -4,6 +4,7 @@
 
 Usage: instructions.py POLYTOPE_CORE_TESTS. Exit code 77 (skipped) where there is no valgrind, or no AVX2 in it.
 """
+
 import os
 import pathlib
 import re
@@ -13,10 +14,10 @@ import sys
 import tempfile
 
 bounds = {
-        'cold': {4: 3460, 6: 4400, 12: 6190, 20: 9560},
-        'warm': {6: 3170, 20: 4370},
-        'surface': {6: 6460, 20: 12490},
-        'apart': {6: 400},
+	'cold': {4: 3460, 6: 4400, 12: 6190, 20: 9560},
+	'warm': {6: 3170, 20: 4370},
+	'surface': {6: 6460, 20: 12490},
+	'apart': {6: 400},
 }
 """Faces of the regular solids: instructions a pair, measured and a tenth more. Touching pairs of the paper's contact without and with warm start,
 with warm start the contact model spring, and separated pairs."""
@@ -36,7 +37,9 @@ def count(program, runs):
 		if result.returncode:
 			sys.exit(f'{" ".join(command)} ended with {result.returncode}:\n{result.stdout}\n{result.stderr}')
 		dumps = [pathlib.Path(f'{folder}/out.{k + 1}').read_text() for k in range(len(runs))]
-	return {one: int(re.search(r'^(?:totals|summary): (\d+)', dump, re.MULTILINE)[1]) for one, dump in zip(runs, dumps, strict=True)}, result.stdout
+	return {
+		one: int(re.search(r'^(?:totals|summary): (\d+)', dump, re.MULTILINE)[1]) for one, dump in zip(runs, dumps, strict=True)
+	}, result.stdout
 
 
 def main():

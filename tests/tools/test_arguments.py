@@ -1,16 +1,32 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What `run` refuses before it does anything, what it lets through, and what it says while it waits."""
+
 import pytest
 from test_entry import call, clone, shell, tmp_path  # noqa: F401, the fixtures
 
 
-@pytest.mark.parametrize('arguments, named', [
-        (['format', '--chekc'], "'--chekc'"), (['format', 'src'], "'src'"), (['build', '-v'], "'-v'"), (['test', '--fsat'], "'--fsat'"),
-        (['test', '-k', 'nothing', '--fats'], "'--fats'"), (['bench', '--onyl', 'kernels'], "'--onyl'"), (['bench', '--only=kernel'], "'kernel'"),
-        (['accuracy', '--only', 'pairs', 'nosuch'], "'nosuch'"), (['tradeoff', '--only', 'B', 'X'], "'X'"), (['paper', '--quik'], "'--quik'"),
-        (['search', '--pair', '5'], "'--pair'"), (['demo', '--nummer=5'], "'--nummer'"), (['fuzz', '--target', 'all'], "'all'"),
-        (['sanitize', '--only', 'nothing'], "'nothing'"), (['clean', '--root', '--all'], "'--root --all'"), (['package', '--tset'], "'--tset'"), (['package', 'x.deb'], "'x.deb'")
-])
+@pytest.mark.parametrize(
+	'arguments, named',
+	[
+		(['format', '--chekc'], "'--chekc'"),
+		(['format', 'src'], "'src'"),
+		(['build', '-v'], "'-v'"),
+		(['test', '--fsat'], "'--fsat'"),
+		(['test', '-k', 'nothing', '--fats'], "'--fats'"),
+		(['bench', '--onyl', 'kernels'], "'--onyl'"),
+		(['bench', '--only=kernel'], "'kernel'"),
+		(['accuracy', '--only', 'pairs', 'nosuch'], "'nosuch'"),
+		(['tradeoff', '--only', 'B', 'X'], "'X'"),
+		(['paper', '--quik'], "'--quik'"),
+		(['search', '--pair', '5'], "'--pair'"),
+		(['demo', '--nummer=5'], "'--nummer'"),
+		(['fuzz', '--target', 'all'], "'all'"),
+		(['sanitize', '--only', 'nothing'], "'nothing'"),
+		(['clean', '--root', '--all'], "'--root --all'"),
+		(['package', '--tset'], "'--tset'"),
+		(['package', 'x.deb'], "'x.deb'"),
+	],
+)
 def testUnknownArgumentsAreRefusedFirst(clone, tmp_path, arguments, named):
 	"""Before the cache is even made, so before anything is installed, built or formatted."""
 	cache = tmp_path / 'cache'
@@ -21,9 +37,20 @@ def testUnknownArgumentsAreRefusedFirst(clone, tmp_path, arguments, named):
 
 def testKnownArgumentsPass(clone, tmp_path):
 	lines = [
-		'accuracy --quick --only pairs scenes --output x --jobs 2', 'bench --only=kernels --output=x', 'paper --only ACF', 'demo --seed -1 --shape cube',
-		'test --fast -k one --ff -x --pdb', 'yade -n -x script.py --own', 'python script.py --own', 'shell -c ls', 'build overlay polytope_search', 'format --check',
-		'fuzz --target contact --seconds 5', 'package --ipopt --test', 'sanitize --only core --only fuzz --help', 'search --pairs 5 --family solids'
+		'accuracy --quick --only pairs scenes --output x --jobs 2',
+		'bench --only=kernels --output=x',
+		'paper --only ACF',
+		'demo --seed -1 --shape cube',
+		'test --fast -k one --ff -x --pdb',
+		'yade -n -x script.py --own',
+		'python script.py --own',
+		'shell -c ls',
+		'build overlay polytope_search',
+		'format --check',
+		'fuzz --target contact --seconds 5',
+		'package --ipopt --test',
+		'sanitize --only core --only fuzz --help',
+		'search --pairs 5 --family solids',
 	]
 	done = shell(clone, tmp_path, ''.join(f'checkArguments {line}\n' for line in lines) + 'echo passed')
 	assert done.stdout == 'passed\n' and done.returncode == 0, done.stderr
@@ -32,7 +59,7 @@ def testKnownArgumentsPass(clone, tmp_path):
 def testWaitingForAnotherBuildIsSaid(clone, tmp_path):
 	"""One line, and then it builds."""
 	functions = (clone / 'tools/inside.sh').read_text()
-	functions = functions[functions.index('# Builds one precision'):functions.index('# The plug-in of the precision in use')]
+	functions = functions[functions.index('# Builds one precision') : functions.index('# The plug-in of the precision in use')]
 	stubs = 'buildFolder() { echo "$cache"; }; configure() { :; }; step() { echo built; }; measuringPrograms=\n'
 	cache = tmp_path / 'cache'
 	cache.mkdir()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The entry script `run` and its parts, with a cache folder and a project of the test's own: nothing is downloaded or installed."""
+
 import os
 import pathlib
 import shlex
@@ -38,7 +39,9 @@ def shell(clone, cache, script, **environment):
 	"""The parts of `run`, sourced, and then the script."""
 	parts = '\n'.join(f'. "$project/tools/{part}.sh"' for part in ('messages', 'debian', 'debianRoot', 'yadeSource', 'cache', 'verbs'))
 	environment = {**os.environ, 'project': str(clone), 'cache': str(cache), 'logs': f'{cache}/logs', **environment}
-	return subprocess.run(['bash', '-euo', 'pipefail', '-c', f'{parts}\n{script}'], env=environment, capture_output=True, text=True, timeout=600)
+	return subprocess.run(
+		['bash', '-euo', 'pipefail', '-c', f'{parts}\n{script}'], env=environment, capture_output=True, text=True, timeout=600
+	)
 
 
 def filled(cache):
@@ -121,7 +124,10 @@ def testARootInUseStays(clone, tmp_path):
 	root.mkdir()
 	(clone / 'build').mkdir()
 	holder = subprocess.Popen(
-		['bash', '-c', f'. {shlex.quote(str(clone))}/tools/debianRoot.sh; holdDebianRoot {shlex.quote(str(root))}; echo held; read -r _'], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+		['bash', '-c', f'. {shlex.quote(str(clone))}/tools/debianRoot.sh; holdDebianRoot {shlex.quote(str(root))}; echo held; read -r _'],
+		stdin=subprocess.PIPE,
+		stdout=subprocess.PIPE,
+		text=True,
 	)
 	try:
 		assert holder.stdout.readline() == 'held\n'
@@ -152,11 +158,14 @@ def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
 	for name in ('debian13/var/lib/dpkg/info', 'debian13/var/lib/dpkg/updates', 'debian13-0123abcd'):
 		(cache / name).mkdir(parents=True)
 	(cache / 'debian13/var/lib/dpkg/status').write_text(
-		''.join(f'Package: {name}\nStatus: install ok installed\nVersion: 1\nArchitecture: all\nMaintainer: x <x@x>\nDescription: x\n\n' for name in ('yade', 'cmake'))
+		''.join(
+			f'Package: {name}\nStatus: install ok installed\nVersion: 1\nArchitecture: all\nMaintainer: x <x@x>\nDescription: x\n\n'
+			for name in ('yade', 'cmake')
+		)
 	)
 	(cache / 'debian13.made').write_text('1\n')
 	functions = (clone / 'run').read_text()
-	functions = functions[functions.index('# The Debian root, with'):functions.index('# The source of exactly')]
+	functions = functions[functions.index('# The Debian root, with') : functions.index('# The source of exactly')]
 	stubs = 'makeDebianRoot() { echo MADE; }; removeDebianRoot() { echo REMOVED; }; installInDebianRoot() { shift; printf "%s\\n" "$@" >"$cache/added"; }'
 	done = shell(clone, cache, f'{stubs}\n{functions}\nsetUpRoot base test\necho "root is $root"')
 	assert done.returncode == 0, done.stderr
@@ -170,10 +179,12 @@ def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
 def testArchivesOfTheRoot(clone, tmp_path):
 	"""With and without further files of sources."""
 	functions = (clone / 'run').read_text()
-	functions = functions[functions.index('rootArchives()'):functions.index('# Everything before')]
+	functions = functions[functions.index('rootArchives()') : functions.index('# Everything before')]
 	apt = tmp_path / 'root/etc/apt'
 	(apt / 'sources.list.d').mkdir(parents=True)
-	(apt / 'sources.list').write_text('deb [signed-by=/a.gpg] https://debian.example/debian trixie main\n\ndeb https://security.example trixie-security main\n')
+	(apt / 'sources.list').write_text(
+		'deb [signed-by=/a.gpg] https://debian.example/debian trixie main\n\ndeb https://security.example trixie-security main\n'
+	)
 	expected = ['https://debian.example/debian trixie main', 'https://security.example trixie-security main']
 	for _ in range(2):
 		done = shell(clone, tmp_path, f'{functions}\nfound=$(rootArchives {shlex.quote(str(tmp_path))}/root)\necho "$found"')
@@ -182,20 +193,23 @@ def testArchivesOfTheRoot(clone, tmp_path):
 		expected = [*expected, 'https://more.example trixie main']
 
 
-@pytest.mark.parametrize('verb, needed, spared', [
-        ('demo', {'yade', 'g++', 'xvfb'}, {'clang', 'valgrind', 'libgtest-dev', 'libccd-dev', 'python3-pytest', 'clang-format'}),
-        ('yade', {'yade', 'g++'}, {'clang', 'valgrind', 'libccd-dev'}),
-        ('build overlay', {'yade'}, {'libgtest-dev'}),
-        ('build testPrograms', {'yade', 'libgtest-dev'}, {'libccd-dev'}),
-        ('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth', 'python3-sphinx'}, {'libccd-dev'}),
-        ('docs', {'yade', 'python3-sphinx', 'python3-myst-parser', 'furo', 'libjs-mathjax'}, {'clang', 'valgrind'}),
-        ('bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
-        ('paper', {'git', 'yade'}, {'libccd-dev', 'clang'}),
-        ('figures --check', {'yade'}, {'libccd-dev', 'git'}),
-        ('figures --measure bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
-        ('fuzz', {'clang', 'libclang-rt-dev'}, {'libccd-dev'}),
-        ('format', {'clang-format'}, {'libccd-dev'}),
-])
+@pytest.mark.parametrize(
+	'verb, needed, spared',
+	[
+		('demo', {'yade', 'g++', 'xvfb'}, {'clang', 'valgrind', 'libgtest-dev', 'libccd-dev', 'python3-pytest', 'clang-format'}),
+		('yade', {'yade', 'g++'}, {'clang', 'valgrind', 'libccd-dev'}),
+		('build overlay', {'yade'}, {'libgtest-dev'}),
+		('build testPrograms', {'yade', 'libgtest-dev'}, {'libccd-dev'}),
+		('test --fast', {'python3-pytest-xdist', 'valgrind', 'clang', 'xauth', 'python3-sphinx'}, {'libccd-dev'}),
+		('docs', {'yade', 'python3-sphinx', 'python3-myst-parser', 'furo', 'libjs-mathjax'}, {'clang', 'valgrind'}),
+		('bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
+		('paper', {'git', 'yade'}, {'libccd-dev', 'clang'}),
+		('figures --check', {'yade'}, {'libccd-dev', 'git'}),
+		('figures --measure bench', {'libccd-dev', 'git'}, {'clang', 'valgrind'}),
+		('fuzz', {'clang', 'libclang-rt-dev'}, {'libccd-dev'}),
+		('format', {'clang-format'}, {'libccd-dev'}),
+	],
+)
 def testPackagesOfAVerb(clone, tmp_path, verb, needed, spared):
 	done = shell(clone, tmp_path, f'packages $(purposesOf {verb})')
 	names = done.stdout.split()
@@ -285,7 +299,7 @@ def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
 	for file in (stamp, program):
 		file.touch()
 	functions = (clone / 'tools/inside.sh').read_text()
-	functions = functions[functions.index('buildFolder()'):functions.index('# Builds one precision')]
+	functions = functions[functions.index('buildFolder()') : functions.index('# Builds one precision')]
 	functions += '\nbuild=$project/build precision=double widePrecisions="longdouble float128 mpfr150" measuringPrograms=accuracy/polytope_extremes\n'
 
 	def after(script, buildKey='here'):
@@ -294,7 +308,9 @@ def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
 		assert ours.exists()
 		return overlay.exists(), stamp.exists(), program.exists()
 
-	built = 'sourcesKey >"$build/longdouble/sources"; sourcesKey tests >"$build/tools/measure/accuracy/polytope_extremes.sources"; dropStale'
+	built = (
+		'sourcesKey >"$build/longdouble/sources"; sourcesKey tests >"$build/tools/measure/accuracy/polytope_extremes.sources"; dropStale'
+	)
 	assert after(built) == (True, True, True)
 	(clone / 'tests/core/aTest.py').touch()  # nothing is compiled from it
 	assert after('dropStale') == (True, True, True)
@@ -308,7 +324,7 @@ def testBuildsForAnotherYadeArePutAway(clone, tmp_path):
 	"""The same, where only YADE or the place has changed."""
 	testBuildsFromOtherSourcesArePutAway(clone, tmp_path)
 	functions = (clone / 'tools/inside.sh').read_text()
-	functions = functions[functions.index('# One number for all'):functions.index('# Builds one precision')]
+	functions = functions[functions.index('# One number for all') : functions.index('# Builds one precision')]
 	keys = {shell(clone, tmp_path, functions + 'sourcesKey', buildKey=key).stdout for key in ('here', 'there')}
 	assert len(keys) == 2
 
@@ -329,7 +345,7 @@ def testWhatIsMeasuredIsNoBuildForDeveloping(clone, tmp_path, was, command, aske
 	(clone / 'build').mkdir()
 	(clone / 'build/CMakeCache.txt').write_text(f'POLYTOPE_DEVELOP:BOOL={was}\n')
 	functions = (clone / 'tools/inside.sh').read_text()
-	functions = functions[functions.index('# Whether the plug-in is compiled file by file'):functions.index('buildFolder()')]
+	functions = functions[functions.index('# Whether the plug-in is compiled file by file') : functions.index('buildFolder()')]
 	script = f'{functions}\nstep() {{ shift 2; echo "$1 $2"; }}\ncommand={command}\nsetDevelop "$project/build"'
 	done = shell(clone, tmp_path, script, YADE_POLYTOPE_DEVELOP=asked)
 	assert done.returncode == 0, done.stderr

@@ -26,10 +26,21 @@ def project(tmp_path):
 def figures(project, *arguments, code=0):
 	command = '. "$project/tools/messages.sh"; . "$project/tools/figures.sh"; figures "$@"'
 	environment = {**os.environ, 'project': str(project), 'ends': str(code)}
-	return subprocess.run(['bash', '-euo', 'pipefail', '-c', command, 'figures', *arguments], env=environment, capture_output=True, text=True, timeout=60)
+	return subprocess.run(
+		['bash', '-euo', 'pipefail', '-c', command, 'figures', *arguments], env=environment, capture_output=True, text=True, timeout=60
+	)
 
 
-@pytest.mark.parametrize('name, option, ending', [('bench', '--output', ''), ('tradeoff', '--output', ''), ('accuracy', '--output', ''), ('paper', '--output', ''), ('search', '--log', '.txt')])
+@pytest.mark.parametrize(
+	'name, option, ending',
+	[
+		('bench', '--output', ''),
+		('tradeoff', '--output', ''),
+		('accuracy', '--output', ''),
+		('paper', '--output', ''),
+		('search', '--log', '.txt'),
+	],
+)
 @pytest.mark.parametrize('code', [0, 1])
 def testWhatIsMeasuredIsTakenOver(project, name, option, ending, code):
 	into = f'{project}/output/figures/{name}{ending}'

@@ -39,9 +39,17 @@ def project(tmp_path):
 def call(project, command, **environment):
 	parts = '. "$project/tools/messages.sh"; . "$project/tools/fuzz.sh"; checkedMemory() { :; }'
 	parts += '; checkCore() { sleep 1; }; checkThreads() { return 1; }; checkValgrind() { :; }'
-	folders = {'project': project, 'build': project / 'build', 'logs': project / 'logs', 'cache': project, 'arguments': project / 'arguments'}
+	folders = {
+		'project': project,
+		'build': project / 'build',
+		'logs': project / 'logs',
+		'cache': project,
+		'arguments': project / 'arguments',
+	}
 	environment = {**os.environ, 'crash': '', **{name: str(path) for name, path in folders.items()}, **environment}
-	return subprocess.run(['bash', '-euo', 'pipefail', '-c', f'{parts}; {command}'], env=environment, capture_output=True, text=True, timeout=60)
+	return subprocess.run(
+		['bash', '-euo', 'pipefail', '-c', f'{parts}; {command}'], env=environment, capture_output=True, text=True, timeout=60
+	)
 
 
 def revisionOf(project):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`./run test [--fast] PLACE…`: what runs for a place, with stand-ins for the programs that build and test."""
+
 import re
 
 import pytest
@@ -42,7 +43,12 @@ def testSeveralPlacesAndAFile(tmp_path):
 	lines, done = ran(tmp_path, 'tools rock test_rock_joint::testSlip tests/yade/bond/test_bonds.py -n 1')
 	assert done.returncode == 0, done.stderr
 	(run,) = [line for line in lines if line.startswith('pytest')]
-	assert words(run)[1:5] == ['tests/tools', 'tests/yade/rock', 'tests/yade/joint/test_rock_joint.py::testSlip', 'tests/yade/bond/test_bonds.py']
+	assert words(run)[1:5] == [
+		'tests/tools',
+		'tests/yade/rock',
+		'tests/yade/joint/test_rock_joint.py::testSlip',
+		'tests/yade/bond/test_bonds.py',
+	]
 	assert not any('longdouble' in line for line in lines), 'the repeat is of the whole alone'
 
 

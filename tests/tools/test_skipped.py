@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """tools/skipped.py: the summary at the end of `./run test`."""
+
 import os
 import pathlib
 import subprocess
@@ -12,7 +13,11 @@ case = '<testcase classname="{}" name="{}">{}</testcase>'
 
 def skipped(folder, *options, ci=''):
 	done = subprocess.run(
-		[sys.executable, project / 'tools/skipped.py', *options, folder], env={**os.environ, 'CI': ci}, capture_output=True, text=True, timeout=600
+		[sys.executable, project / 'tools/skipped.py', *options, folder],
+		env={**os.environ, 'CI': ci},
+		capture_output=True,
+		text=True,
+		timeout=600,
 	)
 	assert not done.stderr
 	return done
@@ -21,8 +26,12 @@ def skipped(folder, *options, ci=''):
 def testSkipsAreCountedAndNamed(tmp_path):
 	core = ['Shape.cube', 'Instructions', 'Fuzz.contact', 'Search', 'WithoutIpopt', 'InstructionSet.SSE2', 'Clang.Status']
 	missing = '<skipped message="SKIP_RETURN_CODE=77"/><system-out>no valgrind\n</system-out>'
-	(tmp_path / 'core.xml').write_text(junit.format(''.join(case.format(name, name, missing if name == 'Instructions' else '') for name in core)))
-	(tmp_path / 'double.xml').write_text(junit.format(case.format('a.b', 'testX', '<skipped message="float128 is not built: so"/>') + case.format('a.b', 'testY', '')))
+	(tmp_path / 'core.xml').write_text(
+		junit.format(''.join(case.format(name, name, missing if name == 'Instructions' else '') for name in core))
+	)
+	(tmp_path / 'double.xml').write_text(
+		junit.format(case.format('a.b', 'testX', '<skipped message="float128 is not built: so"/>') + case.format('a.b', 'testY', ''))
+	)
 	for ci, code in (('', 0), ('true', 1)):
 		done = skipped(tmp_path, '--expect-core', '--expect-precision', 'longdouble', ci=ci)
 		assert done.returncode == code

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every test starts from an empty scene; scenes.py, the package boon2012 and the studies of accuracy are importable from all of them."""
+
 import numbers
 import os
 import pathlib
@@ -21,16 +22,16 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 # double's code with other scenes (the paper's simulations, studies, theory), or counts and compares runs with each other (bounds, threads,
 # energies of the laws: test_precision has their scenes against 150 digits).
 widePrecision = {
-        'test_precision': "all quantities of a contact against references of more digits than double's",
-        'test_plugin': 'loading, and the check of the layout of classes',
-        'test_bodies': 'construction: conversions between Python, CGAL and Real',
-        'test_spring': "the contact surface in Real, with YADE's own integrator",
-        'test_contact_physics': "forces of every law in Real, and the paper's contact by them",
-        'test_mixed_pairs': "YADE's spheres, walls, boxes and facets in Real",
-        'test_rock_joint': 'the law, its state in Real',
-        'test_save_load': 'archives of Real',
-        'test_vtk': 'numbers written as double',
-        'test_ipopt': 'Ipopt computes in double whatever Real is',
+	'test_precision': "all quantities of a contact against references of more digits than double's",
+	'test_plugin': 'loading, and the check of the layout of classes',
+	'test_bodies': 'construction: conversions between Python, CGAL and Real',
+	'test_spring': "the contact surface in Real, with YADE's own integrator",
+	'test_contact_physics': "forces of every law in Real, and the paper's contact by them",
+	'test_mixed_pairs': "YADE's spheres, walls, boxes and facets in Real",
+	'test_rock_joint': 'the law, its state in Real',
+	'test_save_load': 'archives of Real',
+	'test_vtk': 'numbers written as double',
+	'test_ipopt': 'Ipopt computes in double whatever Real is',
 }
 if polytope.buildInfo()['precision'] != 'double':
 	# what pytest.approx asks of a number, and the messages of failures
@@ -41,7 +42,9 @@ if polytope.buildInfo()['precision'] != 'double':
 
 slowTests = {line.strip() for line in (pathlib.Path(__file__).parent / 'slow.txt').read_text().splitlines() if not line.startswith('#')}
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.path += sorted(str(path) for path in pathlib.Path(__file__).resolve().parent.iterdir() if path.is_dir())  # tests may use those of other folders
+sys.path += sorted(
+	str(path) for path in pathlib.Path(__file__).resolve().parent.iterdir() if path.is_dir()
+)  # tests may use those of other folders
 # last: both have a report.py, which no test takes by its name
 for folder in ('examples/paper', 'tools/measure/accuracy'):
 	sys.path.append(os.path.abspath(os.path.join(__file__, '../../..', folder)))

@@ -3,6 +3,7 @@
 
 Nothing of the plug-in's arithmetic is used. Each function is given all planes in world axes as rows (a, d) of unit normal
 and offset, body 1's first."""
+
 import mpmath
 import numpy as np
 from mpmath import mpf
@@ -23,9 +24,9 @@ def rotation(x, y, z, w):
 	"""Matrix of the quaternion, which need not be of unit length."""
 	x, y, z, w = unit([x, y, z, w])
 	return [
-	        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-	        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-	        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+		[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+		[2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+		[2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
 	]
 
 
@@ -60,7 +61,7 @@ def largestBall(planes):
 	matrix = mpmath.matrix([[*planes[i][0], -1] for i in active])
 	*x, s = mpmath.lu_solve(matrix, mpmath.matrix([planes[i][1] for i in active]))
 	weights = mpmath.lu_solve(matrix.T, mpmath.matrix([0, 0, 0, -1]))
-	assert min(weights) > 1e-6 and all(dot(a, x) - d < s + mpf(10)**(5 - mpmath.mp.dps) for a, d in planes)
+	assert min(weights) > 1e-6 and all(dot(a, x) - d < s + mpf(10) ** (5 - mpmath.mp.dps) for a, d in planes)
 	return s, x
 
 
@@ -70,7 +71,7 @@ def newton(gradient, hessian, start):
 	for _ in range(60):
 		step = mpmath.lu_solve(hessian(x), -gradient(x))
 		x += step
-		if mpmath.norm(step) < mpf(10)**(8 - mpmath.mp.dps):
+		if mpmath.norm(step) < mpf(10) ** (8 - mpmath.mp.dps):
 			return list(x)
 	raise AssertionError('no convergence')
 

@@ -6,6 +6,7 @@ YADE, Python, MPI and Qt have errors of their own; what counts is an error whose
 solids: valgrind does not follow the rounding modes in which CGAL decides nearly degenerate cases. Not a test of pytest: it takes minutes.
 `./run sanitize` runs it; by hand: ./run python tests/yade/memcheck.py. Exit code 1 if there is an error of ours.
 """
+
 import collections
 import os
 import subprocess
@@ -59,7 +60,10 @@ def errors(path):
 		if element.tag == 'error' and element.findtext('kind').startswith('Leak_'):
 			element.clear()
 		elif element.tag == 'error':
-			yield element.findtext('kind'), [tuple(frame.findtext(key, '') for key in ('obj', 'fn', 'file', 'line')) for frame in element.iter('frame')]
+			yield (
+				element.findtext('kind'),
+				[tuple(frame.findtext(key, '') for key in ('obj', 'fn', 'file', 'line')) for frame in element.iter('frame')],
+			)
 			element.clear()
 
 
@@ -71,7 +75,20 @@ def main():
 	here = os.path.dirname(os.path.abspath(__file__))
 	with tempfile.TemporaryDirectory() as folder:
 		report = os.path.join(folder, 'valgrind.xml')
-		command = ['valgrind', '--tool=memcheck', '--leak-check=no', '--show-leak-kinds=none', '--num-callers=40', '--error-limit=no', '--xml=yes', f'--xml-file={report}', sys.executable, '-c', scene, here]
+		command = [
+			'valgrind',
+			'--tool=memcheck',
+			'--leak-check=no',
+			'--show-leak-kinds=none',
+			'--num-callers=40',
+			'--error-limit=no',
+			'--xml=yes',
+			f'--xml-file={report}',
+			sys.executable,
+			'-c',
+			scene,
+			here,
+		]
 		environment = dict(os.environ, PYTHONMALLOC='malloc', OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1', QT_QPA_PLATFORM='offscreen')
 		run = subprocess.run(command, env=environment, capture_output=True, text=True)
 		print(*(line for line in run.stdout.splitlines() if line.startswith('RESULT')), sep='\n')

@@ -68,7 +68,9 @@ def carried():
 	O.reset()
 	if master:
 		material()
-		floor, _ = polytope.clump([polytope.cuboid((0, 0, -0.5), (3, 1, 0.5), fixed=True), polytope.cuboid((2.5, 0, 0.5), (0.5, 1, 0.7), fixed=True)])
+		floor, _ = polytope.clump(
+			[polytope.cuboid((0, 0, -0.5), (3, 1, 0.5), fixed=True), polytope.cuboid((2.5, 0, 0.5), (0.5, 1, 0.7), fixed=True)]
+		)
 		O.bodies[floor].state.vel = (0.3, 0, 0.1)
 		O.bodies.append(polytope.cuboid((-2, 0, 0.3), (0.1, 0.5, 0.2), fixed=True))
 		O.bodies[-1].state.vel = (1, 0, 0)

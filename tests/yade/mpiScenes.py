@@ -72,14 +72,26 @@ def divided(start='start'):
 	pairs = [(ranks[int(one)], ranks[int(other)]) for one, other in again.contacts.ids]
 	order = np.lexsort(again.contacts.ids.T[::-1])
 	same = {
-		**{name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name)) for name in ('ids', 'clumpIds', 'positions', 'velocities', 'masses')},
-		**{name: np.array_equal(getattr(fields.contacts, name), getattr(again.contacts, name)[order]) for name in ('ids', 'forces', 'points', 'areas')},
+		**{
+			name: np.array_equal(getattr(fields.bodies, name), getattr(again.bodies, name))
+			for name in ('ids', 'clumpIds', 'positions', 'velocities', 'masses')
+		},
+		**{
+			name: np.array_equal(getattr(fields.contacts, name), getattr(again.contacts, name)[order])
+			for name in ('ids', 'forces', 'points', 'areas')
+		},
 	}
 	# force on all bodies together, fixed ones included: the contacts' own cancel
 	parts = fields.bodies.clumpIds != fields.bodies.ids
-	return {**state(), 'same': same, 'net': [float(x) for x in fields.bodies.forces[parts].sum(axis=0)], 'push': float(abs(fields.contacts.forces).max()),
+	return {
+		**state(),
+		'same': same,
+		'net': [float(x) for x in fields.bodies.forces[parts].sum(axis=0)],
+		'push': float(abs(fields.contacts.forces).max()),
 		'ofTwoRanks': sum(0 < one[0] != other[0] > 0 and one[1] and other[1] for one, other in pairs),
-		'stats': {name: stats[name] for name in ('pairs', 'failures')}, 'names': [fields.bodies.shapeNames[k] for k in fields.bodies.shapes]}
+		'stats': {name: stats[name] for name in ('pairs', 'failures')},
+		'names': [fields.bodies.shapeNames[k] for k in fields.bodies.shapes],
+	}
 
 
 def clumpedDivided():
@@ -134,7 +146,9 @@ def sliding(pieces, number, waterTable=None, **joint):
 	O.reset()
 	if master:
 		O.materials.append(
-			yade.RockJointMat(**{**dict(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3), **(joint or dict(dilationAngle=0.05))})
+			yade.RockJointMat(
+				**{**dict(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.3), **(joint or dict(dilationAngle=0.05))}
+			)
 		)
 		half = 6 / pieces
 		O.bodies.append([polytope.cuboid((half * (2 * k + 1) - 4, 0, -0.5), (half, 1, 0.5), fixed=True) for k in range(pieces)])
@@ -152,6 +166,7 @@ def sliding(pieces, number, waterTable=None, **joint):
 
 def reallocated(scene, atRandom=False):
 	"""A heap with bodies that change ranks in the run, and how many did so; at random: every five steps, two of five of those that both ranks know."""
+
 	def once():
 		mpy, counts, dice = mpi.mpy, [], random.Random(mpi.rank())
 		byPlace, collide = mpy.REALLOCATE_FILTER, mpy.checkAndCollide
@@ -219,13 +234,15 @@ def joints():
 def rough():
 	"""Barton-Bandis on joints that stiffen as they close."""
 	return ownLaws(
-		strength=yade.BartonBandisStrength(JRC=10, JCS=1e7, sampleLength=0.1, jointLength=0.4), closure=yade.HyperbolicClosure(maximumClosure=1e-3)
+		strength=yade.BartonBandisStrength(JRC=10, JCS=1e7, sampleLength=0.1, jointLength=0.4),
+		closure=yade.HyperbolicClosure(maximumClosure=1e-3),
 	)
 
 
 def yielding():
 	return ownLaws(
-		strength=yade.ContinuouslyYieldingStrength(initialFrictionAngle=0.7, roughness=1e-2), closure=yade.PowerClosure(exponent=0.4, referenceStress=1e4)
+		strength=yade.ContinuouslyYieldingStrength(initialFrictionAngle=0.7, roughness=1e-2),
+		closure=yade.PowerClosure(exponent=0.4, referenceStress=1e4),
 	)
 
 
@@ -259,7 +276,12 @@ def bonded():
 	if master:
 		found['halfWay'] = half['bodies']
 		found['bonds'] = {
-			f'{b.id1} {b.id2}': [b.intact, b.failure, b.failedAt, [float(x).hex() for x in (*b.force, *b.moment, *b.point, b.energy, b.edgeStress)]]
+			f'{b.id1} {b.id2}': [
+				b.intact,
+				b.failure,
+				b.failedAt,
+				[float(x).hex() for x in (*b.force, *b.moment, *b.point, b.energy, b.edgeStress)],
+			]
 			for b in polytope.bonds().bonds
 		}
 	return found
@@ -300,7 +322,13 @@ def shaken():
 		mpi.run(250)
 		if master:
 			free = [body.state for body in O.bodies if body.dynamic and not body.isSubdomain]
-			found.append([float(np.mean([state.pos[2] for state in free])), float(np.mean([state.vel.norm() for state in free])), O.interactions.countReal()])
+			found.append(
+				[
+					float(np.mean([state.pos[2] for state in free])),
+					float(np.mean([state.vel.norm() for state in free])),
+					O.interactions.countReal(),
+				]
+			)
 	return found
 
 
@@ -375,7 +403,13 @@ def refused():
 
 	saysNo('nothing')
 	mpy = mpi.mpy
-	for name, value in (('ERASE_REMOTE', False), ('COPY_MIRROR_BODIES_WHEN_COLLIDE', False), ('REALLOCATE_MINIMAL', True), ('MERGE_W_INTERACTIONS', False), ('USE_CPP_MPI', False)):
+	for name, value in (
+		('ERASE_REMOTE', False),
+		('COPY_MIRROR_BODIES_WHEN_COLLIDE', False),
+		('REALLOCATE_MINIMAL', True),
+		('MERGE_W_INTERACTIONS', False),
+		('USE_CPP_MPI', False),
+	):
 		former = getattr(mpy, name)
 		setattr(mpy, name, value)
 		saysNo(f'mpy.{name}')
@@ -432,7 +466,9 @@ def continued():
 
 
 reallocatedCrossing = reallocated(crossing)
-reallocatedHeap, reallocatedSmooth, reallocatedBonded, reallocatedStacks = (reallocated(scene, atRandom=True) for scene in (heap, smooth, bonded, crossing))
+reallocatedHeap, reallocatedSmooth, reallocatedBonded, reallocatedStacks = (
+	reallocated(scene, atRandom=True) for scene in (heap, smooth, bonded, crossing)
+)
 
 for name in sys.argv[2:]:
 	begin = time.perf_counter()

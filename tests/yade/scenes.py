@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Small scenes that several physics tests share."""
+
 import time
 from math import sqrt
 
@@ -30,7 +31,7 @@ from yade import (
 )
 
 gravity = 9.81
-density = 2600.
+density = 2600.0
 
 bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
 """Of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on, with its functor."""
@@ -64,7 +65,7 @@ def runInBackground(steps=10**9):
 		time.sleep(1e-3)
 
 
-def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gravity=(0, 0, 0), damping=0., ip2={}, ig2={}):
+def loop(perArea=False, normalDamping=0.0, shearDamping=0.0, rockingDamping=0.0, gravity=(0, 0, 0), damping=0.0, ip2={}, ig2={}):
 	"""Engines with the plug-in's law. Returns the NewtonIntegrator.
 
 	verletDist=0: pairs are searched for in each step. With a Verlet distance YADE searches again when a body has moved by it, and does not
@@ -72,13 +73,18 @@ def loop(perArea=False, normalDamping=0., shearDamping=0., rockingDamping=0., gr
 	"""
 	newton = NewtonIntegrator(gravity=gravity, damping=damping)
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
-	        InteractionLoop(
-	                [Ig2_Polytope_Polytope_PolytopeGeom(**ig2)], [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea, **ip2)],
-	                [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=normalDamping, shearDamping=shearDamping, rockingDamping=rockingDamping)]
-	        ),
-	        newton,
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom(**ig2)],
+			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea, **ip2)],
+			[
+				Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(
+					normalDamping=normalDamping, shearDamping=shearDamping, rockingDamping=rockingDamping
+				)
+			],
+		),
+		newton,
 	]
 	return newton
 
@@ -108,7 +114,7 @@ def law():
 	return O.engines[2].lawDispatcher.functors[0]
 
 
-def blockOnFloor(overlap=0., half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **block):
+def blockOnFloor(overlap=0.0, half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **block):
 	"""A block on a large fixed one, pressed into it by *overlap*; both turned about the origin, the contact. Returns (floor, block)."""
 	floor = polytope.cuboid(turn * Vector3(0, 0, -1), (5, 5, 1), turn, fixed=True)
 	top = polytope.cuboid(turn * Vector3(0, 0, half[2] - overlap), half, turn, **block)

@@ -27,7 +27,9 @@ def options(arguments=None):
 	parser = argparse.ArgumentParser(prog='./run tradeoff', description=__doc__.splitlines()[0])
 	parser.add_argument('--quick', action='store_true', help='fewer settings, and no other arithmetic than double')
 	parser.add_argument('--only', nargs='+', choices=letters, default=letters, metavar='SCENE', help=f'of {", ".join(letters)}')
-	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)')
+	parser.add_argument(
+		'--output', type=pathlib.Path, help='folder for all files (default: output/tradeoff, with --quick output/tradeoff-quick)'
+	)
 	# for ./run: only reads the options; prints the builds that this run asks for
 	parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)
 	parser.add_argument('--precisions', action='store_true', help=argparse.SUPPRESS)
@@ -118,7 +120,10 @@ def buildPairs(model, each=4):
 			body.state.blockedDOFs = 'xyzXYZ'
 		moving.append(O.bodies.append(bodies)[1])
 	swing = HarmonicMotionEngine(ids=moving, A=(pairSwing, 0.7 * pairSwing, 0.4 * pairSwing), f=(1, 1, 1), fi=(0, 0, 0))
-	per, geometry = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False), Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model)
+	per, geometry = (
+		Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False),
+		Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model),
+	)
 	usual = engines(gravity=(0, 0, 0), damping=0, geometry=geometry, physics=per, timeStepper=False)
 	O.engines = [*usual[:-1], swing, usual[-1]]
 	O.dt = 1 / pairPeriod
@@ -281,7 +286,11 @@ class Scene:
 		varied = {name: change for name, change in self.varied.items() if name not in wide or _builds.available(name)}
 		if quick:
 			varied = {name: change for name, change in varied.items() if not name.endswith(leftOutWhenQuick)}
-		each = {f'{model}{", " * bool(name)}{name}': {'model': model, **change} for model in models for name, change in {'': {}, **varied}.items()}
+		each = {
+			f'{model}{", " * bool(name)}{name}': {'model': model, **change}
+			for model in models
+			for name, change in {'': {}, **varied}.items()
+		}
 		return {name: change for name, change in each.items() if 'seed' not in change or change['model'] == models[0]}
 
 
@@ -301,7 +310,9 @@ def allScenes():
 		'C': Scene('Sliding wedge', buildSlidingWedge, measureSlidingWedge, dynamics, angle, wedge),
 		'D': Scene('Roof wedge', buildRoofWedge, measureRoofWedge, dynamics, angle, roofAngle()),
 		# afterwards the blocks are apart: the times are those of the run itself
-		'F': Scene('Collisions without loss', buildCollision, measureCollision, dynamics, 'energy over that of the fall', 1.0, timedSeconds=0),
+		'F': Scene(
+			'Collisions without loss', buildCollision, measureCollision, dynamics, 'energy over that of the fall', 1.0, timedSeconds=0
+		),
 		'rest': Scene('Cube at rest (F1)', buildRest, measureRest, dynamics, height, 0.5),
 		'A': Scene('Heap of 96 solids', buildHeap, measureHeap, {**dynamics, **seeds}, 'coordination number'),
 	}
@@ -329,7 +340,9 @@ def summary(tables):
 	for name in sorted(names, key=lambda name: models.index(name.partition(',')[0])):
 		rows = {letter: next((row for row in table if row.name == name), None) for letter, table in tables.items()}
 		costs = [row.cost / tables[letter][0].cost for letter, row in rows.items() if row and row.cost]
-		cells = ['' if row is None else 'blew up' if 'blew up' in row.note else row.note.partition(':')[0] or row.error for row in rows.values()]
+		cells = [
+			'' if row is None else 'blew up' if 'blew up' in row.note else row.note.partition(':')[0] or row.error for row in rows.values()
+		]
 		yield [name, *((min(costs), float(np.median(costs)), max(costs)) if costs else ('', '', '')), *cells]
 
 

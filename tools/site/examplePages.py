@@ -8,7 +8,12 @@ import shutil
 __all__ = ['write']
 
 project = pathlib.Path(__file__).resolve().parents[2]
-folders = {'.': 'Examples', 'verification': 'Verification', 'paper': 'The paper\'s simulations', 'peers': 'Scenes that YADE ships for its own polyhedra'}
+folders = {
+	'.': 'Examples',
+	'verification': 'Verification',
+	'paper': 'The paper\'s simulations',
+	'peers': 'Scenes that YADE ships for its own polyhedra',
+}
 
 
 def write(folder):

@@ -8,7 +8,10 @@ from yadeText import boost, indented, rest, title
 __all__ = ['modules', 'topics', 'write']
 
 topics = {
-	'bodies': ('Bodies', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split withShape'),
+	'bodies': (
+		'Bodies',
+		'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes writeShapes clump split withShape',
+	),
 	'ground': ('Fixed pieces and ground', 'plates tube terrain facets'),
 	'grains': ('Random grains', 'randomGrain grains cloud'),
 	'rock': (
@@ -18,7 +21,10 @@ topics = {
 	),
 	'bonding': ('Bonds and breakage', 'bond bonds breakGrains'),
 	'support': ('Rock bolts, cables, linings', 'bolt Grout Dowel bolts boltArrays lining Adhesion'),
-	'scene': ('Scenes', 'engines check run settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo'),
+	'scene': (
+		'Scenes',
+		'engines check run settle NotAtRest water stableTimeStep checkpoint continueFrom picture animate Film arrays contact buildInfo',
+	),
 	'dynamics': ('Shaken scenes', 'velocityHistory baseMotion quietBoundary'),
 	'stress': ('Stress, excavation, factor of safety', 'inSitu excavate history factorOfSafety FactorOfSafety limitAnalysis LimitAnalysis'),
 	'loading': ('Samples and loading tests', 'pack sample triaxial oedometer simpleShear shearBox'),
@@ -34,7 +40,13 @@ topics = {
 
 returned = {
 	'support': ('bonding.bolting.BoltArrays', 'rock.lining.Lining', 'rock.lining.LiningForces'),
-	'scene': ('measures.arrays.BodyArrays', 'measures.arrays.ContactArrays', 'check.findings.Check', 'check.findings.Finding', 'rest.unrest.Restless'),
+	'scene': (
+		'measures.arrays.BodyArrays',
+		'measures.arrays.ContactArrays',
+		'check.findings.Check',
+		'check.findings.Finding',
+		'rest.unrest.Restless',
+	),
 	'loading': (
 		*('loading.walls.WalledSample', 'loading.cell.PeriodicSample'),
 		*('loading.triaxial.Triaxial', 'loading.oedometer.Oedometer', 'loading.simpleShear.SimpleShear', 'loading.shearBox.ShearBox'),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of a run of a scene: counters, times, energies, overlaps, and a hash of the state it ended in."""
+
 import collections
 import hashlib
 import struct
@@ -95,25 +96,25 @@ class RunWatch:
 		"""Counters over the whole run and mean times [µs], as a dictionary."""
 		counts = self.counts
 		return {
-		        'steps': self.steps,
-		        'pairs': counts['pairs'],
-		        'contactQueries': counts['contacts'],
-		        'dismissed': counts['dismissed'],
-		        'pivotsPerPair': _ratio(counts['simplexPivots'], counts['pairs']),
-		        'newtonPerContact': _ratio(counts['newtonIterations'], counts['contacts']),
-		        'fallbacks': counts['fallbacks'],
-		        'failures': counts['failures'],
-		        'statuses': {key[len('status '):]: count for key, count in counts.items() if key.startswith('status ') and count},
-		        'lpMicroseconds': self._timedMicroseconds('lpSeconds', 'pairs'),
-		        'centreMicroseconds': self._timedMicroseconds('centreSeconds', 'timedPairs'),
-		        'loopMicrosecondsPerPair': 1e-3 * _ratio(self.loop.execTime, self.untimedPairs),
-		        'loopMicrosecondsPerContact': 1e-3 * _ratio(self.loop.execTime, self.untimedContacts),
-		        'loopMicrosecondsPerStep': 1e-3 * _ratio(self.loop.execTime, self.untimedSteps),
-		        'deepestOverlap': self.deepestOverlap,
-		        'overlap': overlapNow(),
-		        'contacts': sum(1 for contact in O.interactions if contact.isReal),
-		        'kineticEnergy': kineticEnergy(),
-		        'stateHash': stateHash(),
+			'steps': self.steps,
+			'pairs': counts['pairs'],
+			'contactQueries': counts['contacts'],
+			'dismissed': counts['dismissed'],
+			'pivotsPerPair': _ratio(counts['simplexPivots'], counts['pairs']),
+			'newtonPerContact': _ratio(counts['newtonIterations'], counts['contacts']),
+			'fallbacks': counts['fallbacks'],
+			'failures': counts['failures'],
+			'statuses': {key[len('status ') :]: count for key, count in counts.items() if key.startswith('status ') and count},
+			'lpMicroseconds': self._timedMicroseconds('lpSeconds', 'pairs'),
+			'centreMicroseconds': self._timedMicroseconds('centreSeconds', 'timedPairs'),
+			'loopMicrosecondsPerPair': 1e-3 * _ratio(self.loop.execTime, self.untimedPairs),
+			'loopMicrosecondsPerContact': 1e-3 * _ratio(self.loop.execTime, self.untimedContacts),
+			'loopMicrosecondsPerStep': 1e-3 * _ratio(self.loop.execTime, self.untimedSteps),
+			'deepestOverlap': self.deepestOverlap,
+			'overlap': overlapNow(),
+			'contacts': sum(1 for contact in O.interactions if contact.isReal),
+			'kineticEnergy': kineticEnergy(),
+			'stateHash': stateHash(),
 		}
 
 

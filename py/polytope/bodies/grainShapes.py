@@ -55,7 +55,9 @@ def shapesOf(shapes, random, draw):
 		given = [partsOfLoose(one) for one in shapes]
 	except TypeError:
 		given = []
-	if not given or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in given for part in parts):
+	if not given or not all(
+		isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for parts in given for part in parts
+	):
 		raise ValueError('shapes: must be a list of polyhedra, or of lists of the parts of one, as polytope.fromMesh makes')
 	scaled = [_scaled(parts) for parts in given]
 	return lambda: scaled[random.integers(len(scaled))]

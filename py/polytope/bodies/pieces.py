@@ -26,7 +26,9 @@ def pieceOf(body, cuts):
 	shape, state = body.shape, body.state
 	normals, offsets = [state.ori * one for one in shape.normals], list(shape.offsets)
 	between = [*normals, *(normal for normal, _ in cuts)], [*offsets, *(offset for _, offset in cuts)]
-	central = _polytope.ofHalfSpaces(vectors(between[0], 'normals', 3), between[1], shape.dimension, shape.thickness, False, None, defaultCornerFraction)
+	central = _polytope.ofHalfSpaces(
+		vectors(between[0], 'normals', 3), between[1], shape.dimension, shape.thickness, False, None, defaultCornerFraction
+	)
 	piece = _polytope.body(central, body.material, None, Quaternion.Identity, False, isotropyTolerance, shape.color)
 	own, density = piece.state, state.mass / shape.volume  # which may not be the material's
 	arm = Vector3(own.pos)

@@ -180,20 +180,20 @@ def ofOneColour(body):
 
 
 def bodyOf(
-        shape,
-        flat=False,
-        *,
-        center=None,
-        orientation=None,
-        material=-1,
-        fixed=False,
-        cornerRadius=None,
-        color=None,
-        wire=False,
-        highlight=False,
-        mask=1,
-        velocity=still,
-        angularVelocity=still
+	shape,
+	flat=False,
+	*,
+	center=None,
+	orientation=None,
+	material=-1,
+	fixed=False,
+	cornerRadius=None,
+	color=None,
+	wire=False,
+	highlight=False,
+	mask=1,
+	velocity=still,
+	angularVelocity=still,
 ):
 	"""The body of the shape that shape(cornerRadius, default's fraction) makes."""
 	placed = shape(None if cornerRadius is None else number(cornerRadius, 'cornerRadius'), defaultCornerFraction)

@@ -74,7 +74,9 @@ def voronoi(region, cells=None, periodic=False, relaxed=0, seeds=None, seed=None
 	whole = float(np.prod(box)) if periodic else _volume(normals, offsets)
 	if abs(volumes.sum() / whole - 1) > filled:
 		raise RuntimeError(f'voronoi: the cells fill {volumes.sum():.9g} of {whole:.9g} m³; move seeds that are nearly at one place')
-	blocks = [(planes, [offset + float(np.dot(normal, middle)) for normal, offset in zip(planes, ends, strict=True)]) for planes, ends in blocks]
+	blocks = [
+		(planes, [offset + float(np.dot(normal, middle)) for normal, offset in zip(planes, ends, strict=True)]) for planes, ends in blocks
+	]
 	return VoronoiCells(blocks, volumes, points + middle)
 
 

@@ -19,7 +19,9 @@ def facetOf(corners, *, fixed=True, wire=False, **body):
 	return _made(utils.facet, (corners,), fixed, wire, **body)
 
 
-def _made(make, place, fixed, wire, *, material=-1, color=None, highlight=False, mask=1, cornerRadius=None, velocity=None, angularVelocity=None):
+def _made(
+	make, place, fixed, wire, *, material=-1, color=None, highlight=False, mask=1, cornerRadius=None, velocity=None, angularVelocity=None
+):
 	given = None if color is None else vector(color, 'color')
 	body = make(
 		*place,

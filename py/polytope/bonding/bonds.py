@@ -130,5 +130,7 @@ def _parts(ids):
 		elif isinstance(body.shape, Polytope):
 			parts.append(int(number))
 		else:
-			raise ValueError(f'ids: body {number} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder')
+			raise ValueError(
+				f'ids: body {number} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder'
+			)
 	return sorted(set(parts))

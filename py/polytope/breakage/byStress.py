@@ -149,5 +149,3 @@ def _strength(value, name):
 	if not number(value, name) > 0:
 		raise ValueError(f'{name}: must be a strength above 0 [Pa], got {value!r}')
 	return float(value)
-
-

@@ -61,11 +61,15 @@ def _bodyOf(id):
 		raise ValueError(f'id: there is no body {id!r}')
 	body = O.bodies[id]
 	if not isinstance(body.shape, Polytope):
-		raise ValueError(f'id: body {id} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder')
+		raise ValueError(
+			f'id: body {id} has no Polytope shape ({type(body.shape).__name__}); make it with polytope.cuboid or another builder'
+		)
 	if body.isClumpMember:
 		raise ValueError(f'id: body {id} is a member of clump {body.clumpId}; O.bodies.releaseFromClump it first')
 	if any(bond.intact and id in (bond.id1, bond.id2) for bond in madeBonds()):
-		raise ValueError(f'id: body {id} has bonds, of which it is not known on which piece they would be; break bonded bodies by their bonds')
+		raise ValueError(
+			f'id: body {id} has bonds, of which it is not known on which piece they would be; break bonded bodies by their bonds'
+		)
 	return body
 
 

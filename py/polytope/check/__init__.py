@@ -64,7 +64,16 @@ def checkOf(O, engines):
 	"""Checks the scene as it would be with these engines; None: its own."""
 	scene = SceneToCheck(O, engines)
 	lost = list(notNumbers(scene))
-	found = [*lost, *engineFindings(scene), *pairFindings(scene), *defaultMaterial(scene), *bodyFindings(scene), *derivedShapes(scene), *ownClosures(scene), *contactFindings(scene)]
+	found = [
+		*lost,
+		*engineFindings(scene),
+		*pairFindings(scene),
+		*defaultMaterial(scene),
+		*bodyFindings(scene),
+		*derivedShapes(scene),
+		*ownClosures(scene),
+		*contactFindings(scene),
+	]
 	if not lost:
 		places = list(placeFindings(scene))
 		if not {'overlap', 'stiffness'} & {what for what, *_ in places}:  # with which no block stands as it is meant to

@@ -62,14 +62,26 @@ def _densityInOtherUnits(scene, material):
 	density, gravity = float(material.density), scene.gravity()
 	seen = f'density of {type(material).__name__} {material.label!r} is {density:g}, less than that of any rock in kg/m³'
 	if density < tonnes[0]:
-		yield 'density', f'{seen}, t/m³ or g/m³, with gravity {gravity:g}', 'density in kg/m³: rock has 2600; with lengths in mm, gravity is 9810'
+		yield (
+			'density',
+			f'{seen}, t/m³ or g/m³, with gravity {gravity:g}',
+			'density in kg/m³: rock has 2600; with lengths in mm, gravity is 9810',
+		)
 		return
-	bodies = [body for body in scene.bodies if body.material is material and isinstance(material, RockJointMat) and isinstance(body.shape, Polytope) and scene.moves(body)]
+	bodies = [
+		body
+		for body in scene.bodies
+		if body.material is material and isinstance(material, RockJointMat) and isinstance(body.shape, Polytope) and scene.moves(body)
+	]
 	makers = jointMakers(scene.loops)
 	share = max((overlapShare(body, isPerArea(material, makers), gravity) for body in bodies if makers), default=1)
 	if share < tooStiff:
 		sinks = f'under their weight bodies of it sink in by {share:.1g} of their radius'
-		yield 'density', f'{seen}; {sinks}', 'density in kg/m³: rock has 2600; or, in t and m, stiffnesses in kN/m³, a thousandth of those in Pa/m'
+		yield (
+			'density',
+			f'{seen}; {sinks}',
+			'density in kg/m³: rock has 2600; or, in t and m, stiffnesses in kN/m³, a thousandth of those in Pa/m',
+		)
 
 
 def mass(scene):
@@ -80,7 +92,11 @@ def mass(scene):
 	if light:
 		seen = f'{_number(light)} can move and has mass {float(light[0].state.mass):g} kg: no force accelerates it'
 		flat = isinstance(light[0].shape, (Facet, Wall))
-		yield 'mass', seen, 'hold it (fixed=True): it has no volume' if flat else 'make it of a material with a density above 0, or hold it (fixed=True)'
+		yield (
+			'mass',
+			seen,
+			'hold it (fixed=True): it has no volume' if flat else 'make it of a material with a density above 0, or hold it (fixed=True)',
+		)
 	turning = [body for body in heavy if _turns(body) and not min(map(float, body.state.inertia)) > 0]
 	if turning:
 		yield (
@@ -95,13 +111,21 @@ def _turns(body):
 
 
 def size(scene):
-	widths = {body.id: 2 * float(body.shape.circumscribedRadius) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
+	widths = {
+		body.id: 2 * float(body.shape.circumscribedRadius)
+		for body in scene.bodies
+		if isinstance(body.shape, Polytope) and scene.moves(body)
+	}
 	if not widths:
 		return
 	usual = float(np.median(list(widths.values())))
 	# one that is no larger than what is fixed belongs to a scene of that size, as a wedge in a slope does
 	limit = max(largest, extentOfSupports(scene)) if scene.inMetres() else math.inf
-	large = [scene.O.bodies[key] for key, width in widths.items() if width > unitsApart * usual or (width > limit and extentOf(scene.O.bodies[key]) > limit)]
+	large = [
+		scene.O.bodies[key]
+		for key, width in widths.items()
+		if width > unitsApart * usual or (width > limit and extentOf(scene.O.bodies[key]) > limit)
+	]
 	if large:
 		extent, mass = extentOf(large[0]), float(large[0].state.mass)
 		seen = f'{_number(large)} can move, is {extent:.3g} m across and weighs {mass:.3g} kg'
@@ -132,14 +156,22 @@ def weakStrengths(scene):
 		for name in ('cohesion', 'tensileStrength'):
 			value = float(getattr(material, name))
 			if 0 < value < weakest and isPerArea(material, jointMakers(scene.loops)):
-				yield 'joint strength', f'{name} of RockJointMat {material.label!r} is {value:g} Pa, the weight of {value / 2e4:.1g} m of rock', f'give it in Pa: {value:g} MPa are {1e6 * value:g}'
+				yield (
+					'joint strength',
+					f'{name} of RockJointMat {material.label!r} is {value:g} Pa, the weight of {value / 2e4:.1g} m of rock',
+					f'give it in Pa: {value:g} MPa are {1e6 * value:g}',
+				)
 
 
 def dilation(scene):
 	for material in _materials(scene, RockJointMat):
 		if float(material.dilationAngle) > float(material.frictionAngle):
 			angles = f'dilationAngle {math.degrees(material.dilationAngle):.3g}° of RockJointMat {material.label!r} is above its frictionAngle {math.degrees(material.frictionAngle):.3g}°'
-			yield 'dilation', f'{angles}: slip would do more work against pressure than friction takes', 'a dilationAngle of at most the frictionAngle, which has the dilation in it'
+			yield (
+				'dilation',
+				f'{angles}: slip would do more work against pressure than friction takes',
+				'a dilationAngle of at most the frictionAngle, which has the dilation in it',
+			)
 
 
 def tension(scene):
@@ -169,7 +201,11 @@ def jointLaws(scene):
 	for material in used:
 		wall = float(getattr(material.strength, 'JCS', weakestWall))
 		if wall < weakestWall:
-			yield 'joint laws', f'JCS of RockJointMat {material.label!r} is {wall:g} Pa: no rock is so weak, and its joints have no roughness', 'give it in Pa: 60 MPa are 60e6'
+			yield (
+				'joint laws',
+				f'JCS of RockJointMat {material.label!r} is {wall:g} Pa: no rock is so weak, and its joints have no roughness',
+				'give it in Pa: 60 MPa are 60e6',
+			)
 	for name in ('closure', 'strength'):
 		# what is smooth is meant to be
 		materials = [material for material in used if name == 'closure' or material.frictionAngle > 0]

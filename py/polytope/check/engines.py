@@ -28,7 +28,20 @@ __all__ = ['engineFindings']
 
 
 def engineFindings(scene):
-	for one in (missing, twice, order, spheresOnly, densityScaling, bondsAndBolts, erasedForces, dampingOfShaken, unitOfSurface, recorders, driven, masks):
+	for one in (
+		missing,
+		twice,
+		order,
+		spheresOnly,
+		densityScaling,
+		bondsAndBolts,
+		erasedForces,
+		dampingOfShaken,
+		unitOfSurface,
+		recorders,
+		driven,
+		masks,
+	):
 		yield from one(scene)
 
 
@@ -58,8 +71,15 @@ def twice(scene):
 	"""Engines that must act once a step."""
 	if len(scene.colliders) > 1:
 		names = ' and '.join(type(one).__name__ for one in scene.colliders)
-		yield 'engines', f'O.engines has {len(scene.colliders)} colliders, {names}: each takes away pairs that the other one keeps', 'keep one'
-	for kind, what in ((InteractionLoop, 'contact forces are computed and added once by each'), (NewtonIntegrator, 'each moves all bodies by a step')):
+		yield (
+			'engines',
+			f'O.engines has {len(scene.colliders)} colliders, {names}: each takes away pairs that the other one keeps',
+			'keep one',
+		)
+	for kind, what in (
+		(InteractionLoop, 'contact forces are computed and added once by each'),
+		(NewtonIntegrator, 'each moves all bodies by a step'),
+	):
 		several = scene.those(kind)
 		if len(several) > 1:
 			name = kind.__name__
@@ -90,7 +110,11 @@ def order(scene):
 		after = _roundFrom(scene, scene.integrators[0])
 		if after.index(scene.colliders[0]) > after.index(scene.loops[0]):
 			name = type(scene.colliders[0]).__name__
-			yield 'order of engines', f'{name} is behind the InteractionLoop: pairs are found a step late', f'put {name} before the InteractionLoop'
+			yield (
+				'order of engines',
+				f'{name} is behind the InteractionLoop: pairs are found a step late',
+				f'put {name} before the InteractionLoop',
+			)
 	resetters = scene.those(ForceResetter)
 	if not resetters or not scene.loops or not scene.integrators:
 		return
@@ -173,13 +197,25 @@ def driven(scene):
 		lost = [k for k in engine.ids if k not in there]
 		free = [k for k in there if canMove(bodies[k]) and not bodies[moverOf(k)].state.blockedDOFs]
 		if lost:
-			yield 'engines', f'{name} moves body {lost[0]}, which does not exist', 'ids of bodies that are in the scene: O.bodies.append(…) returns them'
+			yield (
+				'engines',
+				f'{name} moves body {lost[0]}, which does not exist',
+				'ids of bodies that are in the scene: O.bodies.append(…) returns them',
+			)
 		if free:
-			yield 'engines', f'{name} moves body {free[0]}, which is free: gravity and contacts move it, too', 'make it with fixed=True, or set its dynamic = False'
+			yield (
+				'engines',
+				f'{name} moves body {free[0]}, which is free: gravity and contacts move it, too',
+				'make it with fixed=True, or set its dynamic = False',
+			)
 
 
 def masks(scene):
 	"""A mask without any bit meets nothing; one such body may be a marker."""
 	free = [body for body in scene.bodies if scene.moves(body)]
 	if free and not any(body.mask for body in free):
-		yield 'masks', 'all bodies that can move have mask=0: they touch nothing', 'mask=1, the default, or bits that those have which they are to touch'
+		yield (
+			'masks',
+			'all bodies that can move have mask=0: they touch nothing',
+			'mask=1, the default, or bits that those have which they are to touch',
+		)

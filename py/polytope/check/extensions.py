@@ -49,7 +49,11 @@ def ownClosures(scene):
 	for material in jointMaterials(scene.bodies):
 		fault = _polytope.faultOfClosure(material.closure, material.normalStiffness) if material.closure else ''
 		if fault:
-			yield 'joint laws', f'closure of RockJointMat {material.label!r}: {fault}', 'give it parameters with which it is as docs/extending.md says'
+			yield (
+				'joint laws',
+				f'closure of RockJointMat {material.label!r}: {fault}',
+				'give it parameters with which it is as docs/extending.md says',
+			)
 
 
 def contactsToChoose(one, other):

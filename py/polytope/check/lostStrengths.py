@@ -46,7 +46,11 @@ def hanging(scene):
 	up = -gravity / np.linalg.norm(gravity)
 	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
 	bonded = {key for bond in madeBonds() if bond.intact for key in (bond.id1, bond.id2)}
-	able = {body.id for body in bodies if isMover(body) and body.id not in bonded and any(getattr(one, 'tensileStrength', 0) > 0 for one in materialsOf(body))}
+	able = {
+		body.id
+		for body in bodies
+		if isMover(body) and body.id not in bonded and any(getattr(one, 'tensileStrength', 0) > 0 for one in materialsOf(body))
+	}
 	above, held = {}, set()
 	for one, other, contact in touchingPairs(scene, bodies) if able else ():
 		for key, neighbour, sign in ((one.id, other.id, 1), (other.id, one.id, -1)):

@@ -25,4 +25,8 @@ def defaultMaterial(scene):
 	bodies = f'{len(default)} bodies (body {default[0].id} first) have' if len(default) > 1 else f'body {default[0].id} has'
 	why = f'body {beside.id} has a RockJointMat' if beside else f'no body has O.materials[{unused[0]}]'
 	seen = f"{bodies} YADE's default {type(material).__name__} (density {float(material.density):g} kg/m³, friction angle {float(material.frictionAngle):g}), and {why}"
-	yield 'default material', seen, 'make the material first, O.materials.append(RockJointMat(…)), and bodies after it; or give them material=…'
+	yield (
+		'default material',
+		seen,
+		'make the material first, O.materials.append(RockJointMat(…)), and bodies after it; or give them material=…',
+	)

@@ -69,7 +69,11 @@ def overlaps(scene):
 		pair = min(found, key=lambda pair: (-found[pair], pair))
 		more = f', and {len(found) - 1} pairs more' if len(found) > 1 else ''
 		how = 'lie deep in each other' if math.isinf(found[pair]) else 'lie in each other'
-		speed = 'they are shot apart' if math.isinf(found[pair]) else f'their contact throws one of them at up to {found[pair]:.2g} m/s, more than a fall over its own thickness gives'
+		speed = (
+			'they are shot apart'
+			if math.isinf(found[pair])
+			else f'their contact throws one of them at up to {found[pair]:.2g} m/s, more than a fall over its own thickness gives'
+		)
 		advice = 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
 		yield 'overlap', f'body {pair[0]} and body {pair[1]} {how}{more}: {speed}', advice
 
@@ -78,7 +82,9 @@ def _ofPolytopes(scene, thrown):
 	rows = _rows(scene)
 	for i, j in _candidates(rows):
 		one, other = rows.bodies[i], rows.bodies[j]
-		samePlace = np.linalg.norm(rows.places[i] - rows.places[j]) <= onePlace * float(one.shape.circumscribedRadius) and _sameShape(one, other)
+		samePlace = np.linalg.norm(rows.places[i] - rows.places[j]) <= onePlace * float(one.shape.circumscribedRadius) and _sameShape(
+			one, other
+		)
 		if mayMeet(scene, one, other) and not samePlace:  # that coincidence() finds
 			speed = thrown.speed(one, other, _at(one, rows.shifts[i]), _at(other, rows.shifts[j]))
 			if speed:
@@ -120,7 +126,9 @@ def _candidates(rows):
 	"""Pairs whose balls overlap, the likeliest ones first."""
 	if len(rows.bodies) < 2:
 		return []
-	radii, reaches = (np.array([float(getattr(body.shape, name)) for body in rows.bodies]) for name in ('inscribedRadius', 'circumscribedRadius'))
+	radii, reaches = (
+		np.array([float(getattr(body.shape, name)) for body in rows.bodies]) for name in ('inscribedRadius', 'circumscribedRadius')
+	)
 	rank = np.empty(len(radii), int)
 	rank[np.argsort(-reaches, kind='stable')] = np.arange(len(radii))  # the larger one of a pair looks for the other
 	tree, found = scipy.spatial.cKDTree(rows.places), []
@@ -182,7 +190,13 @@ def _gaps(other, places):
 		return np.full(len(places), math.inf)
 	if isinstance(shape, Wall):
 		return abs(places[:, shape.axis] - place[shape.axis])
-	radius = float(shape.radius) if isinstance(shape, Sphere) else float(shape.extents.norm()) if isinstance(shape, Box) else max(float(corner.norm()) for corner in shape.vertices)
+	radius = (
+		float(shape.radius)
+		if isinstance(shape, Sphere)
+		else float(shape.extents.norm())
+		if isinstance(shape, Box)
+		else max(float(corner.norm()) for corner in shape.vertices)
+	)
 	return np.linalg.norm(places - place, axis=1) - radius
 
 

@@ -41,7 +41,9 @@ def notNumbers(scene):
 	if len(rows):
 		key, wrong = bodies.ids[rows[0]], [name for name, one in zip(fields, lost[:, rows[0]], strict=True) if one]
 		more = f', and {len(rows) - 1} bodies more' if len(rows) > 1 else ''
-		seen = f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
+		seen = (
+			f'body {key}: {" and ".join(f"state.{name}" for name in wrong)} is not a finite number{more}: no contact of it can be computed'
+		)
 		yield 'not a number', seen, 'give it finite values; in a run, go back to a saved state and take PolytopeTimeStepper()'
 
 
@@ -105,7 +107,11 @@ def spanning(scene):
 	if large:
 		key = max(large, key=large.get)
 		seen = f"{len(large)} bodies (body {key} most) span {large[key]:.2g} of the periodic cell with the collider's verletDist: YADE ends the run"
-		yield 'periodic cell', seen, 'a larger cell, smaller bodies, or walls; for plates through the whole cell allowBiggerThanPeriod=True in the collider'
+		yield (
+			'periodic cell',
+			seen,
+			'a larger cell, smaller bodies, or walls; for plates through the whole cell allowBiggerThanPeriod=True in the collider',
+		)
 
 
 def _width(shape):
@@ -130,9 +136,7 @@ def stiffness(scene):
 	unit, other = ('Pa/m', 'N/m') if perArea else ('N/m', 'Pa/m')
 	value = f'normalStiffness {_softest(worst):.3g} {unit}'
 	seen = f'{value}: body {worst.id} sinks in by {deepest:.2g} of its inscribed radius, by its weight or speed'
-	advice = (
-		f'a higher normalStiffness; if it is meant in {other}: RockJointMat(stiffnessPerArea={not perArea})'
-	)
+	advice = f'a higher normalStiffness; if it is meant in {other}: RockJointMat(stiffnessPerArea={not perArea})'
 	yield 'stiffness', seen, advice
 
 

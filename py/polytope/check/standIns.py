@@ -22,7 +22,10 @@ def standIn(support, body):
 	box = np.concatenate([np.eye(3), -np.eye(3)])
 	try:
 		return fromHalfSpaces(
-			np.concatenate([normals, box]), np.concatenate([offsets, box @ middle + behind * reach]), material=body.material, color=(1, 1, 1)
+			np.concatenate([normals, box]),
+			np.concatenate([offsets, box @ middle + behind * reach]),
+			material=body.material,
+			color=(1, 1, 1),
 		)
 	except ValueError:  # a box without thickness, a facet without area
 		return None

@@ -89,7 +89,9 @@ def emptyAtFirst(scene):
 		return
 	if any(float(runner.virtPeriod) > 0 for runner in runners) and any(isinstance(one, PolytopeCollider) for one in scene.colliders):
 		return
-	seen = f'nothing can move yet, and O.dt is {float(scene.O.dt):.1g} s until something can: a PyRunner that waits for a time waits for ever'
+	seen = (
+		f'nothing can move yet, and O.dt is {float(scene.O.dt):.1g} s until something can: a PyRunner that waits for a time waits for ever'
+	)
 	yield 'time step', seen, 'PolytopeCollider and a PyRunner with virtPeriod, which then sets the step, or set O.dt'
 
 

@@ -65,7 +65,9 @@ def velocityHistory(record, times=None, kind=None, unit=None, direction=None, ba
 def _tellStrong(accelerations):
 	most = float(np.linalg.norm(accelerations, axis=1).max())
 	if most > strongest:
-		warn(f'record: its largest acceleration is {most:.3g} m/s², {most / 9.81:.3g} g, more than earthquakes have; is it in m/s² already (unit=1), in cm/s² (unit=0.01), or a velocity (kind)?')
+		warn(
+			f'record: its largest acceleration is {most:.3g} m/s², {most / 9.81:.3g} g, more than earthquakes have; is it in m/s² already (unit=1), in cm/s² (unit=0.01), or a velocity (kind)?'
+		)
 
 
 def _fromFile(name, times, kind):

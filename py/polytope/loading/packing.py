@@ -124,7 +124,9 @@ def sample(ids=None, lower=None, upper=None, wallFriction=0):
 
 def _corners(former):
 	"""Corners of the box between six walls, if there are as many."""
-	walls = [[float(body.state.pos[axis]) for body in former if isinstance(body.shape, Wall) and body.shape.axis == axis] for axis in range(3)]
+	walls = [
+		[float(body.state.pos[axis]) for body in former if isinstance(body.shape, Wall) and body.shape.axis == axis] for axis in range(3)
+	]
 	return tuple(np.array([end(places) for places in walls]) for end in (min, max)) if all(len(places) == 2 for places in walls) else None
 
 
@@ -147,7 +149,9 @@ def _loose(bodies):
 	loose = list(bodies) if isinstance(bodies, Iterable) else []
 	bodies = [part for one in loose for part in partsOfLoose(one)]
 	if not bodies or not all(isinstance(body, Body) and body.id < 0 for body in bodies):
-		raise ValueError('bodies: must be a list of bodies that are not in the scene yet, such as polytope.grains makes, or of lists of the parts of one')
+		raise ValueError(
+			'bodies: must be a list of bodies that are not in the scene yet, such as polytope.grains makes, or of lists of the parts of one'
+		)
 	if len({body.material.id for body in bodies}) > 1:
 		raise ValueError('bodies: must be of one material')
 	if not hasattr(bodies[0].material, 'frictionAngle'):

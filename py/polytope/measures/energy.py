@@ -30,10 +30,14 @@ def mechanicalEnergy():
 	moving = [(body.state, *_motion(body.state)) for body in movers() if body.state.mass > 0]
 	settings = contactSettings()
 	if settings is None and geometryFunctors():
-		raise ValueError('O.engines: the InteractionLoop needs an Ig2_Polytope_Polytope_PolytopeGeom(), which has the settings of all contacts')
+		raise ValueError(
+			'O.engines: the InteractionLoop needs an Ig2_Polytope_Polytope_PolytopeGeom(), which has the settings of all contacts'
+		)
 	with meanwhile([(settings, 'computeEnergy', True)] if settings else []):
 		O.step()
-	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(one.energy for one in madeBonds() + madeBolts())
+	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(
+		one.energy for one in madeBonds() + madeBolts()
+	)
 	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
 
 

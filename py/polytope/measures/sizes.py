@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Extents of a packing, and the sizes of its bodies."""
 
-
 import numpy as np
 from yade import O, Sphere
 

@@ -153,11 +153,15 @@ def check():
 	if O.periodic:
 		raise RuntimeError('O.periodic: yade.mpy takes wrong boxes of ranks in a periodic cell; run this scene on one process')
 	if O.trackEnergy:
-		raise RuntimeError('O.trackEnergy: must be False; contacts of two ranks would count twice. polytope.mpi.arrays() has what energies are made of')
+		raise RuntimeError(
+			'O.trackEnergy: must be False; contacts of two ranks would count twice. polytope.mpi.arrays() has what energies are made of'
+		)
 	for engine in O.engines:
 		if isinstance(engine, yade.Recorder):
 			name = engine.__class__.__name__
-			raise RuntimeError(f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()')
+			raise RuntimeError(
+				f'O.engines: each rank would write the file of {name}; take it out, and call it on rank 0 after polytope.mpi.merge()'
+			)
 	if not clumps.movers():
 		raise RuntimeError('O.bodies: no body can move; a run on several processes divides those that can')
 	if mpy.DOMAIN_DECOMPOSITION:
@@ -208,7 +212,9 @@ def _refuseErased():
 	"""On a worker, before a merge: yade.mpy would send a body that is not there."""
 	erased = [k for k in O.subD.ids if O.bodies[k] is None]
 	if erased:
-		raise RuntimeError(f'O.bodies: body {erased[0]} was erased while the scene was divided; erase and append bodies on rank 0, after polytope.mpi.merge()')
+		raise RuntimeError(
+			f'O.bodies: body {erased[0]} was erased while the scene was divided; erase and append bodies on rank 0, after polytope.mpi.merge()'
+		)
 
 
 def _withBodiesOfRankZero(mergeScene):

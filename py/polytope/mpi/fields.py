@@ -73,7 +73,11 @@ def _rows(table, chosen):
 
 
 def _joined(parts):
-	columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name, column in parts[0]._asdict().items() if isinstance(column, np.ndarray)}
+	columns = {
+		name: np.concatenate([getattr(part, name) for part in parts])
+		for name, column in parts[0]._asdict().items()
+		if isinstance(column, np.ndarray)
+	}
 	return parts[0]._replace(**columns)
 
 

@@ -89,7 +89,9 @@ def _ownStep(before):
 
 class _Scaled:
 	def __init__(self):
-		self.before = {body.id: (body.state.mass, Vector3(body.state.inertia)) for body in movers() if 0 < float(body.state.mass) < math.inf}
+		self.before = {
+			body.id: (body.state.mass, Vector3(body.state.inertia)) for body in movers() if 0 < float(body.state.mass) < math.inf
+		}
 		self.masses = {key: mass for key, (mass, _) in self.before.items()}
 		self.factors = dict.fromkeys(self.before, 1.0)
 		self.gravity = integrators()[0].gravity

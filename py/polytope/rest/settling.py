@@ -99,4 +99,7 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			if lost:
 				raise NotAtRest(f'bodies: {told(lost)}; {remedy(lost)}', lost)
 	left = unrest.moving()
-	raise NotAtRest(f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}): {told(left)}; more steps, or {remedy(left)}', left)
+	raise NotAtRest(
+		f'steps: not at rest after {taken} (unbalanced force {force:.2g} for {unbalanced:g}): {told(left)}; more steps, or {remedy(left)}',
+		left,
+	)

@@ -198,7 +198,9 @@ class _Search:
 	def _refuseUnsettled(self, bracket):
 		"""Where it failed with its own strengths, but only since it was not at rest: from the last state that stood it does not."""
 		if bracket.failed == 1 and self._trialFromRest(1.0).outcome == 'stable':
-			raise RuntimeError('the scene stands with its own strengths from a state at rest, and fails from the one that it is in; polytope.settle() first')
+			raise RuntimeError(
+				'the scene stands with its own strengths from a state at rest, and fails from the one that it is in; polytope.settle() first'
+			)
 
 	def _tellTrembling(self):
 		ones = sorted({k for trial in self.trials for k in trial.trembling})

@@ -156,7 +156,9 @@ def _bodyAt(name, place):
 		if _holds(body.id, place):
 			found += [] if moverOf(body.id) in found else [moverOf(body.id)]
 	if len(found) > 1:
-		warn(f'points: {name}: {tuple(map(float, place))} is on a face of bodies {", ".join(map(str, found))}, and moves with body {found[0]}; give a point inside one of them, or an id')
+		warn(
+			f'points: {name}: {tuple(map(float, place))} is on a face of bodies {", ".join(map(str, found))}, and moves with body {found[0]}; give a point inside one of them, or an id'
+		)
 	if found:
 		return found[0]
 	raise ValueError(

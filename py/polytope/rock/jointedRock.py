@@ -204,12 +204,16 @@ def _setsOf(entry):
 
 
 def _tellOutside(entries, region):
-	given = [joint for entry in entries if not isinstance(entry, JointSet) for joint in (entry if isinstance(entry, (list, tuple)) else [entry])]
+	given = [
+		joint for entry in entries if not isinstance(entry, JointSet) for joint in (entry if isinstance(entry, (list, tuple)) else [entry])
+	]
 	areas = areasOf([joint.cut.moved(-region.centre) for joint in given], region.parts)
 	outside = [(number, joint) for number, joint in enumerate(given) if not areas[number] > 0]
 	if outside:
 		ones = ', '.join(f'{number} at ({", ".join(f"{x:g}" for x in joint.centre)})' for number, joint in outside[:named])
-		warn(f'jointSets: {len(outside)} of {len(given)} joints lie wholly outside the region, and cut nothing: {ones}{", …" if len(outside) > named else ""} (counted from 0)')
+		warn(
+			f'jointSets: {len(outside)} of {len(given)} joints lie wholly outside the region, and cut nothing: {ones}{", …" if len(outside) > named else ""} (counted from 0)'
+		)
 
 
 def _entriesOf(jointSets):

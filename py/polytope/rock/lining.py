@@ -184,7 +184,9 @@ def _refuseOtherDimension(flat):
 	"""Polygons and polyhedra have no contact."""
 	there = {body.shape.dimension for body in O.bodies if body is not None and isinstance(body.shape, Polytope)}
 	if there == {3} and flat:
-		raise ValueError('points: have two components, as for a lining of polygons, and the scene has polyhedra; give points of three, and the axis')
+		raise ValueError(
+			'points: have two components, as for a lining of polygons, and the scene has polyhedra; give points of three, and the axis'
+		)
 	if there == {2} and not flat:
 		raise ValueError('points: have three components, as for a lining of polyhedra, and the scene has polygons; give points of two')
 

@@ -98,7 +98,9 @@ def regionWithout(normals, offsets, openings):
 	cells = _cells(normals, offsets, faces)
 	inside = [[bool((n @ cell[2] < d).all()) for n, d in planes] for cell in cells]
 	for k in np.flatnonzero(~np.any(inside, axis=0)):
-		warn(f'openings: opening {k} (counted from 0) is wholly outside the region, and takes nothing away; is its place in other units or axes?')
+		warn(
+			f'openings: opening {k} (counted from 0) is wholly outside the region, and takes nothing away; is its place in other units or axes?'
+		)
 	kept = [cell for cell, within in zip(cells, inside, strict=True) if not any(within)]
 	if not kept:
 		raise ValueError('openings: nothing is left of the region')
@@ -108,7 +110,9 @@ def regionWithout(normals, offsets, openings):
 def _cells(normals, offsets, faces):
 	"""Convex cells into which faces cut a region, each along its whole plane: (normals, offsets, a point inside, volume)."""
 	region = regionOf(normals, offsets)
-	made = _polytope.jointedBlocks(region.parts, asArguments([face.moved(-region.centre) for face in faces]), real(0), real(-1), mostParts, 0)
+	made = _polytope.jointedBlocks(
+		region.parts, asArguments([face.moved(-region.centre) for face in faces]), real(0), real(-1), mostParts, 0
+	)
 	planes, volumes = np.frombuffer(made['planes']).reshape(-1, 4), np.frombuffer(made['volumes'])
 	ends = np.cumsum(np.frombuffer(made['counts'], np.int32))
 	cells = []

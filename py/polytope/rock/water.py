@@ -135,7 +135,9 @@ def _below(level, density, bodies, someFaces):
 		)
 	bottom = -float(_reach(bodies, -up[None])[1][0])
 	if highest - top > top - bottom:
-		warn(f'level: {highest:g} m is above all bodies, which reach up to {top:g} m: they are at the bottom of a lake, whose pressure acts on all faces; in joints alone water stands at most as high as the ground')
+		warn(
+			f'level: {highest:g} m is above all bodies, which reach up to {top:g} m: they are at the bottom of a lake, whose pressure acts on all faces; in joints alone water stands at most as high as the ground'
+		)
 	if points is None:
 		return belowALevel(highest, up, weight)
 	section = sectionOf(points, up)

@@ -92,7 +92,9 @@ def continueFrom(fileName='checkpoint'):
 		_goOn(fileName)
 		return name
 	if names:
-		raise RuntimeError('fileName: no state can be read (one that another version of yade-polytope has written cannot be). ' + '; '.join(faults))
+		raise RuntimeError(
+			'fileName: no state can be read (one that another version of yade-polytope has written cannot be). ' + '; '.join(faults)
+		)
 	return None
 
 

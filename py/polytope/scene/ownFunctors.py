@@ -18,10 +18,11 @@ def ownFunctors(base):
 	made = []
 	for functor in ownClasses(base):
 		try:
-			functor().bases
+			bases = functor().bases
 		except RuntimeError:  # of YADE: without FUNCTOR2D
 			continue
-		made.append(functor)
+		if bases:
+			made.append(functor)
 	return made
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The builders of yade.polytope: textbook answers at every size, and refusals that name the argument."""
+
 import math
 
 import numpy
@@ -12,11 +13,11 @@ SIZES = [1e-9, 1e-3, 1, 1e3]
 # circumradius for edge length 1
 phi = (1 + math.sqrt(5)) / 2
 REGULAR = {
-        4: (4, math.sqrt(2) / 12, math.sqrt(2) / 240, math.sqrt(6) / 4),
-        6: (8, 1, 1 / 6, math.sqrt(3) / 2),
-        8: (6, math.sqrt(2) / 3, math.sqrt(2) / 30, math.sqrt(2) / 2),
-        12: (20, (15 + 7 * math.sqrt(5)) / 4, (28 + 39 * phi) / 150 * (15 + 7 * math.sqrt(5)) / 4, math.sqrt(3) * phi / 2),
-        20: (12, 5 * (3 + math.sqrt(5)) / 12, phi**2 / 10 * 5 * (3 + math.sqrt(5)) / 12, math.sqrt(phi * math.sqrt(5)) / 2),
+	4: (4, math.sqrt(2) / 12, math.sqrt(2) / 240, math.sqrt(6) / 4),
+	6: (8, 1, 1 / 6, math.sqrt(3) / 2),
+	8: (6, math.sqrt(2) / 3, math.sqrt(2) / 30, math.sqrt(2) / 2),
+	12: (20, (15 + 7 * math.sqrt(5)) / 4, (28 + 39 * phi) / 150 * (15 + 7 * math.sqrt(5)) / 4, math.sqrt(3) * phi / 2),
+	20: (12, 5 * (3 + math.sqrt(5)) / 12, phi**2 / 10 * 5 * (3 + math.sqrt(5)) / 12, math.sqrt(phi * math.sqrt(5)) / 2),
 }
 
 
@@ -64,7 +65,7 @@ def testHalfSpacesGoToTheirCentroidAndAxes():
 	assert list(b.shape.inertia) == pytest.approx(sorted([48 / 3 * 5, 48 / 3 * 10, 48 / 3 * 13]))
 	corners = sorted(tuple(round(x, 9) for x in b.state.pos + b.state.ori * v) for v in b.shape.vertices)
 	expected = sorted(
-	        tuple(round(x, 9) for x in centre + turn * Vector3(3 * i, 2 * j, k)) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)
+		tuple(round(x, 9) for x in centre + turn * Vector3(3 * i, 2 * j, k)) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)
 	)
 	assert corners == expected
 
@@ -87,29 +88,30 @@ def testShapeDropsPlanesThatRepeatAnother():
 
 
 def testVerticesGiveTheirHull():
-	points = [(i, j, k) for i in (0, 2) for j in (0, 1) for k in (0, 1)] + [(1, .5, .5), (1, .5, 1)]
+	points = [(i, j, k) for i in (0, 2) for j in (0, 1) for k in (0, 1)] + [(1, 0.5, 0.5), (1, 0.5, 1)]
 	b = polytope.fromVertices(points)
 	assert len(b.shape.normals) == 6 and len(b.shape.vertices) == 8
 	assert b.shape.volume == pytest.approx(2)
-	assert b.state.pos == Vector3(1, .5, .5)
+	assert b.state.pos == Vector3(1, 0.5, 0.5)
 
 
 HULL = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1.5, 0.25, 2)]
 
 
 @pytest.mark.parametrize(
-        'points', [
-                [list(p) for p in HULL],
-                tuple(HULL),
-                (p for p in HULL),
-                (iter(p) for p in HULL),
-                [Vector3(*p) for p in HULL],
-                [[str(x) for x in p] for p in HULL],
-                [numpy.float32(p) for p in HULL],
-                numpy.array(HULL),
-                numpy.array(HULL, dtype=object),
-        ],
-        ids=['lists', 'tuples', 'generator', 'iterators', 'Vector3', 'text', 'arrays', 'array', 'array of objects']
+	'points',
+	[
+		[list(p) for p in HULL],
+		tuple(HULL),
+		(p for p in HULL),
+		(iter(p) for p in HULL),
+		[Vector3(*p) for p in HULL],
+		[[str(x) for x in p] for p in HULL],
+		[numpy.float32(p) for p in HULL],
+		numpy.array(HULL),
+		numpy.array(HULL, dtype=object),
+	],
+	ids=['lists', 'tuples', 'generator', 'iterators', 'Vector3', 'text', 'arrays', 'array', 'array of objects'],
 )
 def testPointsOfAnySequence(points):
 	"""Whatever gives rows of three numbers, with the numbers as they are."""
@@ -119,22 +121,23 @@ def testPointsOfAnySequence(points):
 
 
 @pytest.mark.parametrize(
-        'points, names', [
-                (None, ['points', '3-vectors']),
-                (1.5, ['points', '3-vectors']),
-                ('abcd', ['points', '3-vectors']),
-                ([1, 2, 3, 4], ['points', '3-vectors']),
-                (HULL[:4] + [(0, 0, None)], ['points', '3-vectors']),
-                (HULL[:4] + [(0, 0, 'x')], ['points', '3-vectors']),
-                (HULL[:4] + [(0, 0, 1j)], ['points', '3-vectors']),
-                (HULL[:4] + [None], ['points', '3-vectors']),
-                (HULL[:4] + [(0, 0)], ['points', '3 components']),
-                (HULL[:4] + [()], ['points', '3 components']),
-                (HULL[:4] + [(0, 0, 1, 2)], ['points', '3 components']),
-                (numpy.array(HULL)[:, :2], ['points', '3 components']),
-                (numpy.array(1.5), ['points', '3-vectors']),
-                ([], ['points', '4']),
-        ]
+	'points, names',
+	[
+		(None, ['points', '3-vectors']),
+		(1.5, ['points', '3-vectors']),
+		('abcd', ['points', '3-vectors']),
+		([1, 2, 3, 4], ['points', '3-vectors']),
+		(HULL[:4] + [(0, 0, None)], ['points', '3-vectors']),
+		(HULL[:4] + [(0, 0, 'x')], ['points', '3-vectors']),
+		(HULL[:4] + [(0, 0, 1j)], ['points', '3-vectors']),
+		(HULL[:4] + [None], ['points', '3-vectors']),
+		(HULL[:4] + [(0, 0)], ['points', '3 components']),
+		(HULL[:4] + [()], ['points', '3 components']),
+		(HULL[:4] + [(0, 0, 1, 2)], ['points', '3 components']),
+		(numpy.array(HULL)[:, :2], ['points', '3 components']),
+		(numpy.array(1.5), ['points', '3-vectors']),
+		([], ['points', '4']),
+	],
 )
 def testWhatIsNoSequenceOfPointsIsRefused(points, names):
 	with pytest.raises(ValueError) as refusal:
@@ -162,7 +165,7 @@ def testPolygonStaysInItsPlane():
 	b = polytope.polygon([(0, 0), (2, 0), (2, 1), (0, 1)], thickness=0.5)
 	assert b.shape.dimension == 2 and b.state.blockedDOFs == 'zXY'
 	assert b.shape.volume == pytest.approx(1) and b.state.mass == pytest.approx(2600)
-	assert b.state.pos == Vector3(1, .5, 0)
+	assert b.state.pos == Vector3(1, 0.5, 0)
 	assert b.shape.inertia[2] == pytest.approx(5 / 12)
 	assert polytope.polygon([(0, 0), (1, 0), (0, 1)], fixed=True).state.blockedDOFs == 'xyzXYZ'
 
@@ -173,7 +176,9 @@ def testConcaveOutlineIsRefused(make, size):
 	"""An L, wherever and however it is turned; but not points on a straight side, to six digits, a first corner repeated, or corners in any order."""
 	corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]
 	for outline in (corners, corners[::-1]):
-		with pytest.raises(ValueError, match=r'^points2d: the outline is not convex, point \d \(.*\) lies inside the hull of the others; leave it out'):
+		with pytest.raises(
+			ValueError, match=r'^points2d: the outline is not convex, point \d \(.*\) lies inside the hull of the others; leave it out'
+		):
 			make([(size * (x + 7), size * y) for x, y in outline], center=(0, 0, 0), orientation=Quaternion((0, 0, 1), 1))
 	pentagon = [(math.cos(k), math.sin(k)) for k in (0, 1, 2, 4, 5, 0)] + [((math.cos(1) + 1) / 2 - 1e-7, math.sin(1) / 2)]
 	volume = make([(size * x, size * y) for x, y in pentagon[:5]]).shape.volume
@@ -184,6 +189,7 @@ def testConcaveOutlineIsRefused(make, size):
 
 def testMeshFile(tmp_path):
 	import trimesh
+
 	for name in ('box.stl', 'box.obj', 'box.ply', 'box.off'):
 		path = str(tmp_path / name)
 		trimesh.creation.box((2, 1, 1)).export(path)
@@ -192,7 +198,9 @@ def testMeshFile(tmp_path):
 
 
 def testBodyArguments():
-	b = polytope.regular(6, 1, fixed=True, color=(1, 0, 0), mask=5, velocity=(1, 2, 3), angularVelocity=(0, 0, 4), material='rock', wire=True)
+	b = polytope.regular(
+		6, 1, fixed=True, color=(1, 0, 0), mask=5, velocity=(1, 2, 3), angularVelocity=(0, 0, 4), material='rock', wire=True
+	)
 	assert b.state.blockedDOFs == 'xyzXYZ' and b.mask == 5 and b.shape.wire
 	assert b.state.vel == Vector3(1, 2, 3) and b.state.angVel == Vector3(0, 0, 4)
 	assert b.shape.color == Vector3(1, 0, 0) and b.material.label == 'rock'
@@ -206,56 +214,57 @@ nan, inf = math.nan, math.inf
 
 
 @pytest.mark.parametrize(
-        'build, names', [
-                (lambda: polytope.fromHalfSpaces(CUBE[:5], [1] * 5), ['normals', 'unbounded']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1, -2, 1, 1, 1, 1]), ['offsets', 'common point']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1, -1, 1, 1, 1, 1]), ['offsets', 'flat']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, nan]), ['offsets']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, inf]), ['offsets']),
-                (lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, nan, 1)], [1] * 6), ['normals']),
-                (lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, 0, 0)], [1] * 6), ['normals', 'zero']),
-                (lambda: polytope.fromHalfSpaces(CUBE[:3], [1] * 3), ['normals', '4']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1] * 5), ['offsets', 'normals']),
-                (lambda: polytope.fromHalfSpaces([(1, 0)] * 6, [1] * 6), ['normals']),
-                (lambda: polytope.fromHalfSpaces('abc', [1] * 3), ['normals']),
-                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0)]), ['points']),
-                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), ['points']),
-                (lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, nan)]), ['points']),
-                (lambda: polytope.polygon([(0, 0), (1, 0)]), ['points2d']),
-                (lambda: polytope.polygon([(0, 0), (1, 1), (2, 2)]), ['points2d']),
-                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness=0), ['thickness']),
-                (lambda: polytope.regular(5, 1), ['faces']),
-                (lambda: polytope.regular(6.5, 1), ['faces']),
-                (lambda: polytope.regular(6, 0), ['circumradius']),
-                (lambda: polytope.regular(6, 'a'), ['circumradius']),
-                (lambda: polytope.regular(6, 1, cornerRadius='a'), ['cornerRadius']),
-                (lambda: polytope.cuboid((0, 0, 0), 1), ['extents']),
-                (lambda: polytope.regular(6, 1, center=(nan, 0, 0)), ['center']),
-                (lambda: polytope.regular(6, 1, cornerRadius=1), ['cornerRadius', 'inscribed']),
-                (lambda: polytope.regular(6, 1, cornerRadius=.6), ['cornerRadius', 'inscribed', '0.57735']),
-                (lambda: polytope.regular(6, 1, cornerRadius=-.1), ['cornerRadius']),
-                (lambda: polytope.regular(6, 1, cornerRadius=nan), ['cornerRadius']),
-                (lambda: polytope.regular(6, 1, velocity=(0, 0, nan)), ['velocity']),
-                (lambda: polytope.regular(6, 1, velocity=(5, 6)), ['velocity', 'three']),
-                (lambda: polytope.regular(6, 1, angularVelocity=(5, 6, 7, 8)), ['angularVelocity', 'three']),
-                (lambda: polytope.regular(6, 1, center=(1, 2)), ['center', 'three']),
-                (lambda: polytope.regular(6, 1, fixed='no'), ['fixed', 'True or False']),
-                (lambda: polytope.regular(6, 1, wire='x'), ['wire']),
-                (lambda: polytope.regular(6, 1, color='red'), ['color']),
-                (lambda: polytope.regular(6, 1, mask='a'), ['mask']),
-                (lambda: polytope.fromHalfSpaces(CUBE, [1] * 6, keepRedundant='no'), ['keepRedundant']),
-                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness='a'), ['thickness']),
-                (lambda: polytope.fromMesh(None), ['path']),
-                (lambda: polytope.regular(6, 1, fixed=numpy.array([True, False])), ['fixed']),
-                (lambda: polytope.regular(6, 1, mask=2**40), ['mask']),
-                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], velocity=(0, 0, 2)), ['velocity', 'plane']),
-                (lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], angularVelocity=(1, 0, 0)), ['angularVelocity', 'about z']),
-                (lambda: polytope.stableTimeStep(default=inf), ['default']),
-                (lambda: polytope.stableTimeStep(default=True), ['default']),
-                (lambda: polytope.cuboid((0, 0, 0), (1, 0, 1)), ['extents']),
-                (lambda: polytope.cuboid((0, 0, 0), (1, 1, 1), orientation=(0, 0, 0, 1)), ['orientation']),
-                (lambda: Polytope(normals=[Vector3(*n) for n in CUBE], offsets=[2, 1, 1, 1, 1, 1]), ['offsets', 'fromHalfSpaces']),
-        ]
+	'build, names',
+	[
+		(lambda: polytope.fromHalfSpaces(CUBE[:5], [1] * 5), ['normals', 'unbounded']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1, -2, 1, 1, 1, 1]), ['offsets', 'common point']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1, -1, 1, 1, 1, 1]), ['offsets', 'flat']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, nan]), ['offsets']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1, 1, 1, 1, 1, inf]), ['offsets']),
+		(lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, nan, 1)], [1] * 6), ['normals']),
+		(lambda: polytope.fromHalfSpaces(CUBE[:5] + [(0, 0, 0)], [1] * 6), ['normals', 'zero']),
+		(lambda: polytope.fromHalfSpaces(CUBE[:3], [1] * 3), ['normals', '4']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1] * 5), ['offsets', 'normals']),
+		(lambda: polytope.fromHalfSpaces([(1, 0)] * 6, [1] * 6), ['normals']),
+		(lambda: polytope.fromHalfSpaces('abc', [1] * 3), ['normals']),
+		(lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0)]), ['points']),
+		(lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), ['points']),
+		(lambda: polytope.fromVertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, nan)]), ['points']),
+		(lambda: polytope.polygon([(0, 0), (1, 0)]), ['points2d']),
+		(lambda: polytope.polygon([(0, 0), (1, 1), (2, 2)]), ['points2d']),
+		(lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness=0), ['thickness']),
+		(lambda: polytope.regular(5, 1), ['faces']),
+		(lambda: polytope.regular(6.5, 1), ['faces']),
+		(lambda: polytope.regular(6, 0), ['circumradius']),
+		(lambda: polytope.regular(6, 'a'), ['circumradius']),
+		(lambda: polytope.regular(6, 1, cornerRadius='a'), ['cornerRadius']),
+		(lambda: polytope.cuboid((0, 0, 0), 1), ['extents']),
+		(lambda: polytope.regular(6, 1, center=(nan, 0, 0)), ['center']),
+		(lambda: polytope.regular(6, 1, cornerRadius=1), ['cornerRadius', 'inscribed']),
+		(lambda: polytope.regular(6, 1, cornerRadius=0.6), ['cornerRadius', 'inscribed', '0.57735']),
+		(lambda: polytope.regular(6, 1, cornerRadius=-0.1), ['cornerRadius']),
+		(lambda: polytope.regular(6, 1, cornerRadius=nan), ['cornerRadius']),
+		(lambda: polytope.regular(6, 1, velocity=(0, 0, nan)), ['velocity']),
+		(lambda: polytope.regular(6, 1, velocity=(5, 6)), ['velocity', 'three']),
+		(lambda: polytope.regular(6, 1, angularVelocity=(5, 6, 7, 8)), ['angularVelocity', 'three']),
+		(lambda: polytope.regular(6, 1, center=(1, 2)), ['center', 'three']),
+		(lambda: polytope.regular(6, 1, fixed='no'), ['fixed', 'True or False']),
+		(lambda: polytope.regular(6, 1, wire='x'), ['wire']),
+		(lambda: polytope.regular(6, 1, color='red'), ['color']),
+		(lambda: polytope.regular(6, 1, mask='a'), ['mask']),
+		(lambda: polytope.fromHalfSpaces(CUBE, [1] * 6, keepRedundant='no'), ['keepRedundant']),
+		(lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], thickness='a'), ['thickness']),
+		(lambda: polytope.fromMesh(None), ['path']),
+		(lambda: polytope.regular(6, 1, fixed=numpy.array([True, False])), ['fixed']),
+		(lambda: polytope.regular(6, 1, mask=2**40), ['mask']),
+		(lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], velocity=(0, 0, 2)), ['velocity', 'plane']),
+		(lambda: polytope.polygon([(0, 0), (1, 0), (0, 1)], angularVelocity=(1, 0, 0)), ['angularVelocity', 'about z']),
+		(lambda: polytope.stableTimeStep(default=inf), ['default']),
+		(lambda: polytope.stableTimeStep(default=True), ['default']),
+		(lambda: polytope.cuboid((0, 0, 0), (1, 0, 1)), ['extents']),
+		(lambda: polytope.cuboid((0, 0, 0), (1, 1, 1), orientation=(0, 0, 0, 1)), ['orientation']),
+		(lambda: Polytope(normals=[Vector3(*n) for n in CUBE], offsets=[2, 1, 1, 1, 1, 1]), ['offsets', 'fromHalfSpaces']),
+	],
 )
 def testWrongInputIsRefusedByName(build, names):
 	with pytest.raises(ValueError) as refusal:
@@ -269,7 +278,9 @@ def testWrongInputIsRefusedByName(build, names):
 def testBodiesFarFromTheOriginHaveTheirCentroidThere(far):
 	"""The first centroid is rounded by the distance, so that it is computed again from there."""
 	for k in range(40):
-		normals = [(math.cos(a), math.sin(a), c) for a, c in zip(numpy.linspace(0, 6, 7) + k, (1, -1, 0.3, -0.4, 0.2, -0.1, 0.5), strict=True)]
+		normals = [
+			(math.cos(a), math.sin(a), c) for a, c in zip(numpy.linspace(0, 6, 7) + k, (1, -1, 0.3, -0.4, 0.2, -0.1, 0.5), strict=True)
+		]
 		offsets = [numpy.dot(n, (far, far, far)) + 1 for n in normals]
 		body = polytope.fromHalfSpaces(normals, offsets)
 		assert abs(body.state.pos[0] - far) < 10
@@ -297,48 +308,53 @@ def testRefusedCornerRadiusLeavesTheShape():
 
 
 def testContactOfTwoCubes():
-	a = polytope.cuboid((0, 0, 0), (.5, .5, .5))
-	b = polytope.cuboid((.25, .125, .99), (.5, .5, .5))
+	a = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))
+	b = polytope.cuboid((0.25, 0.125, 0.99), (0.5, 0.5, 0.5))
 	c = polytope.contact(a, b)
 	assert c.inContact and c.status == 'contact'
 	assert c.infeasibility == pytest.approx(-0.005, rel=1e-12)
 	# each cube ends on two sides of the face that they share: the force leans, and acts aside, by the depth over the length
-	assert (c.point - Vector3(.125, .0625, .495)).norm() < .01
-	assert (c.normal - Vector3(0, 0, 1)).norm() < .01
-	assert c.depth == pytest.approx(0.01, rel=.01 * (1 / .75 + 1 / .875)) and c.area == pytest.approx(.75 * .875, rel=.01)
+	assert (c.point - Vector3(0.125, 0.0625, 0.495)).norm() < 0.01
+	assert (c.normal - Vector3(0, 0, 1)).norm() < 0.01
+	assert c.depth == pytest.approx(0.01, rel=0.01 * (1 / 0.75 + 1 / 0.875)) and c.area == pytest.approx(0.75 * 0.875, rel=0.01)
 	paper = polytope.contact(a, b, contactModel='boon2012')
-	assert (paper.normal - Vector3(0, 0, 1)).norm() < 1e-15 and (paper.point - Vector3(.125, .0625, .495)).norm() < 1e-12
-	assert paper.depth == pytest.approx(0.01, rel=1e-12) and paper.area == pytest.approx(.75 * .875, rel=1e-12)
-	apart = polytope.contact(a, polytope.cuboid((0, 0, 1.5), (.5, .5, .5)))
-	assert not apart.inContact and apart.status == 'separated' and apart.depth == pytest.approx(-.5) and apart.infeasibility == pytest.approx(.25)
+	assert (paper.normal - Vector3(0, 0, 1)).norm() < 1e-15 and (paper.point - Vector3(0.125, 0.0625, 0.495)).norm() < 1e-12
+	assert paper.depth == pytest.approx(0.01, rel=1e-12) and paper.area == pytest.approx(0.75 * 0.875, rel=1e-12)
+	apart = polytope.contact(a, polytope.cuboid((0, 0, 1.5), (0.5, 0.5, 0.5)))
+	assert (
+		not apart.inContact
+		and apart.status == 'separated'
+		and apart.depth == pytest.approx(-0.5)
+		and apart.infeasibility == pytest.approx(0.25)
+	)
 
 
-@pytest.mark.parametrize('value', [1e-300, 0., -1e-10, 0.5, 1., nan])
+@pytest.mark.parametrize('value', [1e-300, 0.0, -1e-10, 0.5, 1.0, nan])
 def testNewtonToleranceHasARange(value):
 	"""Below rounding nothing can be reached, and above a tenth the point is anywhere in the overlap."""
 	functor = Ig2_Polytope_Polytope_PolytopeGeom(newtonTolerance=1e-6)
 	with pytest.raises(ValueError, match='newtonTolerance: must lie between .* and 0.1'):
 		functor.newtonTolerance = value
 	assert float(functor.newtonTolerance) == pytest.approx(1e-6, rel=0)
-	cube = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	cube = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))
 	with pytest.raises(ValueError, match='newtonTolerance'):
-		polytope.contact(cube, polytope.cuboid((.1, .2, .99), (.5, .5, .5)), newtonTolerance=value)
+		polytope.contact(cube, polytope.cuboid((0.1, 0.2, 0.99), (0.5, 0.5, 0.5)), newtonTolerance=value)
 
 
 @pytest.mark.parametrize('value', [3e-16, 0.1])
 def testEndsOfNewtonTolerancesRange(value):
-	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .99), (.5, .5, .5))
+	one, two = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)), polytope.cuboid((0.1, 0.2, 0.99), (0.5, 0.5, 0.5))
 	c = polytope.contact(one, two, newtonTolerance=value, contactModel='boon2012')
 	assert c.inContact and c.depth == pytest.approx(0.01, rel=1e-12)
 
 
 def testContactRefusesWhatIsNoPolytope():
-	cube = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	cube = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))
 	with pytest.raises(ValueError, match='b2'):
 		polytope.contact(cube, Body())
 	with pytest.raises(ValueError, match='b2'):
 		polytope.contact(cube, polytope.polygon([(0, 0), (1, 0), (0, 1)]))
-	astray = polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	astray = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))
 	astray.state.pos = (nan, 0, 0)
 	with pytest.raises(ValueError, match='b2.*finite'):
 		polytope.contact(cube, astray)
@@ -365,7 +381,9 @@ def testAMaterialThatIsNotListedIsNamedWithTheRemedy():
 	O.materials.append(RockJointMat())
 	with pytest.raises(ValueError) as refusal:
 		polytope.cuboid((0, 0, 0), (1, 1, 1), material='marble')
-	assert str(refusal.value).startswith("material: no material in O.materials has the label 'marble', there are ['rock']; O.materials.append(")
+	assert str(refusal.value).startswith(
+		"material: no material in O.materials has the label 'marble', there are ['rock']; O.materials.append("
+	)
 	for index in (7, -3):
 		with pytest.raises(ValueError, match=rf'^material: O.materials has no index {index}, it has 2 materials; O.materials.append'):
 			polytope.cuboid((0, 0, 0), (1, 1, 1), material=index)
@@ -434,7 +452,9 @@ def testCenterAndOrientationOfEveryBuilder(name, tmp_path):
 @pytest.mark.parametrize('name', ['fromHalfSpaces', 'fromVertices', 'fromMesh', 'regular', 'cuboid', 'polygon'])
 def testUnknownArgumentNamesTheFunctionAndWhatItTakes(name, tmp_path):
 	build = builders(tmp_path)[name]
-	with pytest.raises(TypeError, match=rf"^{name}: there is no argument 'colour'; it takes .*, and as all bodies .*\bcolor\b.*\bcenter\b|orientation") as caught:
+	with pytest.raises(
+		TypeError, match=rf"^{name}: there is no argument 'colour'; it takes .*, and as all bodies .*\bcolor\b.*\bcenter\b|orientation"
+	) as caught:
 		build(colour=(1, 0, 0))
 	assert 'material' in str(caught.value) and '_body' not in str(caught.value)
 	for taken in ('center', 'orientation', 'fixed', 'velocity'):

@@ -88,6 +88,7 @@ def testCrossOfThreeTurnedBars():
 
 def testManyPartsInOnePlace():
 	"""A star of 24 bars through one point, and grains of many faces about it: in a second, and the same in any order."""
+
 	def parts():
 		bars = [polytope.cuboid((1, 2, 3), (2, 0.2, 0.1 + 0.01 * k), orientation=Quaternion((1, 2, k), 0.7 * k)) for k in range(24)]
 		return bars + [polytope.randomGrain(1.2, vertices=30, seed=k, center=(1, 2, 3)) for k in range(6)]
@@ -314,7 +315,9 @@ def testCoacdItself(mesh):
 
 def testWhatIsRefused(mesh, objects, tmp_path, monkeypatch):
 	monkeypatch.setitem(sys.modules, 'coacd', None)
-	with pytest.raises(ImportError, match=r"^parts: needs CoACD, which is not installed; install it .* 'pip install --no-deps --target ~/coacd coacd'"):
+	with pytest.raises(
+		ImportError, match=r"^parts: needs CoACD, which is not installed; install it .* 'pip install --no-deps --target ~/coacd coacd'"
+	):
 		polytope.fromMesh(mesh, parts=5)
 	for parts in (0, 'all', True, 2.5):
 		with pytest.raises(ValueError, match='^parts: must be a number of parts above 0'):

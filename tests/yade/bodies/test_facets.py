@@ -25,7 +25,9 @@ def cup(tmp_path):
 
 
 def testAMeshThatIsAContainerIsToldHowItIsRead(cup, tmp_path):
-	with pytest.warns(UserWarning, match=r'is not closed; the body is the convex hull .*container .funnel, cup, drum. is read by polytope.facets'):
+	with pytest.warns(
+		UserWarning, match=r'is not closed; the body is the convex hull .*container .funnel, cup, drum. is read by polytope.facets'
+	):
 		polytope.fromMesh(cup, scale=1e-3)
 	with pytest.raises(ValueError, match=r'is not closed, and there is no other; close it.*; a container .* is read by polytope.facets'):
 		polytope.fromMesh(cup, scale=1e-3, parts='objects')
@@ -39,9 +41,13 @@ def testABlockRestsInACupOfFacets(cup, perArea):
 	ids = O.bodies.append(polytope.facets(cup, scale=1e-3, shift=(0, 0, 3), color=(0.1, 0.2, 0.3)))
 	assert len(ids) == 10 and all(isinstance(O.bodies[k].shape, Facet) and not O.bodies[k].dynamic for k in ids)
 	assert tuple(O.bodies[0].shape.color) == pytest.approx((0.1, 0.2, 0.3)) and not O.bodies[0].shape.wire
-	corners = np.array([O.bodies[k].state.pos + O.bodies[k].state.ori * corner for k in ids for corner in O.bodies[k].shape.vertices], float)
+	corners = np.array(
+		[O.bodies[k].state.pos + O.bodies[k].state.ori * corner for k in ids for corner in O.bodies[k].shape.vertices], float
+	)
 	assert corners.min(axis=0) == pytest.approx([-1, -1, 2.5]) and corners.max(axis=0) == pytest.approx([1, 1, 3.5])
-	block = O.bodies[O.bodies.append(polytope.cuboid((0.3, 0.1, 2.81), (0.3, 0.3, 0.3), orientation=Quaternion((0, 0, 1), 0.4), velocity=(1, 0, 0)))]
+	block = O.bodies[
+		O.bodies.append(polytope.cuboid((0.3, 0.1, 2.81), (0.3, 0.3, 0.3), orientation=Quaternion((0, 0, 1), 0.4), velocity=(1, 0, 0)))
+	]
 	O.engines = polytope.engines(physics=physics(perArea))
 	while O.time < 1.5:
 		O.run(200, wait=True)
@@ -67,7 +73,11 @@ def testTrianglesWithoutAnAreaAreLeftOut(tmp_path):
 def testBadArguments(cup, tmp_path):
 	with pytest.raises(FileNotFoundError, match='^path: there is no file'):
 		polytope.facets(tmp_path / 'none.stl')
-	for arguments, words in (({'scale': 0}, 'scale: must be positive'), ({'shift': 1}, 'shift: '), ({'mask': 'a'}, 'mask: must be a whole')):
+	for arguments, words in (
+		({'scale': 0}, 'scale: must be positive'),
+		({'shift': 1}, 'shift: '),
+		({'mask': 'a'}, 'mask: must be a whole'),
+	):
 		with pytest.raises(ValueError, match=f'^{words}'):
 			polytope.facets(cup, **arguments)
 	with pytest.raises(TypeError, match="facets: there is no argument 'center'; it takes path, scale, shift, and as all bodies material"):

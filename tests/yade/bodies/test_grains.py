@@ -110,7 +110,10 @@ def testGrainsOfGivenShapes():
 	assert masses.sum() == pytest.approx(0.3, rel=0.01)
 	for opening, passing in curve:
 		assert masses[sizes <= opening * (1 + 1e-9)].sum() / 0.3 == pytest.approx(passing, abs=0.01)
-	longest = [np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)[:, np.argmax(np.ptp(body.shape.vertices, axis=0))] ** 2 for body in sample]
+	longest = [
+		np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)[:, np.argmax(np.ptp(body.shape.vertices, axis=0))] ** 2
+		for body in sample
+	]
 	assert np.mean(longest, axis=0) == pytest.approx([1 / 3] * 3, abs=0.08), 'turned at random'
 
 

@@ -132,17 +132,24 @@ def testSeveralBodiesOfAFile(name, ending, inverted, tmp_path):
 		mesh.merge_vertices()
 	mesh.export(path)
 	made, (said,) = warningsOf(path)
-	assert f"has {len(meshes)} bodies; the body is the convex hull of all of them, {made.shape.volume:.3g} m³; polytope.fromMesh(…, parts='objects')" in said
+	assert (
+		f"has {len(meshes)} bodies; the body is the convex hull of all of them, {made.shape.volume:.3g} m³; polytope.fromMesh(…, parts='objects')"
+		in said
+	)
 	bodies, told = warningsOf(path, parts='objects')
 	assert not told and volumes(bodies) == pytest.approx([1] * len(meshes))
-	assert np.array([body.state.pos for body in bodies], float) == pytest.approx(np.array(places[name]), abs=1e-6), 'in the order of the file'
+	assert np.array([body.state.pos for body in bodies], float) == pytest.approx(np.array(places[name]), abs=1e-6), (
+		'in the order of the file'
+	)
 
 
 def testObjectsFollowTheLinesOfTheFile(tmp_path):
 	"""Two tetrahedra that share three points; a change of material is no other object. Objects that are closed only together are one."""
 	path = tmp_path / 'two.obj'
 	points = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\n'
-	path.write_text(f'o a\n{points}f 1 3 2\nf 1 2 4\nf 2/1/1 3//2 4\nf -5 -2 -3\no b\nusemtl x\nf 2 3 5\nusemtl y\nf 2 4 3\nf 2 5 4\nf 3 4 5\n')
+	path.write_text(
+		f'o a\n{points}f 1 3 2\nf 1 2 4\nf 2/1/1 3//2 4\nf -5 -2 -3\no b\nusemtl x\nf 2 3 5\nusemtl y\nf 2 4 3\nf 2 5 4\nf 3 4 5\n'
+	)
 	assert [float(body.shape.volume) for body in polytope.fromMesh(path, parts='objects')] == pytest.approx([1 / 6, 1 / 3])
 	path.write_text(f'o a\n{points}f 1 3 2\nf 1 2 4\no b\nf 2 3 4\nf 1 4 3\n')
 	made, told = warningsOf(path)
@@ -154,7 +161,9 @@ def testOneBodyThatIsNotConvexDoesNotRefuseTheOthers(tmp_path):
 	"""A cube with a dent, one that is open, a sheet, and a sound one."""
 	dented, opened = box(), box(place=(3, 0, 0))
 	top = np.flatnonzero((dented.vertices[dented.faces][:, :, 2] > 0.4).all(axis=1))
-	rim = sorted(map(int, np.flatnonzero(dented.vertices[:, 2] > 0)), key=lambda k: np.arctan2(dented.vertices[k, 1], dented.vertices[k, 0]))
+	rim = sorted(
+		map(int, np.flatnonzero(dented.vertices[:, 2] > 0)), key=lambda k: np.arctan2(dented.vertices[k, 1], dented.vertices[k, 0])
+	)
 	cone = [(rim[k], rim[(k + 1) % 4], 8) for k in range(4)]
 	dented = trimesh.Trimesh(np.vstack([dented.vertices, [(0, 0, 0.3)]]), np.vstack([np.delete(dented.faces, top, axis=0), cone]))
 	assert dented.is_watertight and dented.volume == pytest.approx(1 - 0.2 / 3)
@@ -200,7 +209,19 @@ def tetrahedra(cells):
 	return np.array([[cell[k] for k in one] for cell in cells for one in six])
 
 
-@pytest.mark.parametrize('ending, form', [('msh', 'gmsh'), ('msh', 'gmsh22'), ('vtk', 'vtk'), ('vtu', 'vtu'), ('inp', 'abaqus'), ('mesh', 'medit'), ('bdf', 'nastran'), ('ele', 'tetgen')])
+@pytest.mark.parametrize(
+	'ending, form',
+	[
+		('msh', 'gmsh'),
+		('msh', 'gmsh22'),
+		('vtk', 'vtk'),
+		('vtu', 'vtu'),
+		('inp', 'abaqus'),
+		('mesh', 'medit'),
+		('bdf', 'nastran'),
+		('ele', 'tetgen'),
+	],
+)
 def testMeshesOfVolumes(ending, form, tmp_path):
 	"""A block of two bricks, of hexahedra or tetrahedra, with a point of no cell: the surface is taken."""
 	path, points = tmp_path / f'block.{ending}', np.vstack([corners, [(9, 9, 9)]])
@@ -239,17 +260,22 @@ def testOtherCells(tmp_path):
 		(np.vstack([simplex, middles]), [('tetra10', [range(10)])], 1 / 6),
 		(cube, [('quad', quads), ('triangle', [(1, 3, 7), (1, 7, 5)])], 1),
 	):
-		meshio.Mesh(points, [(kind, np.array([list(one) for one in those])) for kind, those in cells]).write(tmp_path / 'a.msh', file_format='gmsh22')
+		meshio.Mesh(points, [(kind, np.array([list(one) for one in those])) for kind, those in cells]).write(
+			tmp_path / 'a.msh', file_format='gmsh22'
+		)
 		made, told = warningsOf(tmp_path / 'a.msh')
 		assert made.shape.volume == pytest.approx(volume) and not told
 
 
 def testSurfacesOfOtherPrograms(tmp_path):
-	before, texts = locale.setlocale(locale.LC_ALL), {
-		'a.gts': '4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 4\n2 4\n3 4\n1 2 3\n1 5 4\n2 6 5\n3 4 6\n',
-		'a.smesh': '# part 1\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1 # the last\n4 0\n3 1 2 3\n3 1 2 4\n3 2 3 4\n3 1 3 4\n0\n0\n',
-		'a.vtk': '# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nPOLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n',
-	}
+	before, texts = (
+		locale.setlocale(locale.LC_ALL),
+		{
+			'a.gts': '4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 4\n2 4\n3 4\n1 2 3\n1 5 4\n2 6 5\n3 4 6\n',
+			'a.smesh': '# part 1\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1 # the last\n4 0\n3 1 2 3\n3 1 2 4\n3 2 3 4\n3 1 3 4\n0\n0\n',
+			'a.vtk': '# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nPOLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n',
+		},
+	)
 	for name, text in texts.items():
 		(tmp_path / name).write_text(text)
 		made, told = warningsOf(tmp_path / name)
@@ -265,7 +291,11 @@ def testSurfacesOfOtherPrograms(tmp_path):
 		('a.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 nan\nf 1 2 3\n', 'has a vertex that is not finite'),
 		('a.off', 'OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 9\n', 'cannot be read as a mesh'),
 		('a.off', 'OFF\n4 4 0\n0 0 0\n1 0 0\n', 'cannot be read as a mesh'),
-		('a.ply', 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n', 'cannot be read as a mesh'),
+		(
+			'a.ply',
+			'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n',
+			'cannot be read as a mesh',
+		),
 		('a.ply', 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n', 'cannot be read as a mesh|has no vertices'),
 		('a.smesh', '4 3 0 0\n1 0 0 0\n', 'it ends before its points and facets do'),
 		('a.msh', 'no mesh', 'cannot be read as a mesh'),
@@ -316,7 +346,9 @@ def testMessagesSayWhatAFileIsNot(tmp_path):
 	cube.export(tmp_path / 'whole.stl')
 	content = (tmp_path / 'whole.stl').read_bytes()
 	(tmp_path / 'half.stl').write_bytes(content[: len(content) // 2])
-	with pytest.raises(ValueError, match='^path: .*half.stl. (cannot be read as a mesh .*(end early|expected)|has no vertices)'):  # the latter where chardet is installed
+	with pytest.raises(
+		ValueError, match='^path: .*half.stl. (cannot be read as a mesh .*(end early|expected)|has no vertices)'
+	):  # the latter where chardet is installed
 		polytope.fromMesh(tmp_path / 'half.stl')
 	(tmp_path / 'what.foo').write_text('0 0 0\n')
 	with pytest.raises(ValueError, match='^path: .*what.foo. cannot be read as a mesh .*[.]3mf, .*[.]stl'):
@@ -336,7 +368,7 @@ def testGtsHasTwoSignsForCommentsAndEdgesThatAreThere(tmp_path):
 
 def testAFileWithTooFewDigitsForAnyBodySaysSo(tmp_path):
 	"""Its corners fall together far from the origin: the remedy is that of the file, not of the shape."""
-	corners = [(x, y, z) for x in (0, .3) for y in (0, .3) for z in (0, .3)]
+	corners = [(x, y, z) for x in (0, 0.3) for y in (0, 0.3) for z in (0, 0.3)]
 	faces = ['1 2 4 3', '5 7 8 6', '1 5 6 2', '3 4 8 7', '1 3 7 5', '2 6 8 4']
 	lines = ['v ' + ' '.join(f'{4e6 + x:.6g}' for x in corner) for corner in corners] + ['f ' + face for face in faces]
 	(tmp_path / 'cube.obj').write_text('\n'.join(lines) + '\n')

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scene builders make the scenes that they document."""
+
 import itertools
 
 import numpy as np
@@ -10,11 +11,11 @@ from yade import O
 
 # of the solid of volume 1: circumradius, inradius and moment of inertia over mass
 table = {
-        4: (1.249025, 0.416342, 0.208008),
-        6: (0.866025, 0.5, 0.166667),
-        8: (0.908560, 0.524558, 0.165096),
-        12: (0.710749, 0.564800, 0.156257),
-        20: (0.733289, 0.582711, 0.155637),
+	4: (1.249025, 0.416342, 0.208008),
+	6: (0.866025, 0.5, 0.166667),
+	8: (0.908560, 0.524558, 0.165096),
+	12: (0.710749, 0.564800, 0.156257),
+	20: (0.733289, 0.582711, 0.155637),
 }
 
 
@@ -69,7 +70,7 @@ def testOrientationsAreUniform():
 	scene = FallingPolyhedra(number=2000).build()
 	turns = np.array([np.array(b.state.ori.toRotationMatrix()).reshape(3, 3) for b in scene.particles()])
 	for row, column in itertools.product(range(3), repeat=2):
-		assert np.mean(turns[:, row, column]**2) == pytest.approx(1 / 3, abs=0.03)
+		assert np.mean(turns[:, row, column] ** 2) == pytest.approx(1 / 3, abs=0.03)
 
 
 def testWatchCountsWhatTheFunctorCounts():

@@ -114,7 +114,11 @@ def testShapesOfRockableHaveTheirFacesWhereRockableHasThem():
 
 def rockable(name, radius, points, faces=(), more=''):
 	"""A shape as Rockable's libraries have it."""
-	rows = [f'<\nname {name}\nradius {radius}\n{more}nv {len(points)}', *(' '.join(map(str, point)) for point in points), f'nf {len(faces)}']
+	rows = [
+		f'<\nname {name}\nradius {radius}\n{more}nv {len(points)}',
+		*(' '.join(map(str, point)) for point in points),
+		f'nf {len(faces)}',
+	]
 	return '\n'.join([*rows, *(f'{len(face)} ' + ' '.join(map(str, face)) for face in faces), '>\n'])
 
 
@@ -140,7 +144,11 @@ def testABallIsASphereOfYades():
 def testWhatIsNoBodyIsLeftOutByName(tmp_path):
 	path = tmp_path / 'some.shp'
 	tetrahedron = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-	rods = rockable('Rod', 0.1, [(0, 0, 0), (1, 0, 0)]) + rockable('Rice', 0.1, [(0, -1, 0), (0, 0, 0), (0, 1, 0)]) + rockable('Dot', 0, [(0, 0, 0)])
+	rods = (
+		rockable('Rod', 0.1, [(0, 0, 0), (1, 0, 0)])
+		+ rockable('Rice', 0.1, [(0, -1, 0), (0, 0, 0), (0, 1, 0)])
+		+ rockable('Dot', 0, [(0, 0, 0)])
+	)
 	path.write_text(rods + rockable('Four', 0, tetrahedron))
 	with pytest.warns(UserWarning, match="left out of .*some.shp': 'Rod' is a rod; 'Rice' is a rod; 'Dot' is a point$") as said:
 		(body,) = polytope.readShapes(path)
@@ -183,7 +191,9 @@ def testPartsOfAShapeThatIsNotConvex(tmp_path, monkeypatch):
 		blocks = ((0, 3), (0, 1)), ((0, 1), (1, 2))
 		return [(np.array([(x, y, z) for x in xs for y in ys for z in (0, 1)]), None) for xs, ys in blocks]
 
-	stand = types.SimpleNamespace(Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None)
+	stand = types.SimpleNamespace(
+		Mesh=lambda points, triangles: (len(points), len(triangles)), run_coacd=run, set_log_level=lambda level: None
+	)
 	monkeypatch.setitem(sys.modules, 'coacd', stand)
 	parts, *others = polytope.readShapes(path, parts=4)
 	assert asked == [(12, 20, 4)] and len(others) == 3
@@ -242,7 +252,11 @@ def cell(old, new):
 		('a.tess', cell('**polyhedron', '**other'), 'the section \\*\\*polyhedron is missing'),
 		('a.tess', cell('4 2 3 9 8', '4 2 3 9 18'), 'line 58: there is no vertex 18; write the tessellation anew'),
 		('a.tess', cell('6 7 8 9 -4 10 11', '6 7 8 9 -4 10 12'), 'there is no face 12'),
-		('a.tess', cell('6 7 8 9 -4 10 11', '6 7 8 9 4 10 11'), 'line 58: a cell is not convex: .* regularization or -transform cut has bent; tessellate without them, or mesh'),
+		(
+			'a.tess',
+			cell('6 7 8 9 -4 10 11', '6 7 8 9 4 10 11'),
+			'line 58: a cell is not convex: .* regularization or -transform cut has bent; tessellate without them, or mesh',
+		),
 		('a.tess', cell('4 2 3 9 8', '4 2 3 9 -8'), 'line 58: there is no vertex -8'),
 		('a.tess', cell('4 2 3 9 8', '4 2 3 9 0'), 'line 58: there is no vertex 0'),
 		('a.tess', cell('4 2 3 9 8', '2 2 3'), 'line 58: a number of vertices must be 0 or at least 3, got 2'),

@@ -3,6 +3,7 @@
 
 Quick form of `./run accuracy --only surfaces`, with its limits, for the default contact.
 """
+
 import math
 import pathlib
 import re
@@ -237,7 +238,7 @@ def testReboundsFromAJointAsFromOnePiece(tilt, perArea):
 @rules
 def testADodecahedronRollsAsOnOnePiece(perArea):
 	slab, plates = (roll(floor, perArea=perArea) for floor in ('slab', 'plates'))
-	assert slab[-1] > .9
+	assert slab[-1] > 0.9
 	assert plates == pytest.approx(slab, abs=rolling * slab[-1])
 
 
@@ -328,7 +329,9 @@ def testMissedLimitsAreReported(tmp_path):
 def testOneCrossingInOneLine():
 	done = subprocess.run(
 		[sys.executable, folder / 'surfaces.py', '--floor', 'plates', '--per-area', '--contact', 'contactModel=surface'],
-		capture_output=True, text=True, timeout=300
+		capture_output=True,
+		text=True,
+		timeout=300,
 	)
 	assert done.returncode == 0, done.stderr
 	assert float(re.search(r'per area: kept ([\d.]+)', done.stdout)[1]) == pytest.approx(1, abs=1e-4)

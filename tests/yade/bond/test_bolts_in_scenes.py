@@ -252,4 +252,6 @@ def testABoltWithoutPretensionIsLoadedGentlyByTheFactorOfSafety(flat, ruptureStr
 	polytope.settle(elastic=False)
 	found = polytope.factorOfSafety()
 	assert found.factor == pytest.approx(factor, rel=0.01) and found.failed / found.stable < 1.01
-	assert found.bodies == [block] and all(later.factor / earlier.factor <= 1.021 for earlier, later in zip(found.trials, found.trials[1:], strict=False))
+	assert found.bodies == [block] and all(
+		later.factor / earlier.factor <= 1.021 for earlier, later in zip(found.trials, found.trials[1:], strict=False)
+	)

@@ -12,7 +12,7 @@ from yade import BartonBandisStrength, ContinuouslyYieldingStrength, HyperbolicC
 kn, ks = 1e9, 4e8
 
 
-def driven(velocity, overlap=0., ofJoint={}, **strength):
+def driven(velocity, overlap=0.0, ofJoint={}, **strength):
 	"""A block bonded on top of a fixed one, moved by the script at this velocity. *ofJoint*: attributes of the joint's material."""
 	joint(normalStiffness=kn, shearStiffness=ks, frictionAngle=0.5, **ofJoint)
 	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.4, 0.3), fixed=True))
@@ -29,7 +29,7 @@ def driven(velocity, overlap=0., ofJoint={}, **strength):
 
 def runUntilItFails(bond, most=20000):
 	"""State of the step in which it fails: force on body 2 and work until then, by the force on a body that the script moves."""
-	work = 0.
+	work = 0.0
 	while bond.intact:
 		before = bond.force
 		O.step()
@@ -64,7 +64,7 @@ def testItBearsNoMoreTensionThanTheConeOfMohrCoulomb():
 	assert bond.failure == 'shear' and bond.normalStress == pytest.approx(1e5 / math.tan(1.0), rel=1e-2)
 
 
-@pytest.mark.parametrize('overlap', [0., 1e-4])
+@pytest.mark.parametrize('overlap', [0.0, 1e-4])
 def testPressedItFailsWithFrictionAndTheJointGoesOn(overlap):
 	"""Mohr-Coulomb; normal force and stored shear force of the joint begin where the bond's end, also where the bond was made in an overlap."""
 	bond = driven((0, 0, -0.1), overlap, tensileStrength=1e6, cohesion=1e5, frictionAngle=0.5)
@@ -100,7 +100,14 @@ def testPressedItFailsWithFrictionAndTheJointGoesOn(overlap):
 	[
 		{},
 		dict(dilationAngle=math.radians(1)),
-		dict(dilationAngle=0.2, cohesion=1e5, residualCohesion=1e4, tensileStrength=1e4, residualTensileStrength=1e3, residualFrictionAngle=0.4),
+		dict(
+			dilationAngle=0.2,
+			cohesion=1e5,
+			residualCohesion=1e4,
+			tensileStrength=1e4,
+			residualTensileStrength=1e3,
+			residualFrictionAngle=0.4,
+		),
 		dict(closure=HyperbolicClosure(maximumClosure=1e-3), dilationAngle=0.2),
 		dict(strength=BartonBandisStrength(JRC=10, JCS=1e8)),
 		dict(strength=ContinuouslyYieldingStrength(initialFrictionAngle=0.9)),
@@ -153,7 +160,8 @@ def testEnergyOfAVibratingChainIsKept():
 
 	def kinetic():
 		return sum(
-			b.state.mass * b.state.vel.squaredNorm() / 2 + b.state.angVel.dot(Vector3(*[i * w for i, w in zip(b.state.inertia, b.state.angVel, strict=True)])) / 2
+			b.state.mass * b.state.vel.squaredNorm() / 2
+			+ b.state.angVel.dot(Vector3(*[i * w for i, w in zip(b.state.inertia, b.state.angVel, strict=True)])) / 2
 			for b in O.bodies
 		)
 
@@ -272,7 +280,11 @@ def testAHungBlockFallsWhereTheStressAtTheEdgeReachesItsStrength(size, offset):
 
 
 def testStrengthsAreThoseOfTheMaterialsIfTheyHaveAny():
-	for strength, expected in (({}, (math.inf, math.inf)), ({'cohesion': 2e5}, (0, 2e5)), ({'cohesion': 2e5, 'tensileStrength': 1e5}, (1e5, 2e5))):
+	for strength, expected in (
+		({}, (math.inf, math.inf)),
+		({'cohesion': 2e5}, (0, 2e5)),
+		({'cohesion': 2e5, 'tensileStrength': 1e5}, (1e5, 2e5)),
+	):
 		O.reset()
 		hung(0, **strength)
 		bond = polytope.bonds().bonds[0]

@@ -11,7 +11,7 @@ from yade import ForceResetter, NewtonIntegrator, O, Quaternion, RockJointMat, S
 kn, ks = 1e9, 4e8
 
 
-def bondedPair(gap=0., half=(0.5, 0.4, 0.3)):
+def bondedPair(gap=0.0, half=(0.5, 0.4, 0.3)):
 	"""A block bonded to a fixed one along x, across a gap (an overlap, where negative)."""
 	joint(normalStiffness=kn, shearStiffness=ks)
 	O.bodies.append(polytope.cuboid((0, 0, 0), half, fixed=True))
@@ -49,7 +49,9 @@ def testPullShearBendingAndTwistAreHookes(gap):
 		O.step()
 		assert bond.moment[axis] == pytest.approx(-moments[axis] * 1e-6, rel=1e-6)
 		assert bond.force.norm() < 1e-5 * moments[axis] * 1e-6
-		assert np.array(O.forces.t(0)) == pytest.approx(-np.array(O.forces.t(1)) - np.cross(np.array(start), np.array(O.forces.f(1))), abs=1e-6)
+		assert np.array(O.forces.t(0)) == pytest.approx(
+			-np.array(O.forces.t(1)) - np.cross(np.array(start), np.array(O.forces.f(1))), abs=1e-6
+		)
 		state.pos, state.ori = start, Quaternion((1, 0, 0), 0)
 	edge = bond
 	turn = Quaternion(Vector3(0, 1, 0), 1e-6)
@@ -88,7 +90,7 @@ def testAllFacesOfJointedRockAreBonded():
 	joint(normalStiffness=1e10, shearStiffness=5e9)
 	sets = [polytope.JointSet(dip=dip, dipDirection=direction, spacing=0.4) for dip, direction in ((0.2, 0), (1.4, 0.3), (1.5, 1.9))]
 	sides = np.vstack([np.eye(3), -np.eye(3)])
-	rock = polytope.jointedRock(sides, [1.] * 6, sets, seed=1)
+	rock = polytope.jointedRock(sides, [1.0] * 6, sets, seed=1)
 	O.bodies.append([polytope.fromHalfSpaces(*block) for block in rock.blocks])
 	loop(True)
 	polytope.bond()
@@ -187,8 +189,17 @@ def testWhatIsRefused():
 	bondedPair()
 	sphere = O.bodies.append(utils.sphere((9, 0, 0), 1))
 	for name, value in {
-		'gap': -1, 'angle': 2, 'normalStiffness': 0, 'shearStiffness': -3, 'bendingStiffness': math.inf, 'twistingStiffness': 'a',
-		'tensileStrength': 0, 'cohesion': -1, 'frictionAngle': 2, 'bendingShare': 1.5, 'ids': [0, 7],
+		'gap': -1,
+		'angle': 2,
+		'normalStiffness': 0,
+		'shearStiffness': -3,
+		'bendingStiffness': math.inf,
+		'twistingStiffness': 'a',
+		'tensileStrength': 0,
+		'cohesion': -1,
+		'frictionAngle': 2,
+		'bendingShare': 1.5,
+		'ids': [0, 7],
 	}.items():
 		with pytest.raises(ValueError, match=f'^{name}: '):
 			polytope.bond(**{name: value})

@@ -98,7 +98,12 @@ def testWhatIsRefused():
 	sphere = O.bodies.append(utils.sphere((9, 0, 0), 1))
 	clump, members = O.bodies.appendClumped([polytope.cuboid((k, 5, 0), (0.6, 0.5, 0.5)) for k in range(2)])
 	count = len(O.bodies)
-	for number, words in ((99, 'there is no body 99'), (sphere, 'no Polytope shape'), (members[0], 'member of clump'), (clump, 'no Polytope shape')):
+	for number, words in (
+		(99, 'there is no body 99'),
+		(sphere, 'no Polytope shape'),
+		(members[0], 'member of clump'),
+		(clump, 'no Polytope shape'),
+	):
 		with pytest.raises(ValueError, match=f'^id: .*{words}'):
 			polytope.split(number, (1, 0, 0))
 	for arguments, words in {

@@ -64,7 +64,9 @@ def testNoEnergyOfOverlapIsReleased(name, pressed):
 	_, plate = pressed
 	force, stored = O.forces.f(plate)[2], O.energy['elastPotential']
 	assert force == pytest.approx(-stiffness * faceForce(pz / stiffness, perArea=True), rel=1e-6)
-	assert stored == pytest.approx(2 * stiffness * (faceEnergy(pz / stiffness, perArea=True) + faceEnergy(px / stiffness, (1, 2), True)), rel=1e-6)
+	assert stored == pytest.approx(
+		2 * stiffness * (faceEnergy(pz / stiffness, perArea=True) + faceEnergy(px / stiffness, (1, 2), True)), rel=1e-6
+	)
 	assert polytope.breakGrains(**{name: 1})
 	O.step()
 	# each piece has edges of its own

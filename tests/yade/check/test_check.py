@@ -199,7 +199,9 @@ def testNoDampingAtAllWithYadesMaterial():
 	viscous = {'en': yade.MatchMaker(algo='val', val=0.5), 'es': yade.MatchMaker(algo='val', val=0.5)}
 	for physics, number in (({}, 1), (viscous, 0)):
 		scene(
-			material=FrictMat(density=2600, young=1e8), physics=[Ip2_FrictMat_FrictMat_MindlinPhys(**physics)], laws=[Law2_ScGeom_MindlinPhys_Mindlin()]
+			material=FrictMat(density=2600, young=1e8),
+			physics=[Ip2_FrictMat_FrictMat_MindlinPhys(**physics)],
+			laws=[Law2_ScGeom_MindlinPhys_Mindlin()],
 		)
 		O.engines[3].damping = 0
 		loop().geomDispatcher.functors = [paper]
@@ -347,7 +349,9 @@ def testBodiesMadeBeforeTheirMaterial(first):
 		return
 	found = onlyFinding('default material')
 	assert ('2 bodies (body 0 first)' if first == 'all' else 'body 0 has') in found.seen and '1000 kg/m³' in found.seen
-	assert ('no body has O.materials[1]' if first == 'all' else 'body 1 has a RockJointMat') in found.seen and 'O.materials.append' in found.advice
+	assert (
+		'no body has O.materials[1]' if first == 'all' else 'body 1 has a RockJointMat'
+	) in found.seen and 'O.materials.append' in found.advice
 
 
 def testNegativeDensity():
@@ -435,7 +439,9 @@ def testMaterialsOfFacesAreLookedAt():
 	assert 'normalStiffness of 3e+06 Pa/m' in polytope.check(O)['soft joint'].seen
 
 
-@pytest.mark.parametrize('length, mass, time', [(1e3, 1e-3, 1), (1e3, 1e3, 1e3), (1e3, 1, 1e3), (1e2, 1e3, 1), (1e6, 1, 1), (1, 1e-3, 1), (3.28084, 2.20462, 1)])
+@pytest.mark.parametrize(
+	'length, mass, time', [(1e3, 1e-3, 1), (1e3, 1e3, 1e3), (1e3, 1, 1e3), (1e2, 1e3, 1), (1e6, 1, 1), (1, 1e-3, 1), (3.28084, 2.20462, 1)]
+)
 def testUnitsThatAgreeWithEachOther(length, mass, time):
 	"""mm-t-s, mm-g-ms, mm-kg-ms, cm-g-s, µm-kg-s, m-t-s, ft-lb-s: the scene of 1 m is as sound as in metres."""
 	O.reset()
@@ -449,7 +455,9 @@ def testUnitsThatAgreeWithEachOther(length, mass, time):
 	assert not polytope.check(O)
 
 
-@pytest.mark.parametrize('density, words', [(2.6, 'in t and m, stiffnesses in kN'), (2.6e-9, 'with lengths in mm, gravity is 9810'), (0.2, 'rock has 2600')])
+@pytest.mark.parametrize(
+	'density, words', [(2.6, 'in t and m, stiffnesses in kN'), (2.6e-9, 'with lengths in mm, gravity is 9810'), (0.2, 'rock has 2600')]
+)
 def testDensitiesInOtherUnits(density, words):
 	scene(material=rock(density=density))
 	found = onlyFinding('density')
@@ -463,7 +471,10 @@ def testDensitiesInOtherUnits(density, words):
 def testItTellsOfSizesAndMasses():
 	"""A stone of 40 m, of dimensions in millimetres, may be meant: it is to be seen."""
 	scene()
-	assert repr(polytope.check(O)) == 'nothing was found that is wrong\n1 body can move, 1 m across, 2.08e+03 kg; what is fixed is 4 m across; gravity is (0.0, 0.0, -9.81) m/s²'
+	assert (
+		repr(polytope.check(O))
+		== 'nothing was found that is wrong\n1 body can move, 1 m across, 2.08e+03 kg; what is fixed is 4 m across; gravity is (0.0, 0.0, -9.81) m/s²'
+	)
 	O.reset()
 	O.materials.append(rock())
 	O.bodies.append(polytope.cuboid((0, 0, 21), (20, 20, 20)))
@@ -668,7 +679,11 @@ def testStrengthThatIsLostToTheOtherSide(name):
 	strong = rock(label='strong', **{name: 4e4, 'residualCohesion' if name == 'cohesion' else 'residualTensileStrength': 4e4})
 	scene(lambda: touching(strong))
 	found = polytope.check(O)['joint strength']
-	assert found.seen.startswith('the joint of body ') and f'has no {name}' in found.seen and "4e+04 Pa of RockJointMat 'strong' and 0 of" in found.seen
+	assert (
+		found.seen.startswith('the joint of body ')
+		and f'has no {name}' in found.seen
+		and "4e+04 Pa of RockJointMat 'strong' and 0 of" in found.seen
+	)
 	O.bodies[0].shape.faceMaterials = [1] * 6  # by joints of their own
 	O.bodies[1].shape.faceMaterials = [1] * 6
 	assert not any(one.what == 'joint strength' for one in polytope.check(O))
@@ -704,7 +719,9 @@ def testBlocksPlacedIntoEachOther(distance, deep):
 	assert not polytope.check(O)
 
 
-@pytest.mark.parametrize('height, deep', [(0.0049, True), (0.0, True), (-0.02, True), (-0.5, True), (-0.97, True), (0.009, True), (0.0099, False)])
+@pytest.mark.parametrize(
+	'height, deep', [(0.0049, True), (0.0, True), (-0.02, True), (-0.5, True), (-0.97, True), (0.009, True), (0.0099, False)]
+)
 @pytest.mark.parametrize('aside', [0.0, 0.7])
 def testASmallBodyPlacedIntoALargeOne(height, deep, aside):
 	"""A cube of 2 cm in a floor of 1 m: it left at up to 77 m/s, and only one near the floor's middle was found."""
@@ -848,7 +865,6 @@ def testYadesTriaxialControllerKnowsSpheresOnly():
 	assert 'polytope.triaxial' in onlyFinding('engines').advice
 
 
-
 # ------------------------------------------------------------------------------------------------ time step and motion
 
 
@@ -966,7 +982,11 @@ def testBodyLargerThanHalfOfAPeriodicCell():
 		O.cell.setBox(2, 3, 3)
 		O.bodies.append(polytope.cuboid((0.5, 1, 1), (length / 2, 0.2, 0.2)))
 		O.bodies.append(polytope.cuboid((0.6, 1, 1.39), (0.3, 0.2, 0.2)))
-		O.engines = polytope.engines(collider=PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01), gravity=(0, 0, 0)) if not wrong else O.engines
+		O.engines = (
+			polytope.engines(collider=PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=0.01), gravity=(0, 0, 0))
+			if not wrong
+			else O.engines
+		)
 		if wrong:
 			with pytest.warns(UserWarning, match='^periodic cell: 1 bodies'):
 				O.engines = polytope.engines(gravity=(0, 0, 0))
@@ -1014,7 +1034,16 @@ def testAllFaultsOfALoneBodyAreListed():
 	O.bodies[1].state.vel = (math.nan, 0, 0)
 	O.engines = [NewtonIntegrator()]
 	seen = repr(polytope.check(O))
-	for words in ('no InteractionLoop', 'no collider', 'no ForceResetter', 'has mass 0', "'basalt' is 35 rad", "'granite' is 40 rad", 'm across', 'state.vel is not'):
+	for words in (
+		'no InteractionLoop',
+		'no collider',
+		'no ForceResetter',
+		'has mass 0',
+		"'basalt' is 35 rad",
+		"'granite' is 40 rad",
+		'm across',
+		'state.vel is not',
+	):
 		assert words in seen, (words, seen)
 
 

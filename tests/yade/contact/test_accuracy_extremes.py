@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`./run accuracy`: its quick variants hold the limits that docs/accuracy.md states, and a fault would be detected."""
+
 import csv
 import importlib.util
 import json
@@ -27,7 +28,10 @@ specification.loader.exec_module(report)
 def run(script, where, *options):
 	done = subprocess.run(
 		[sys.executable, folder / f'{script}.py', '--output', where, *options],
-		env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=3600
+		env={**os.environ, 'OMP_NUM_THREADS': '1'},
+		capture_output=True,
+		text=True,
+		timeout=3600,
 	)
 	assert (where / 'findings.json').is_file(), done.stderr
 	return done.returncode, json.loads((where / 'findings.json').read_text())
@@ -50,12 +54,18 @@ def stated(axis):
 
 
 ofPairs = {
-	'depth': ('overlap depth', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14', 'down to 1e-6': 'to 3e-9 of the overlap', 'down to 1e-14': '5e-15'}),
+	'depth': (
+		'overlap depth',
+		{'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14', 'down to 1e-6': 'to 3e-9 of the overlap', 'down to 1e-14': '5e-15'},
+	),
 	'aspect': ('aspect ratio', {'s* over': 's* to 1e-14', 'depth × normal': 'depth to 1e-12', 'up to 1e8': 'to 1e-4 of the overlap'}),
 	'size': ('size ratio of the pair', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
 	'angle': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
 	'twins': ('nearly parallel faces, twin planes', {'s* over': 's* to 1e-14', 'depth over': 'depth to 2e-14'}),
-	'planes': ('planes per body; redundant, duplicated', {'s* over': 's* to 1e-14', 'depth over': 'depth 2e-14', 'contact point': 'point 1e-8'}),
+	'planes': (
+		'planes per body; redundant, duplicated',
+		{'s* over': 's* to 1e-14', 'depth over': 'depth 2e-14', 'contact point': 'point 1e-8'},
+	),
 	'units': ('units', {'scaled': 'scaled answer to 1e-11'}),
 }
 """Axis of the pairs → row of the table in docs/accuracy.md, and what is in a limit's text → what is in that row, which ends with the limit or its unit."""
@@ -72,13 +82,25 @@ def testLimitsOfPairsAreThoseOfTheDocumentation(axis):
 
 ofScenes = {
 	'Stiffness ratio: normal forces at rest, worst relative error': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
-	'Mass ratio: heavy block left on a light one (surface), worst relative error of a force': ('stiffness ratio 1e6, mass ratio 1e9', 'forces to 1e-7'),
+	'Mass ratio: heavy block left on a light one (surface), worst relative error of a force': (
+		'stiffness ratio 1e6, mass ratio 1e9',
+		'forces to 1e-7',
+	),
 	'Mass ratio: momentum after a collision, worst relative change': ('stiffness ratio 1e6, mass ratio 1e9', 'momentum to 1e-14'),
-	'Tower of 50 blocks: worst relative error of a normal force (surface)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
-	'Tower of 50 blocks: worst relative error of a normal force (boon2012)': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'forces to 5e-5'),
+	'Tower of 50 blocks: worst relative error of a normal force (surface)': (
+		'tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps',
+		'forces to 5e-5',
+	),
+	'Tower of 50 blocks: worst relative error of a normal force (boon2012)': (
+		'tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps',
+		'forces to 5e-5',
+	),
 	'Steps at rest: way of a block of 1 m in 1000000 steps': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', '; 1e-11'),
 	'Steps at rest: its turn': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'm, 1e-10'),
-	'Slide: distance after 1000000 steps, worst relative error': ('tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps', 'distance to 1e-5'),
+	'Slide: distance after 1000000 steps, worst relative error': (
+		'tower of 50 blocks; 1e6 steps at rest; slide of 1e6 steps',
+		'distance to 1e-5',
+	),
 }
 """Row of the findings → row of the table in docs/accuracy.md, and what is in it; ends with the limit."""
 
@@ -88,7 +110,15 @@ def testScenesHoldTheStatedLimits(tmp_path):
 	code, findings = run('sceneExtremes', tmp_path, '--quick')
 	print('\n'.join(f"{row['quantity']}: {row['ours']}" for row in findings['rows']))
 	assert not [row for row in findings['rows'] if row['good'] is False]  # None: reported only
-	assert code == 0 and {path.stem for path in tmp_path.glob('*.csv')} == {'stiffness', 'mass', 'massStacks', 'timeStep', 'tower', 'rest', 'slide'}
+	assert code == 0 and {path.stem for path in tmp_path.glob('*.csv')} == {
+		'stiffness',
+		'mass',
+		'massStacks',
+		'timeStep',
+		'tower',
+		'rest',
+		'slide',
+	}
 	accept = {row['quantity']: row['accept'] for row in findings['rows']}
 	for quantity, (row, said) in ofScenes.items():
 		assert said in stated(row)
@@ -98,20 +128,47 @@ def testScenesHoldTheStatedLimits(tmp_path):
 def sample(**changes):
 	"""A good contact as a line of the CSV, with changes."""
 	good = dict(
-		axis='depth', kind='face on face', value=0.1, sample=0, status='contact', inContact=1, touches=1, within=0, size=1,
-		infeasibility=-0.1, infeasibilityError=1e-16, infeasibilityRounding=4e-15, depthError=1e-16, depthRounding=1e-15, forceError=1e-16,
-		centreError=1e-12, centreRounding=2e-9, normalError=1e-16, normalRounding=1e-14, compared=1, finite=1, bounded=1, free=1, refusal=''
+		axis='depth',
+		kind='face on face',
+		value=0.1,
+		sample=0,
+		status='contact',
+		inContact=1,
+		touches=1,
+		within=0,
+		size=1,
+		infeasibility=-0.1,
+		infeasibilityError=1e-16,
+		infeasibilityRounding=4e-15,
+		depthError=1e-16,
+		depthRounding=1e-15,
+		forceError=1e-16,
+		centreError=1e-12,
+		centreRounding=2e-9,
+		normalError=1e-16,
+		normalRounding=1e-14,
+		compared=1,
+		finite=1,
+		bounded=1,
+		free=1,
+		refusal='',
 	)
 	return pairTables.Sample({name: str(value) for name, value in {**good, **changes}.items()})
 
 
 @pytest.mark.parametrize(
-	'fault, changes', [
-		('not a number', dict(finite=0)), ('unbounded', dict(bounded=0)), ('missed contact', dict(inContact=0, status='separated', compared=0)),
-		('false contact', dict(touches=0)), ('no way out along the normal', dict(free=0)), ('error without a status', dict(centreError=1e-6)),
-		('error without a status', dict(infeasibilityError=1e-13)), ('error without a status', dict(depthError=1e-13)),
+	'fault, changes',
+	[
+		('not a number', dict(finite=0)),
+		('unbounded', dict(bounded=0)),
+		('missed contact', dict(inContact=0, status='separated', compared=0)),
+		('false contact', dict(touches=0)),
+		('no way out along the normal', dict(free=0)),
+		('error without a status', dict(centreError=1e-6)),
+		('error without a status', dict(infeasibilityError=1e-13)),
+		('error without a status', dict(depthError=1e-13)),
 		('error without a status', dict(normalError=1e-3, status='normalFromOneBody')),
-	]
+	],
 )
 def testFaultsAreSeen(fault, changes):
 	found = pairTables.faults([sample(), sample(**changes)])
@@ -119,8 +176,14 @@ def testFaultsAreSeen(fault, changes):
 
 
 @pytest.mark.parametrize(
-	'changes', [{}, dict(centreError=1., status='roundingLimited'), dict(inContact=0, within=1, status='separated', compared=0),
-	            dict(inContact=0, status='failed', compared=0), dict(touches=0, within=1)]
+	'changes',
+	[
+		{},
+		dict(centreError=1.0, status='roundingLimited'),
+		dict(inContact=0, within=1, status='separated', compared=0),
+		dict(inContact=0, status='failed', compared=0),
+		dict(touches=0, within=1),
+	],
 )
 def testWhatIsLoudOrUndecidedIsNoFault(changes):
 	assert not any(pairTables.faults([sample(**changes)]).values())
@@ -128,8 +191,11 @@ def testWhatIsLoudOrUndecidedIsNoFault(changes):
 
 def testWhatIsNotJudgedIsCounted():
 	silent = [
-		sample(centreError=1., status='roundingLimited'), sample(inContact=0, status='failed', compared=0), sample(status='noDirection'),
-		sample(status='refused', infeasibilityError=''), sample(compared=0)
+		sample(centreError=1.0, status='roundingLimited'),
+		sample(inContact=0, status='failed', compared=0),
+		sample(status='noDirection'),
+		sample(status='refused', infeasibilityError=''),
+		sample(compared=0),
 	]
 	judged = [sample(), sample(inContact=0, status='separated', compared=0), sample(status='normalFromDual')]
 	assert pairTables.unjudged(silent + judged) == silent
@@ -166,7 +232,9 @@ sys.exit(0 if good else 1)
 @pytest.fixture
 def studies(tmp_path, monkeypatch):
 	monkeypatch.setattr(report, 'scripts', tmp_path)
-	monkeypatch.setattr(report, 'studies', {'one': ('first', 'First', ()), 'two': ('second', 'Second', ()), 'none': ('absent', 'Absent', ())})
+	monkeypatch.setattr(
+		report, 'studies', {'one': ('first', 'First', ()), 'two': ('second', 'Second', ()), 'none': ('absent', 'Absent', ())}
+	)
 	(tmp_path / 'first.py').write_text(script.format(name='one', ours=0.5))
 	(tmp_path / 'second.py').write_text(script.format(name='two', ours=0.25))
 	return tmp_path

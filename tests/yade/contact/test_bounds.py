@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A body that turns in place meets its neighbour however rarely the collider runs; boxes are tight where the collider takes account of
 rotation."""
+
 import ctypes
 import math
 
@@ -24,7 +25,7 @@ def testRodTurningInPlaceIsSeen(kind, verletDist):
 	joint()
 	loop()
 	collider(kind, verletDist)
-	rod, block = polytope.cuboid((0, 0, 0), (1, .1, .1)), polytope.cuboid((0, 1.1, 0), (.5, .3, .5), fixed=True)
+	rod, block = polytope.cuboid((0, 0, 0), (1, 0.1, 0.1)), polytope.cuboid((0, 1.1, 0), (0.5, 0.3, 0.5), fixed=True)
 	O.bodies.append([rod, block])
 	driven(rod, angularVelocity=(0, 0, 1))
 	O.dt = 1e-3
@@ -34,7 +35,7 @@ def testRodTurningInPlaceIsSeen(kind, verletDist):
 	contact = O.interactions[rod.id, block.id]
 	assert 0 < contact.geom.penetrationDepth < 2e-3  # a step's travel of the tip
 	# the block's corner (0.5, 0.8) meets the rod's upper face, 0.1 from its axis
-	assert O.iter * O.dt == pytest.approx(math.acos(.1 / math.hypot(.5, .8)) - math.atan(.5 / .8), abs=3e-3)
+	assert O.iter * O.dt == pytest.approx(math.acos(0.1 / math.hypot(0.5, 0.8)) - math.atan(0.5 / 0.8), abs=3e-3)
 
 
 @pytest.mark.parametrize('kind', colliders)
@@ -43,7 +44,7 @@ def testBodyTurnedByTheScriptIsSeen(kind):
 	joint()
 	loop()
 	collider(kind, 0.05)
-	rod, block = polytope.cuboid((0, 0, 0), (1, .1, .1)), polytope.cuboid((0, .8, 0), (.2, .2, .2), fixed=True)
+	rod, block = polytope.cuboid((0, 0, 0), (1, 0.1, 0.1)), polytope.cuboid((0, 0.8, 0), (0.2, 0.2, 0.2), fixed=True)
 	O.bodies.append([rod, block])
 	driven(rod)
 	O.dt = 1e-6
@@ -51,7 +52,7 @@ def testBodyTurnedByTheScriptIsSeen(kind):
 	assert not list(O.interactions)
 	rod.state.ori = Quaternion((0, 0, 1), math.pi / 2)
 	if kind is InsertionSortCollider:
-		rod.state.pos += Vector3(.1, 0, 0)
+		rod.state.pos += Vector3(0.1, 0, 0)
 		O.step()
 	O.step()
 	assert O.interactions[rod.id, block.id].isReal
@@ -82,8 +83,12 @@ def testBoxesOfPolytopeColliderAreTightWithRoomToTurn(verletDist):
 	assert list(fixed.bound.max) == pytest.approx([3 + verletDist, 2 + verletDist, 1 + verletDist])
 	# a tenth of it for the turn of a body at rest, and never more than the circumscribed ball
 	turn = 0.1 * verletDist
-	assert list(free.bound.max) == pytest.approx([x + verletDist for x in (12 + min(3 + turn, ball), min(2 + turn, ball), min(1 + turn, ball))])
-	assert list(free.bound.min) == pytest.approx([x - verletDist for x in (12 - min(3 + turn, ball), -min(2 + turn, ball), -min(1 + turn, ball))])
+	assert list(free.bound.max) == pytest.approx(
+		[x + verletDist for x in (12 + min(3 + turn, ball), min(2 + turn, ball), min(1 + turn, ball))]
+	)
+	assert list(free.bound.min) == pytest.approx(
+		[x - verletDist for x in (12 - min(3 + turn, ball), -min(2 + turn, ball), -min(1 + turn, ball))]
+	)
 
 
 def testRoomToTurnIsThatOfAHundredSteps():
@@ -111,7 +116,7 @@ def testBodySpinningInPlaceDoesNotKeepTheColliderBusy():
 	joint()
 	loop()
 	busy = collider(PolytopeCollider, 0.02)
-	spinner = polytope.cuboid((0, 0, 0), (1, .5, .2))
+	spinner = polytope.cuboid((0, 0, 0), (1, 0.5, 0.2))
 	O.bodies.append(spinner)
 	driven(spinner, angularVelocity=(0, 3, 1))
 	O.dt = 0.01
@@ -122,7 +127,7 @@ def testBodySpinningInPlaceDoesNotKeepTheColliderBusy():
 	spinner.state.angVel = (0, 0, 0)
 	spinner.state.ori = Quaternion.Identity
 	for _ in range(3):
-		spinner.state.pos += Vector3(.05, 0, 0)
+		spinner.state.pos += Vector3(0.05, 0, 0)
 		O.step()
 		O.step()
 	assert spinner.bound.max[2] < 0.3
@@ -161,7 +166,7 @@ def testTwoThousandFixedObliqueBodiesDoNotKeepTheColliderBusy():
 	for k in range(2500):
 		angle = random.uniform(0, 2 * math.pi)
 		at = Vector3(1e3 * (k % 50), 1e3 * (k // 50), 0)
-		O.bodies.append(polytope.cuboid(at, (.5, .4, .3), Quaternion(Vector3(*random.normal(0, 1, 3)).normalized(), angle), fixed=True))
+		O.bodies.append(polytope.cuboid(at, (0.5, 0.4, 0.3), Quaternion(Vector3(*random.normal(0, 1, 3)).normalized(), angle), fixed=True))
 	runs, changed = runsOfTheCollider(PolytopeCollider, 20)
 	assert changed > 0 or polytope.buildInfo()['precision'] != 'double'
 	assert runs == 0
@@ -171,7 +176,7 @@ def testSlowestTurnThatIsOneIsSeen():
 	"""A fixed body turned by the script, by as little as moves a vertex by more than rounding: its box is made anew."""
 	joint()
 	loop()
-	rod = polytope.cuboid((0, 0, 0), (1, .1, .1), Quaternion((1, 2, 3), .4), fixed=True)
+	rod = polytope.cuboid((0, 0, 0), (1, 0.1, 0.1), Quaternion((1, 2, 3), 0.4), fixed=True)
 	O.bodies.append(rod)
 	runs, _ = runsOfTheCollider(PolytopeCollider, 10)
 	assert runs == 0
@@ -232,8 +237,8 @@ def testPairsOfTumblingClumpsAreFound():
 	collider(PolytopeCollider, 0.05)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (9, 9, 1), fixed=True))
 	for k in range(4):
-		at = Vector3(k * .8 - 1.5, .3 * k, .8 + .9 * k)
-		O.bodies.appendClumped([polytope.cuboid(at, (.6, .2, .2)), polytope.cuboid(at + Vector3(.5, .5, 0), (.2, .6, .2))])
+		at = Vector3(k * 0.8 - 1.5, 0.3 * k, 0.8 + 0.9 * k)
+		O.bodies.appendClumped([polytope.cuboid(at, (0.6, 0.2, 0.2)), polytope.cuboid(at + Vector3(0.5, 0.5, 0), (0.2, 0.6, 0.2))])
 	O.dt = 2e-4
 	for _ in range(40):
 		O.run(100, True)
@@ -261,7 +266,7 @@ def faces(gap, verletDist):
 	collider(PolytopeCollider, verletDist)
 	turned = Quaternion((0, 0, 1), math.pi / 4)
 	way = (1 + gap) / math.sqrt(2)
-	O.bodies.append([polytope.cuboid((0, 0, 0), (.5, .5, .5), turned), polytope.cuboid((way, way, 0), (.5, .5, .5), turned)])
+	O.bodies.append([polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5), turned), polytope.cuboid((way, way, 0), (0.5, 0.5, 0.5), turned)])
 	O.dt = 1e-3
 	return O.bodies
 
@@ -306,9 +311,9 @@ def testPairThatTurnsTogetherIsFoundBeforeItTouches():
 	joint()
 	loop()
 	collider(PolytopeCollider, 0.01)
-	rod, block = polytope.cuboid((0, 0, 0), (1, .1, .1)), polytope.cuboid((.8, .75, 0), (.3, .3, .3))
+	rod, block = polytope.cuboid((0, 0, 0), (1, 0.1, 0.1)), polytope.cuboid((0.8, 0.75, 0), (0.3, 0.3, 0.3))
 	O.bodies.append([rod, block])
-	driven(rod, angularVelocity=(0, 0, .2))
+	driven(rod, angularVelocity=(0, 0, 0.2))
 	O.dt = 1e-3
 	O.step()
 	assert len(O.interactions) == 0
@@ -322,8 +327,8 @@ def testFewBoxesAreMadeAnew():
 	joint()
 	loop()
 	collider(PolytopeCollider, 0.02)
-	O.bodies.append([polytope.cuboid((1.2 * (k % 20), 1.2 * (k // 20), 0), (.5, .5, .5), fixed=k % 2 == 0) for k in range(400)])
-	runner = polytope.cuboid((0, 0, 1.01), (.5, .5, .5))
+	O.bodies.append([polytope.cuboid((1.2 * (k % 20), 1.2 * (k // 20), 0), (0.5, 0.5, 0.5), fixed=k % 2 == 0) for k in range(400)])
+	runner = polytope.cuboid((0, 0, 1.01), (0.5, 0.5, 0.5))
 	O.bodies.append(runner)
 	driven(runner)
 	runner.state.vel = (3, 3, 0)
@@ -349,14 +354,14 @@ def testShapeChangedInPlaceIsSeen():
 		joint()
 		loop()
 		collider(PolytopeCollider, 0.02)
-		O.bodies.append([polytope.cuboid((0, 0, 0), (.5, .5, .5), fixed=True), polytope.cuboid((0, 0, 1.2), (.5, .5, .5))])
-		O.bodies.append([polytope.cuboid((9 + 2 * k, 0, 0), (.5, .5, .5)) for k in range(8)])
+		O.bodies.append([polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5), fixed=True), polytope.cuboid((0, 0, 1.2), (0.5, 0.5, 0.5))])
+		O.bodies.append([polytope.cuboid((9 + 2 * k, 0, 0), (0.5, 0.5, 0.5)) for k in range(8)])
 		driven(O.bodies[1])
 		O.bodies[9].state.vel = (0, 0, 3)
 		O.dt = 1e-3
 		O.run(3, True)
 		assert len(O.interactions) == 0
-		O.bodies[1].shape = polytope.cuboid((0, 0, 0), (.8, .8, .8)).shape
+		O.bodies[1].shape = polytope.cuboid((0, 0, 0), (0.8, 0.8, 0.8)).shape
 		O.engines[1].doSort = told
 		O.run(1 if told else 120, True)
 		assert O.interactions.countReal() == 1 and not O.engines[1].doSort
@@ -384,10 +389,11 @@ def testManyThreadsFindTheSamePairsInTheSameOrder():
 def testBladeOfAnyShapeThatTurnsInPlaceIsSeen():
 	"""Boxes and facets have no room to turn: their boxes follow in each step."""
 	from yade import utils
-	for make, where in ((utils.box, ((0, 0, 0), (1, .02, .2))), (utils.facet, ([(-1, 0, -.2), (1, 0, -.2), (0, 0, .4)], ))):
+
+	for make, where in ((utils.box, ((0, 0, 0), (1, 0.02, 0.2))), (utils.facet, ([(-1, 0, -0.2), (1, 0, -0.2), (0, 0, 0.4)],))):
 		O.reset()
 		joint()
-		block = polytope.cuboid((0, .8, -.2), (.2, .2, .2))
+		block = polytope.cuboid((0, 0.8, -0.2), (0.2, 0.2, 0.2))
 		blade = make(*where, fixed=True)
 		O.bodies.append([blade, block])
 		O.engines = polytope.engines(gravity=(0, 0, 0), timeStepper=False)
@@ -409,11 +415,11 @@ def testPeriodicCellThatShearsMissesNoContact():
 		loop(damping=0)
 		O.periodic = True
 		O.cell.setBox(8, 8, 8)
-		O.cell.velGrad = ((0, .2, 0), (0, 0, 0), (0, 0, 0))
+		O.cell.velGrad = ((0, 0.2, 0), (0, 0, 0), (0, 0, 0))
 		collider(kind, 0.1)
 		random = np.random.default_rng(11)
 		for i in range(64):
-			body = polytope.cuboid((2 * (i % 4) + 1, 2 * (i // 4 % 4) + 1, 2 * (i // 16) + 1), (.9, .8, .7))
+			body = polytope.cuboid((2 * (i % 4) + 1, 2 * (i // 4 % 4) + 1, 2 * (i // 16) + 1), (0.9, 0.8, 0.7))
 			body.state.angVel = tuple(random.normal(0, 5, 3))
 			O.bodies.append(body)
 		O.dt = 5e-4
@@ -425,12 +431,13 @@ def testPeriodicCellThatShearsMissesNoContact():
 	assert sum(map(len, found[PolytopeCollider])) > 50
 	first = next(i for i, contacts in enumerate(found[InsertionSortCollider]) if contacts)
 	# the same until rounding of sums in another order has grown
-	assert found[PolytopeCollider][:first + 20] == found[InsertionSortCollider][:first + 20]
+	assert found[PolytopeCollider][: first + 20] == found[InsertionSortCollider][: first + 20]
 
 
 def testColliderKeepsThePeersShapes():
 	"""Spheres among polytopes keep the other collider's boxes."""
 	from yade import Bo1_Sphere_Aabb, utils
+
 	joint()
 	loop()
 	O.engines = [O.engines[0], PolytopeCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()], verletDist=0.1), *O.engines[2:]]
@@ -446,7 +453,7 @@ def testBodyWhosePoseIsNoNumberHidesNoOther():
 	joint()
 	loop()
 	collider(PolytopeCollider, 0.05)
-	lost, one, two = (polytope.cuboid((x, 0, 0), (.5, .5, .5)) for x in (-3, 0, 2))
+	lost, one, two = (polytope.cuboid((x, 0, 0), (0.5, 0.5, 0.5)) for x in (-3, 0, 2))
 	O.bodies.append([lost, one, two])
 	O.dt = 1e-4
 	O.step()
@@ -460,10 +467,10 @@ def testErasedBodiesAreForgotten():
 	joint()
 	loop()
 	collider(PolytopeCollider, 0.05)
-	bodies = [polytope.cuboid((3 * k, 0, 0), (.5, .5, .5)) for k in range(5)]
+	bodies = [polytope.cuboid((3 * k, 0, 0), (0.5, 0.5, 0.5)) for k in range(5)]
 	O.bodies.append(bodies)
 	for body in bodies:
-		body.state.angVel = (0, 0, .1)
+		body.state.angVel = (0, 0, 0.1)
 	O.dt = 1e-3
 	O.run(20, True)
 	O.bodies.erase(1)
@@ -471,7 +478,9 @@ def testErasedBodiesAreForgotten():
 	O.run(200, True)
 	O.bodies.clear()
 	O.engines[1].isActivated()
-	O.bodies.append(polytope.cuboid((0, 0, 0), (.5, .5, .5)))
+	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)))
 	O.run(20, True)
 	# half an edge, and a tenth of the Verlet distance, as of a body at rest, for its way and for its turn: nothing of the bodies before it
-	assert list(O.bodies[0].bound.max) == pytest.approx([.51, .51, .51]) and list(O.bodies[0].bound.min) == pytest.approx([-.51, -.51, -.51])
+	assert list(O.bodies[0].bound.max) == pytest.approx([0.51, 0.51, 0.51]) and list(O.bodies[0].bound.min) == pytest.approx(
+		[-0.51, -0.51, -0.51]
+	)

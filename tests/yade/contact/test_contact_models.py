@@ -70,7 +70,9 @@ def testTheSlidingWedgeFailsWhereItsLockedInShearSays():
 	(last,) = (stage for stage in result.stages if stage.angle == result.stable)
 	explained = math.degrees(theory.frictionAngle(*last.measured))
 	found = math.degrees(result.critical)
-	print(f'critical angle {found:.3f}°, limit equilibrium with the shear left {explained:.3f}°, without {math.degrees(theory.frictionAngle()):.3f}°')
+	print(
+		f'critical angle {found:.3f}°, limit equilibrium with the shear left {explained:.3f}°, without {math.degrees(theory.frictionAngle()):.3f}°'
+	)
 	assert found == pytest.approx(explained, abs=0.03)
 	assert math.degrees(theory.lowerBound()[0]) < found < math.degrees(theory.frictionAngle())
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies at rest, sliding, in flight, in collision, across a periodic boundary; with the plug-in's law and with YADE's own."""
+
 from math import cos, radians, sin, sqrt, tan
 
 import pytest
@@ -28,7 +29,7 @@ stiffness = 1e8
 # ------------------------------------------------------------------------------------------------ at rest
 
 
-@pytest.mark.parametrize('perArea,half', [(False, (.5, .5, .5)), (True, (.5, .5, .5)), (True, (.25, .5, .3))])
+@pytest.mark.parametrize('perArea,half', [(False, (0.5, 0.5, 0.5)), (True, (0.5, 0.5, 0.5)), (True, (0.25, 0.5, 0.3))])
 def testBlockCarriesItsWeight(perArea, half):
 	joint(normalStiffness=stiffness)
 	loop(perArea, normalDamping=1, gravity=(0, 0, -gravity))
@@ -37,7 +38,11 @@ def testBlockCarriesItsWeight(perArea, half):
 	weight = block.state.mass * gravity
 	O.dt = 0.1 * period(block.state.mass, kn)
 	O.run(500, True)
-	errors = [O.forces.f(floor.id)[2] / -weight - 1, contact(floor, block).phys.normalForce[2] / weight - 1, (half[2] - block.state.pos[2]) / sunk(weight / stiffness, (2 * half[0], 2 * half[1]), perArea) - 1]
+	errors = [
+		O.forces.f(floor.id)[2] / -weight - 1,
+		contact(floor, block).phys.normalForce[2] / weight - 1,
+		(half[2] - block.state.pos[2]) / sunk(weight / stiffness, (2 * half[0], 2 * half[1]), perArea) - 1,
+	]
 	print('relative errors of force on the floor, normal force, settlement:', errors)
 	assert max(map(abs, errors)) < 1e-10
 	assert block.state.vel.norm() < 1e-12 and block.state.angVel.norm() < 1e-12
@@ -49,10 +54,10 @@ def testStatisticsAreTheSumsOverAllQueries():
 	paper = {'contactModel': 'boon2012'}
 	loop(ig2={'warmStart': False, 'timing': True, **paper})
 	floor = O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	turned = Quaternion((1, 2, 3), 1.)
-	O.bodies.append([polytope.cuboid((x, 0, .6), (.5, .5, .5), turned) for x in (-2, 2)])
-	O.bodies.append(polytope.cuboid((0, 0, .51), (.5, .5, .5)))
-	O.engines[1].verletDist = .05
+	turned = Quaternion((1, 2, 3), 1.0)
+	O.bodies.append([polytope.cuboid((x, 0, 0.6), (0.5, 0.5, 0.5), turned) for x in (-2, 2)])
+	O.bodies.append(polytope.cuboid((0, 0, 0.51), (0.5, 0.5, 0.5)))
+	O.engines[1].verletDist = 0.05
 	O.dt = 1e-12
 	for _ in range(4):
 		O.step()
@@ -64,16 +69,20 @@ def testStatisticsAreTheSumsOverAllQueries():
 	assert stats['lpSeconds'] > 0 and stats['centreSeconds'] > 0
 
 
-@pytest.mark.parametrize('young, weight', [(3e8, 0.25), (0., 0.5), (float('inf'), 0.5)])
+@pytest.mark.parametrize('young, weight', [(3e8, 0.25), (0.0, 0.5), (float('inf'), 0.5)])
 def testWeightsOfTheNormalsAreThoseOfTheStiffnesses(young, weight):
 	"""Equal ones where they say nothing."""
 	material = [O.materials.append(FrictMat(young=k, poisson=0.3, frictionAngle=0.5, density=density)) for k in (1e8, 2e8)]
-	bodies = [polytope.cuboid((0, 0, z), (.5, .5, .5), material=m) for z, m in zip((0, .999), material, strict=True)]
+	bodies = [polytope.cuboid((0, 0, z), (0.5, 0.5, 0.5), material=m) for z, m in zip((0, 0.999), material, strict=True)]
 	O.bodies.append(bodies)
 	bodies[1].material.young = young  # no body is made of a material without stiffness
 	bodies[1].state.ori = Quaternion((1, 2, 3), 0.02)
 	functor = Ig2_Polytope_Polytope_PolytopeGeom(contactModel='boon2012')
-	O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Polytope_Aabb()]), InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])]
+	O.engines = [
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb()]),
+		InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+	]
 	O.step()
 	geom = contact(*bodies).geom
 	assert geom.normalWeight == weight
@@ -83,7 +92,7 @@ def testWeightsOfTheNormalsAreThoseOfTheStiffnesses(young, weight):
 
 def testOverlapThatIsNotSeenIsLessThanABody():
 	joint()
-	bodies = [polytope.cuboid((0, 0, z), (.5, .5, .5)) for z in (0, .999)]
+	bodies = [polytope.cuboid((0, 0, z), (0.5, 0.5, 0.5)) for z in (0, 0.999)]
 	assert polytope.contact(*bodies, tolerance=0.5).status == 'separated'
 	for tolerance in (1, -1e-20):
 		with pytest.raises(ValueError, match='tolerance: must be at least 0 and below 1'):
@@ -103,7 +112,7 @@ def testArmsAcrossThePeriodEndAtTheImage():
 		assert abs(one.phys.shearForce[1]) == pytest.approx(1, rel=1e-9)
 	for body in O.bodies:  # one contact pushes along y, one against it: no force, and both turn the block the same way
 		assert O.forces.f(body.id)[1] == pytest.approx(0, abs=1e-9)
-		assert O.forces.t(body.id)[2] == pytest.approx(-2 * .5, rel=1e-3)
+		assert O.forces.t(body.id)[2] == pytest.approx(-2 * 0.5, rel=1e-3)
 
 
 def testStackCarriesItsWeight():
@@ -111,7 +120,7 @@ def testStackCarriesItsWeight():
 	joint(normalStiffness=stiffness)
 	loop(True, normalDamping=0.5, shearDamping=0.5, rockingDamping=0.5, gravity=(0, 0, -gravity))
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	O.bodies.append([polytope.cuboid((0, 0, k + .5), (.5, .5, .5)) for k in range(5)])
+	O.bodies.append([polytope.cuboid((0, 0, k + 0.5), (0.5, 0.5, 0.5)) for k in range(5)])
 	weight = O.bodies[1].state.mass * gravity
 	O.dt = 0.1 * period(O.bodies[1].state.mass, stiffness)
 	O.run(8000, True)
@@ -123,7 +132,9 @@ def testClumpCarriesItsWeightAndIsDampedWithItsMass():
 	joint(normalStiffness=stiffness)
 	loop(normalDamping=1, gravity=(0, 0, -gravity))
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	clump, members = O.bodies.appendClumped([polytope.cuboid((-.5, 0, .5), (.5, .5, .5)), polytope.cuboid((.5, 0, .5), (.5, .5, .5))])
+	clump, members = O.bodies.appendClumped(
+		[polytope.cuboid((-0.5, 0, 0.5), (0.5, 0.5, 0.5)), polytope.cuboid((0.5, 0, 0.5), (0.5, 0.5, 0.5))]
+	)
 	mass = O.bodies[clump].state.mass
 	assert mass == pytest.approx(2 * density, rel=1e-9)
 	O.dt = 0.05 * period(mass, 2 * stiffness)
@@ -145,13 +156,13 @@ def testClumpCarriesItsWeightAndIsDampedWithItsMass():
 friction = radians(30)
 
 
-def tiltTest(slope, halfHeight=0.5, rockingDamping=1., steps=2000, ig2={}, **dampers):
+def tiltTest(slope, halfHeight=0.5, rockingDamping=1.0, steps=2000, ig2={}, **dampers):
 	"""A block at rest on a slope (held by high friction), then friction is lowered to 30° and all but the law's own damping removed.
 	Returns (distance slid, mean acceleration, theory's acceleration)."""
 	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=radians(60))
 	newton = loop(normalDamping=1, shearDamping=1, rockingDamping=1, gravity=(0, 0, -gravity), damping=0.7, ig2=ig2)
 	turn = Quaternion((0, 1, 0), radians(slope))
-	floor, block = blockOnFloor(half=(.5, .5, halfHeight), turn=turn)
+	floor, block = blockOnFloor(half=(0.5, 0.5, halfHeight), turn=turn)
 	O.dt = 0.1 * period(block.state.mass, stiffness)
 	O.run(2500, True)
 	assert block.state.vel.norm() < 1e-5
@@ -179,8 +190,9 @@ def testBlockHoldsBelowTheFrictionAngle():
 def testBlockSlidesAboveTheFrictionAngle(slope):
 	distance, acceleration, theory = tiltTest(slope)
 	print(f'{slope}°: slid {distance:.4e} m, acceleration {acceleration:.6f}, theory {theory:.6f}, ratio {acceleration / theory:.4f}')
-	assert distance > 0.25 * theory * (0.1 * period(density, stiffness) * 2000)**2
-	if slope > 31: assert acceleration == pytest.approx(theory, rel=0.02)
+	assert distance > 0.25 * theory * (0.1 * period(density, stiffness) * 2000) ** 2
+	if slope > 31:
+		assert acceleration == pytest.approx(theory, rel=0.02)
 
 
 def testUndampedFlatBlockSlidesToo():
@@ -196,7 +208,7 @@ def testCubeWithoutRockingDampingRidesOnItsLeadingEdge(dampers):
 	is inclined against the motion, and the cube is too slow: by little without damping, nearly stopped with a normal damper, which
 	sustains the rocking. Recorded, not wanted."""
 	distance, acceleration, theory = tiltTest(40, rockingDamping=0, ig2={'contactModel': 'boon2012'}, **dampers)
-	way = theory / 2 * (0.1 * period(density, stiffness) * 2000)**2
+	way = theory / 2 * (0.1 * period(density, stiffness) * 2000) ** 2
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: {distance:.3f} m of {way:.3f} m')
 	assert distance < (0.1 if dampers['normalDamping'] else 0.95) * way
 
@@ -206,7 +218,7 @@ def testCubeWithoutRockingDampingSlidesWithTheDefaultContact(dampers):
 	"""Its normal stays the floor's."""
 	_, acceleration, theory = tiltTest(40, rockingDamping=0, **dampers)
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: acceleration over theory {acceleration / theory:.4f}')
-	assert acceleration == pytest.approx(theory, rel=.02)
+	assert acceleration == pytest.approx(theory, rel=0.02)
 
 
 # ------------------------------------------------------------------------------------------------ flight and collision
@@ -220,7 +232,8 @@ def momenta(bodies):
 
 def spinMomentum(body):
 	state = body.state
-	if body.aspherical: return Vector3(state.angMom)
+	if body.aspherical:
+		return Vector3(state.angMom)
 	return Vector3(*(state.inertia[k] * state.angVel[k] for k in range(3)))
 
 
@@ -228,7 +241,7 @@ def kinetic(bodies):
 	energy = 0
 	for b in bodies:
 		spin = b.state.ori.conjugate() * b.state.angVel
-		energy += b.state.mass * b.state.vel.squaredNorm() / 2 + sum(b.state.inertia[k] * spin[k]**2 / 2 for k in range(3))
+		energy += b.state.mass * b.state.vel.squaredNorm() / 2 + sum(b.state.inertia[k] * spin[k] ** 2 / 2 for k in range(3))
 	return energy
 
 
@@ -237,15 +250,18 @@ def twoFreeBlocks(half, gap):
 	newton = loop()
 	newton.rotAlgorithm = newton.rotAlgorithm.Fincham1992
 	first = polytope.cuboid((0, 0, 0), half, Quaternion((1, 2, 3), 0.7), velocity=(0.5, 0.1, 0), angularVelocity=(0.3, -0.2, 0.5))
-	second = polytope.cuboid((gap, 0.2, 0.1), half, Quaternion((-1, 0.5, 2), 1.1), velocity=(-0.8, 0, 0.2), angularVelocity=(-0.1, 0.4, 0.2))
+	second = polytope.cuboid(
+		(gap, 0.2, 0.1), half, Quaternion((-1, 0.5, 2), 1.1), velocity=(-0.8, 0, 0.2), angularVelocity=(-0.1, 0.4, 0.2)
+	)
 	for b in (first, second):
-		if b.aspherical: b.state.angMom = b.state.ori * Vector3(*(b.state.inertia[k] * (b.state.ori.conjugate() * b.state.angVel)[k] for k in range(3)))
+		if b.aspherical:
+			b.state.angMom = b.state.ori * Vector3(*(b.state.inertia[k] * (b.state.ori.conjugate() * b.state.angVel)[k] for k in range(3)))
 	O.bodies.append([first, second])
 	O.dt = 0.05 * period(first.state.mass, 1e7)
 	return first, second
 
 
-@pytest.mark.parametrize('half', [(.5, .5, .5), (.5, .35, .25)])
+@pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.35, 0.25)])
 def testFreeFlightConservesMomentaAndEnergy(half):
 	bodies = twoFreeBlocks(half, 20)
 	O.step()
@@ -259,7 +275,7 @@ def testFreeFlightConservesMomentaAndEnergy(half):
 	assert abs(drift) < (1e-12 if half[0] == half[2] else 1e-5)  # the rotation of unequal moments is YADE's, of second order
 
 
-@pytest.mark.parametrize('half', [(.5, .5, .5), (.5, .35, .25)])
+@pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.35, 0.25)])
 def testCollisionConservesMomenta(half):
 	"""To rounding, with YADE's integrator that keeps angular momentum by construction (Fincham1992)."""
 	bodies = twoFreeBlocks(half, 1.6)
@@ -283,8 +299,10 @@ def acrossBoundary(shift, velocity):
 	"""Forces on two overlapping blocks and their contact; the second moved by a cell vector, its image in the same place."""
 	joint(normalStiffness=stiffness, shearStiffness=stiffness / 3)
 	loop(normalDamping=0.2, shearDamping=0.2).dead = True
-	first = polytope.cuboid((0.3, 1, 1.2), (.5, .4, .3), Quaternion((1, 2, 3), 0.2), velocity=velocity, angularVelocity=(.1, .2, -.3))
-	second = polytope.cuboid(Vector3(-0.6, 1.1, 1.3) + shift, (.5, .4, .3), Quaternion((-1, 0.5, 2), 0.3), angularVelocity=(0, -.2, .1))
+	first = polytope.cuboid((0.3, 1, 1.2), (0.5, 0.4, 0.3), Quaternion((1, 2, 3), 0.2), velocity=velocity, angularVelocity=(0.1, 0.2, -0.3))
+	second = polytope.cuboid(
+		Vector3(-0.6, 1.1, 1.3) + shift, (0.5, 0.4, 0.3), Quaternion((-1, 0.5, 2), 0.3), angularVelocity=(0, -0.2, 0.1)
+	)
 	O.bodies.append([first, second])
 	O.dt = 1e-4
 	O.run(2, True)
@@ -308,7 +326,7 @@ def testContactAcrossThePeriodicBoundary(cell):
 		assert tuple(i.cellDist) == tuple(-n for n in count)
 		for one, other in zip(found, expected):
 			difference = (one - other).norm() if isinstance(one, Vector3) else abs(one - other)
-			scale = max(other.norm(), 1.) if isinstance(other, Vector3) else abs(other)
+			scale = max(other.norm(), 1.0) if isinstance(other, Vector3) else abs(other)
 			assert difference < 1e-10 * scale, (found, expected)
 
 
@@ -327,8 +345,14 @@ def testDeformingCellMovesTheImage():
 		image = gradient * shift
 		joint(normalStiffness=stiffness, shearStiffness=stiffness / 3)
 		loop(normalDamping=0.2)  # the integrator is what makes a change of velGrad effective
-		O.bodies.append([polytope.cuboid((0.3, 1, 1), (.5, .4, .3)), polytope.cuboid(Vector3(-.6, 1, 1) + (shift if periodic else Vector3.Zero), (.5, .4, .3))])
-		if not periodic: O.bodies[1].state.vel = -image
+		O.bodies.append(
+			[
+				polytope.cuboid((0.3, 1, 1), (0.5, 0.4, 0.3)),
+				polytope.cuboid(Vector3(-0.6, 1, 1) + (shift if periodic else Vector3.Zero), (0.5, 0.4, 0.3)),
+			]
+		)
+		if not periodic:
+			O.bodies[1].state.vel = -image
 		O.dt = 1e-9
 		O.run(2, True)
 		i = O.interactions[0, 1]
@@ -343,15 +367,16 @@ def testDeformingCellMovesTheImage():
 # ------------------------------------------------------------------------------------------------ YADE's own law and time step
 
 
-def yadeLoop(damping=0.):
+def yadeLoop(damping=0.0):
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
-	        InteractionLoop(
-	                [Ig2_Polytope_Polytope_PolytopeGeom()], [Ip2_FrictMat_FrictMat_FrictPhys(kn=stiffness, ks=stiffness)],
-	                [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
-	        ),
-	        NewtonIntegrator(gravity=(0, 0, -gravity), damping=damping),
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
+		InteractionLoop(
+			[Ig2_Polytope_Polytope_PolytopeGeom()],
+			[Ip2_FrictMat_FrictMat_FrictPhys(kn=stiffness, ks=stiffness)],
+			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+		),
+		NewtonIntegrator(gravity=(0, 0, -gravity), damping=damping),
 	]
 
 
@@ -363,7 +388,7 @@ def testCundallStrackCarriesTheWeight():
 	O.run(1500, True)
 	weight = block.state.mass * gravity
 	assert O.forces.f(floor.id)[2] == pytest.approx(-weight, rel=1e-6)
-	assert .5 - block.state.pos[2] == pytest.approx(sunk(weight / stiffness), rel=1e-6)
+	assert 0.5 - block.state.pos[2] == pytest.approx(sunk(weight / stiffness), rel=1e-6)
 
 
 @pytest.mark.parametrize('slope,slides', [(29.9, False), (40, True)])
@@ -372,7 +397,7 @@ def testCundallStrackOnAnIncline(slope, slides):
 	O.materials.append(FrictMat(density=density, frictionAngle=friction))
 	yadeLoop(damping=0.7)
 	turn = Quaternion((0, 1, 0), radians(slope))
-	floor, block = blockOnFloor(half=(.5, .5, .1), turn=turn)
+	floor, block = blockOnFloor(half=(0.5, 0.5, 0.1), turn=turn)
 	O.dt = 0.1 * period(block.state.mass, stiffness)
 	O.run(1000, True)
 	O.engines[-1].damping = 0
@@ -382,8 +407,10 @@ def testCundallStrackOnAnIncline(slope, slides):
 	acceleration = (block.state.vel.dot(downhill) - speed) / (O.time - time)
 	theory = gravity * (sin(radians(slope)) - tan(friction) * cos(radians(slope)))
 	print(f'Cundall-Strack, {slope}°: acceleration {acceleration:.5f}, theory {theory:.5f}')
-	if slides: assert acceleration == pytest.approx(theory, rel=0.02)
-	else: assert abs(block.state.pos.dot(downhill) - start) < 1e-6
+	if slides:
+		assert acceleration == pytest.approx(theory, rel=0.02)
+	else:
+		assert abs(block.state.pos.dot(downhill) - start) < 1e-6
 
 
 @pytest.mark.parametrize('which', ['MohrCoulomb', 'MohrCoulombPerArea', 'CundallStrack'])
@@ -396,12 +423,14 @@ def testGlobalStiffnessTimeStepperIsStable(which):
 		joint(normalStiffness=stiffness, shearStiffness=stiffness)
 		loop(which.endswith('Area'), normalDamping=0.3, gravity=(0, 0, -gravity), damping=0.2)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	O.bodies.append([polytope.cuboid((0.4 * (k % 2), 0, 1 + 1.8 * k), (.5, .5, .5), Quaternion((1, 2, k), 0.4 * k)) for k in range(5)])
+	O.bodies.append([polytope.cuboid((0.4 * (k % 2), 0, 1 + 1.8 * k), (0.5, 0.5, 0.5), Quaternion((1, 2, k), 0.4 * k)) for k in range(5)])
 	mass = O.bodies[1].state.mass
-	O.engines = O.engines + [GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.5, defaultDt=2e-3, maxDt=2e-3, timeStepUpdateInterval=1)]
+	O.engines = O.engines + [
+		GlobalStiffnessTimeStepper(timestepSafetyCoefficient=0.5, defaultDt=2e-3, maxDt=2e-3, timeStepUpdateInterval=1)
+	]
 	O.dt = 1e-3
 	start = sum(b.state.mass * gravity * b.state.pos[2] for b in O.bodies if b.dynamic)
-	smallest = 1.
+	smallest = 1.0
 	while O.time < 3:
 		O.run(100, True)
 		smallest = min(smallest, O.dt)

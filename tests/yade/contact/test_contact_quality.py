@@ -129,7 +129,12 @@ def testLevelFloorPushesUpOnly():
 		O.materials.append(RockJointMat(density=1, normalStiffness=4e5, shearStiffness=4e5, frictionAngle=0))
 		turns = np.random.default_rng(5).standard_normal((4, 4))
 		O.bodies.append([polytope.cuboid((1000 * k, 0, -1), (400, 400, 1), fixed=True) for k in range(4)])
-		cubes = [O.bodies[k] for k in O.bodies.append([polytope.cuboid((1000 * k, 0, 2), (0.5, 0.5, 0.5), Quaternion(*turn).normalized()) for k, turn in enumerate(turns)])]
+		cubes = [
+			O.bodies[k]
+			for k in O.bodies.append(
+				[polytope.cuboid((1000 * k, 0, 2), (0.5, 0.5, 0.5), Quaternion(*turn).normalized()) for k, turn in enumerate(turns)]
+			)
+		]
 		O.engines = polytope.engines(
 			geometry=Ig2_Polytope_Polytope_PolytopeGeom(contactModel=model),
 			physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False),
@@ -142,7 +147,10 @@ def testLevelFloorPushesUpOnly():
 			O.step()
 		ways[model] = max(abs(cube.state.pos[0] - 1000 * k) + abs(cube.state.pos[1]) for k, cube in enumerate(cubes))
 		late = Vector3(0, 0, -9.81 * O.dt / 2)  # velocities are half a step older than places
-		motion = [((c.state.vel + late).squaredNorm() + c.state.inertia[0] * c.state.angVel.squaredNorm()) / 2 + 9.81 * c.state.pos[2] for c in cubes]
+		motion = [
+			((c.state.vel + late).squaredNorm() + c.state.inertia[0] * c.state.angVel.squaredNorm()) / 2 + 9.81 * c.state.pos[2]
+			for c in cubes
+		]
 		energies[model] = np.array(motion) / (9.81 * 2)
 	assert ways['surface'] < 1e-6 < 0.1 < ways['boon2012']
 	assert np.abs(energies['surface'] - 1).max() < 0.2

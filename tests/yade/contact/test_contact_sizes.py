@@ -100,11 +100,15 @@ def testAPolygonHasThatOfItsAreaWhateverItsThickness():
 	def box(low, high):
 		return polytope.polygon([(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])], thickness=3)
 
-	assert touching(box((-1, -0.1), (1, 0)), box((0, -1e-4), (0.3, 0.2))) == pytest.approx((sqrt(2 * 0.1) / 2, sqrt(0.3 * 0.2001) / 2), rel=1e-9)
+	assert touching(box((-1, -0.1), (1, 0)), box((0, -1e-4), (0.3, 0.2))) == pytest.approx(
+		(sqrt(2 * 0.1) / 2, sqrt(0.3 * 0.2001) / 2), rel=1e-9
+	)
 
 
 def testASphereHasItsRadius():
-	assert touching(utils.sphere((0, 0, 0), 0.05), polytope.cuboid((0, 0, 0.1499), (half, half, half))) == pytest.approx((0.05, half), rel=1e-12)
+	assert touching(utils.sphere((0, 0, 0), 0.05), polytope.cuboid((0, 0, 0.1499), (half, half, half))) == pytest.approx(
+		(0.05, half), rel=1e-12
+	)
 
 
 @pytest.mark.parametrize('support', supports)
@@ -120,7 +124,9 @@ def testACubeComesToRestOnIt(support):
 		lowest = min(lowest, cube.state.pos[2])
 	contacts = [one for one in cube.intrs() if one.isReal]
 	assert half - lowest < 0.01 * half
-	assert half - cube.state.pos[2] == pytest.approx(cube.state.mass * gravity / (sum(one.geom.share for one in contacts) * young * half), rel=1e-2)
+	assert half - cube.state.pos[2] == pytest.approx(
+		cube.state.mass * gravity / (sum(one.geom.share for one in contacts) * young * half), rel=1e-2
+	)
 	assert polytope.check(O) == []
 
 
@@ -131,7 +137,11 @@ def testAHeapRestsOnAFacetAsOnAPlate():
 		O.reset()
 		frict()
 		O.bodies.append(supports[support]())
-		grains = [O.bodies.append(polytope.cuboid((0.05 * i, 0.05 * j - 0.02, 0.0201), (0.02, 0.02, 0.02))) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+		grains = [
+			O.bodies.append(polytope.cuboid((0.05 * i, 0.05 * j - 0.02, 0.0201), (0.02, 0.02, 0.02)))
+			for i in (-1, 0, 1)
+			for j in (-1, 0, 1)
+		]
 		grains.append(O.bodies.append(polytope.cuboid((0, -0.02, 0.0602), (0.02, 0.02, 0.02))))
 		O.engines = polytope.engines(damping=0.3)
 		while O.time < 0.3:

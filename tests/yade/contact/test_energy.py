@@ -5,6 +5,7 @@ The law takes work over a step with the mean of the forces at both ends. With th
 terms is then constant to rounding whatever happens in a contact; the term *nonconservative* is what stored, frictional and viscous
 energy leave unexplained, so that it is small is the test.
 """
+
 from math import tan
 
 import numpy as np
@@ -18,7 +19,7 @@ stiffness = 1e8
 
 def energies():
 	names = 'elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'fractureDissip', 'nonconservative'
-	return dict(dict.fromkeys(names, 0.), **dict(O.energy.items()))  # the law names its terms at its first contact
+	return dict(dict.fromkeys(names, 0.0), **dict(O.energy.items()))  # the law names its terms at its first contact
 
 
 class Ledger:
@@ -32,17 +33,20 @@ class Ledger:
 		O.step()
 		terms = energies()
 		terms['kinetic'] = sum(
-		        b.state.mass * v.dot(b.state.vel) / 2 + sum(b.state.inertia[k] * w[k] * b.state.angVel[k] for k in range(3)) / 2
-		        for b, (v, w) in zip(self.bodies, before)
+			b.state.mass * v.dot(b.state.vel) / 2 + sum(b.state.inertia[k] * w[k] * b.state.angVel[k] for k in range(3)) / 2
+			for b, (v, w) in zip(self.bodies, before)
 		)  # bodies of equal moments, or turning about one axis
 		return terms
 
 
 @pytest.mark.parametrize(
-        'perArea,ig2,error', [
-                (False, {'contactModel': 'boon2012'}, None), (True, {'contactModel': 'boon2012'}, None), # the chord
-                (True, {}, 2e-3), (False, {}, 2e-3), # of the contact surface, whose rim is as wide as the overlap is deep
-        ]
+	'perArea,ig2,error',
+	[
+		(False, {'contactModel': 'boon2012'}, None),
+		(True, {'contactModel': 'boon2012'}, None),  # the chord
+		(True, {}, 2e-3),
+		(False, {}, 2e-3),  # of the contact surface, whose rim is as wide as the overlap is deep
+	],
 )
 def testContactsHaveTheEnergyOfTheirDepthRule(perArea, ig2, error):
 	"""Of a flat contact all rules give ½ δ²; where that is the rule of the chord, the geometry says -1."""
@@ -78,7 +82,16 @@ def testFlatDampedDropBalances():
 	terms = energies()
 	final = abs(sum(v for k, v in terms.items() if k != 'nonconservative') - start) / scale
 	print({k: v / scale for k, v in terms.items()})
-	print('largest errors over m g h: all terms', exact, 'unexplained', unexplained, "during the run with YADE's kinetic energy, without nonconservative", yade, 'in the end', final)
+	print(
+		'largest errors over m g h: all terms',
+		exact,
+		'unexplained',
+		unexplained,
+		"during the run with YADE's kinetic energy, without nonconservative",
+		yade,
+		'in the end',
+		final,
+	)
 	assert terms['kinetic'] < 1e-6 * scale  # at rest
 	assert terms['normDampDissip'] > 0.9 * scale
 	assert exact < 1e-10
@@ -90,7 +103,7 @@ def testSlidingDissipatesFrictionTimesWay():
 	"""A flat block pushed at 1 m/s slides to rest: μ N s, and the kinetic energy it had."""
 	joint(normalStiffness=stiffness, frictionAngle=0.3)
 	loop(normalDamping=1, gravity=(0, 0, -gravity))
-	floor, block = blockOnFloor(density * 0.2 * gravity / stiffness, half=(.5, .5, .1))
+	floor, block = blockOnFloor(density * 0.2 * gravity / stiffness, half=(0.5, 0.5, 0.1))
 	block.state.blockedDOFs = 'XYZ'
 	mass = block.state.mass
 	O.dt = 0.05 * period(mass, stiffness)
@@ -117,7 +130,7 @@ def tumble(perArea, turn):
 	loop(perArea, normalDamping=0.2, shearDamping=0.2, rockingDamping=0.2, gravity=(0, 0, -gravity))
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
 	turns = [Quaternion((1, 2, k), 0.4 * k + turn) for k in range(4)]
-	O.bodies.append([polytope.cuboid((0.4 * (k % 2) + turn, 0, 1 + 1.6 * k), (.5, .5, .5), turns[k]) for k in range(4)])
+	O.bodies.append([polytope.cuboid((0.4 * (k % 2) + turn, 0, 1 + 1.6 * k), (0.5, 0.5, 0.5), turns[k]) for k in range(4)])
 	O.trackEnergy = True
 	O.dt = 0.01 * period(density, 1e7)
 	ledger = Ledger()
@@ -174,12 +187,13 @@ def testDilationLiftsAtTheCostOfShear():
 	block.state.vel = (0.01, 0, block.state.vel[2])
 	O.trackEnergy = True
 	weight = density * gravity
-	pushed = 0.
+	pushed = 0.0
 	O.run(3000, True)
 	while O.iter < 12000:
 		O.step()
 		pushed = pushed + O.forces.f(floor.id)[0] * 0.01 * O.dt  # wider numbers are changed in place by +=
-		if O.iter == 3501: begun, begin, low = dict(energies()), pushed, block.state.pos[2]
+		if O.iter == 3501:
+			begun, begin, low = dict(energies()), pushed, block.state.pos[2]
 	terms = energies()
 	friction, viscous = (terms[k] - begun[k] for k in ('plastDissip', 'normDampDissip'))
 	lift = block.state.pos[2] - low
@@ -196,7 +210,9 @@ def testTrackingDoesNotChangeTheMotion():
 		O.reset()
 		joint(normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.4)
 		loop(True, normalDamping=0.2, shearDamping=0.2, rockingDamping=0.2, gravity=(0, 0, -gravity))
-		O.bodies.append([polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True), polytope.cuboid((0, 0, .8), (.5, .4, .3), Quaternion((1, 2, 3), 0.5))])
+		O.bodies.append(
+			[polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True), polytope.cuboid((0, 0, 0.8), (0.5, 0.4, 0.3), Quaternion((1, 2, 3), 0.5))]
+		)
 		O.trackEnergy = track
 		O.dt = 1e-3
 		O.run(2000, True)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Ipopt as the solver of the contact point: the same scene as with Newton, with one thread and two; a build without it says so."""
+
 import os
 import subprocess
 import sys
@@ -24,8 +25,8 @@ def testBuildInfoNamesTheVersion():
 
 @needsIpopt
 def testOneContactAgreesWithNewton():
-	a = polytope.regular(12, circumradius=1.)
-	b = polytope.regular(20, circumradius=1., center=(.3, .2, 1.4), orientation=Quaternion((1, 2, 3), .7))
+	a = polytope.regular(12, circumradius=1.0)
+	b = polytope.regular(20, circumradius=1.0, center=(0.3, 0.2, 1.4), orientation=Quaternion((1, 2, 3), 0.7))
 	paper = {'contactModel': 'boon2012'}
 	newton, ipopt = polytope.contact(a, b, **paper), polytope.contact(a, b, solver='ipopt', **paper)
 	assert newton.inContact and newton.ipoptIterations == 0 < newton.newtonIterations
@@ -39,10 +40,10 @@ def tumblingBlock(solver):
 	"""Centre and velocity of a block that has landed on its edge and slid; with the counters."""
 	O.reset()
 	material = joint(normalStiffness=1e6, shearStiffness=1e6)
-	loop(gravity=(0, 0, -9.81), normalDamping=.1, ig2=dict(solver=solver, contactModel='boon2012'))
-	blockOnFloor(overlap=-.01, half=(.4, .3, .5), material=material)
-	O.bodies[1].state.ori = Quaternion((1, 1, 0), .2)
-	O.bodies[1].state.vel = (.5, 0, -1)
+	loop(gravity=(0, 0, -9.81), normalDamping=0.1, ig2=dict(solver=solver, contactModel='boon2012'))
+	blockOnFloor(overlap=-0.01, half=(0.4, 0.3, 0.5), material=material)
+	O.bodies[1].state.ori = Quaternion((1, 1, 0), 0.2)
+	O.bodies[1].state.vel = (0.5, 0, -1)
 	O.dt = 1e-4
 	O.run(800, True)
 	state = O.bodies[1].state
@@ -95,7 +96,7 @@ def testTwoThreadsAgreeAndNothingIsPrinted():
 	states = []
 	for (output, _), threads in ((one, '1'), (two, '2')):
 		greeting, state = output.splitlines()
-		assert greeting.startswith('Using python version') # YADE's own
+		assert greeting.startswith('Using python version')  # YADE's own
 		assert state.split()[0] == threads
 		states.append(state.split()[1:])
 	assert states[0] == states[1]

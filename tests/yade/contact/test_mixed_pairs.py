@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Polytopes against YADE's own walls, boxes, facets and spheres: a block comes to rest and is carried, on each."""
+
 import json
 import math
 import os
@@ -35,16 +36,16 @@ from yade import (
 
 def settle(supports, body, steps=8000, mayLieWithin=False):
 	O.reset()
-	O.materials.append(FrictMat(young=1e7, poisson=.5, frictionAngle=.5, density=2600))
+	O.materials.append(FrictMat(young=1e7, poisson=0.5, frictionAngle=0.5, density=2600))
 	for support in supports:
 		O.bodies.append(support())
 	block = O.bodies[O.bodies.append(body())]
 	functors = [one() for one in withPolytopes]
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([one() for one in bounds], verletDist=.01),
-	        InteractionLoop(functors, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-	        NewtonIntegrator(gravity=(0, 0, -9.81), damping=.4),
+		ForceResetter(),
+		InsertionSortCollider([one() for one in bounds], verletDist=0.01),
+		InteractionLoop(functors, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+		NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.4),
 	]
 	O.dt = 1e-4
 	O.run(steps, True)
@@ -55,21 +56,21 @@ def settle(supports, body, steps=8000, mayLieWithin=False):
 
 
 def cube():
-	return polytope.cuboid((.05, .03, .11), (.1, .1, .1))
+	return polytope.cuboid((0.05, 0.03, 0.11), (0.1, 0.1, 0.1))
 
 
 SUPPORTS = {
-        'wall': [lambda: utils.wall(0, 2)],
-        'wall, upper side': [lambda: utils.wall(0, 2, sense=1)],
-        'box': [lambda: utils.box((0, 0, -.1), (1, 1, .1), fixed=True)],
-        'facet': [lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], fixed=True)],
-        'facet seen from behind': [lambda: utils.facet([(0, 1, 0), (1, -1, 0), (-1, -1, 0)], fixed=True)],
-        'two facets': [
-                lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (1, 1, 0)], fixed=True),
-                lambda: utils.facet([(-1, -1, 0), (1, 1, 0), (-1, 1, 0)], fixed=True)
-        ],
-        'polytope': [lambda: polytope.cuboid((0, 0, -.1), (1, 1, .1), fixed=True)],
-        'sphere': [lambda: utils.sphere((.05, .03, -1), 1, fixed=True)],
+	'wall': [lambda: utils.wall(0, 2)],
+	'wall, upper side': [lambda: utils.wall(0, 2, sense=1)],
+	'box': [lambda: utils.box((0, 0, -0.1), (1, 1, 0.1), fixed=True)],
+	'facet': [lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], fixed=True)],
+	'facet seen from behind': [lambda: utils.facet([(0, 1, 0), (1, -1, 0), (-1, -1, 0)], fixed=True)],
+	'two facets': [
+		lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (1, 1, 0)], fixed=True),
+		lambda: utils.facet([(-1, -1, 0), (1, 1, 0), (-1, 1, 0)], fixed=True),
+	],
+	'polytope': [lambda: polytope.cuboid((0, 0, -0.1), (1, 1, 0.1), fixed=True)],
+	'sphere': [lambda: utils.sphere((0.05, 0.03, -1), 1, fixed=True)],
 }
 
 
@@ -79,26 +80,28 @@ def testCubeRestsOn(support):
 	assert len(contacts) == len(SUPPORTS[support])
 	assert carried == pytest.approx(9.81 * block.state.mass, rel=1e-3)
 	depths = [i.geom.penetrationDepth for i in contacts]
-	assert all(0 < d < .002 for d in depths)
-	assert abs(block.state.pos[2] - (.1 - max(depths))) < 2e-4
+	assert all(0 < d < 0.002 for d in depths)
+	assert abs(block.state.pos[2] - (0.1 - max(depths))) < 2e-4
 	assert all(i.geom.status == 'contact' for i in contacts)
 
 
 def testSphereRestsOnPolytope():
-	ball, contacts, carried = settle(SUPPORTS['polytope'], lambda: utils.sphere((.1, .2, .11), .1))
+	ball, contacts, carried = settle(SUPPORTS['polytope'], lambda: utils.sphere((0.1, 0.2, 0.11), 0.1))
 	assert len(contacts) == 1 and carried == pytest.approx(9.81 * ball.state.mass, rel=1e-3)
 	geom = contacts[0].geom
 	assert geom.normal[2] == (-1 if contacts[0].id1 == ball.id else 1)
-	assert ball.state.pos[2] == pytest.approx(.1 - geom.penetrationDepth, abs=1e-12)
+	assert ball.state.pos[2] == pytest.approx(0.1 - geom.penetrationDepth, abs=1e-12)
 	assert geom.contactPoint[2] == pytest.approx(-geom.penetrationDepth / 2, abs=1e-12)
 
 
-@pytest.mark.parametrize('sense, start, through', [(-1, .15, True), (-1, -.15, False), (1, .15, False), (1, -.15, True), (0, .15, False), (0, -.15, False)])
+@pytest.mark.parametrize(
+	'sense, start, through', [(-1, 0.15, True), (-1, -0.15, False), (1, 0.15, False), (1, -0.15, True), (0, 0.15, False), (0, -0.15, False)]
+)
 def testWallStopsOnItsSideAndLetsThroughFromTheOther(sense, start, through):
 	"""A block thrown at it: 0.15 s later it is on the other side of the wall, or still on its own."""
 
 	def thrown():
-		block = polytope.cuboid((.05, .03, start), (.1, .1, .1))
+		block = polytope.cuboid((0.05, 0.03, start), (0.1, 0.1, 0.1))
 		block.state.vel = (0, 0, -20 * start)
 		return block
 
@@ -113,25 +116,26 @@ def testSphereAgainstEdgeAndVertex():
 	O.reset()
 	O.materials.append(FrictMat())
 	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), fixed=True))
-	for direction in (Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(1, .2, .3)):
+	for direction in (Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(1, 0.2, 0.3)):
 		corner = Vector3(*[1 if d == 1 else d for d in direction])
 		away = Vector3(*[1 if d == 1 else 0 for d in direction]).normalized()
-		O.bodies.append(utils.sphere(corner + .45 * away, .5, fixed=True))
+		O.bodies.append(utils.sphere(corner + 0.45 * away, 0.5, fixed=True))
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()]),
-	        InteractionLoop(
-	                [Ig2_Sphere_Polytope_PolytopeGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
-	                [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
-	        ),
-	        NewtonIntegrator()
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb()]),
+		InteractionLoop(
+			[Ig2_Sphere_Polytope_PolytopeGeom()],
+			[Ip2_FrictMat_FrictMat_FrictPhys()],
+			[Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)],
+		),
+		NewtonIntegrator(),
 	]
 	O.dt = 1e-6
 	O.step()
 	contacts = [i for i in O.interactions if i.isReal]
 	assert len(contacts) == 3
 	for i in contacts:
-		assert i.geom.penetrationDepth == pytest.approx(.05, abs=1e-12)
+		assert i.geom.penetrationDepth == pytest.approx(0.05, abs=1e-12)
 		# from the sphere (body 1) to the cube
 		assert i.id1 != 0 and i.geom.normal.dot(O.bodies[i.id1].state.pos) < 0
 
@@ -140,12 +144,12 @@ def testBoxWithoutVolumeIsCountedNotFatal():
 	O.reset()
 	O.materials.append(FrictMat())
 	O.bodies.append(utils.box((0, 0, 0), (1, 1, 0), fixed=True))
-	O.bodies.append(polytope.cuboid((0, 0, .05), (.1, .1, .1)))
+	O.bodies.append(polytope.cuboid((0, 0, 0.05), (0.1, 0.1, 0.1)))
 	functor = Ig2_Box_Polytope_PolytopeGeom()
 	O.engines = [
-	        InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Box_Aabb()]),
-	        InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-	        NewtonIntegrator()
+		InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_Box_Aabb()]),
+		InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+		NewtonIntegrator(),
 	]
 	O.step()
 	assert functor.stats()['failures'] == 1 and not [i for i in O.interactions if i.isReal]
@@ -153,7 +157,7 @@ def testBoxWithoutVolumeIsCountedNotFatal():
 
 def pressed(h):
 	"""Depth of a contact in which a cube of 0.2 m has sunk by h."""
-	return faceForce(h, (.2, .2))
+	return faceForce(h, (0.2, 0.2))
 
 
 def held(support, functor, bound):
@@ -161,12 +165,12 @@ def held(support, functor, bound):
 	O.reset()
 	O.materials.append(FrictMat())
 	O.bodies.append(support)
-	O.bodies.append(polytope.cuboid((0, 0, .0999), (.1, .1, .1), fixed=True))
+	O.bodies.append(polytope.cuboid((0, 0, 0.0999), (0.1, 0.1, 0.1), fixed=True))
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Polytope_Aabb(), bound], verletDist=.01),
-	        InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-	        NewtonIntegrator()
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Polytope_Aabb(), bound], verletDist=0.01),
+		InteractionLoop([functor], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+		NewtonIntegrator(),
 	]
 	O.dt = 1e-6
 	O.step()
@@ -177,11 +181,11 @@ def held(support, functor, bound):
 
 def testBoxThatGrowsInARun():
 	functor = Ig2_Box_Polytope_PolytopeGeom()
-	contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), functor, Bo1_Box_Aabb())
-	O.bodies[0].shape.extents = (1, 1, .1005)
+	contact = held(utils.box((0, 0, -0.1), (1, 1, 0.1), fixed=True), functor, Bo1_Box_Aabb())
+	O.bodies[0].shape.extents = (1, 1, 0.1005)
 	O.step()
 	assert contact.geom.penetrationDepth == pytest.approx(pressed(6e-4), rel=1e-9)
-	O.bodies[0].shape.extents = (1, 1, .1)
+	O.bodies[0].shape.extents = (1, 1, 0.1)
 	O.step()
 	assert float(contact.geom.penetrationDepth) == pytest.approx(pressed(1e-4), rel=1e-9)
 	assert functor.stats()['failures'] == 0
@@ -189,11 +193,11 @@ def testBoxThatGrowsInARun():
 
 def testBoxThatLosesItsVolumeInARun():
 	functor = Ig2_Box_Polytope_PolytopeGeom()
-	contact = held(utils.box((0, 0, -.1), (1, 1, .1), fixed=True), functor, Bo1_Box_Aabb())
+	contact = held(utils.box((0, 0, -0.1), (1, 1, 0.1), fixed=True), functor, Bo1_Box_Aabb())
 	O.bodies[0].shape.extents = (1, 1, 0)
 	O.step()
 	assert functor.stats()['failures'] == 1 and contact.geom.status == 'failed'
-	O.bodies[0].shape.extents = (1, 1, .1)
+	O.bodies[0].shape.extents = (1, 1, 0.1)
 	O.step()
 	assert functor.stats()['failures'] == 1 and contact.geom.status == 'contact'
 
@@ -258,7 +262,9 @@ print('ANSWERS', json.dumps([answers, counted]))
 def testStrangeBoxesAndFacetsAreCountedNotFatal():
 	"""In YADE's loop: extents and corners that are no solid, too thin, too far, or no numbers. Afterwards all is as before."""
 	where = os.path.dirname(os.path.abspath(__file__))
-	done = subprocess.run([sys.executable, '-c', strange, where], env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=600)
+	done = subprocess.run(
+		[sys.executable, '-c', strange, where], env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=600
+	)
 	assert done.returncode == 0, done.stderr[-2000:]
 	answers, counted = json.loads(next(line for line in done.stdout.splitlines() if line.startswith('ANSWERS'))[8:])
 	failed = [status == 'failed' for status, _ in answers]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What pairs of bodies keep in memory: little until they touch, and enough to be dismissed at once in the next step."""
+
 import math
 import os
 import pathlib
@@ -25,13 +26,13 @@ def diamonds(side, spacing=0.75):
 	loop()
 	for x in range(side):
 		for y in range(x % 2, side, 2):
-			O.bodies.append(polytope.cuboid((spacing * x, spacing * y, 0), (.5, .5, .5), turned))
+			O.bodies.append(polytope.cuboid((spacing * x, spacing * y, 0), (0.5, 0.5, 0.5), turned))
 			O.bodies[-1].state.blockedDOFs = 'XYZ'  # tight boxes
 	O.dt = 1e-6
 
 
 def pairsOfDiamonds(side):
-	return (side - 1)**2
+	return (side - 1) ** 2
 
 
 def columns(number, gap):
@@ -41,7 +42,7 @@ def columns(number, gap):
 	loop()
 	for k in range(number):
 		for z in (0, 1 + gap):
-			O.bodies.append(polytope.cuboid((2 * k, 0, z), (.5, .5, .5)))
+			O.bodies.append(polytope.cuboid((2 * k, 0, z), (0.5, 0.5, 0.5)))
 			O.bodies[-1].state.blockedDOFs = 'XYZ'
 	O.dt = 1e-6
 
@@ -60,7 +61,7 @@ def testASpherePairApartHasNone():
 	loop()
 	O.engines[1].boundDispatcher.functors += [Bo1_Sphere_Aabb()]
 	O.engines[2].geomDispatcher.functors += [Ig2_Sphere_Polytope_PolytopeGeom()]
-	O.bodies.append([polytope.cuboid((0, 0, 0), (.5, .5, .5)), utils.sphere((.95, .95, 0), .5)])  # 0.14 m from the edge
+	O.bodies.append([polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)), utils.sphere((0.95, 0.95, 0), 0.5)])  # 0.14 m from the edge
 	O.dt = 1e-6
 	O.step()
 	(pair,) = O.interactions.all(onlyReal=False)
@@ -73,7 +74,9 @@ def testBytesOfABodyAPairApartAndAContact():
 	print(found)
 	assert found['pair apart'] < found['contact'] / 2
 	if polytope.buildInfo()['precision'] == 'double':
-		assert 300 < found['pair apart'] < 470 and 900 < found['contact'] < 1650 and 500 < found['body'] < 1030  # 24 of it the list of materials of faces
+		assert (
+			300 < found['pair apart'] < 470 and 900 < found['contact'] < 1650 and 500 < found['body'] < 1030
+		)  # 24 of it the list of materials of faces
 
 
 def testPairsApartAreHardlySaved(tmp_path):
@@ -145,10 +148,10 @@ def testMemoryOfAnExchangedShapeIsNotRead():
 	"""Its planes may be fewer than the pair remembers."""
 	diamonds(3)
 	for body in O.bodies:
-		body.shape = polytope.regular(20, .5).shape
+		body.shape = polytope.regular(20, 0.5).shape
 	O.run(2, True)
 	for body in O.bodies:
-		body.shape = polytope.regular(4, .3).shape
+		body.shape = polytope.regular(4, 0.3).shape
 	O.run(2, True)
 	assert functor().stats()['failures'] == 0 and O.interactions.countReal() == 0
 
@@ -159,11 +162,11 @@ def approach(begin):
 	joint(normalStiffness=1e8)
 	loop()
 	for k in range(2):
-		O.bodies.append(polytope.regular(20, .5, (0, 0, 0), Quaternion((1, 2, 3), .3 + k)))
+		O.bodies.append(polytope.regular(20, 0.5, (0, 0, 0), Quaternion((1, 2, 3), 0.3 + k)))
 	O.bodies[1].state.blockedDOFs = O.bodies[0].state.blockedDOFs = 'xyzXYZ'
 	O.dt = 1e-6
 	for step in range(begin, -1, -1):
-		O.bodies[1].state.pos = (.8 + .001 * step, .02, .01)
+		O.bodies[1].state.pos = (0.8 + 0.001 * step, 0.02, 0.01)
 		O.step()
 		if O.interactions.countReal():
 			break

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Spheres and solids on seams, ridges and corners of several pieces, and facets of a bent mesh: as on one piece, whatever the physics."""
+
 import math
 import warnings
 
@@ -27,17 +28,17 @@ stiffness = 1e8
 rules = pytest.mark.parametrize('rule', ['perArea', 'perContact', 'yadesOwn'])
 
 
-def joints(rule, friction=.5):
+def joints(rule, friction=0.5):
 	"""Adds the material; returns physics with one stiffness for all contacts, whatever YADE takes for the sizes of bodies."""
 	if rule == 'yadesOwn':
-		O.materials.append(FrictMat(density=2600, young=1e8, poisson=.3, frictionAngle=friction))
+		O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=friction))
 		given = {name: MatchMaker(algo='val', val=stiffness) for name in ('kn', 'ks')}
 		return Ip2_FrictMat_FrictMat_FrictPhys(**given)
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=friction))
 	return Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=rule == 'perArea')
 
 
-def restingDepth(pieces, body, rule, blocked='xyXYZ', friction=.5, steps=5000):
+def restingDepth(pieces, body, rule, blocked='xyXYZ', friction=0.5, steps=5000):
 	"""How far the body has sunk from where it just touches, held from all motion but down; and its real contacts."""
 	O.reset()
 	physics = joints(rule, friction)
@@ -45,7 +46,7 @@ def restingDepth(pieces, body, rule, blocked='xyXYZ', friction=.5, steps=5000):
 	resting = O.bodies[O.bodies.append(body())]
 	resting.state.blockedDOFs = blocked
 	height = resting.state.pos[2]
-	O.engines = polytope.engines(damping=.5, physics=physics)
+	O.engines = polytope.engines(damping=0.5, physics=physics)
 	O.run(steps, wait=True)
 	assert all(functor.stats()['failures'] == 0 for functor in O.engines[2].geomDispatcher.functors if hasattr(functor, 'stats'))
 	contacts = [contact for contact in O.interactions if contact.isReal]
@@ -58,13 +59,15 @@ def plates(number):
 	"""A floor of 6 m by 6 m."""
 	columns, rows = (1, 2)[number > 1], (1, 2)[number > 2]
 	places = {1: [0], 2: [-1.5, 1.5]}
-	return [polytope.cuboid((x, y, -.5), (3 / columns, 3 / rows, .5), fixed=True) for x in places[columns] for y in places[rows]]
+	return [polytope.cuboid((x, y, -0.5), (3 / columns, 3 / rows, 0.5), fixed=True) for x in places[columns] for y in places[rows]]
 
 
 def ridge(number):
 	if number == 1:
 		return [polytope.fromVertices([(s, y, -abs(s)) for y in (-2, 2) for s in (-1, 0, 1)], fixed=True)]
-	return [polytope.fromVertices([(0, y, z) for y in (-2, 2) for z in (0, -1)] + [(s, y, -1) for y in (-2, 2)], fixed=True) for s in (-1, 1)]
+	return [
+		polytope.fromVertices([(0, y, z) for y in (-2, 2) for z in (0, -1)] + [(s, y, -1) for y in (-2, 2)], fixed=True) for s in (-1, 1)
+	]
 
 
 def pyramid(number):
@@ -74,13 +77,21 @@ def pyramid(number):
 	return [polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % 4]], fixed=True) for k in range(4)]
 
 
-def ball(x=0., y=0., radius=.3):
+def ball(x=0.0, y=0.0, radius=0.3):
 	return lambda: utils.sphere((x, y, radius), radius)
 
 
 @rules
 @pytest.mark.parametrize(
-	'floor, number, place', [(plates, 2, (0, .2)), (plates, 4, (0, 0)), (plates, 2, (.001, .2)), (plates, 4, (.001, -.002)), (ridge, 2, (0, 0)), (pyramid, 4, (0, 0))]
+	'floor, number, place',
+	[
+		(plates, 2, (0, 0.2)),
+		(plates, 4, (0, 0)),
+		(plates, 2, (0.001, 0.2)),
+		(plates, 4, (0.001, -0.002)),
+		(ridge, 2, (0, 0)),
+		(pyramid, 4, (0, 0)),
+	],
 )
 def testABallIsAsDeepOnPiecesAsOnOne(floor, number, place, rule):
 	one, _ = restingDepth(lambda: floor(1), ball(*place), rule)
@@ -94,16 +105,19 @@ def testABallIsAsDeepOnPiecesAsOnOne(floor, number, place, rule):
 
 def testABallInAValleyHasTwoFullSprings():
 	"""What it touches at two places is no seam."""
-	valley = lambda: [polytope.fromVertices([(0, y, z) for y in (-2, 2) for z in (0, -1)] + [(s, y, z) for y in (-2, 2) for z in (1, -1)], fixed=True) for s in (-1, 1)]
-	radius = .3
+	valley = lambda: [
+		polytope.fromVertices([(0, y, z) for y in (-2, 2) for z in (0, -1)] + [(s, y, z) for y in (-2, 2) for z in (1, -1)], fixed=True)
+		for s in (-1, 1)
+	]
+	radius = 0.3
 	depth, contacts = restingDepth(valley, lambda: utils.sphere((0, 0, radius * math.sqrt(2)), radius), 'perContact', friction=0)
 	assert [contact.geom.share for contact in contacts] == [1, 1]
 	mass = 2600 * 4 / 3 * math.pi * radius**3
-	assert depth == pytest.approx(mass * 9.81 / stiffness, rel=1e-4) # each is pressed by depth/√2, along 45°
+	assert depth == pytest.approx(mass * 9.81 / stiffness, rel=1e-4)  # each is pressed by depth/√2, along 45°
 
 
 def testABallAtTheEndOfAPlateKeepsItsSpring():
-	_, contacts = restingDepth(lambda: [polytope.cuboid((-1, 0, -.5), (1, 1, .5), fixed=True)], ball(0, .2), 'perContact')
+	_, contacts = restingDepth(lambda: [polytope.cuboid((-1, 0, -0.5), (1, 1, 0.5), fixed=True)], ball(0, 0.2), 'perContact')
 	assert [contact.geom.share for contact in contacts] == [1]
 
 
@@ -114,7 +128,7 @@ def testFreePlatesShareABall(clumped, rule):
 
 	def pieces():
 		floor = [polytope.cuboid((0, 0, -2), (3, 3, 1), fixed=True)]
-		two = [polytope.cuboid((x, 0, -.5), (.5, .5, .5)) for x in (-.5, .5)]
+		two = [polytope.cuboid((x, 0, -0.5), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)]
 		O.bodies.append(floor)
 		if clumped:
 			O.bodies.appendClumped(two)
@@ -125,13 +139,13 @@ def testFreePlatesShareABall(clumped, rule):
 	O.reset()
 	physics = joints(rule)
 	pieces()
-	radius = .1
+	radius = 0.1
 	resting = O.bodies[O.bodies.append(utils.sphere((0, 0, radius), radius))]
 	resting.state.blockedDOFs = 'xyXYZ'
-	O.engines = polytope.engines(damping=.5, physics=physics)
+	O.engines = polytope.engines(damping=0.5, physics=physics)
 	O.run(12000, wait=True)
 	contacts = [contact for contact in O.interactions if contact.isReal and resting.id in (contact.id1, contact.id2)]
-	assert [contact.geom.share for contact in contacts] == pytest.approx([.5, .5], abs=1e-2)
+	assert [contact.geom.share for contact in contacts] == pytest.approx([0.5, 0.5], abs=1e-2)
 	for contact in contacts:
 		assert contact.phys.normalForce.norm() == pytest.approx(resting.state.mass * 9.81 / 2, rel=1e-2)
 
@@ -139,15 +153,15 @@ def testFreePlatesShareABall(clumped, rule):
 def testHertzianSpringsAreShared():
 	"""With k √depth for a stiffness, too; one plate with its centre as far away as those of two, which YADE takes for its size."""
 	depths = []
-	for pieces in ([(1.5, 0, -.5)], [(-1.5, 0, -.5), (1.5, 0, -.5)]):
+	for pieces in ([(1.5, 0, -0.5)], [(-1.5, 0, -0.5), (1.5, 0, -0.5)]):
 		O.reset()
-		O.materials.append(FrictMat(density=2600, young=1e8, poisson=.3, frictionAngle=.5))
-		O.bodies.append([polytope.cuboid(centre, (3 if len(pieces) == 1 else 1.5, 3, .5), fixed=True) for centre in pieces])
-		resting = O.bodies[O.bodies.append(utils.sphere((0, 0, .3), .3))]
+		O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
+		O.bodies.append([polytope.cuboid(centre, (3 if len(pieces) == 1 else 1.5, 3, 0.5), fixed=True) for centre in pieces])
+		resting = O.bodies[O.bodies.append(utils.sphere((0, 0, 0.3), 0.3))]
 		resting.state.blockedDOFs = 'xyXYZ'
-		O.engines = polytope.engines(damping=.5, physics=Ip2_FrictMat_FrictMat_MindlinPhys(), law=Law2_ScGeom_MindlinPhys_Mindlin())
+		O.engines = polytope.engines(damping=0.5, physics=Ip2_FrictMat_FrictMat_MindlinPhys(), law=Law2_ScGeom_MindlinPhys_Mindlin())
 		O.run(8000, wait=True)
-		depths.append(.3 - resting.state.pos[2])
+		depths.append(0.3 - resting.state.pos[2])
 	assert depths[1] == pytest.approx(depths[0], rel=1e-3)
 
 
@@ -157,9 +171,9 @@ def testABallRollsOverSeamsAsOnOnePlate():
 		O.reset()
 		physics = joints('perContact')
 		width = 4 / number
-		O.bodies.append([polytope.cuboid((width * (k + .5) - .5, 0, -.5), (width / 2, 1, .5), fixed=True) for k in range(number)])
-		radius = .1
-		rolling = O.bodies[O.bodies.append(utils.sphere((0, .03, radius), radius))]
+		O.bodies.append([polytope.cuboid((width * (k + 0.5) - 0.5, 0, -0.5), (width / 2, 1, 0.5), fixed=True) for k in range(number)])
+		radius = 0.1
+		rolling = O.bodies[O.bodies.append(utils.sphere((0, 0.03, radius), radius))]
 		rolling.state.pos -= Vector3(0, 0, rolling.state.mass * 9.81 / stiffness)
 		rolling.state.vel, rolling.state.angVel = (1, 0, 0), (0, 1 / radius, 0)
 		O.engines = polytope.engines(damping=0, physics=physics)
@@ -172,7 +186,7 @@ def testABallRollsOverSeamsAsOnOnePlate():
 # solids
 
 
-def cube(degrees=0, axis=(0, 1, 0), half=.3, beside=0.):
+def cube(degrees=0, axis=(0, 1, 0), half=0.3, beside=0.0):
 	"""Turned about an axis, its lowest point where the seams meet."""
 
 	def make():
@@ -188,7 +202,9 @@ def cube(degrees=0, axis=(0, 1, 0), half=.3, beside=0.):
 @pytest.mark.parametrize('rule', ['perContact', 'yadesOwn'])
 @pytest.mark.parametrize('number', [2, 4])
 @pytest.mark.parametrize(
-	'body', [cube(), cube(45), cube(20), cube(20, beside=1e-4), cube(54.7356, (1, 1, 0)), cube(54.7356, (1, 1, 0), beside=1e-3)], ids=['face', 'edge', 'edge20', 'edgeBeside', 'corner', 'cornerBeside']
+	'body',
+	[cube(), cube(45), cube(20), cube(20, beside=1e-4), cube(54.7356, (1, 1, 0)), cube(54.7356, (1, 1, 0), beside=1e-3)],
+	ids=['face', 'edge', 'edge20', 'edgeBeside', 'corner', 'cornerBeside'],
 )
 def testASolidIsAsDeepOnPiecesAsOnOne(body, number, rule):
 	one, _ = restingDepth(lambda: plates(1), body, rule)
@@ -202,14 +218,14 @@ def testAStiffnessOfYadesOwnIsSharedOnceHoweverTheShareChanges():
 	O.reset()
 	physics = joints('yadesOwn')
 	O.bodies.append(plates(2))
-	moving = O.bodies[O.bodies.append(utils.sphere((-.1, 0, .2999), .3, fixed=True))]
+	moving = O.bodies[O.bodies.append(utils.sphere((-0.1, 0, 0.2999), 0.3, fixed=True))]
 	O.engines = polytope.engines(physics=physics, timeStepper=False)
 	O.dt = 1e-4
-	moving.state.vel = (.1, 0, 0)
+	moving.state.vel = (0.1, 0, 0)
 	sums = []
 	for step in range(4000):
 		if step == 2000:
-			moving.state.vel = (-.1, 0, 0)
+			moving.state.vel = (-0.1, 0, 0)
 		O.step()
 		contacts = [contact for contact in O.interactions if contact.isReal]
 		for contact in contacts:
@@ -234,7 +250,10 @@ def tip(base):
 	return [utils.facet(((0, 0, 0), base[k], base[(k + 1) % len(base)])) for k in range(len(base))]
 
 
-regular = {number: [(math.cos(2 * math.pi * k / number + .1), math.sin(2 * math.pi * k / number + .1), -1) for k in range(number)] for number in (3, 4, 8, 32)}
+regular = {
+	number: [(math.cos(2 * math.pi * k / number + 0.1), math.sin(2 * math.pi * k / number + 0.1), -1) for k in range(number)]
+	for number in (3, 4, 8, 32)
+}
 
 
 def halfOfRidge(fall, seam):
@@ -245,62 +264,88 @@ def halfOfRidge(fall, seam):
 	return area, 2 * area / (width + math.hypot(1, 1 / fall) + math.hypot(1, seam))
 
 
-def sunkOnRidge(halves, perArea, length=1., force=2600 * 9.81 / stiffness):
+def sunkOnRidge(halves, perArea, length=1.0, force=2600 * 9.81 / stiffness):
 	"""How far a block of this length sinks onto a ridge of pieces: each has a surface of its own, in which the pressure falls to zero towards the seam, too."""
 
 	def grows(h):
 		"""Force over the stiffness. V = A (L r/3 − r²/6), W = A (L r²/12 − r³/15) of a piece with A = α h², r = ϱ h."""
 		total = 0
 		for area, radius in halves:
-			v, vGrows = area * (length * radius / 3 * h**3 - radius**2 / 6 * h**4), area * (length * radius * h**2 - 2 * radius**2 / 3 * h**3)
-			w, wGrows = area * (length * radius**2 / 12 * h**4 - radius**3 / 15 * h**5), area * (length * radius**2 / 3 * h**3 - radius**3 / 3 * h**4)
+			v, vGrows = (
+				area * (length * radius / 3 * h**3 - radius**2 / 6 * h**4),
+				area * (length * radius * h**2 - 2 * radius**2 / 3 * h**3),
+			)
+			w, wGrows = (
+				area * (length * radius**2 / 12 * h**4 - radius**3 / 15 * h**5),
+				area * (length * radius**2 / 3 * h**3 - radius**3 / 3 * h**4),
+			)
 			total += 2 * vGrows if perArea else 36 * w / v * (wGrows * v - w * vGrows) / v**2
 		return total - force
 
-	return brentq(grows, 1e-9, .2)
+	return brentq(grows, 1e-9, 0.2)
 
 
 @pytest.mark.parametrize('rule', rules.args[1])
-@pytest.mark.parametrize('fall', [.5, 1, 1.5])
+@pytest.mark.parametrize('fall', [0.5, 1, 1.5])
 def testARidgeOfPiecesHasASurfaceOnEach(fall, rule):
 	"""Of facets, of two solids, and of four, two of which lie flush: all the same, softer per area and stiffer per contact than one solid."""
 	found = []
 	for ridge in (lambda: bent(fall, fall), lambda: slopes(fall, fall, 2), lambda: slopes(fall, fall, 4)):
-		depth, contacts = restingDepth(ridge, lambda: polytope.cuboid((0, .1, .5), (.5, .5, .5)), rule, steps=8000)
+		depth, contacts = restingDepth(ridge, lambda: polytope.cuboid((0, 0.1, 0.5), (0.5, 0.5, 0.5)), rule, steps=8000)
 		found.append(depth)
 		assert sum(contact.geom.share for contact in contacts) == pytest.approx(2, rel=1e-3)
 	assert found == pytest.approx([sunkOnRidge([halfOfRidge(fall, 0)] * 2, rule == 'perArea')] * 3, rel=1e-3)
 
 
-@pytest.mark.parametrize('left, right', [(.2, 1), (2, 2)])
+@pytest.mark.parametrize('left, right', [(0.2, 1), (2, 2)])
 def testALopsidedRidgeOfFacetsIsPartedInTheMiddle(left, right):
 	"""By the plane that has the same angle to both slopes."""
-	down = [sum(parts) for parts in zip(*((x / math.hypot(1, fall), -fall / math.hypot(1, fall)) for x, fall in ((-1, left), (1, right))), strict=True)]
+	down = [
+		sum(parts)
+		for parts in zip(*((x / math.hypot(1, fall), -fall / math.hypot(1, fall)) for x, fall in ((-1, left), (1, right))), strict=True)
+	]
 	seam = -down[0] / down[1]
-	depth, _ = restingDepth(lambda: bent(left, right), lambda: polytope.cuboid((0, 0, .5), (.5, .5, .5)), 'perArea', steps=8000)
+	depth, _ = restingDepth(lambda: bent(left, right), lambda: polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)), 'perArea', steps=8000)
 	assert depth == pytest.approx(sunkOnRidge([halfOfRidge(left, -seam), halfOfRidge(right, seam)], True), rel=1e-3)
 
 
 @pytest.mark.parametrize('rule', rules.args[1])
 @pytest.mark.parametrize('sides', list(regular))
-@pytest.mark.parametrize('pieces', [tip, lambda base: [polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % len(base)]], fixed=True) for k in range(len(base))]], ids=['facets', 'wedges'])
+@pytest.mark.parametrize(
+	'pieces',
+	[
+		tip,
+		lambda base: [
+			polytope.fromVertices([(0, 0, 0), (0, 0, -1), base[k], base[(k + 1) % len(base)]], fixed=True) for k in range(len(base))
+		],
+	],
+	ids=['facets', 'wedges'],
+)
 def testATipOfPiecesHasASurfaceOnEach(pieces, sides, rule):
 	"""Tetrahedra with an inscribed ball of radius r, volume Ω: V = Ω r/4, W = Ω r²/20, Ω = ω h³, r = ϱ h."""
 	base = regular[sides]
-	depth, contacts = restingDepth(lambda: pieces(base), lambda: polytope.cuboid((0, 0, .5), (.5, .5, .5)), rule, friction=0, steps=12000)
+	depth, contacts = restingDepth(
+		lambda: pieces(base), lambda: polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)), rule, friction=0, steps=12000
+	)
 	assert len(contacts) == sides
 	corners = [(0, 0, 0), (0, 0, -1), *base[:2]]
 	one = ConvexHull(corners)
 	radius = 3 * one.volume / one.area
 	force = 2600 * 9.81 / stiffness / sides
-	expected = (force / (2 * one.volume * radius))**(1 / 3) if rule == 'perArea' else force / (1.2 * radius)**2
+	expected = (force / (2 * one.volume * radius)) ** (1 / 3) if rule == 'perArea' else force / (1.2 * radius) ** 2
 	assert depth == pytest.approx(expected, rel=1e-3)
 
 
 def slopes(left, right, number):
 	"""A ridge of 1 m, solid, or of two wedges, each in *number* / 2 pieces along the ridge."""
 	if number == 1:
-		return [polytope.fromVertices([(s, y, -fall * abs(s)) for y in (-2, 2) for s, fall in ((-1, left), (0, 0), (1, right))] + [(s, y, -3) for y in (-2, 2) for s in (-1, 1)], fixed=True)]
+		return [
+			polytope.fromVertices(
+				[(s, y, -fall * abs(s)) for y in (-2, 2) for s, fall in ((-1, left), (0, 0), (1, right))]
+				+ [(s, y, -3) for y in (-2, 2) for s in (-1, 1)],
+				fixed=True,
+			)
+		]
 	pieces, length = [], 8 / number
 	for k in range(number // 2):
 		ends = (-2 + k * length, -2 + (k + 1) * length)
@@ -310,7 +355,7 @@ def slopes(left, right, number):
 
 
 @pytest.mark.parametrize('rule', rules.args[1])
-@pytest.mark.parametrize('thickness', [.01, .1, 1])
+@pytest.mark.parametrize('thickness', [0.01, 0.1, 1])
 def testThinTilesCarryAsOnePlate(thickness, rule):
 	"""Overlaps of up to half their thickness."""
 	soft = 5e6
@@ -318,22 +363,22 @@ def testThinTilesCarryAsOnePlate(thickness, rule):
 	for halves in ([(0, 0, 2)], [(x, y, 1) for x in (-1, 1) for y in (-1, 1)]):
 		O.reset()
 		if rule == 'yadesOwn':
-			O.materials.append(FrictMat(density=2600, young=1e7, poisson=.3, frictionAngle=.5))
+			O.materials.append(FrictMat(density=2600, young=1e7, poisson=0.3, frictionAngle=0.5))
 			physics = Ip2_FrictMat_FrictMat_FrictPhys(kn=MatchMaker(algo='val', val=soft), ks=MatchMaker(algo='val', val=soft))
 		else:
-			O.materials.append(RockJointMat(density=2600, normalStiffness=soft, shearStiffness=soft, frictionAngle=.5))
+			O.materials.append(RockJointMat(density=2600, normalStiffness=soft, shearStiffness=soft, frictionAngle=0.5))
 			physics = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=rule == 'perArea')
 		O.bodies.append([polytope.cuboid((x, y, -thickness / 2), (half, half, thickness / 2), fixed=True) for x, y, half in halves])
-		block = O.bodies[O.bodies.append(polytope.cuboid((.2, .1, .5), (.5, .5, .5)))]
+		block = O.bodies[O.bodies.append(polytope.cuboid((0.2, 0.1, 0.5), (0.5, 0.5, 0.5)))]
 		O.engines = polytope.engines(physics=physics)
 		while O.time < 2.5:
 			O.run(500, wait=True)
 		assert block.state.angVel.norm() < 1e-5
-		depths.append(.5 - block.state.pos[2])
+		depths.append(0.5 - block.state.pos[2])
 	assert depths == pytest.approx([sunk(2600 * 9.81 / soft, perArea=rule == 'perArea')] * 2, rel=1e-4)
 
 
-@pytest.mark.parametrize('centre', [-.1, .1])
+@pytest.mark.parametrize('centre', [-0.1, 0.1])
 def testWhatOverhangsABoxOfFacetsIsCarriedByItsTopAlone(centre):
 	"""Its side is seen from outside, though the body's centre may be within. What the edges take off the top's pressure is of the order of the depth over the width."""
 
@@ -341,27 +386,28 @@ def testWhatOverhangsABoxOfFacetsIsCarriedByItsTopAlone(centre):
 		quad = lambda a, b, c, d: [utils.facet((a, b, c)), utils.facet((a, c, d))]
 		return quad((-2, -1, 0), (0, -1, 0), (0, 1, 0), (-2, 1, 0)) + quad((0, -1, -1), (0, 1, -1), (0, 1, 0), (0, -1, 0))
 
-	depth, _ = restingDepth(box, lambda: polytope.cuboid((centre, 0, .5), (.5, .5, .5)), 'perArea', steps=8000)
-	assert depth == pytest.approx(2600 * 9.81 / stiffness / (.5 - centre), rel=3e-3)
-
+	depth, _ = restingDepth(box, lambda: polytope.cuboid((centre, 0, 0.5), (0.5, 0.5, 0.5)), 'perArea', steps=8000)
+	assert depth == pytest.approx(2600 * 9.81 / stiffness / (0.5 - centre), rel=3e-3)
 
 
 # clumps, and supports that are not flush
 
 
-def tiles(number, width, gap=0.):
+def tiles(number, width, gap=0.0):
 	edge = width / number
 	return [
-		polytope.cuboid((-width / 2 + edge * (i + .5), -width / 2 + edge * (j + .5), -.5), ((edge - gap) / 2, (edge - gap) / 2, .5), fixed=True)
+		polytope.cuboid(
+			(-width / 2 + edge * (i + 0.5), -width / 2 + edge * (j + 0.5), -0.5), ((edge - gap) / 2, (edge - gap) / 2, 0.5), fixed=True
+		)
 		for i in range(number)
 		for j in range(number)
 	]
 
 
 grounds = {
-	'plate': lambda: tiles(1, .8),
-	'tiles': lambda: tiles(6, .8),
-	'terrain': lambda: polytope.terrain([[0.] * 9 for _ in range(9)], spacing=.1, origin=(-.43, -.41)),
+	'plate': lambda: tiles(1, 0.8),
+	'tiles': lambda: tiles(6, 0.8),
+	'terrain': lambda: polytope.terrain([[0.0] * 9 for _ in range(9)], spacing=0.1, origin=(-0.43, -0.41)),
 	'facets': lambda: [utils.facet(((-1, -1, 0), (1, -1, 0), (1, 1, 0))), utils.facet(((-1, -1, 0), (1, 1, 0), (-1, 1, 0)))],
 }
 
@@ -373,36 +419,38 @@ def testAClumpOfFlushPartsSettlesOnPieces(ground, rule):
 	O.reset()
 	physics = joints(rule)
 	O.bodies.append(grounds[ground]())
-	clump, _ = polytope.clump([polytope.cuboid((x, y, .2001), (.1, .1, .2)) for x in (-.1, .1) for y in (-.1, .1)])
+	clump, _ = polytope.clump([polytope.cuboid((x, y, 0.2001), (0.1, 0.1, 0.2)) for x in (-0.1, 0.1) for y in (-0.1, 0.1)])
 	O.engines = polytope.engines(physics=physics)
 	fastest = 0
-	while O.time < .4:
+	while O.time < 0.4:
 		O.run(5, wait=True)
 		fastest = max(fastest, O.bodies[clump].state.vel.norm())
-	assert .03 < fastest < .0443 # of a fall of 0.1 mm
+	assert 0.03 < fastest < 0.0443  # of a fall of 0.1 mm
 	assert O.bodies[clump].state.vel.norm() < 1e-3
 	contacts = [contact for contact in O.interactions if contact.isReal]
 	force = O.bodies[clump].state.mass * 9.81 / stiffness
 	assert sum(contact.phys.normalForce[2] for contact in contacts) == pytest.approx(force * stiffness, rel=1e-6)
-	expected = force / .4**2 if rule == 'perArea' else force / (1 if ground == 'plate' else 4) # on pieces each part has a spring of its own
-	assert .2 - O.bodies[clump].state.pos[2] == pytest.approx(expected, rel=2e-3)
+	expected = (
+		force / 0.4**2 if rule == 'perArea' else force / (1 if ground == 'plate' else 4)
+	)  # on pieces each part has a spring of its own
+	assert 0.2 - O.bodies[clump].state.pos[2] == pytest.approx(expected, rel=2e-3)
 
 
 @pytest.mark.parametrize('rule', ['perArea', 'perContact'])
-@pytest.mark.parametrize('beyond', [-.25, .02])
+@pytest.mark.parametrize('beyond', [-0.25, 0.02])
 def testABlockThatOverhangsAFloorOfPieces(beyond, rule):
 	"""Its centre before the floor's end or beyond it: it comes to rest, or falls, as on one piece."""
 	found = []
-	for edges in ([-3, 0], [-3, -.25, 0], [-3, -.3, -.1, 0]):
+	for edges in ([-3, 0], [-3, -0.25, 0], [-3, -0.3, -0.1, 0]):
 		O.reset()
 		physics = joints(rule, friction=1)
-		O.bodies.append([polytope.cuboid(((a + b) / 2, 0, -.5), ((b - a) / 2, 2, .5), fixed=True) for a, b in zip(edges, edges[1:])])
-		block = O.bodies[O.bodies.append(polytope.cuboid((beyond, 0, .5), (.5, .5, .5)))]
-		O.engines = polytope.engines(damping=.4, physics=physics)
+		O.bodies.append([polytope.cuboid(((a + b) / 2, 0, -0.5), ((b - a) / 2, 2, 0.5), fixed=True) for a, b in zip(edges, edges[1:])])
+		block = O.bodies[O.bodies.append(polytope.cuboid((beyond, 0, 0.5), (0.5, 0.5, 0.5)))]
+		O.engines = polytope.engines(damping=0.4, physics=physics)
 		while O.time < 2:
 			O.run(500, wait=True)
-		found.append((.5 - block.state.pos[2], (block.state.ori * Vector3(1, 0, 0))[2]))
-		assert (found[-1][0] > .1) == (beyond > 0)
+		found.append((0.5 - block.state.pos[2], (block.state.ori * Vector3(1, 0, 0))[2]))
+		assert (found[-1][0] > 0.1) == (beyond > 0)
 	if beyond < 0:
 		for other in found[1:]:
 			assert other == pytest.approx(found[0], rel=1e-4)
@@ -413,7 +461,7 @@ def testCohesionOfABlockOnPiecesIsThatOfItsArea(rule):
 	O.reset()
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0, cohesion=1e5))
 	O.bodies.append(plates(4))
-	O.bodies.append(polytope.cuboid((.1, .2, .4999), (.5, .5, .5)))
+	O.bodies.append(polytope.cuboid((0.1, 0.2, 0.4999), (0.5, 0.5, 0.5)))
 	O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=rule == 'perArea'), gravity=(0, 0, 0))
 	for _ in range(3):
 		O.step()
@@ -428,13 +476,13 @@ def testASlabOnSupportsThatAreNotFlushIsNotThrown(gap):
 	O.reset()
 	physics = joints('perContact')
 	O.bodies.append(tiles(10, 2, gap))
-	slab = O.bodies[O.bodies.append(polytope.cuboid((0, 0, .06), (1, 1, .05)))]
+	slab = O.bodies[O.bodies.append(polytope.cuboid((0, 0, 0.06), (1, 1, 0.05)))]
 	O.engines = polytope.engines(physics=physics)
 	fastest = 0
-	while O.time < .1:
+	while O.time < 0.1:
 		O.step()
 		fastest = max(fastest, slab.state.vel[2])
-	assert fastest < .5 * math.sqrt(2 * 9.81 * .01)
+	assert fastest < 0.5 * math.sqrt(2 * 9.81 * 0.01)
 
 
 def spike(tip, way):
@@ -442,11 +490,11 @@ def spike(tip, way):
 	back = -Vector3(*way) / Vector3(*way).norm()
 	u = back.cross(Vector3(0, 0, 1))
 	u /= u.norm()
-	base = [Vector3(*tip) + .2 * back + .05 * (math.cos(turn) * u + math.sin(turn) * back.cross(u)) for turn in (.3, 2.4, 4.5)]
+	base = [Vector3(*tip) + 0.2 * back + 0.05 * (math.cos(turn) * u + math.sin(turn) * back.cross(u)) for turn in (0.3, 2.4, 4.5)]
 	return polytope.fromVertices([tip, *map(tuple, base)])
 
 
-@pytest.mark.parametrize('way', [(1, -1, -1), (.4, -.7, -.6), (.3, -.3, -.9)])
+@pytest.mark.parametrize('way', [(1, -1, -1), (0.4, -0.7, -0.6), (0.3, -0.3, -0.9)])
 def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 	"""A tip in the corner of a floor and two walls, one of which ends at the other: where it is behind both, the one covers the other's face. The energy
 	is that of the depth: 0.5 of its square for a face, 4 for this tip, some ten where it cuts an edge; 10⁸ and more where the wall had no face."""
@@ -455,9 +503,9 @@ def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 			for y in (-1e-3, -4e-3):
 				O.reset()
 				physics = joints('perContact', 0)
-				floor = polytope.cuboid((0, 0, -.05), (.9, .9, .05), fixed=True)
-				wall = polytope.cuboid((.05, 0, .8), (.05, .9, .8), fixed=True)
-				ending = polytope.cuboid((-.45, -.05, .8), (.45, .05, .8), fixed=True)
+				floor = polytope.cuboid((0, 0, -0.05), (0.9, 0.9, 0.05), fixed=True)
+				wall = polytope.cuboid((0.05, 0, 0.8), (0.05, 0.9, 0.8), fixed=True)
+				ending = polytope.cuboid((-0.45, -0.05, 0.8), (0.45, 0.05, 0.8), fixed=True)
 				O.bodies.append([floor, wall, ending, spike((x, y, z), way)])
 				O.engines = polytope.engines(gravity=(0, 0, 0), damping=0, physics=physics)
 				O.dt = 1e-9
@@ -471,7 +519,9 @@ def energyLeft(model, pieces, tilt, speed, x):
 	"""Of a cube of 1 m that falls on a corner, without friction, damping and gravity: kinetic energy afterwards over that before."""
 	O.reset()
 	perArea = model == 'foundation'
-	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9 if perArea else 1e8, shearStiffness=1e7, frictionAngle=0, stiffnessPerArea=perArea))
+	O.materials.append(
+		RockJointMat(density=2600, normalStiffness=1e9 if perArea else 1e8, shearStiffness=1e7, frictionAngle=0, stiffnessPerArea=perArea)
+	)
 	O.bodies.append([polytope.cuboid((x, 0, -2), (4 / pieces, 4, 2), fixed=True) for x in ([0] if pieces == 1 else [-2, 2])])
 	cube = polytope.cuboid((x, 0.03, 0), (0.5, 0.5, 0.5), orientation=Quaternion((1, 2, 0.5), tilt), velocity=(0, 0, -speed))
 	corners = [cube.state.ori * corner for corner in cube.shape.vertices]

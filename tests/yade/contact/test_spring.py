@@ -3,6 +3,7 @@
 
 The core's tests compare force and torque with the energy's derivative; here the law, the integrator and the scene are the subject.
 """
+
 from math import atan, cos, sqrt
 
 import numpy as np
@@ -34,7 +35,7 @@ def testWhatReplacesTheFormerModelIsNamed():
 
 def testOnePairKnowsItsEnergy():
 	joint()
-	one, two = polytope.cuboid((0, 0, 0), (.5, .5, .5)), polytope.cuboid((.1, .2, .999), (.5, .5, .5))
+	one, two = polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)), polytope.cuboid((0.1, 0.2, 0.999), (0.5, 0.5, 0.5))
 	paper, other = polytope.contact(one, two), polytope.contact(one, two, contactModel='spring')
 	assert other.inContact and other.depth == pytest.approx(paper.depth, rel=0.02)  # face on face: the overlap
 	assert other.energyPerStiffness == pytest.approx(other.depth**2 / 2, rel=5e-3)
@@ -48,7 +49,7 @@ def kineticEnergy(body):
 	"""Of YADE's default integrator, which carries the angular velocity in the body's axes."""
 	state = body.state
 	spin = state.ori.conjugate() * state.angVel
-	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k]**2 for k in range(3))) / 2
+	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k] ** 2 for k in range(3))) / 2
 
 
 def angularMomentum(body):
@@ -65,7 +66,7 @@ def momentum():
 
 
 def halfLengths(cubes):
-	return [(.4, .4, .4), (.3, .3, .3)] if cubes else [(.5, .35, .25), (.3, .45, .4)]
+	return [(0.4, 0.4, 0.4), (0.3, 0.3, 0.3)] if cubes else [(0.5, 0.35, 0.25), (0.3, 0.45, 0.4)]
 
 
 def meet(seed, model, cubes=False, gap=2e-3):
@@ -80,15 +81,17 @@ def meet(seed, model, cubes=False, gap=2e-3):
 		bodies.append(polytope.cuboid((0, 0, 0), half, Quaternion(tuple(axis), angle), cornerRadius=0.05))
 	O.bodies.append(bodies)
 	direction = Vector3(tuple(random.standard_normal(3))).normalized()
-	near, far = 0., 2.
+	near, far = 0.0, 2.0
 	for _ in range(40):
 		bodies[1].state.pos = (near + far) / 2 * direction
-		if polytope.contact(*bodies).inContact: near = (near + far) / 2
-		else: far = (near + far) / 2
+		if polytope.contact(*bodies).inContact:
+			near = (near + far) / 2
+		else:
+			far = (near + far) / 2
 	bodies[1].state.pos = (far + gap) * direction
-	bodies[1].state.vel = -direction * 0.5 + Vector3(tuple(random.uniform(-.1, .1, 3)))
+	bodies[1].state.vel = -direction * 0.5 + Vector3(tuple(random.uniform(-0.1, 0.1, 3)))
 	for body in bodies:
-		spin = Vector3(tuple(random.uniform(-.2, .2, 3)))
+		spin = Vector3(tuple(random.uniform(-0.2, 0.2, 3)))
 		body.state.angVel = body.state.ori * spin
 		body.state.angMom = body.state.ori * Vector3(*[body.state.inertia[k] * spin[k] for k in range(3)])
 	return bodies
@@ -152,11 +155,12 @@ def testWhatTheIntegratorDoesByItself():
 			for body, spin in zip(bodies, spins, strict=True):
 				inertia = np.array(body.state.inertia, float)
 				exact = solve_ivp(
-				        lambda _, w, inertia=inertia: np.cross(inertia * w, w) / inertia, (0, taken * O.dt),
-				        np.array(spin, float),
-				        method='DOP853',
-				        rtol=1e-13,
-				        atol=1e-14
+					lambda _, w, inertia=inertia: np.cross(inertia * w, w) / inertia,
+					(0, taken * O.dt),
+					np.array(spin, float),
+					method='DOP853',
+					rtol=1e-13,
+					atol=1e-14,
 				).y[:, -1]
 				ours = np.array(body.state.ori.conjugate() * body.state.angVel, float)
 				assert np.linalg.norm(ours - exact) < 1e-9 * np.linalg.norm(exact)
@@ -208,7 +212,7 @@ def testTowerOfTenStands():
 	joint(normalStiffness=1e8, shearStiffness=1e8)
 	loop(normalDamping=0.3, shearDamping=0.3, gravity=(0, 0, -gravity), damping=0.3, ig2=spring)
 	blockOnFloor(0)
-	O.bodies.append([polytope.cuboid((0.01 * (-1)**k, 0, 1.5 + k), (.5, .5, .5)) for k in range(9)])
+	O.bodies.append([polytope.cuboid((0.01 * (-1) ** k, 0, 1.5 + k), (0.5, 0.5, 0.5)) for k in range(9)])
 	O.dt = 1e-4
 	while O.time < 5:
 		O.run(500, wait=True)
@@ -217,7 +221,7 @@ def testTowerOfTenStands():
 	for k in range(1, 11):
 		state = O.bodies[k].state
 		sunk = overlap * sum(10 - below for below in range(k))
-		assert state.pos[2] == pytest.approx(k - .5 - sunk, abs=0.02 * sunk)
+		assert state.pos[2] == pytest.approx(k - 0.5 - sunk, abs=0.02 * sunk)
 		assert state.vel.norm() < 1e-6 and state.angVel.norm() < 1e-6
 
 
@@ -226,7 +230,9 @@ def testPileOf200WithoutDampingKeepsItsEnergyBudget():
 	"""Frictionless, undamped solids of five kinds fall into a box and fly about (examples/energy.py: for longer, higher, and by other steps)."""
 	worst = {}
 	for model in ('spring', 'boon2012'):
-		scene = FallingPolyhedra(faces=(4, 6, 8, 12, 20), columns=10, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.02).build()
+		scene = FallingPolyhedra(
+			faces=(4, 6, 8, 12, 20), columns=10, frictionAngle=0, contactDamping=0, damping=0, timeStepFraction=0.02
+		).build()
 		scene.geometryFunctor.contactModel = model
 		start = polytope.mechanicalEnergy()
 		contacts, values = 0, []

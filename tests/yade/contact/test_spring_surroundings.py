@@ -138,8 +138,8 @@ def testAcrossAPeriodicBoundary():
 		O.periodic = True
 		O.cell.setBox(4, 4, 4)
 		turn = Quaternion((1, 2, 3), 0.7)
-		one = polytope.cuboid((3.6 if shift else 1.6, 2, 2), (.5, .5, .5), turn)
-		two = polytope.cuboid((0.55 if shift else 2.55, 2.1, 2.05), (.5, .5, .5), fixed=True)
+		one = polytope.cuboid((3.6 if shift else 1.6, 2, 2), (0.5, 0.5, 0.5), turn)
+		two = polytope.cuboid((0.55 if shift else 2.55, 2.1, 2.05), (0.5, 0.5, 0.5), fixed=True)
 		O.bodies.append([one, two])
 		O.dt = 1e-6
 		O.step()
@@ -274,7 +274,9 @@ def testWarmAndColdStartsGiveTheSameMotion():
 		O.reset()
 		engines(*rockJoint(), warmStart=warm)
 		O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-		O.bodies.append([polytope.regular(faces, 0.5, (0.2 * k, 0, 0.6 + k), Quaternion((1, k, 2), k)) for k, faces in enumerate((6, 12, 20))])
+		O.bodies.append(
+			[polytope.regular(faces, 0.5, (0.2 * k, 0, 0.6 + k), Quaternion((1, k, 2), k)) for k, faces in enumerate((6, 12, 20))]
+		)
 		O.dt = 1e-4
 		O.run(5000, wait=True)
 		assert any(i.isReal for i in O.interactions)

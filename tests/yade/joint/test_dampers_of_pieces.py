@@ -107,7 +107,13 @@ def slab(n=20, perArea=True):
 	O.reset()
 	joint(density=2600, normalStiffness=1e9 if perArea else 1e9 / n**2, shearStiffness=1e9 if perArea else 1e9 / n**2, frictionAngle=0.5)
 	h = 2 / n
-	O.bodies.append([polytope.cuboid((-1 + h * (i + 0.5), -1 + h * (j + 0.5), -0.1), (h / 2, h / 2, 0.1), fixed=True) for i in range(n) for j in range(n)])
+	O.bodies.append(
+		[
+			polytope.cuboid((-1 + h * (i + 0.5), -1 + h * (j + 0.5), -0.1), (h / 2, h / 2, 0.1), fixed=True)
+			for i in range(n)
+			for j in range(n)
+		]
+	)
 	body = O.bodies[O.bodies.append(polytope.cuboid((0, 0, 0.11), (1, 1, 0.1)))]
 	O.engines = polytope.engines()
 	fastest = top = 0.0
@@ -172,7 +178,9 @@ def testNoDamperTakesMoreThanTheMotionThereIs(tilt):
 	"""However long the step and strong the damper: a cube that meets 4 × 4 plates gains no energy; one that meets them flat is stopped."""
 	joint(normalStiffness=1, shearStiffness=1, frictionAngle=0.3)
 	pavement(4)
-	cube = O.bodies[O.bodies.append(polytope.cuboid((0, 0, half - 1e-3), (half, half, half), Quaternion((1, 0, 0), tilt), velocity=(0, 0, -1)))]
+	cube = O.bodies[
+		O.bodies.append(polytope.cuboid((0, 0, half - 1e-3), (half, half, half), Quaternion((1, 0, 0), tilt), velocity=(0, 0, -1)))
+	]
 	engines(1e6)
 	O.dt = 1e-5
 	energies = []

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """History of a joint: shear force, slip and dilation while the contact area changes, and while the joint is open."""
+
 from math import cos, inf, radians, sin, sqrt, tan
 
 import pytest
@@ -11,7 +12,10 @@ overlap, stiffness, dt = 1e-3, 1e8, 1e-3
 
 
 def energies():
-	return dict(dict.fromkeys(('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative'), 0.), **dict(O.energy.items()))
+	return dict(
+		dict.fromkeys(('elastPotential', 'plastDissip', 'normDampDissip', 'shearDampDissip', 'nonconservative'), 0.0),
+		**dict(O.energy.items()),
+	)
 
 
 # ------------------------------------------------------------------------------------------------ the area changes
@@ -22,7 +26,7 @@ def wedgeFoot(depth=overlap, **material):
 	joint(**dict(dict(normalStiffness=stiffness, shearStiffness=stiffness), **material))
 	loop(perArea=True)
 	O.bodies.append(polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True))
-	O.bodies.append(polytope.fromVertices([(x, y, z - depth) for x, z in ((0, 0), (.5, .5), (-.5, .5)) for y in (-.5, .5)]))
+	O.bodies.append(polytope.fromVertices([(x, y, z - depth) for x, z in ((0, 0), (0.5, 0.5), (-0.5, 0.5)) for y in (-0.5, 0.5)]))
 	driven(O.bodies[1])
 	O.dt = dt
 	O.step()
@@ -70,8 +74,8 @@ def testAreaThatVanishesMakesNoSlip():
 	moved(body, (0, 2e-4, 0))
 	slip, elastic = i.phys.slip.norm(), i.phys.shearForce.norm() / i.phys.ks
 	assert slip > 5e-5 and slip + elastic == pytest.approx(2e-4, rel=1e-6)
-	moved(body, (0, 0, .9 * overlap), 400)
-	assert i.phys.contactArea == pytest.approx(.2 * overlap, rel=.1)
+	moved(body, (0, 0, 0.9 * overlap), 400)
+	assert i.phys.contactArea == pytest.approx(0.2 * overlap, rel=0.1)
 	assert i.phys.slip.norm() + i.phys.shearForce.norm() / i.phys.ks == pytest.approx(2e-4, rel=1e-5)
 	assert i.phys.slip.norm() < 2e-4
 
@@ -96,7 +100,7 @@ def testBlockPushedOffAnEdge():
 	begun, start = energies(), block.state.pos[0] - dt  # the law comes before the motion
 	assert i.phys.contactArea == pytest.approx(1, abs=2e-3)
 	O.run(700, True)
-	terms, area, way = energies(), i.phys.contactArea, .7
+	terms, area, way = energies(), i.phys.contactArea, 0.7
 	assert area == pytest.approx(1 - (start + way - 4.5), rel=2e-5)  # seen along a normal that leans by the depth over the length
 	# at the mean area along the way, on which the force depends linearly
 	friction = stiffness * tan(phi) * way * normal(1 - (start - 4.5) - way / 2)
@@ -140,7 +144,7 @@ def testSlipOfABlockThatTipsOntoItsEdge(model, psi):
 	bodies move along each other at their contact point."""
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(30), dilationAngle=radians(psi))
 	loop(perArea=True, ig2=dict(contactModel=model))
-	floor, block = blockOnFloor(1e-4, (1, .5, .5))
+	floor, block = blockOnFloor(1e-4, (1, 0.5, 0.5))
 	driven(block)
 	O.dt = 1e-4
 	O.step()
@@ -150,10 +154,11 @@ def testSlipOfABlockThatTipsOntoItsEdge(model, psi):
 		if step == 1000:
 			block.state.vel, block.state.angVel = (0, 0, 0), (0, 2e-3, 0)
 		if step > 1000:  # about the lower edge ahead, and slowly up with it
-			arm = block.state.ori * Vector3(1, 0, -.5)
+			arm = block.state.ori * Vector3(1, 0, -0.5)
 			block.state.vel = -Vector3(0, 2e-3, 0).cross(arm) + Vector3(0, 0, 2e-4 if step > 1500 else 0)
 		O.step()
-		if not i.isReal: break
+		if not i.isReal:
+			break
 		moved += i.geom.shearInc.norm()
 		assert i.phys.slip.norm() + i.phys.shearForce.norm() / i.phys.ks <= moved * (1 + 1e-9)
 	assert moved > 5e-5
@@ -164,11 +169,11 @@ def testSlipOfABlockThatRocksOnASlope(limit):
 	"""Its area shrinks to nothing in some steps. Slip and dilation stay within what the block has moved."""
 	slope, psi = radians(35), radians(5)
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(30), dilationAngle=psi, dilationLimit=limit)
-	loop(perArea=True, normalDamping=.3, shearDamping=.3, rockingDamping=.5, gravity=(gravity * sin(slope), 0, -gravity * cos(slope)))
-	O.bodies.append(polytope.cuboid((0, 0, -.5), (30, 2, .5), fixed=True))
-	O.bodies.append(polytope.cuboid((-20, 0, .5), (1, .5, .5)))
+	loop(perArea=True, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.5, gravity=(gravity * sin(slope), 0, -gravity * cos(slope)))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (30, 2, 0.5), fixed=True))
+	O.bodies.append(polytope.cuboid((-20, 0, 0.5), (1, 0.5, 0.5)))
 	block = O.bodies[1]
-	O.dt = .1 * sqrt(block.state.mass / 2e9)
+	O.dt = 0.1 * sqrt(block.state.mass / 2e9)
 	way = 0
 	for _ in range(1500):
 		O.step()
@@ -194,25 +199,26 @@ def testDilationIsRememberedWhileTheJointIsOpen():
 		O.dt = dt
 		O.step()
 		i = contact(floor, block)
-		for velocity, steps in (((.04, 0, 0), 1000), ((0, 0, .05), 200), ((-.01, 0, 0), 1000), ((0, 0, -.05), 200), ((0, 0, 0), 1)):
+		for velocity, steps in (((0.04, 0, 0), 1000), ((0, 0, 0.05), 200), ((-0.01, 0, 0), 1000), ((0, 0, -0.05), 200), ((0, 0, 0), 1)):
 			block.state.vel = velocity
 			O.run(steps, True)
-			if velocity[0] < 0: assert i.phys.normalForce.norm() == i.phys.shearForce.norm() == 0 and not i.phys.isSliding
+			if velocity[0] < 0:
+				assert i.phys.normalForce.norm() == i.phys.shearForce.norm() == 0 and not i.phys.isSliding
 		assert i.isReal
-		assert i.phys.slip[0] == pytest.approx(.03, rel=1e-9) and abs(i.phys.slip[1]) < 1e-12
-		assert i.phys.dilation == pytest.approx(.03 * tan(psi), rel=1e-9)
-		assert i.phys.normalForce[2] == pytest.approx(stiffness * (faceForce(overlap, perArea=perArea) + .03 * tan(psi)), rel=1e-9)
+		assert i.phys.slip[0] == pytest.approx(0.03, rel=1e-9) and abs(i.phys.slip[1]) < 1e-12
+		assert i.phys.dilation == pytest.approx(0.03 * tan(psi), rel=1e-9)
+		assert i.phys.normalForce[2] == pytest.approx(stiffness * (faceForce(overlap, perArea=perArea) + 0.03 * tan(psi)), rel=1e-9)
 		assert i.phys.shearForce.norm() < 1e-14 * i.phys.normalForce.norm()  # rounding of the normal while it is pressed together
 
 
 def testJointThatHasNotSlippedHasNothingToRemember():
-	joint(normalStiffness=stiffness, dilationAngle=.1)
+	joint(normalStiffness=stiffness, dilationAngle=0.1)
 	loop()
 	floor, block = blockOnFloor(overlap)
 	driven(block)
 	O.dt = dt
 	O.step()
-	block.state.vel = (0, 0, .1)
+	block.state.vel = (0, 0, 0.1)
 	O.run(15, True)
 	assert O.interactions.countReal() == 0
 
@@ -223,14 +229,14 @@ def testBlockThatSlidesAndDilatesDownASlope(perArea):
 	goes on at the limit's height with g (sin α − cos α tan φ). Friction, lifting and dampers take what gravity gives."""
 	slope, phi, psi, limit = radians(35), radians(30), radians(5), 5e-3
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=phi, dilationAngle=psi, dilationLimit=limit)
-	loop(perArea=perArea, normalDamping=.1, shearDamping=.3, gravity=(gravity * sin(slope), 0, -gravity * cos(slope)))
-	floor, block = polytope.cuboid((0, 0, -.5), (30, 2, .5), fixed=True), polytope.cuboid((-20, 0, .5), (.5, .5, .5))
+	loop(perArea=perArea, normalDamping=0.1, shearDamping=0.3, gravity=(gravity * sin(slope), 0, -gravity * cos(slope)))
+	floor, block = polytope.cuboid((0, 0, -0.5), (30, 2, 0.5), fixed=True), polytope.cuboid((-20, 0, 0.5), (0.5, 0.5, 0.5))
 	O.bodies.append([floor, block])
 	block.state.blockedDOFs = 'XYZ'
 	mass = block.state.mass
-	O.dt = .1 * sqrt(mass / 1e9)
+	O.dt = 0.1 * sqrt(mass / 1e9)
 	sunk = mass * gravity * cos(slope) / 1e9
-	block.state.pos = (-20, 0, .5 - sunk)
+	block.state.pos = (-20, 0, 0.5 - sunk)
 	O.trackEnergy = True
 	sliding = gravity * (sin(slope) - cos(slope) * tan(phi))
 
@@ -242,16 +248,16 @@ def testBlockThatSlidesAndDilatesDownASlope(perArea):
 			apart += contact(floor, block).phys.normalForce.norm() == 0
 		return (block.state.vel[0] - speed) / (O.time - begun), apart
 
-	acceleration(.1 * limit / tan(psi))  # the shear spring is strained first
-	climbing, apart = acceleration(.7 * limit / tan(psi))
+	acceleration(0.1 * limit / tan(psi))  # the shear spring is strained first
+	climbing, apart = acceleration(0.7 * limit / tan(psi))
 	assert climbing == pytest.approx(sliding / (1 + tan(phi) * tan(psi)), rel=1e-3) and apart == 0
-	way, height = block.state.pos[0] + 20, block.state.pos[2] - .5
+	way, height = block.state.pos[0] + 20, block.state.pos[2] - 0.5
 	assert height == pytest.approx(way * tan(psi), abs=3 * sunk)
 	_, apart = acceleration(limit / tan(psi))
 	assert apart > 5
 	going, apart = acceleration(limit / tan(psi))
 	assert going == pytest.approx(sliding, rel=1e-3) and apart == 0
-	way, height = block.state.pos[0] + 20, block.state.pos[2] - .5
+	way, height = block.state.pos[0] + 20, block.state.pos[2] - 0.5
 	assert height == pytest.approx(limit - sunk, abs=1e-3 * sunk)
 	terms = energies()
 	given = mass * gravity * (sin(slope) * way - cos(slope) * (height + sunk))

@@ -12,7 +12,7 @@ kn, ks = 1e9, 4e8
 overlap = 5e-6
 
 
-def hung(offset=0., half=(0.05, 0.05, 0.05), damping=0.3, **strength):
+def hung(offset=0.0, half=(0.05, 0.05, 0.05), damping=0.3, **strength):
 	"""A brick below a fixed one, moved aside along x."""
 	joint(normalStiffness=kn, shearStiffness=ks, **dict(dict(tensileStrength=1e6, cohesion=1e6), **strength))
 	O.bodies.append(polytope.cuboid((0, 0, 0), half, fixed=True))
@@ -38,7 +38,7 @@ def testABrickHungBesideItsMiddleHolds(offset):
 	assert contact.phys.intact and contact.phys.contactArea == pytest.approx(area, rel=1e-9)
 	assert contact.phys.normalForce[2] == pytest.approx(weight, rel=1e-3)
 	assert contact.phys.bond.edgeStress == pytest.approx(edgeStress(offset, (0.05, 0.05, 0.05), weight), rel=2e-3)
-	tilt = weight * offset / 2 / (kn * 0.1 * (0.1 - offset)**3 / 12)
+	tilt = weight * offset / 2 / (kn * 0.1 * (0.1 - offset) ** 3 / 12)
 	assert state.ori.toAxisAngle()[1] == pytest.approx(tilt, rel=1e-2, abs=1e-12)
 	assert -0.1 - state.pos[2] == pytest.approx(weight / (kn * area) + tilt * offset / 2, rel=1e-2)
 
@@ -153,7 +153,7 @@ def testAnEdgeThatPartsLeavesCohesionOnWhatIsPressed():
 
 def testMotionOfAHungBlockKeepsItsEnergy():
 	"""Without dampers, also in the step in which it fails: all that it had stored is the energy of fracture."""
-	newton, state = hung(2e-2, damping=0., tensileStrength=3e4)
+	newton, state = hung(2e-2, damping=0.0, tensileStrength=3e4)
 	O.trackEnergy = True
 	newton.gravity = (0, 0, -gravity)
 	O.engines = O.engines[:-1]
@@ -205,13 +205,13 @@ def testScriptsMayTakeItsStrength():
 def testItsTimeStepFollowsItsBending():
 	"""Of a plate in tension, whose rotation about y is faster than its motion along the pull."""
 	half = (0.1, 0.02, 0.005)
-	newton, state = hung(0, half=half, damping=0.)
+	newton, state = hung(0, half=half, damping=0.0)
 	newton.gravity = (0, 0, -gravity)
 	O.engines[-1].timestepSafetyCoefficient = 1
 	O.run(1000, wait=True)
 	assert O.interactions[0, 1].geom.penetrationDepth < 0
 	area, lever = 4 * half[0] * half[1], half[2]
-	bending = kn * half[1] * half[0]**3 * 4 / 3
+	bending = kn * half[1] * half[0] ** 3 * 4 / 3
 	stiffness = np.array([[ks * area, ks * area * lever], [ks * area * lever, ks * area * lever**2 + bending]])
 	inertia = np.array([state.mass, state.inertia[1]], float)
 	omega = math.sqrt(max(np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(inertia, inertia)))))
@@ -229,7 +229,7 @@ def cantilever(number, **strength):
 
 def testACantileverOfBlocksBendsAsABeam():
 	"""The deflection of docs/bonds.md, by ordinary joints."""
-	number, load = 5, 10.
+	number, load = 5, 10.0
 	last = cantilever(number)
 	start = float(last.state.pos[2])
 	O.forces.setPermF(number, (0, 0, -load))

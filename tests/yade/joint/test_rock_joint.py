@@ -4,6 +4,7 @@
 A unit cube (contact area 1 m²) on a floor, pressed in by 1 mm: normal force 1e5 N less a thousandth (flatFace.py), one step of 1 ms. Numbers are compared
 with the formulas of the classes' documentation; rounding is all that may differ, unless a line says otherwise.
 """
+
 from math import inf, nan, pi, sqrt
 
 import pytest
@@ -44,22 +45,50 @@ def pressed(material={}, velocity=(0, 0, 0), **engines):
 # ------------------------------------------------------------------------------------------------ material
 
 bad = [
-        ('normalStiffness', 0), ('normalStiffness', -1), ('normalStiffness', nan), ('normalStiffness', inf), ('shearStiffness', 0), ('shearStiffness', -1e9),
-        ('shearStiffness', nan), ('frictionAngle', -0.1), ('frictionAngle', pi / 2), ('frictionAngle', 30), ('frictionAngle', nan), ('cohesion', -1),
-        ('cohesion', nan), ('cohesion', inf), ('tensileStrength', -1), ('tensileStrength', nan), ('residualFrictionAngle', -0.5),
-        ('residualFrictionAngle', 30), ('residualFrictionAngle', nan), ('dilationAngle', -0.1), ('dilationAngle', 10), ('dilationAngle', nan),
-        ('dilationLimit', -1e-3), ('dilationLimit', nan)
+	('normalStiffness', 0),
+	('normalStiffness', -1),
+	('normalStiffness', nan),
+	('normalStiffness', inf),
+	('shearStiffness', 0),
+	('shearStiffness', -1e9),
+	('shearStiffness', nan),
+	('frictionAngle', -0.1),
+	('frictionAngle', pi / 2),
+	('frictionAngle', 30),
+	('frictionAngle', nan),
+	('cohesion', -1),
+	('cohesion', nan),
+	('cohesion', inf),
+	('tensileStrength', -1),
+	('tensileStrength', nan),
+	('residualFrictionAngle', -0.5),
+	('residualFrictionAngle', 30),
+	('residualFrictionAngle', nan),
+	('dilationAngle', -0.1),
+	('dilationAngle', 10),
+	('dilationAngle', nan),
+	('dilationLimit', -1e-3),
+	('dilationLimit', nan),
 ]
 
 
 @pytest.mark.parametrize('name,value', bad)
 def testBadValueIsRefusedAndLeavesTheMaterial(name, value):
 	good = dict(
-	        normalStiffness=2e9, shearStiffness=1e9, frictionAngle=0.6, cohesion=1e5, tensileStrength=1e4, residualFrictionAngle=0.4,
-	        dilationAngle=0.1, dilationLimit=1e-3
+		normalStiffness=2e9,
+		shearStiffness=1e9,
+		frictionAngle=0.6,
+		cohesion=1e5,
+		tensileStrength=1e4,
+		residualFrictionAngle=0.4,
+		dilationAngle=0.1,
+		dilationLimit=1e-3,
 	)
 	material = RockJointMat(**good)
-	for change in (lambda: setattr(material, name, value), lambda: material.updateAttrs({name: value, 'cohesion': 7} if name != 'cohesion' else {name: value})):
+	for change in (
+		lambda: setattr(material, name, value),
+		lambda: material.updateAttrs({name: value, 'cohesion': 7} if name != 'cohesion' else {name: value}),
+	):
 		with pytest.raises(ValueError, match=f'^{name}: must be'):
 			change()
 		assert {key: getattr(material, key) for key in good} == good
@@ -79,7 +108,7 @@ def testBadDampingIsRefused(name, value):
 def testMaterialIsSavedAndLoaded(tmp_path):
 	for archive in ('m.xml', 'm.yade'):
 		O.reset()
-		joint(cohesion=3., residualFrictionAngle=0.2, frictionAngle=0.7)
+		joint(cohesion=3.0, residualFrictionAngle=0.2, frictionAngle=0.7)
 		O.save(str(tmp_path / archive))
 		O.reset()
 		O.load(str(tmp_path / archive))
@@ -94,7 +123,10 @@ def twoMaterials(first, second, **ip2):
 	one, two = joint(**first), joint(**second)
 	loop(ip2=ip2)
 	O.bodies.append(
-	        [polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True, material=one), polytope.cuboid((0, 0, 0.499), (.5, .5, .5), fixed=True, material=two)]
+		[
+			polytope.cuboid((0, 0, -1), (5, 5, 1), fixed=True, material=one),
+			polytope.cuboid((0, 0, 0.499), (0.5, 0.5, 0.5), fixed=True, material=two),
+		]
 	)
 	O.bodies[1].state.blockedDOFs = 'xyzXYZ'
 	O.dt = dt
@@ -110,8 +142,16 @@ def testEqualMaterialsGiveTheJointItsOwnValues():
 
 def testTwoMaterialsCombine():
 	phys = twoMaterials(
-	        dict(normalStiffness=3e8, shearStiffness=3e7, frictionAngle=0.3, cohesion=5, tensileStrength=3, dilationAngle=.1, residualFrictionAngle=0.25),
-	        dict(normalStiffness=1e8, shearStiffness=1e7, frictionAngle=0.4, cohesion=4, tensileStrength=6, dilationAngle=.2, dilationLimit=1)
+		dict(
+			normalStiffness=3e8,
+			shearStiffness=3e7,
+			frictionAngle=0.3,
+			cohesion=5,
+			tensileStrength=3,
+			dilationAngle=0.1,
+			residualFrictionAngle=0.25,
+		),
+		dict(normalStiffness=1e8, shearStiffness=1e7, frictionAngle=0.4, cohesion=4, tensileStrength=6, dilationAngle=0.2, dilationLimit=1),
 	)
 	assert (phys.kn, phys.ks) == (1.5e8, 1.5e7)
 	assert (phys.tangensOfFrictionAngle, phys.tangensOfResidualFrictionAngle) == (tan(0.3), tan(0.25))
@@ -149,7 +189,7 @@ def testStiffnessPerAreaFollowsTheArea():
 		O.step()
 		area = 5 - (4.2 + 10 * dt * step)
 		phys = contact(floor, block).phys
-		assert phys.contactArea == pytest.approx(area, rel=(overlap / area)**2)  # seen along a normal that leans by about this angle
+		assert phys.contactArea == pytest.approx(area, rel=(overlap / area) ** 2)  # seen along a normal that leans by about this angle
 		assert phys.kn == stiffness * phys.contactArea and phys.ks == phys.kn / 2
 		assert phys.normalForce.norm() == pytest.approx(phys.kn * contact(floor, block).geom.penetrationDepth, rel=1e-14)
 
@@ -267,7 +307,7 @@ def testCohesionAndResidualFriction():
 
 
 def testCohesionIsTimesTheAreaPerContactToo():
-	floor, block, i = pressed(dict(frictionAngle=0., cohesion=4e4), velocity=(0.01, 0, 0))
+	floor, block, i = pressed(dict(frictionAngle=0.0, cohesion=4e4), velocity=(0.01, 0, 0))
 	O.run(39, True)
 	assert i.phys.intact and i.phys.shearForce.norm() == pytest.approx(3.9e4, rel=1e-9)
 	O.run(2, True)
@@ -322,7 +362,7 @@ def testOpenJointKeepsTheAreaOfItsLastTouch():
 	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e5), perArea=True)
 	touching = float(i.phys.contactArea)
 	assert touching == pytest.approx(1, rel=1e-12)
-	for gap in (0, -8 * 2**(1 - polytope.buildInfo()['bits']), 1e-5):
+	for gap in (0, -8 * 2 ** (1 - polytope.buildInfo()['bits']), 1e-5):
 		block.state.pos = (0, 0, 0.5 + real(gap))
 		O.step()
 		assert i.geom.status == 'separated' and i.geom.contactArea > touching + 1e-7
@@ -393,7 +433,8 @@ def testDilationWidensTheJointBySlip():
 		opening = min(slip * tan(psi), limit)  # slip up to the last step
 		assert i.phys.dilation == pytest.approx(opening, rel=1e-12)
 		assert i.phys.normalForce[2] == pytest.approx(normal + stiffness * opening, rel=1e-12)
-		if i.phys.isSliding: assert i.phys.shearForce.norm() == pytest.approx(i.phys.normalForce.norm() * tan(0.5), rel=1e-12)
+		if i.phys.isSliding:
+			assert i.phys.shearForce.norm() == pytest.approx(i.phys.normalForce.norm() * tan(0.5), rel=1e-12)
 		slip = i.phys.slip.norm()
 	assert i.phys.dilation == limit and slip > 1e-3
 	block.state.vel = (-0.01, 0, 0)
@@ -439,7 +480,7 @@ def testCoulombHoldsForElasticAndViscousShearTogether():
 	seen = set()
 	for speed in (0.001, 0.03, 0.08):
 		O.reset()
-		floor, block, i = pressed(dict(frictionAngle=0.5), shearDamping=1.)
+		floor, block, i = pressed(dict(frictionAngle=0.5), shearDamping=1.0)
 		block.state.blockedDOFs = 'yzXYZ'
 		block.state.vel = (speed, 0, 0)
 		O.step()
@@ -460,7 +501,9 @@ def testRockingDamperIsSpreadOverTheArea():
 	expected = -2 * 0.5 * sqrt(block.state.mass * stiffness) / 12 * 1e-3
 	assert i.phys.rockingMoment[0] == pytest.approx(expected, rel=1e-3)  # the normal has turned a little
 	arm = i.geom.contactPoint - block.state.pos
-	assert (O.forces.t(block.id) - i.phys.rockingMoment - arm.cross(i.phys.normalForce + i.phys.shearForce)).norm() < 1e-2  # the block has moved since
+	assert (
+		O.forces.t(block.id) - i.phys.rockingMoment - arm.cross(i.phys.normalForce + i.phys.shearForce)
+	).norm() < 1e-2  # the block has moved since
 	block.state.angVel = (10, 0, 0)
 	O.step()
 	assert i.phys.rockingMoment.norm() <= i.phys.normalForce.norm() * sqrt(i.geom.contactArea) / 2 * (1 + 1e-12)
@@ -471,7 +514,7 @@ def testPolygonsRockOnALength():
 	joint(normalStiffness=stiffness, shearStiffness=stiffness)
 	loop(perArea=True, rockingDamping=0.5)
 	O.bodies.append(polytope.polygon([(-2, -1), (2, -1), (2, 0), (-2, 0)], thickness=0.3, fixed=True))
-	O.bodies.append(polytope.polygon([(-.5, -overlap), (.5, -overlap), (.5, .5), (-.5, .5)], thickness=0.3))
+	O.bodies.append(polytope.polygon([(-0.5, -overlap), (0.5, -overlap), (0.5, 0.5), (-0.5, 0.5)], thickness=0.3))
 	block = O.bodies[1]
 	O.dt = 1e-6
 	O.step()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A joint as a bed of shear springs and friction over its area: moments about the normal, load cycles, blocks held by shear alone."""
+
 from math import asinh, atan, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
@@ -19,7 +20,9 @@ stiffness = 1e9
 
 
 def prism(sides, radius, height, center, **body):
-	corners = [(center[0] + radius * cos(2 * pi * (k + .5) / sides), center[1] + radius * sin(2 * pi * (k + .5) / sides)) for k in range(sides)]
+	corners = [
+		(center[0] + radius * cos(2 * pi * (k + 0.5) / sides), center[1] + radius * sin(2 * pi * (k + 0.5) / sides)) for k in range(sides)
+	]
 	return polytope.fromVertices([(x, y, center[2] + z) for x, y in corners for z in (-height / 2, height / 2)], **body)
 
 
@@ -29,27 +32,27 @@ def meanRadius(sides, radius):
 	return (h * (t * hypot(t, h) + h * h * asinh(t / h)) / 3) / (h * t)
 
 
-def atRest(sides, mu, perArea=True, tiles=1, radius=.5, height=.4, **newton):
+def atRest(sides, mu, perArea=True, tiles=1, radius=0.5, height=0.4, **newton):
 	"""A prism at rest on a floor of so many tiles in each direction, pressed in by its weight."""
 	k = stiffness if perArea else stiffness / 10
 	joint(normalStiffness=k, shearStiffness=k, frictionAngle=atan(mu))
 	loop(perArea=perArea, gravity=(0, 0, -gravity), **newton)
 	for i in range(tiles):
 		for j in range(tiles):
-			at = [6 / tiles * (n + .5) - 3 for n in (i, j)]
-			O.bodies.append(polytope.cuboid((*at, -.5), (3 / tiles, 3 / tiles, .5), fixed=True))
+			at = [6 / tiles * (n + 0.5) - 3 for n in (i, j)]
+			O.bodies.append(polytope.cuboid((*at, -0.5), (3 / tiles, 3 / tiles, 0.5), fixed=True))
 	body = prism(sides, radius, height, (0, 0, height / 2))
 	O.bodies.append(body)
 	area = sides / 2 * radius**2 * sin(2 * pi / sides)
 	sunk = body.state.mass * gravity / (k * area if perArea else k)
 	body.state.pos -= Vector3(0, 0, sunk)
-	O.dt = .1 * sqrt(sunk / gravity)
+	O.dt = 0.1 * sqrt(sunk / gravity)
 	return body
 
 
 def inertiaAboutZ(body):
 	axes = body.state.ori.toRotationMatrix()
-	return sum(body.state.inertia[k] * axes.row(2)[k]**2 for k in range(3))
+	return sum(body.state.inertia[k] * axes.row(2)[k] ** 2 for k in range(3))
 
 
 # ------------------------------------------------------------------------------------------------ turning on the spot
@@ -57,42 +60,42 @@ def inertiaAboutZ(body):
 
 @pytest.mark.parametrize('sides, perArea, tiles', [(4, True, 1), (6, True, 1), (24, True, 1), (4, False, 1), (24, False, 1), (4, True, 2)])
 def testASpinningPrismIsBrakedByFrictionTimesItsMeanRadius(sides, perArea, tiles):
-	mu = .5
+	mu = 0.5
 	body = atRest(sides, mu, perArea, tiles)
-	rate = mu * body.state.mass * gravity * meanRadius(sides, .5) / inertiaAboutZ(body)
+	rate = mu * body.state.mass * gravity * meanRadius(sides, 0.5) / inertiaAboutZ(body)
 	body.state.angVel = (0, 0, 1)
-	while O.time < .8 / rate:
+	while O.time < 0.8 / rate:
 		O.step()
 	assert body.state.angVel[2] == pytest.approx(1 - rate * O.time, rel=3e-3)
 	assert body.state.vel.norm() < 1e-3
 	while O.time < 3 / rate:
 		O.step()
-	assert abs(body.state.angVel[2]) < .05  # it swings on the springs of the bed
+	assert abs(body.state.angVel[2]) < 0.05  # it swings on the springs of the bed
 	assert sum(i.phys.isSliding for i in O.interactions if i.isReal) == 0
 
 
 def testADiscThatSlidesAndSpinsStopsBothAtOnce():
 	"""Farkas, Bartels, Unger & Wolf (2003), Phys. Rev. Lett. 90:248302: a disc's velocity over its rim's tends to 0.653, however it starts."""
 	last = []
-	for start in (.4, 1.5):
+	for start in (0.4, 1.5):
 		O.reset()
-		body = atRest(24, .4, height=.02, radius=.5)
-		speed = .5
-		body.state.vel, body.state.angVel = (speed * start, 0, 0), (0, 0, speed / .5)
+		body = atRest(24, 0.4, height=0.02, radius=0.5)
+		speed = 0.5
+		body.state.vel, body.state.angVel = (speed * start, 0, 0), (0, 0, speed / 0.5)
 		ratio = start
-		while body.state.angVel[2] > .05 * speed / .5 and body.state.vel.norm() > .05 * speed * .65:
+		while body.state.angVel[2] > 0.05 * speed / 0.5 and body.state.vel.norm() > 0.05 * speed * 0.65:
 			O.step()
-			ratio = body.state.vel.norm() / (.5 * body.state.angVel[2])
+			ratio = body.state.vel.norm() / (0.5 * body.state.angVel[2])
 		last.append(ratio)
 		while O.time < 1:
 			O.step()
-		assert body.state.vel.norm() < .02 * speed and abs(body.state.angVel[2]) < .04 * speed / .5
-	assert last[0] < .653 < last[1] and .45 < last[0] and last[1] < .85
+		assert body.state.vel.norm() < 0.02 * speed and abs(body.state.angVel[2]) < 0.04 * speed / 0.5
+	assert last[0] < 0.653 < last[1] and 0.45 < last[0] and last[1] < 0.85
 
 
 def resistance(slip, half, cells=200):
 	"""Force and moment about the centre of a square under an even pressure that slips so, over friction times normal force."""
-	x, y = np.meshgrid(*2 * [(np.arange(cells) + .5) / cells * 2 * half - half])
+	x, y = np.meshgrid(*2 * [(np.arange(cells) + 0.5) / cells * 2 * half - half])
 	u, v = slip[0] - slip[2] * y, slip[1] + slip[2] * x
 	size = np.hypot(u, v)
 	return np.array([(u / size).mean(), (v / size).mean(), ((x * v - y * u) / size).mean()])
@@ -100,10 +103,10 @@ def resistance(slip, half, cells=200):
 
 def testABlockPulledOffItsCentreTurnsAboutTheRightPoint():
 	"""Pulled so slowly that forces balance: its velocity is the one whose friction is the pull, a block and its arm by brute force."""
-	mu, arm, half = .5, .2, .5
-	body = atRest(4, mu, radius=half * sqrt(2), height=.005, damping=.2)  # flat: the pull does not tilt it
+	mu, arm, half = 0.5, 0.2, 0.5
+	body = atRest(4, mu, radius=half * sqrt(2), height=0.005, damping=0.2)  # flat: the pull does not tilt it
 	weight = body.state.mass * gravity
-	low, high = .01, 10
+	low, high = 0.01, 10
 	for _ in range(60):  # the pole on the side away from the pull, at which moment over force is the arm
 		pole = (low + high) / 2
 		f = resistance((1, 0, 1 / pole), half)
@@ -112,44 +115,49 @@ def testABlockPulledOffItsCentreTurnsAboutTheRightPoint():
 	O.engines = [*O.engines[:-1], PyRunner(iterPeriod=1, command='pull()'), O.engines[-1]]
 
 	def pull():
-		force = Vector3(most * min(1.003, .9 + .2 * O.time), 0, 0)
+		force = Vector3(most * min(1.003, 0.9 + 0.2 * O.time), 0, 0)
 		O.forces.addF(body.id, force)
 		O.forces.addT(body.id, Vector3(0, 0, arm * force[0]))
 
 	import __main__
+
 	__main__.pull = pull
-	while O.time < .45:
+	while O.time < 0.45:
 		O.step()
 	assert body.state.vel.norm() < 1e-4  # holds below the limit
 	while body.state.pos[0] < 1e-4:
 		O.step()
-	assert body.state.vel[0] / body.state.angVel[2] == pytest.approx(pole, rel=.02)
-	assert abs(body.state.vel[1]) < .02 * body.state.vel[0]
+	assert body.state.vel[0] / body.state.angVel[2] == pytest.approx(pole, rel=0.02)
+	assert abs(body.state.vel[1]) < 0.02 * body.state.vel[0]
 
 
 # ------------------------------------------------------------------------------------------------ held by shear alone
 
 
-def roof(dimension, depth, seconds=.6):
+def roof(dimension, depth, seconds=0.6):
 	"""A roof prism between two inclined abutments, weight ramped up: how far it has moved down, and S/N."""
-	slope, high, gap, far = radians(20), 5., 1e-4, 6.
+	slope, high, gap, far = radians(20), 5.0, 1e-4, 6.0
 	wide = high * tan(slope)
 	joint(normalStiffness=1e10, shearStiffness=1e9, frictionAngle=radians(80))
 	right = [(wide, 0), (far, 0), (far, high), (0, high)]
-	outlines = [[(-wide, 0), (wide, 0), (0, high)], [(x - gap / cos(slope), y) for x, y in right], [(gap / cos(slope) - x, y) for x, y in right]]
+	outlines = [
+		[(-wide, 0), (wide, 0), (0, high)],
+		[(x - gap / cos(slope), y) for x, y in right],
+		[(gap / cos(slope) - x, y) for x, y in right],
+	]
 	for k, outline in enumerate(outlines):
 		if dimension == 2:
 			O.bodies.append(polytope.polygon(outline, depth, fixed=k > 0))
 		else:
 			O.bodies.append(polytope.fromVertices([(x, z, y) for x, y in outline for z in (-depth / 2, depth / 2)], fixed=k > 0))
-	law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=.3, shearDamping=.5)
+	law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.5)
 	O.engines = polytope.engines(gravity=(0, 0, 0), law=law)
 	newton = next(engine for engine in O.engines if isinstance(engine, NewtonIntegrator))
 	wedge, up = O.bodies[0], 1 if dimension == 2 else 2
 	start = wedge.state.pos[up]
 	while O.time < seconds:
 		weight = [0, 0, 0]
-		weight[up] = -gravity * min(1, O.time / .2)
+		weight[up] = -gravity * min(1, O.time / 0.2)
 		newton.gravity = weight
 		O.step()
 	one = contact(O.bodies[0], O.bodies[1])
@@ -171,36 +179,38 @@ def testAClampedBlockDoesNotSwing():
 	joint(normalStiffness=1e10, shearStiffness=1e10, frictionAngle=radians(45))
 	weight = 2600 * 2 * 9.81
 	pressed = 1000 * weight / 1e10
-	block = polytope.cuboid((0, 0, 1), (.5, .5, 1))
+	block = polytope.cuboid((0, 0, 1), (0.5, 0.5, 1))
 	O.bodies.append(block)
 	# no edge of the block in line with one of theirs: there a pressure over an area that changes pushes along the face
-	O.bodies.append([polytope.cuboid((side * (1.5 - pressed), 0, .6), (1, .4, .5), fixed=True) for side in (-1, 1)])
-	O.engines = polytope.engines(law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=.3, shearDamping=.5))
+	O.bodies.append([polytope.cuboid((side * (1.5 - pressed), 0, 0.6), (1, 0.4, 0.5), fixed=True) for side in (-1, 1)])
+	O.engines = polytope.engines(law=Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=0.3, shearDamping=0.5))
 	block.state.angVel = (1e-3, 0, 0)
-	while O.time < .5:
+	while O.time < 0.5:
 		O.step()
 	assert block.state.ori.toAxisAngle()[1] == pytest.approx(0, abs=1e-5) and block.state.angVel.norm() < 1e-10
 	forces = [i for i in O.interactions if i.isReal]
 	assert len(forces) == 2
 	for i in forces:
-		assert i.phys.shearForce.norm() == pytest.approx(weight / 2, rel=.01)
-		assert i.phys.shearPoint[2] == pytest.approx(.6, abs=1e-3)  # of the area, not of the block
+		assert i.phys.shearForce.norm() == pytest.approx(weight / 2, rel=0.01)
+		assert i.phys.shearPoint[2] == pytest.approx(0.6, abs=1e-3)  # of the area, not of the block
 		corners = [Vector3(corner) for corner in i.geom.outline]
-		assert min(c[2] for c in corners) == pytest.approx(.1, abs=1e-4) and max(c[2] for c in corners) == pytest.approx(1.1, abs=1e-4)
+		assert min(c[2] for c in corners) == pytest.approx(0.1, abs=1e-4) and max(c[2] for c in corners) == pytest.approx(1.1, abs=1e-4)
 
 
 def stiffnessMatrix(perArea, slope):
 	"""Of a flat block at rest on a slope that cohesion holds: how its force and moment fall with a small motion, [N/m], [N], [N m]."""
-	halves, small, columns = (.5, .5, .1), 1e-9, []
+	halves, small, columns = (0.5, 0.5, 0.1), 1e-9, []
 	for moved in range(-1, 6):
 		O.reset()
 		joint(density=1e4, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=radians(30), cohesion=1e6, residualCohesion=1e6)
-		O.bodies.append(polytope.cuboid((0, 0, -.5), (5, 5, .5), fixed=True))
-		block = polytope.cuboid((0, 0, .1 - 1e3 * 9.81 * cos(slope) / 1e8), halves)
+		O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+		block = polytope.cuboid((0, 0, 0.1 - 1e3 * 9.81 * cos(slope) / 1e8), halves)
 		O.bodies.append(block)
 		physics = Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)
-		law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=1, shearDamping=.3, rockingDamping=.3)
-		O.engines = polytope.engines(gravity=(9.81 * sin(slope), 0, -9.81 * cos(slope)), physics=physics, law=law, damping=.5, timeStepper=False)
+		law = Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=1, shearDamping=0.3, rockingDamping=0.3)
+		O.engines = polytope.engines(
+			gravity=(9.81 * sin(slope), 0, -9.81 * cos(slope)), physics=physics, law=law, damping=0.5, timeStepper=False
+		)
 		O.dt = 1e-4
 		for _ in range(4000):
 			O.step()
@@ -209,7 +219,7 @@ def stiffnessMatrix(perArea, slope):
 		O.step()
 		O.step()
 		if moved >= 0:
-			step = [0.] * 6
+			step = [0.0] * 6
 			step[moved] = small / O.dt
 			driven(block, step[:3], step[3:])
 		O.step()
@@ -237,19 +247,19 @@ def testLoadCyclesDoNotLetABlockCreepDownASlope(feet):
 	"""On two edges, or two faces, on a slope of 20° with friction of 35°, the weight across the slope up and down by 30 %."""
 	slope = radians(20)
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(35))
-	O.bodies.append(polytope.cuboid((0, 0, -.5), (3, 2, .5), fixed=True))
-	outline = [(0, 0), (.1, .1), (-.1, .1)] if feet == 'edge' else [(-.1, 0), (.1, 0), (.1, .1), (-.1, .1)]
-	stands = [polytope.fromVertices([(x + at, y, z) for x, z in outline for y in (-.4, .4)]) for at in (-.4, .4)]
-	clump, _ = O.bodies.appendClumped([polytope.cuboid((0, 0, .2), (.5, .4, .1)), *stands])
-	newton = NewtonIntegrator(gravity=(gravity * sin(slope), 0, -gravity * cos(slope)), damping=.2)
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	outline = [(0, 0), (0.1, 0.1), (-0.1, 0.1)] if feet == 'edge' else [(-0.1, 0), (0.1, 0), (0.1, 0.1), (-0.1, 0.1)]
+	stands = [polytope.fromVertices([(x + at, y, z) for x, z in outline for y in (-0.4, 0.4)]) for at in (-0.4, 0.4)]
+	clump, _ = O.bodies.appendClumped([polytope.cuboid((0, 0, 0.2), (0.5, 0.4, 0.1)), *stands])
+	newton = NewtonIntegrator(gravity=(gravity * sin(slope), 0, -gravity * cos(slope)), damping=0.2)
 	O.engines = polytope.engines(integrator=newton)
 	state = O.bodies[clump].state
-	while O.time < .5:
+	while O.time < 0.5:
 		O.step()
 	start, place = O.time, []
 	for cycle in range(1, 13):
 		while O.time < start + cycle / 10:
-			newton.gravity = (gravity * sin(slope), 0, -gravity * cos(slope) * (1 + .3 * sin(20 * pi * (O.time - start))))
+			newton.gravity = (gravity * sin(slope), 0, -gravity * cos(slope) * (1 + 0.3 * sin(20 * pi * (O.time - start))))
 			O.step()
 		place.append(state.pos[0])
 	assert abs(place[-1] - place[3]) / 8 < 1e-6
@@ -258,15 +268,15 @@ def testLoadCyclesDoNotLetABlockCreepDownASlope(feet):
 
 def testASlidingAndTurningBlockKeepsItsBudget():
 	"""Kinetic energy, friction, dampers and springs, over the way of a plate that is thrown along the floor turning."""
-	body = atRest(4, .5, radius=.5, height=.02)
+	body = atRest(4, 0.5, radius=0.5, height=0.02)
 	O.trackEnergy = True
 	O.step()
-	body.state.vel, body.state.angVel = (1, .3, 0), (0, 0, 4)
+	body.state.vel, body.state.angVel = (1, 0.3, 0), (0, 0, 4)
 	mass, inertia = body.state.mass, inertiaAboutZ(body)
-	begun = mass * body.state.vel.squaredNorm() / 2 + inertia * body.state.angVel[2]**2 / 2
+	begun = mass * body.state.vel.squaredNorm() / 2 + inertia * body.state.angVel[2] ** 2 / 2
 	start = dict(O.energy.items())
 	lost, gained, largest = 0, 0, 0
-	while O.time < .6:
+	while O.time < 0.6:
 		O.step()
 		gained += max(0, lost - O.energy['plastDissip'])
 		lost = O.energy['plastDissip']
@@ -287,8 +297,9 @@ def testCohesionOverAFaceHoldsAMoment():
 	for _ in range(6000):
 		O.step()
 		i = contact(floor, block)
-		if not i.phys.intact: break
+		if not i.phys.intact:
+			break
 		largest = max(largest, abs(i.phys.twistingMoment))
 	assert not i.phys.intact
-	assert largest == pytest.approx(cohesion * meanRadius(4, sqrt(.5)), rel=1e-3)
+	assert largest == pytest.approx(cohesion * meanRadius(4, sqrt(0.5)), rel=1e-3)
 	assert i.phys.twistingMoment == 0

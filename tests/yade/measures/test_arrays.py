@@ -28,7 +28,9 @@ def mixed():
 	O.materials.append(FrictMat(density=2600, young=1e7, poisson=0.3, frictionAngle=0.5))
 	O.bodies.append([polytope.cuboid((0, 0, -0.5), (4, 4, 0.5), fixed=True, mask=5), utils.wall(-3, axis=0)])
 	erased = O.bodies.append(polytope.regular(8, 0.3, (3, 3, 1)))
-	O.bodies.append([polytope.cuboid((0, 0, 0.299), (0.5, 0.4, 0.3), Quaternion((0, 0, 1), 0.3)), polytope.cuboid((0, 0, 0.897), (0.4, 0.4, 0.3))])
+	O.bodies.append(
+		[polytope.cuboid((0, 0, 0.299), (0.5, 0.4, 0.3), Quaternion((0, 0, 1), 0.3)), polytope.cuboid((0, 0, 0.897), (0.4, 0.4, 0.3))]
+	)
 	O.bodies.append([utils.sphere((2, 0, 0.199), 0.2), utils.sphere((2, 0, 0.597), 0.2)])
 	O.bodies.appendClumped([polytope.cuboid((-1.5 + 0.4 * k, 0, 0.199), (0.2, 0.2, 0.2)) for k in range(2)])
 	O.engines = polytope.engines(

@@ -166,7 +166,10 @@ def testContactAndWallStressDifferByInertia():
 		test = polytope.triaxial(sample, stress=1e5, inertialNumber=inertialNumber)
 		next(engine for engine in O.engines if isinstance(engine, NewtonIntegrator)).damping = damping
 		rows, usual = [], test.measure
-		test.measure = lambda rows=rows, sample=sample, usual=usual: (rows.append((np.diag(sample.stress()), sample.boundaryStress())), usual())[1]
+		test.measure = lambda rows=rows, sample=sample, usual=usual: (
+			rows.append((np.diag(sample.stress()), sample.boundaryStress())),
+			usual(),
+		)[1]
 		test.run(0.01)
 		# records scatter by 2 %, and those next to each other are much the same: the mean is as sure as that of ten parts of the run
 		parts = np.array(rows)[21:].reshape(10, -1, 2, 3).mean(axis=1)
@@ -204,7 +207,10 @@ def testAnotherSceneIsToldOf(tmp_path):
 
 def testAStressThatTheGrainsCannotBearIsToldOf():
 	"""Joints so soft that they would overlap by their size."""
-	with pytest.raises(RuntimeError, match=r'^loading: the bodies overlap by .* of their size on average, which no bodies do; give the material a higher normalStiffness'):
+	with pytest.raises(
+		RuntimeError,
+		match=r'^loading: the bodies overlap by .* of their size on average, which no bodies do; give the material a higher normalStiffness',
+	):
 		polytope.pack(grains(0.008, stiffness=1e8), (0, 0, 0), (0.033,) * 3, stress=1e5, periodic=True, seed=1)
 
 
@@ -395,7 +401,9 @@ def testAShearTestThatIsLoadedIsNotReplacedUnasked(tmp_path, kind):
 	O.save(str(tmp_path / 'test.yade.gz'))
 	O.load(str(tmp_path / 'test.yade.gz'))
 	there = [body.id for body in O.bodies if body is not None]
-	with pytest.raises(ValueError, match='^lower: the scene has the plates of a shear test, .* not known after O.load; give lower and upper'):
+	with pytest.raises(
+		ValueError, match='^lower: the scene has the plates of a shear test, .* not known after O.load; give lower and upper'
+	):
 		polytope.sample()
 	assert [body.id for body in O.bodies if body is not None] == there, 'nothing is changed'
 	low, high = polytope.aabbExtrema([body.id for body in O.bodies if body is not None and body.dynamic])
@@ -435,7 +443,10 @@ def testEnginesThatHaveLostTheirIntegratorAreToldOf():
 
 def cross(length=0.006):
 	"""Parts of a body that is not convex, two bars that cross."""
-	return [polytope.cuboid((0, 0, 0), (length / 2, length / 6, length / 6)), polytope.cuboid((0, 0, 0), (length / 6, length / 2, length / 6))]
+	return [
+		polytope.cuboid((0, 0, 0), (length / 2, length / 6, length / 6)),
+		polytope.cuboid((0, 0, 0), (length / 6, length / 2, length / 6)),
+	]
 
 
 @pytest.mark.parametrize('periodic', [False, True])
@@ -460,7 +471,9 @@ def testACloudOfBodiesThatAreNotConvexHasNoOverlap():
 			assert not any(polytope.contact(a, b).inContact for a in one for b in other)
 	for one in groups[:20]:
 		assert (one[0].state.pos - one[1].state.pos).norm() < 1e-15  # as they were given
-	corners = np.array([np.array(part.state.pos + part.state.ori * corner, float) for one in groups for part in one for corner in part.shape.vertices])
+	corners = np.array(
+		[np.array(part.state.pos + part.state.ori * corner, float) for one in groups for part in one for corner in part.shape.vertices]
+	)
 	assert corners.min() >= 0 and corners.max() <= 0.04
 
 

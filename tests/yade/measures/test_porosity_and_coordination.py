@@ -33,7 +33,12 @@ def testPorosityOfAWedgeOfTheLattice():
 	assert polytope.porosity(region=(normals, offsets)) == pytest.approx(polytope.porosity((-1, -1, -1), (1, 1, 1)), rel=1e-12)
 	wedge = [*normals, (1, 1, 0)], [*offsets, 0]
 	assert polytope.porosity(region=wedge) == pytest.approx(1 - 0.5 / 4, rel=1e-12)
-	for name, wrong in (('region', {'region': (normals[:3], offsets[:3])}), ('region', {'region': 7}), ('region', {'lower': (0, 0, 0), 'region': wedge}), ('lower', {})):
+	for name, wrong in (
+		('region', {'region': (normals[:3], offsets[:3])}),
+		('region', {'region': 7}),
+		('region', {'lower': (0, 0, 0), 'region': wedge}),
+		('lower', {}),
+	):
 		with pytest.raises(ValueError, match=f'^{name}: '):
 			polytope.porosity(**wrong)
 
@@ -44,9 +49,9 @@ def testPorosityOfATiltedCellIsThatOfItsBox():
 	O.cell.hSize = Matrix3(3, 0, 1.2, 0, 3, 0, 0, 0, 3)
 	O.bodies.append([polytope.cuboid((x, 1, 1), (0.5, 0.4, 0.6)) for x in (0, 5)])
 	assert polytope.porosity() == pytest.approx(1 - 2 * 0.96 / 27, rel=1e-12)
-	assert polytope.porosity(region=([(1, 0, -0.4), (-1, 0, 0.4), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], [3, 0, 3, 0, 3, 0])) == pytest.approx(
-		polytope.porosity(), rel=1e-10
-	)
+	assert polytope.porosity(
+		region=([(1, 0, -0.4), (-1, 0, 0.4), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], [3, 0, 3, 0, 3, 0])
+	) == pytest.approx(polytope.porosity(), rel=1e-10)
 
 
 @pytest.mark.parametrize('faces', [4, 8, 20])

@@ -47,7 +47,22 @@ def testPackAndLoadingTestsShowTheirProgressInATerminalAlone():
 	command = [sys.executable, '-c', script]
 	code, said = saidInATerminal(command)
 	assert code == 0, said
-	for part in 'placing', ' bodies', 'compressing', 'porosity 0.', ' for 0.850', 'settling', 'unbalanced force', 'loading', ' rows', ' cells', ' shapes', ' grains', ' of ', ' steps':
+	for part in (
+		'placing',
+		' bodies',
+		'compressing',
+		'porosity 0.',
+		' for 0.850',
+		'settling',
+		'unbalanced force',
+		'loading',
+		' rows',
+		' cells',
+		' shapes',
+		' grains',
+		' of ',
+		' steps',
+	):
 		assert part in said, part
 	done = subprocess.run(command, capture_output=True, text=True, timeout=300)
 	assert done.returncode == 0 and 'placing' not in done.stderr + done.stdout and '%|' not in done.stderr + done.stdout, done.stderr

@@ -69,7 +69,16 @@ def findings(folder, **changes):
 	"""What a script of `./run paper` leaves: one row that holds, one that does not, one that is only reported."""
 	row = {'quantity': 'angle', 'unit': '°', 'paper': 33.2, 'theory': 33.5, 'ours': 33.25, 'accept': [33, 34], 'good': True, 'note': ''}
 	rows = [row, {**row, 'quantity': 'height', 'ours': 35.0, 'good': False}, {**row, 'quantity': 'time', 'accept': None, 'good': None}]
-	about = {'revision': '0123456789', 'date': '2026-11-23', 'machine': 'a machine', 'cores': 2, 'load': 0.1, 'options': ['--quick'], 'seconds': 3.0, **changes}
+	about = {
+		'revision': '0123456789',
+		'date': '2026-11-23',
+		'machine': 'a machine',
+		'cores': 2,
+		'load': 0.1,
+		'options': ['--quick'],
+		'seconds': 3.0,
+		**changes,
+	}
 	folder.mkdir(parents=True)
 	(folder / 'findings.json').write_text(json.dumps({'letter': 'C', 'title': 'Wedge', 'rows': rows, 'good': False}))
 	(folder / 'run.json').write_text(json.dumps({key: value for key, value in about.items() if value is not None}))
@@ -95,7 +104,11 @@ def testSpeedOverFlushPiecesIsThatOfTheResults(root):
 	data = root / 'docs/results/accuracy.json'
 	(found,) = (script for script in json.loads(data.read_text())['scripts'] if script['name'] == 'surfaces')
 	names = ('boon2012', "paper's normal")  # of new and of older results
-	losses = [row['ours'] for row in found['rows'] if row['quantity'].startswith(tuple(f'1 m/s over three joints: loss of speed: {name}' for name in names))]
+	losses = [
+		row['ours']
+		for row in found['rows']
+		if row['quantity'].startswith(tuple(f'1 m/s over three joints: loss of speed: {name}' for name in names))
+	]
 	assert len(losses) == 2
 	page = root / 'docs/surfaces.md'
 	assert '; '.join(f'{loss:.2g}' for loss in losses) in page.read_text()
@@ -106,7 +119,10 @@ def testSpeedOverFlushPiecesIsThatOfTheResults(root):
 
 sixSimulations = {
 	'peak load, centroid of the overlap': ('B', 'centroid: peak load', 'centroid: rotation at the peak'),
-	'peak load, analytic centre, abutments 3 block heights': ('B', *(f'analytic centre, abutments of 3 block heights: {what}' for what in ('peak load', 'rotation at the peak'))),
+	'peak load, analytic centre, abutments 3 block heights': (
+		'B',
+		*(f'analytic centre, abutments of 3 block heights: {what}' for what in ('peak load', 'rotation at the peak')),
+	),
 	'critical friction angle': ('C', 'critical friction angle'),
 	'limit equilibrium with the shear locked into the joints': ('C', 'limit equilibrium with the locked-in shear measured'),
 	'critical friction angle, g = 10 m/s²': ('D', 'critical friction angle, way 1, joint forces set, g = 10 m/s²'),
@@ -160,18 +176,55 @@ def testResultsOfARunInWhichAScriptFailedAreNotTaken(root, tmp_path):
 def benchmark(folder):
 	"""results.json as `./run bench` writes it, of three groups; those that were kept before would stay beside them."""
 	(folder / 'docs/results/bench.json').unlink(missing_ok=True)
+
 	def target(measure, bound, ratio, met, ours='0.26 µs', peer='0.37 µs'):
 		group = 'shapes' if measure.startswith('body') else 'scenes' if '200 falling' in measure else 'kernels'
 		return {'group': group, 'measure': measure, 'target': bound, 'ours': ours, 'peer': peer, 'ratio': ratio, 'met': met}
 
-	rows = [target('touching, warm, cube', '≤ 0.4 × libccd MPR', 0.39, True), target('touching, warm, octahedron', '≤ 0.4 × libccd MPR (2 wrong)', 0.57, False)]
-	rows += [target('touching, cold, stacked', 'reported, × libccd MPR', 1.9, None), target('body of a known shape, cube', '< 15 µs here', None, False, '16 µs', '')]
-	rows += [target(f'InteractionLoop per step, 200 falling, {name}', '≥ 60 × faster than Polyhedra', ratio, True) for name, ratio in (('cube', 83.4), ('icosahedron', 214))]
-	machine = {'date': '2026-11-24T08:00:00+00:00', 'revision': 'fedcba9876', 'changed': False, 'processor': 'a machine', 'cores': 2, 'system': 'x', 'compiler': 'g++ 14'}
+	rows = [
+		target('touching, warm, cube', '≤ 0.4 × libccd MPR', 0.39, True),
+		target('touching, warm, octahedron', '≤ 0.4 × libccd MPR (2 wrong)', 0.57, False),
+	]
+	rows += [
+		target('touching, cold, stacked', 'reported, × libccd MPR', 1.9, None),
+		target('body of a known shape, cube', '< 15 µs here', None, False, '16 µs', ''),
+	]
+	rows += [
+		target(f'InteractionLoop per step, 200 falling, {name}', '≥ 60 × faster than Polyhedra', ratio, True)
+		for name, ratio in (('cube', 83.4), ('icosahedron', 214))
+	]
+	machine = {
+		'date': '2026-11-24T08:00:00+00:00',
+		'revision': 'fedcba9876',
+		'changed': False,
+		'processor': 'a machine',
+		'cores': 2,
+		'system': 'x',
+		'compiler': 'g++ 14',
+	}
 	machine.update(loadAverage=[0.1, 0.1, 0.1], instructionSet='AVX-512', flags=[])
-	kernel = {'method': 'ours', 'set': 'cube', 'times': [1, 2, 3], 'median': 2, 'spread': 0.1, 'wrong': 0, 'pairs': 9, 'pivots': 1, 'iterations': 2, 'contacts': 1}
+	kernel = {
+		'method': 'ours',
+		'set': 'cube',
+		'times': [1, 2, 3],
+		'median': 2,
+		'spread': 0.1,
+		'wrong': 0,
+		'pairs': 9,
+		'pivots': 1,
+		'iterations': 2,
+		'contacts': 1,
+	}
 	features = {'bodies': 2000, 'microseconds': {'nothing': 100, 'contact area': 130}}
-	found = {'groups': ['kernels', 'shapes', 'scenes'], 'quick': False, 'machine': machine, 'notes': ['coal is missing.'], 'targets': rows, 'kernels': {'measurements': [kernel]}, 'features': features}
+	found = {
+		'groups': ['kernels', 'shapes', 'scenes'],
+		'quick': False,
+		'machine': machine,
+		'notes': ['coal is missing.'],
+		'targets': rows,
+		'kernels': {'measurements': [kernel]},
+		'features': features,
+	}
 	(folder / 'results.json').write_text(json.dumps(found))
 
 
@@ -180,7 +233,10 @@ def testTheBenchmarkIsWrittenWithTheTargetsThatAreMissed(root, tmp_path):
 	benchmark(tmp_path)
 	assert results('--take', 'bench', tmp_path, '--root', root)[0] == 0
 	text = (root / 'docs/performance.md').read_text()
-	assert '| touching, warm: cube, octahedron (2 wrong) | ≤ 0.4 × libccd MPR | 0.26, 0.26 µs | 0.37, 0.37 µs | 0.39, **0.57** | **1 of 2** |' in text
+	assert (
+		'| touching, warm: cube, octahedron (2 wrong) | ≤ 0.4 × libccd MPR | 0.26, 0.26 µs | 0.37, 0.37 µs | 0.39, **0.57** | **1 of 2** |'
+		in text
+	)
 	assert '| touching, cold: stacked | reported, × libccd MPR | 0.26 µs | 0.37 µs | 1.9 |  |' in text
 	assert '| body of a known shape: cube | < 15 µs here | 16 µs |  | **missed** | **0 of 1** |' in text
 	assert '| contact area | +30 % |' in text and 'Coal is missing.' in text and 'revision fedcba9;' in text
@@ -194,10 +250,23 @@ def testAGroupOfTheBenchmarkThatIsMeasuredAgainTakesThePlaceOfItsRows(root, tmp_
 	benchmark(tmp_path)
 	assert results('--take', 'bench', tmp_path, '--root', root)[0] == 0
 	found = json.loads((tmp_path / 'results.json').read_text())
-	row = {'group': 'shapes', 'measure': 'body of a known shape, cube', 'target': '< 15 µs here', 'ours': '12 µs', 'peer': '', 'ratio': None, 'met': True}
+	row = {
+		'group': 'shapes',
+		'measure': 'body of a known shape, cube',
+		'target': '< 15 µs here',
+		'ours': '12 µs',
+		'peer': '',
+		'ratio': None,
+		'met': True,
+	}
 	for part in ('kernels', 'features'):
 		del found[part]
-	found.update(groups=['shapes'], targets=[row], notes=[], machine={**found['machine'], 'revision': 'abcdef0123', 'date': '2026-11-25T08:00:00+00:00', 'instructionSet': None})
+	found.update(
+		groups=['shapes'],
+		targets=[row],
+		notes=[],
+		machine={**found['machine'], 'revision': 'abcdef0123', 'date': '2026-11-25T08:00:00+00:00', 'instructionSet': None},
+	)
 	(tmp_path / 'results.json').write_text(json.dumps(found))
 	assert results('--take', 'bench', tmp_path, '--root', root)[0] == 0
 	text = (root / 'docs/performance.md').read_text()
@@ -209,8 +278,19 @@ def testAGroupOfTheBenchmarkThatIsMeasuredAgainTakesThePlaceOfItsRows(root, tmp_
 
 
 def testTheTradeOffIsWritten(root, tmp_path):
-	(tmp_path / 'summary.csv').write_text('setting,cost: least,median,most,error C\ndefault,1,1,1,0.00341\nfast,0.5,0.51,nan,RuntimeError\n')
-	about = {'revision': '0123456789-dirty', 'date': '2026-11-23', 'machine': 'a machine', 'cores': 2, 'load': 0.1, 'quick': False, 'interrupted': False, 'scenes': ['C']}
+	(tmp_path / 'summary.csv').write_text(
+		'setting,cost: least,median,most,error C\ndefault,1,1,1,0.00341\nfast,0.5,0.51,nan,RuntimeError\n'
+	)
+	about = {
+		'revision': '0123456789-dirty',
+		'date': '2026-11-23',
+		'machine': 'a machine',
+		'cores': 2,
+		'load': 0.1,
+		'quick': False,
+		'interrupted': False,
+		'scenes': ['C'],
+	}
 	(tmp_path / 'origin.json').write_text(json.dumps(about))
 	assert results('--take', 'tradeoff', tmp_path, '--root', root)[0] == 0
 	text = (root / 'docs/settings.md').read_text()
@@ -219,7 +299,18 @@ def testTheTradeOffIsWritten(root, tmp_path):
 
 def testMutantsThatSurviveAreListed(root, tmp_path):
 	"""One that is killed, one that is not and that nobody has judged."""
-	row = {'id': 1, 'file': 'src/a/b.hpp', 'line': 3, 'column': 5, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'source': 'x | y + z', 'ran': ['core'], 'reachedBy': 4}
+	row = {
+		'id': 1,
+		'file': 'src/a/b.hpp',
+		'line': 3,
+		'column': 5,
+		'kind': 'arithmetic',
+		'original': '+',
+		'mutant': '-',
+		'source': 'x | y + z',
+		'ran': ['core'],
+		'reachedBy': 4,
+	}
 	mutants = [{**row, 'killedBy': 'Sum.Quick'}, {**row, 'id': 2, 'line': 7, 'killedBy': None}]
 	(root / 'docs/results/mutation.csv').unlink()
 	(tmp_path / 'results.json').write_text(json.dumps({'revision': '0123456789', 'seed': 5, 'mutants': mutants}))

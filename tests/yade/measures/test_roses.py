@@ -50,7 +50,14 @@ def testRoseOfBodies():
 
 def testRefusals():
 	pressed((1e-4, 1e-4, 1e-4))
-	for name, options in (('plane', {'plane': 'xx'}), ('bins', {'bins': 5}), ('weight', {'weight': 'mass'}), ('path', {'path': 3}), ('path', {'path': 'rose.txt'}), ('ids', {'ids': [9]})):
+	for name, options in (
+		('plane', {'plane': 'xx'}),
+		('bins', {'bins': 5}),
+		('weight', {'weight': 'mass'}),
+		('path', {'path': 3}),
+		('path', {'path': 'rose.txt'}),
+		('ids', {'ids': [9]}),
+	):
 		with pytest.raises(ValueError, match=f'^{name}: '):
 			polytope.contactRose(**options)
 	with pytest.raises(ValueError, match='^bins: '):

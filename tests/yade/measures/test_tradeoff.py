@@ -115,7 +115,12 @@ def run(settings, reference=weight / stiffness, function=measure, make=build, ti
 
 def testRowsTellWhatChanged(tmp_path, capsys):
 	here = O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1), material=RockJointMat()))
-	settings = {'as it is': {}, 'half step': {'timeStepFactor': 0.5}, 'step': {'timeStep': np.float64(2e-3)}, 'heavy': {'density': np.int64(2000)}}
+	settings = {
+		'as it is': {},
+		'half step': {'timeStepFactor': 0.5},
+		'step': {'timeStep': np.float64(2e-3)},
+		'heavy': {'density': np.int64(2000)},
+	}
 	table = run(settings, timedSeconds=0.02)
 	assert len(O.bodies) == 1 and O.bodies[here].state.pos[2] == 0  # the scene of this process is as it was
 	for name in ('as it is', 'half step', 'step'):
@@ -135,9 +140,16 @@ def testRowsTellWhatChanged(tmp_path, capsys):
 
 def testARenewedSceneLosesItsSettings():
 	"""The scene that build() has saved has neither attribute nor time step of the setting."""
-	settings = {'as it is': {}, 'model': {'contactModel': 'spring', 'warmStart': False}, 'longer': {'timeStepFactor': 2}, 'named': {'warmStart': True}}
+	settings = {
+		'as it is': {},
+		'model': {'contactModel': 'spring', 'warmStart': False},
+		'longer': {'timeStepFactor': 2},
+		'named': {'warmStart': True},
+	}
 	table = run(settings, 'as it is', measureAgain)
-	assert table['model'].note.startswith('contactModel, warmStart not in effect') and table['longer'].note.startswith('timeStepFactor not in effect')
+	assert table['model'].note.startswith('contactModel, warmStart not in effect') and table['longer'].note.startswith(
+		'timeStepFactor not in effect'
+	)
 	assert [table[name].answer is None for name in settings] == [False, True, True, False]
 	assert table.front() == [table['as it is']] or table.front() == [table['named']]
 
@@ -188,7 +200,14 @@ def testPrecisionsThatAreNotBuilt():
 def testFrontHoldsWhatNothingBeats():
 	from yade.polytope.tradeoff import Row, TradeoffTable
 
-	given = (('first', 2, 1.5), ('worse and dearer', 3, 1.9), ('cheap', 1, 3), ('best', 8, 1), ('none', None, None), ('hardly better', 9, 1.04))
+	given = (
+		('first', 2, 1.5),
+		('worse and dearer', 3, 1.9),
+		('cheap', 1, 3),
+		('best', 8, 1),
+		('none', None, None),
+		('hardly better', 9, 1.04),
+	)
 	table = TradeoffTable([Row(name, {}, value, None, 1, time) for name, time, value in given], 1)
 	assert [row.name for row in table.front()] == ['cheap', 'first', 'best'] and table['best'].error == 0
 

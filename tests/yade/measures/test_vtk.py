@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """PolytopeVTKRecorder: its files are read back with VTK's own readers and compared with the scene."""
+
 import os
 import xml.etree.ElementTree
 
@@ -76,16 +77,16 @@ def someBodies():
 	O.materials.append(FrictMat(density=2000))
 	for k, faces in enumerate((4, 6, 8, 12, 20)):
 		body = polytope.regular(
-		        faces,
-		        0.1 * (k + 1),
-		        center=(k, 2, -1),
-		        orientation=Quaternion((1, k, 2), 0.3 * k),
-		        material=k % 2,
-		        mask=1 << k,
-		        color=(0.2 * k, 0.5, 1),
-		        velocity=(k, -1, 2),
-		        angularVelocity=(0, k, 1),
-		        fixed=faces == 6,
+			faces,
+			0.1 * (k + 1),
+			center=(k, 2, -1),
+			orientation=Quaternion((1, k, 2), 0.3 * k),
+			material=k % 2,
+			mask=1 << k,
+			color=(0.2 * k, 0.5, 1),
+			velocity=(k, -1, 2),
+			angularVelocity=(0, k, 1),
+			fixed=faces == 6,
 		)
 		O.bodies.append(body)
 	O.bodies.append(polytope.polygon([(0, 0), (1, 0), (1.4, 0.7), (0.5, 1.5), (-0.3, 0.8)], thickness=0.3))
@@ -325,7 +326,9 @@ def testBoltsAreReadBack(tmp_path):
 	O.bodies.append([polytope.cuboid((2.1 * k, 0, 0), (1, 0.5, 0.5), fixed=k == 0) for k in range(3)])
 	loop(True)
 	polytope.bolt((-0.5, 0, 0), (2.0, 0, 0), area=5e-4, youngsModulus=2e11)
-	grouted = polytope.bolt((-0.5, 0.2, 0), (5, 0.2, 0), area=5e-4, youngsModulus=2e11, grout=polytope.Grout(1e9, 1e6), dowel=polytope.Dowel(1e8, 1e6))
+	grouted = polytope.bolt(
+		(-0.5, 0.2, 0), (5, 0.2, 0), area=5e-4, youngsModulus=2e11, grout=polytope.Grout(1e9, 1e6), dowel=polytope.Dowel(1e8, 1e6)
+	)
 	O.dt = 1e-12
 	for k in (1, 2):
 		O.bodies[k].state.pos += (1e-3, 0, 2e-3)

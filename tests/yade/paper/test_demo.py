@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The examples run as a user runs them: as programs of their own, in an empty folder."""
+
 import importlib
 import json
 import os
@@ -15,7 +16,7 @@ examples = pathlib.Path(__file__).resolve().parents[3] / 'examples'
 def run(folder, script, *options):
 	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
 	return subprocess.run(
-	        [sys.executable, examples / script, *options], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800
+		[sys.executable, examples / script, *options], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800
 	)
 
 
@@ -62,7 +63,15 @@ def testNumbersOfAChaoticHeapGetNoVerdict(monkeypatch, capsys):
 	"""What is a bound gets one."""
 	monkeypatch.setattr(sys, 'path', [str(examples / 'paper'), *sys.path])
 	tables = importlib.import_module('boon2012.falling.tables')
-	result = {**dict.fromkeys(tables.quantities, 1.0), 'number': 5, 'inside': 5, 'failures': 0, 'shape': 'cube', 'contacts': 500, 'overlap': 0.1}
+	result = {
+		**dict.fromkeys(tables.quantities, 1.0),
+		'number': 5,
+		'inside': 5,
+		'failures': 0,
+		'shape': 'cube',
+		'contacts': 500,
+		'overlap': 0.1,
+	}
 	tables.showOutcome([result], {'contacts': (373, 469), 'overlap': (0, 0.005), 'deepestOverlap': (0, 2)}, 'all', {'contacts': (1, 2)})
 	lines = {line.split('  ')[0]: line for line in capsys.readouterr().out.splitlines()}
 	contacts = lines[tables.quantities['contacts'] + ' *']

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Findings: rows that hold and rows that are missed, and that the files are complete."""
+
 import csv
 import json
 import math
@@ -66,7 +67,7 @@ def testFilesHoldEverything(findings):
 
 def testMistakesAreRefused(findings):
 	with pytest.raises(ValueError, match='curve'):
-		findings.table('curve', 'A curve', ['x', 'y'], [(1, )])
+		findings.table('curve', 'A curve', ['x', 'y'], [(1,)])
 	with pytest.raises(FileNotFoundError, match='nothing.png'):
 		findings.figure(findings.folder / 'nothing.png', '')
 

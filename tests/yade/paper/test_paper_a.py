@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulation A: the quick variant holds what must hold and draws Fig. 6; what must hold can be missed."""
+
 import csv
 import importlib.util
 import json
@@ -25,7 +26,7 @@ script = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(script)
 
 
-def run(folder, *options, program=(sys.executable, )):
+def run(folder, *options, program=(sys.executable,)):
 	environment = {**os.environ, 'OMP_NUM_THREADS': '1'}
 	command = [*program, path, *options, '--output', 'out']
 	return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800)
@@ -83,7 +84,7 @@ def testRunsWithinYadeToo(tmp_path):
 	arguments = '--shape', 'cube', '--number', '12', '--steps', '150', '--no-pictures', '--vtk-every', '0'
 	yade = 'yade', '-n', '-x'
 	inYade, inPython = tmp_path / 'yade', tmp_path / 'python'
-	for folder, program in ((inYade, yade), (inPython, (sys.executable, ))):
+	for folder, program in ((inYade, yade), (inPython, (sys.executable,))):
 		folder.mkdir()
 		done = run(folder, *arguments, program=program)
 		assert done.returncode == 0, done.stdout + done.stderr
@@ -124,11 +125,20 @@ def made(**changes):
 	for name, contacts, height in zip(solids, (469, 373, 400, 420, 430), (1.23, 1.10, 1.08, 1.06, 1.04), strict=True):
 		for seed in range(1, 9):
 			results.append(
-			        {
-			                'shape': name, 'seed': seed, 'inside': 200, 'failures': 0, 'pairs': 10, 'contactQueries': 5, 'energyHalf': 5e-3,
-			                'energyEnd': 1e-5, 'contacts': contacts + 3 * (seed - 4.5), 'meanHeight': height + 0.003 * (seed - 4.5),
-			                'deepestOverlap': 0.02, 'overlap': 0.001
-			        }
+				{
+					'shape': name,
+					'seed': seed,
+					'inside': 200,
+					'failures': 0,
+					'pairs': 10,
+					'contactQueries': 5,
+					'energyHalf': 5e-3,
+					'energyEnd': 1e-5,
+					'contacts': contacts + 3 * (seed - 4.5),
+					'meanHeight': height + 0.003 * (seed - 4.5),
+					'deepestOverlap': 0.02,
+					'overlap': 0.001,
+				}
 			)
 	for key, change in changes.items():
 		for result in results:
@@ -152,15 +162,16 @@ def testOneLateToppleIsChance(tmp_path):
 
 
 @pytest.mark.parametrize(
-        'key, change, row', [
-                ('inside', lambda r: 199 if (r['shape'], r['seed']) == ('cube', 5) else 200, 'particles inside, fewest of all runs'),
-                ('failures', lambda r: (r['shape'], r['seed']) == ('cube', 5), 'contact queries without an answer'),
-                ('energyEnd', lambda r: 1e-3 if r['shape'] == 'cube' else 1e-5, 'kinetic energy / (N m g L), end: largest of the solids'),
-                ('overlap', lambda r: 6e-3 if r['shape'] == 'cube' else 1e-3, 'deepest overlap / L, end: largest of the solids'),
-                ('contacts', lambda r: r['contacts'] - 60, 'contacts, end: least of the solids'),
-                ('meanHeight', lambda r: r['meanHeight'] + 0.2, 'mean height of centres / L, end: largest of the solids'),
-                ('contacts', lambda r: r['contacts'] + 20 * (r['seed'] - 4.5), 'contacts, end: largest of the solids, scatter between seeds'),
-        ]
+	'key, change, row',
+	[
+		('inside', lambda r: 199 if (r['shape'], r['seed']) == ('cube', 5) else 200, 'particles inside, fewest of all runs'),
+		('failures', lambda r: (r['shape'], r['seed']) == ('cube', 5), 'contact queries without an answer'),
+		('energyEnd', lambda r: 1e-3 if r['shape'] == 'cube' else 1e-5, 'kinetic energy / (N m g L), end: largest of the solids'),
+		('overlap', lambda r: 6e-3 if r['shape'] == 'cube' else 1e-3, 'deepest overlap / L, end: largest of the solids'),
+		('contacts', lambda r: r['contacts'] - 60, 'contacts, end: least of the solids'),
+		('meanHeight', lambda r: r['meanHeight'] + 0.2, 'mean height of centres / L, end: largest of the solids'),
+		('contacts', lambda r: r['contacts'] + 20 * (r['seed'] - 4.5), 'contacts, end: largest of the solids, scatter between seeds'),
+	],
 )
 def testEachCanBeMissed(tmp_path, key, change, row):
 	assert row in judged(tmp_path, made(**{key: change}))

@@ -129,10 +129,16 @@ def testBudgetsNoticeAnError():
 	assert abs(record.balance()).max() > 1e-6 * record.energy()[0]
 
 
-@pytest.mark.parametrize('term, law', [
-	('springs', 'elastPotential'), ('normal damper', 'normDampDissip'), ('friction and shear damper', 'plastDissip'),
-	('friction and shear damper', 'shearDampDissip'), ('sum', 'nonconservative')
-])
+@pytest.mark.parametrize(
+	'term, law',
+	[
+		('springs', 'elastPotential'),
+		('normal damper', 'normDampDissip'),
+		('friction and shear damper', 'plastDissip'),
+		('friction and shear damper', 'shearDampDissip'),
+		('sum', 'nonconservative'),
+	],
+)
 def testTheLawsAccountIsCompared(term, law):
 	"""A hundredth less of one term of the law, made up for by its term nonconservative: all terms still add up, and it is noticed."""
 	record = shortRecord(velocity=(3, 0, -4), contactDamping=0.1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`./run paper` with small scripts in place of the six: what is run, what is skipped, what the report holds, how it ends."""
+
 import csv
 import importlib.util
 import pathlib
@@ -89,8 +90,18 @@ def testReportHoldsAllThatWasFound(project, capsys):
 	row = project.rows[0]
 	assert len(project.rows) == 2
 	assert row == {
-	        'simulation': 'X', 'title': 'Title of X', 'quantity': 'load <X>', 'unit': 'N', 'paper': '1.2', 'closed form': '1.25',
-	        'ours': '1.5', 'difference': '0.25', 'at least': '1', 'at most': '2', 'verdict': 'ok', 'note': 'note on X'
+		'simulation': 'X',
+		'title': 'Title of X',
+		'quantity': 'load <X>',
+		'unit': 'N',
+		'paper': '1.2',
+		'closed form': '1.25',
+		'ours': '1.5',
+		'difference': '0.25',
+		'at least': '1',
+		'at most': '2',
+		'verdict': 'ok',
+		'note': 'note on X',
 	}
 
 
@@ -155,7 +166,7 @@ def testAnOutputThatCannotBeWrittenIsRefusedAtOnce(project, capsys):
 	assert refused.value.code == 2 and '--output: cannot write to /proc/nope' in capsys.readouterr().err and not project.runs('X')
 
 
-@pytest.mark.parametrize('options', [('--only', 'XZ'), ('--only', ''), ('--jobs', '0'), ('--nonsense', )])
+@pytest.mark.parametrize('options', [('--only', 'XZ'), ('--only', ''), ('--jobs', '0'), ('--nonsense',)])
 def testNonsenseIsRefused(project, options):
 	with pytest.raises(SystemExit) as refused:
 		project.run(*options)

@@ -21,7 +21,10 @@ def columns(number, gap=-1e-3):
 
 
 def contacts():
-	return {(one.id1, one.id2): (one.phys.normalForce, one.phys.kn, one.geom.contactPoint, one.geom.normal, one.geom.refR1) for one in O.interactions}
+	return {
+		(one.id1, one.id2): (one.phys.normalForce, one.phys.kn, one.geom.contactPoint, one.geom.normal, one.geom.refR1)
+		for one in O.interactions
+	}
 
 
 @pytest.mark.parametrize('archive', ['scene.xml', 'scene.yade', 'scene.yade.gz'])

@@ -37,7 +37,12 @@ def testAStudyOfParameters(tmp_path):
 	(tmp_path / 'slope.py').write_text(script)
 	(tmp_path / 'angles.table').write_text('description angle\na 10\nb 20\nc 30\n')
 	done = subprocess.run(
-		['yade-batch', '--job-threads=1', '-j2', 'angles.table', 'slope.py'], cwd=tmp_path, env={**os.environ, 'DISPLAY': ''}, capture_output=True, text=True, timeout=300
+		['yade-batch', '--job-threads=1', '-j2', 'angles.table', 'slope.py'],
+		cwd=tmp_path,
+		env={**os.environ, 'DISPLAY': ''},
+		capture_output=True,
+		text=True,
+		timeout=300,
 	)
 	said = '\n'.join(path.read_text(errors='replace') for path in sorted(tmp_path.glob('*.log')))
 	assert done.returncode == 0, done.stdout + done.stderr + said

@@ -288,8 +288,15 @@ def testNothingIsLoadedWhileARunGoesOn(tmp_path):
 
 
 def testRefusals(tmp_path):
-	for options, name in (({'fileName': ''}, 'fileName'), ({'fileName': 3}, 'fileName'), ({'iterPeriod': -1}, 'iterPeriod'), ({'iterPeriod': 0.5}, 'iterPeriod'), ({'realPeriod': '9'}, 'realPeriod'),
-	                      ({'realPeriod': -1}, 'realPeriod'), ({'onSignal': False}, 'onSignal')):
+	for options, name in (
+		({'fileName': ''}, 'fileName'),
+		({'fileName': 3}, 'fileName'),
+		({'iterPeriod': -1}, 'iterPeriod'),
+		({'iterPeriod': 0.5}, 'iterPeriod'),
+		({'realPeriod': '9'}, 'realPeriod'),
+		({'realPeriod': -1}, 'realPeriod'),
+		({'onSignal': False}, 'onSignal'),
+	):
 		with pytest.raises(ValueError, match=f'^{name}: '):
 			polytope.checkpoint(**{'fileName': str(tmp_path / 'x'), **options})
 	refused = []

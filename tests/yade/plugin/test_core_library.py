@@ -53,7 +53,18 @@ def testTwoSetsOfVerticesHaveTheirContact(place, compiler, installed, tmp_path):
 	source, made = tmp_path / 'source', tmp_path / 'build'
 	shutil.copytree(example, source)
 	flags = '-Wall -Wextra -Wconversion -Wpedantic -Werror -march=native -O2'
-	run('cmake', '-S', source, '-B', made, '-G', 'Ninja', f'-DCMAKE_PREFIX_PATH={prefix}', f'-DCMAKE_CXX_COMPILER={compiler}', f'-DCMAKE_CXX_FLAGS={flags}')
+	run(
+		'cmake',
+		'-S',
+		source,
+		'-B',
+		made,
+		'-G',
+		'Ninja',
+		f'-DCMAKE_PREFIX_PATH={prefix}',
+		f'-DCMAKE_CXX_COMPILER={compiler}',
+		f'-DCMAKE_CXX_FLAGS={flags}',
+	)
 	run('ninja', '-C', made)
 	assert 'EIGEN_DONT' not in (made / 'build.ninja').read_text()
 	seen = run('ninja', '-C', made, '-t', 'deps')

@@ -221,7 +221,13 @@ def testTheSumOfTheHeadersChangesWithThem(tmp_path):
 
 	def made():
 		options = {'SOURCE': source, 'PREFIX': 'yade-polytope', 'INTO': into, 'HEADERS': name, 'CORE': '', 'STAMP': tmp_path / 'stamp'}
-		run('cmake', *(f'-D{key}={value}' for key, value in options.items()), f'-DFINGERPRINT={sums}', '-P', project / 'cmake/publicHeaders.cmake')
+		run(
+			'cmake',
+			*(f'-D{key}={value}' for key, value in options.items()),
+			f'-DFINGERPRINT={sums}',
+			'-P',
+			project / 'cmake/publicHeaders.cmake',
+		)
 		return re.search(r'YADE_POLYTOPE_FINGERPRINT "(\w{64})"', sums.read_text())[1]
 
 	first = made()

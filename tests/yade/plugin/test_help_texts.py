@@ -64,7 +64,8 @@ def testHelpOfFunctionsIsPlainText(name):
 
 
 @pytest.mark.parametrize(
-	'name', 'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes randomGrain grains plates tube terrain'.split()
+	'name',
+	'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes randomGrain grains plates tube terrain'.split(),
 )
 def testHelpOfBodiesHasTheSharedArguments(name):
 	"""Each once, before what is returned and raised."""

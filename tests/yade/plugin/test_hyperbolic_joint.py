@@ -47,7 +47,11 @@ def testItIsThePlugInsHyperbolaInAllThatASceneShows(hyperbola, tmp_path):
 def wrong():
 	"""A library whose law has the name of the example's, and an energy that is not the integral of its pressure."""
 	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
-	other = text.replace('class OwnHyperbola', 'class OtherHyperbola').replace('(OwnHyperbola', '(OtherHyperbola').replace('~OwnHyperbola', '~OtherHyperbola')
+	other = (
+		text.replace('class OwnHyperbola', 'class OtherHyperbola')
+		.replace('(OwnHyperbola', '(OtherHyperbola')
+		.replace('~OwnHyperbola', '~OtherHyperbola')
+	)
 	changed = other.replace('beyond / 2 /', 'beyond / 3 /')
 	assert '"OwnHyperbola"' in changed and changed != other != text
 	return built('hyperbolicJoint', 'wrong', hyperbolicJoint=changed)
@@ -83,7 +87,10 @@ answer([before, [[one.what, one.seen] for one in polytope.check(O)]])
 	)
 	(before, after), _ = inYade(script, hyperbola)
 	assert before == []
-	assert any(what == 'joint laws' and 'the normal law OwnHyperbola (p = nan, q = 0): pressure, tangent and energy must be finite' in seen for what, seen in after), after
+	assert any(
+		what == 'joint laws' and 'the normal law OwnHyperbola (p = nan, q = 0): pressure, tangent and energy must be finite' in seen
+		for what, seen in after
+	), after
 
 
 def testANameThatALawHasIsRefused(hyperbola, wrong):
@@ -98,5 +105,7 @@ answer([text, hasattr(yade, 'OtherHyperbola'), len(polytope.extensions()), RockJ
 	(text, *rest), _ = inYade(script, hyperbola, wrong)
 	reason = 'there is a normal law OwnHyperbola already: give this one another name'
 	assert text == f'path: the extension {wrong} is not loaded: {reason}' and rest == [False, 1, 1e-3]
-	known, warning = inYade('answer([hasattr(yade, "OwnHyperbola"), hasattr(yade, "OtherHyperbola")])', YADE_POLYTOPE_EXTENSIONS=f'{hyperbola}:{wrong}')
+	known, warning = inYade(
+		'answer([hasattr(yade, "OwnHyperbola"), hasattr(yade, "OtherHyperbola")])', YADE_POLYTOPE_EXTENSIONS=f'{hyperbola}:{wrong}'
+	)
 	assert known == [True, False] and f'WARNING: the extension {wrong} is not loaded: {reason}.' in warning

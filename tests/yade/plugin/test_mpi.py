@@ -44,7 +44,9 @@ def launch(ranks, *command):
 	"""A command on this number of ranks, 0: without MPI."""
 	run = ['mpirun', '--oversubscribe', '-np', str(ranks)] if ranks else []
 	environment = {**os.environ, 'OMP_NUM_THREADS': '1', 'TMPDIR': tempfile.mkdtemp(dir=sessions.name)}
-	return subprocess.Popen([*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True)
+	return subprocess.Popen(
+		[*run, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True
+	)
 
 
 def under(ranks, *command, fails=False):
@@ -66,7 +68,9 @@ def found(tmp_path_factory):
 	under(0, sys.executable, scenes, str(folder), 'start', 'settled', 'heap', 'recorded', 'crossing', *moving)
 	under(0, sys.executable, scenes, str(folder), 'startClumps', 'clumpedSettled', 'clumped')
 	under(2, sys.executable, scenes, str(folder), 'heap', 'clumped', 'clumpedSliding', *ownLaws)
-	under(3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'clumped', *sameAsClumped, 'recorded', *moving, 'searched', 'refused')
+	under(
+		3, sys.executable, scenes, str(folder), 'heap', *sameAsHeap, 'clumped', *sameAsClumped, 'recorded', *moving, 'searched', 'refused'
+	)
 	under(3, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap', 'Smooth', 'Bonded')))
 	under(4, sys.executable, scenes, str(folder), *(f'reallocated{name}' for name in ('Crossing', 'Stacks', 'Heap')))
 
@@ -151,7 +155,11 @@ def testRecordersWriteTheWholeSceneOnce(found):
 def testClumpsThatMoveFromOneRanksPartToTheOthers(found, ranks):
 	"""They fall, roll and strike each other on a fixed clump."""
 	one, several = found('clumpedSliding', 1), found('clumpedSliding', ranks)
-	assert one['bodies'].keys() == several['bodies'].keys() and one['contacts'].keys() == several['contacts'].keys() and len(one['contacts']) > 10
+	assert (
+		one['bodies'].keys() == several['bodies'].keys()
+		and one['contacts'].keys() == several['contacts'].keys()
+		and len(one['contacts']) > 10
+	)
 	assert max(farthest(one['bodies'][k], several['bodies'][k]) for k in one['bodies']) < agreement * size
 	assert max(farthest(one['contacts'][k][6:13], several['contacts'][k][6:13]) for k in one['contacts']) < 1e-9 * 350
 	assert sum(contact[13] for contact in one['contacts'].values()) < len(one['contacts']) - 5  # joints that have slipped
@@ -195,7 +203,13 @@ def testOpenJointsOfTwoRanksRememberTheirSlip(found):
 	"""Between workers, and with a fixed block: while they are open by half a block, and when they touch again."""
 	one, several = found('opened', 1), found('opened', 3)
 	pairs = {'0 1', '1 2', '2 3', '3 4'}
-	assert one['apart']['contacts'].keys() == several['apart']['contacts'].keys() == one['contacts'].keys() == several['contacts'].keys() == pairs
+	assert (
+		one['apart']['contacts'].keys()
+		== several['apart']['contacts'].keys()
+		== one['contacts'].keys()
+		== several['contacts'].keys()
+		== pairs
+	)
 	gaps = np.diff([0.0, *(float.fromhex(body[0]) for body in several['apart']['bodies'].values())]) - 0.4
 	assert min(gaps) > 0.18
 	for pair in pairs:
@@ -212,16 +226,19 @@ def testLongerRunsAgreeInTheMean(found):
 	assert (uncertainty < 0.1 * one.mean(axis=0)).all()  # so that it says something
 
 
-@pytest.mark.parametrize('name, ranks, least', [
-	('reallocatedCrossing', 3, 2),
-	('reallocatedStacks', 3, 40),
-	('reallocatedHeap', 3, 100),
-	('reallocatedSmooth', 3, 50),
-	('reallocatedBonded', 3, 100),
-	('reallocatedCrossing', 4, 2),
-	('reallocatedStacks', 4, 40),
-	('reallocatedHeap', 4, 100),
-])
+@pytest.mark.parametrize(
+	'name, ranks, least',
+	[
+		('reallocatedCrossing', 3, 2),
+		('reallocatedStacks', 3, 40),
+		('reallocatedHeap', 3, 100),
+		('reallocatedSmooth', 3, 50),
+		('reallocatedBonded', 3, 100),
+		('reallocatedCrossing', 4, 2),
+		('reallocatedStacks', 4, 40),
+		('reallocatedHeap', 4, 100),
+	],
+)
 def testBodiesThatChangeRanksInARunKeepTheirContacts(found, name, ranks, least):
 	"""mpy.REALLOCATE_FREQUENCY: those beyond the middle between two ranks; in the others any that both know, every five steps, so most of them."""
 	one = found({'reallocatedStacks': 'crossing'}.get(name, name.removeprefix('reallocated').lower()), 1)
@@ -243,7 +260,9 @@ def testBondsBetweenRanksActAndFailAsOnOne(found):
 		assert farthest(numbers, several['bonds'][pair][3]) < 1e-9 * max(abs(float.fromhex(x)) for x in numbers)
 	assert one['bonds']['13 14'][1] == 'tension' and 0 < one['bonds']['13 14'][2] < 250
 	assert one['contacts'].keys() == several['contacts'].keys() == {'13 14'}
-	assert farthest(one['contacts']['13 14'][3:6], several['contacts']['13 14'][3:6]) < 1e-6 * abs(float.fromhex(one['contacts']['13 14'][3]))
+	assert farthest(one['contacts']['13 14'][3:6], several['contacts']['13 14'][3:6]) < 1e-6 * abs(
+		float.fromhex(one['contacts']['13 14'][3])
+	)
 	assert max(-float.fromhex(body[2]) for body in one['bodies'].values()) > 1e-5  # they hang down
 
 
@@ -253,18 +272,21 @@ def testPairsAreSearchedForOnlyWhenABodyHasLeftItsBox(found):
 		assert len(counts) == 3 and all(before == after > 0 for before, after in counts), counts
 
 
-@pytest.mark.parametrize('name, remedy', [
-	('mpy.ERASE_REMOTE', 'must be True'),
-	('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
-	('mpy.MERGE_W_INTERACTIONS', 'must be True'),
-	('mpy.USE_CPP_MPI', 'must be True'),
-	('mpy.REALLOCATE_MINIMAL', 'must be False'),
-	('O.trackEnergy', 'polytope.mpi.arrays()'),
-	('ForceRecorder', 'polytope.mpi.merge()'),
-	('Body.subdomain', 'call polytope.mpi.divide()'),
-	('bolts', 'run this scene on one'),
-	('O.periodic', 'on one process'),
-])
+@pytest.mark.parametrize(
+	'name, remedy',
+	[
+		('mpy.ERASE_REMOTE', 'must be True'),
+		('mpy.COPY_MIRROR_BODIES_WHEN_COLLIDE', 'must be True'),
+		('mpy.MERGE_W_INTERACTIONS', 'must be True'),
+		('mpy.USE_CPP_MPI', 'must be True'),
+		('mpy.REALLOCATE_MINIMAL', 'must be False'),
+		('O.trackEnergy', 'polytope.mpi.arrays()'),
+		('ForceRecorder', 'polytope.mpi.merge()'),
+		('Body.subdomain', 'call polytope.mpi.divide()'),
+		('bolts', 'run this scene on one'),
+		('O.periodic', 'on one process'),
+	],
+)
 def testWhatCannotBeHadIsRefused(found, name, remedy):
 	said = found('refused', 3)
 	assert said['nothing'] is None and name in said[name] and remedy in said[name]
@@ -290,8 +312,10 @@ def testARunThatIsKilledGoesOnFromItsLastState(found, name, end, bodies):
 
 def testARankThatFailsEndsTheRun(tmp_path):
 	script = tmp_path / 'fails.py'
-	script.write_text('from yade import *\nfrom yade import polytope\nfrom yade.polytope import mpi\n'
-	                  'if mpi.rank() == 1:\n\traise ValueError("on purpose")\nmpi.mpy.comm.barrier()\nmpi.mpy.comm.recv(source=1, tag=99)\n')
+	script.write_text(
+		'from yade import *\nfrom yade import polytope\nfrom yade.polytope import mpi\n'
+		'if mpi.rank() == 1:\n\traise ValueError("on purpose")\nmpi.mpy.comm.barrier()\nmpi.mpy.comm.recv(source=1, tag=99)\n'
+	)
 	assert 'on purpose' in under(2, 'yade', '-n', '-x', str(script), fails=True)
 
 
@@ -305,27 +329,40 @@ def testChangesOnRankZeroBetweenRunsAreHandedOut(found):
 
 
 @pytest.mark.parametrize('program', [sys.executable, 'yade'])
-@pytest.mark.parametrize('script, says', [
-	('mpi.divide()\nif mpi.rank() == 0:\n\tmpi.run(5)\n', 'rank 0: polytope.mpi.run; rank 1: the end of the script'),
-	('mpi.divide()\nmpi.run(2)\nif mpi.rank() == 1:\n\tmpi.merge()\n', 'rank 0: the end of the script; rank 1: polytope.mpi.merge'),
-	('if mpi.rank() == 0:\n\tO.bodies[0].dynamic = False\nmpi.divide()\nmpi.run(2)\n', 'no body can move'),
-	('mpi.divide()\nO.engines = O.engines + [PyRunner(command="O.bodies.erase(0)", iterPeriod=3)]\nmpi.run(5)\n', 'on rank 0, after polytope.mpi.merge()'),
-	('mpi.divide()\nmpi.run(2)\nif mpi.rank() == 0:\n\tO.bodies.append(polytope.regular(6, 1, (5, 0, 0)))\nmpi.run(5)\n', 'call polytope.mpi.divide()'),
-])
+@pytest.mark.parametrize(
+	'script, says',
+	[
+		('mpi.divide()\nif mpi.rank() == 0:\n\tmpi.run(5)\n', 'rank 0: polytope.mpi.run; rank 1: the end of the script'),
+		('mpi.divide()\nmpi.run(2)\nif mpi.rank() == 1:\n\tmpi.merge()\n', 'rank 0: the end of the script; rank 1: polytope.mpi.merge'),
+		('if mpi.rank() == 0:\n\tO.bodies[0].dynamic = False\nmpi.divide()\nmpi.run(2)\n', 'no body can move'),
+		(
+			'mpi.divide()\nO.engines = O.engines + [PyRunner(command="O.bodies.erase(0)", iterPeriod=3)]\nmpi.run(5)\n',
+			'on rank 0, after polytope.mpi.merge()',
+		),
+		(
+			'mpi.divide()\nmpi.run(2)\nif mpi.rank() == 0:\n\tO.bodies.append(polytope.regular(6, 1, (5, 0, 0)))\nmpi.run(5)\n',
+			'call polytope.mpi.divide()',
+		),
+	],
+)
 def testWhatWouldWaitOrCrashEndsWithAMessage(tmp_path, program, script, says):
 	name = tmp_path / 'script.py'
-	name.write_text('from yade import *\nfrom yade import O, PyRunner, RockJointMat, polytope\nfrom yade.polytope import mpi\n'
-	                'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
-	                '\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines(timeStepper=False)\n\tO.dt = 1e-4\n' + script)
+	name.write_text(
+		'from yade import *\nfrom yade import O, PyRunner, RockJointMat, polytope\nfrom yade.polytope import mpi\n'
+		'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
+		'\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines(timeStepper=False)\n\tO.dt = 1e-4\n' + script
+	)
 	options = ['-n', '-x'] if program == 'yade' else []
 	assert says in ' '.join(under(2, program, *options, str(name), fails=True).split())
 
 
 def testASceneThatIsNotDividedIsRefused(tmp_path):
 	script = tmp_path / 'undivided.py'
-	script.write_text('from yade import *\nfrom yade import O, polytope\nfrom yade.polytope import mpi\n'
-	                  'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
-	                  '\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines()\nmpi.run(5)\n')
+	script.write_text(
+		'from yade import *\nfrom yade import O, polytope\nfrom yade.polytope import mpi\n'
+		'if mpi.rank() == 0:\n\tO.materials.append(RockJointMat(density=2600))\n'
+		'\tO.bodies.append(polytope.regular(6, 1))\n\tO.engines = polytope.engines()\nmpi.run(5)\n'
+	)
 	assert 'polytope.mpi.divide()' in under(2, sys.executable, str(script), fails=True)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The plug-in is loaded with YADE, is the one compiled for it, and refuses with a message where it is not."""
+
 import os
 import subprocess
 import sys

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The plug-in computes with all digits of the YADE it was built for, whichever of the four precisions that is; and the
 precisions agree with each other as far as the coarser one goes."""
+
 import os
 import subprocess
 import sys
@@ -16,7 +17,7 @@ from yade import O, Quaternion, polytope
 
 info = polytope.buildInfo()
 precisions = {'double': 53, 'longdouble': 64, 'float128': 113, 'mpfr150': 500}
-rounding = mpf(2)**(1 - info['bits'])
+rounding = mpf(2) ** (1 - info['bits'])
 
 
 def exactly():
@@ -146,7 +147,7 @@ def ends(scene, precision):
 def testScenesAgreeAsFarAsTheCoarserPrecisionGoes(scene, precision):
 	theirs = ends(scene, precision)
 	ours = numbers(precisionScenes.endOf(scene))
-	coarser = mpf(2)**(1 - min(precisions[precision], info['bits']))
+	coarser = mpf(2) ** (1 - min(precisions[precision], info['bits']))
 	with mpmath.workdps(160):
 		error = distance(ours, theirs)
 	assert coarser / 16 < error  # else one of them has not the digits it says

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """While it computes a pair, the functor prefetches the data of the pairs after it: of any kind, also if deleted."""
+
 import pytest
 from boon2012.falling.scene import FallingPolyhedra
 from boon2012.runWatch import stateHash
@@ -37,7 +38,13 @@ def testSortedLoopGivesTheSameContacts():
 		scene = heap()
 		scene.interactionLoop.loopOnSortedInteractions = ordered
 		O.step()
-		geometry.append({(i.id1, i.id2): (tuple(i.geom.contactPoint), tuple(i.geom.normal), i.geom.penetrationDepth) for i in O.interactions if i.isReal})
+		geometry.append(
+			{
+				(i.id1, i.id2): (tuple(i.geom.contactPoint), tuple(i.geom.normal), i.geom.penetrationDepth)
+				for i in O.interactions
+				if i.isReal
+			}
+		)
 	assert len(geometry[0]) > 20 and geometry[0] == geometry[1]
 
 
@@ -62,8 +69,8 @@ def testPairsOfOtherShapesStandBetweenOurs(kind):
 		O.engines[1].boundDispatcher.functors += [Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()]
 		O.engines[2].geomDispatcher.functors += [Ig2_Sphere_Polytope_PolytopeGeom(), Ig2_Facet_Polytope_PolytopeGeom()]
 		for k in range(12):
-			O.bodies.append(polytope.cuboid((k, 0, 0), (.49, .49, .49), fixed=True))
-			ball, facet = utils.sphere((k, 0, .98), .5), utils.facet([(k - .3, -.3, .48), (k + .3, -.3, .48), (k, .3, .48)])
+			O.bodies.append(polytope.cuboid((k, 0, 0), (0.49, 0.49, 0.49), fixed=True))
+			ball, facet = utils.sphere((k, 0, 0.98), 0.5), utils.facet([(k - 0.3, -0.3, 0.48), (k + 0.3, -0.3, 0.48), (k, 0.3, 0.48)])
 			O.bodies.append(ball if kind == 'sphere' else facet)
 		O.dt = 1e-4
 		O.run(50, True)

@@ -7,6 +7,7 @@ until then), pairs that do not touch (their memory of the last basis starts anew
 the break), the order of pairs in the loop where contacts begin after the break (unless loopOnSortedInteractions gives them one: forces on a
 body are summed in this order), and what scripts hold. None of it affects the motion here: the scenes search for pairs in each step.
 """
+
 import os
 import subprocess
 import sys
@@ -186,7 +187,13 @@ def testSlideOverJointsIsResumed(scene, tmp_path):
 	assert resumed == uninterrupted
 
 
-others = [('centroidHeap', 2500, 200, 4), ('mixed', 1500, 300, 4), ('polygons', 1200, 300, 6), ('shearedCell', 600, 300, 4), ('clumps', 1500, 300, 3)]
+others = [
+	('centroidHeap', 2500, 200, 4),
+	('mixed', 1500, 300, 4),
+	('polygons', 1200, 300, 6),
+	('shearedCell', 600, 300, 4),
+	('clumps', 1500, 300, 3),
+]
 """Scene, steps until it is saved, steps after it, and contacts that there are at least."""
 needsIpopt = pytest.mark.skipif(not polytope.buildInfo()['ipopt'], reason='this build has no Ipopt')
 others.append(pytest.param('ipoptTower', 40, 20, 2, marks=needsIpopt))

@@ -177,7 +177,9 @@ answer([found, forces, [float(x) for x in O.bodies[2].state.pos], sorted(type(on
 	assert found.splitlines()[0] == 'nothing was found that is wrong', found
 	assert 'Bo1_Rod_Aabb' in functors
 	assert forces == pytest.approx([-0.5, -0.5], rel=1e-3)
-	again, _ = inYade('O.load(sys.argv[1])\nO.run(20, True)\nanswer([float(x) for x in O.bodies[2].state.pos])', saved, YADE_POLYTOPE_EXTENSIONS=str(rods))
+	again, _ = inYade(
+		'O.load(sys.argv[1])\nO.run(20, True)\nanswer([float(x) for x in O.bodies[2].state.pos])', saved, YADE_POLYTOPE_EXTENSIONS=str(rods)
+	)
 	assert again == pytest.approx(place, rel=1e-12, abs=1e-12)
 
 

@@ -5,6 +5,7 @@ Contacts are computed alike by any thread. Forces are summed by thread, then ove
 does not depend on the order, and runs agree bit for bit; with more they differ by rounding, which a heap in motion amplifies as any
 other disturbance. Two runs with one thread agree bit for bit always.
 """
+
 import functools
 import os
 import subprocess
@@ -13,16 +14,21 @@ import sys
 from test_save_load import program
 
 # the same scenes as for saving: one run, no archive
-runner = program[:program.index("globals()[scene]()")] + '''
+runner = (
+	program[: program.index("globals()[scene]()")]
+	+ '''
 globals()[scene]()
 O.trackEnergy = energy
 O.run(after, True)
 assert O.numThreads == int(sys.argv[7]), O.numThreads
 print('RESULT', state())
 '''
+)
 
 # the step after which a body that moves has three contacts for the first time
-firstStepWithThree = runner[:runner.index('O.run(after, True)')] + '''
+firstStepWithThree = (
+	runner[: runner.index('O.run(after, True)')]
+	+ '''
 from collections import Counter
 while True:
 	O.step()
@@ -31,6 +37,7 @@ while True:
 	assert O.iter < after, 'no body has three contacts'
 print('RESULT', float(O.iter).hex())
 '''
+)
 
 
 # YADE's integrator makes its energies' names in its parallel loop without a lock: now and then two threads make one twice, and what
@@ -45,7 +52,7 @@ def run(scene, threads, steps, energy=False, script=runner):
 	command = [sys.executable, '-c', script, here, scene, '0', str(steps), 'none', 'energy' if energy else 'none', str(threads)]
 	output = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=1800)
 	assert output.returncode == 0, output.stderr
-	line, = [line for line in output.stdout.splitlines() if line.startswith('RESULT')]
+	(line,) = [line for line in output.stdout.splitlines() if line.startswith('RESULT')]
 	return [float.fromhex(x) for x in line.split()[1:]]
 
 
@@ -59,7 +66,7 @@ def testOneThreadRepeatsItself():
 
 @functools.cache
 def stepWithThreeContacts():
-	step, = run('heap', 1, 5000, script=firstStepWithThree)
+	(step,) = run('heap', 1, 5000, script=firstStepWithThree)
 	return int(step)
 
 
@@ -73,7 +80,7 @@ def testTwoThreadsAgreeInAHeap():
 	"""One rounding at the first step with three contacts is 3e-12 three hundred steps later; here one in each of them may differ."""
 	steps = stepWithThreeContacts() + 300
 	one, two = run('heap', 1, steps), run('heap', 2, steps)
-	difference = max(abs(a - b) for a, b in zip(one[:13 * 16], two))
+	difference = max(abs(a - b) for a, b in zip(one[: 13 * 16], two))
 	print('equal', one == two, 'largest difference of any state value:', difference)
 	assert difference < 1e-10
 

@@ -217,7 +217,9 @@ def testThePortedWedgeSlidesAsByLimitEquilibrium(capsys):
 	"""docs/from-other-codes.md: the two figures that it prints agree, and no query was without an answer."""
 	runs(project / 'docs/from-other-codes.md')
 	ours, closed = map(float, capsys.readouterr().out.splitlines()[-1].split())
-	assert closed == pytest.approx(9.81 * (0.5 - 0.75**0.5 * math.tan(math.radians(15)) * 2**0.5), rel=1e-12) and ours == pytest.approx(closed, rel=1e-4)
+	assert closed == pytest.approx(9.81 * (0.5 - 0.75**0.5 * math.tan(math.radians(15)) * 2**0.5), rel=1e-12) and ours == pytest.approx(
+		closed, rel=1e-4
+	)
 	assert yade.O.engines[2].geomDispatcher.functors[0].stats()['failures'] == 0
 
 

@@ -11,7 +11,34 @@ import pytest
 from yade import Facet, InteractionLoop, O, Vector3, polytope
 
 folder = pathlib.Path(__file__).resolve().parents[3] / 'examples'
-here = ('ballast', 'blockOnSlope', 'boltCurves', 'boltedWedge', 'bondedCube', 'crushedCube', 'crushedGrain', 'directShear', 'drum', 'energy', 'funnel', 'goodmanBray', 'jointNetwork', 'jointedSlope', 'lining', 'lockedInForces', 'mesh', 'paraview', 'polygons', 'restitution', 'rocking', 'slopeFromJoints', 'timeStep', 'tradeoff', 'triaxial', 'tunnel')
+here = (
+	'ballast',
+	'blockOnSlope',
+	'boltCurves',
+	'boltedWedge',
+	'bondedCube',
+	'crushedCube',
+	'crushedGrain',
+	'directShear',
+	'drum',
+	'energy',
+	'funnel',
+	'goodmanBray',
+	'jointNetwork',
+	'jointedSlope',
+	'lining',
+	'lockedInForces',
+	'mesh',
+	'paraview',
+	'polygons',
+	'restitution',
+	'rocking',
+	'slopeFromJoints',
+	'timeStep',
+	'tradeoff',
+	'triaxial',
+	'tunnel',
+)
 elsewhere = {'hello': 'test_docs', 'oneContact': 'test_docs', 'mpi': 'test_mpi'}
 
 
@@ -78,7 +105,12 @@ def testBlocksOnSlopesStandSlideAndToppleAs3DecSays(runs, capsys):
 def testColumnsToppleAtTheAngleOfGoodmanAndBray(runs, capsys):
 	"""Less closely than the example."""
 	with pytest.raises(SystemExit) as end:
-		runs('goodmanBray', shorter={'start=radians(50), steps=[radians(2), radians(0.5), radians(0.1)]': 'start=radians(42), steps=[radians(2), radians(0.5)]'})
+		runs(
+			'goodmanBray',
+			shorter={
+				'start=radians(50), steps=[radians(2), radians(0.5), radians(0.1)]': 'start=radians(42), steps=[radians(2), radians(0.5)]'
+			},
+		)
 	stands, fails, exact = map(float, re.findall(r'[\d.]+(?=°)', capsys.readouterr().out))
 	assert not end.value.code and exact == pytest.approx(38.13, abs=0.01) and fails - 0.3 < exact < stands + 0.3 and noFailures()
 
@@ -138,7 +170,10 @@ def testCrushedGrainBreaksWhereItsStressSays(runs):
 def testSlopeSlidesBelowTheDipOfItsBeddingOnly(runs, capsys):
 	"""Four metres of it along the face."""
 	with pytest.raises(SystemExit) as end:
-		runs('jointedSlope', shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'})
+		runs(
+			'jointedSlope',
+			shorter={'[24, 2, 10, 0, 14, 2, 0]': '[24, 2, 4, 0, 14, 2, 0]', 'moved(radians(20), 1.0)': 'moved(radians(20), 0.05)'},
+		)
 	assert not end.value.code and 'queries without an answer: 0' in capsys.readouterr().out and isPicture('output/jointedSlope.png')
 
 
@@ -163,7 +198,14 @@ def testJointNetworkCutsWhatWasAskedFor(runs, capsys):
 
 
 def testFunnelLetsGrainsOutBelowAlone(runs, capsys):
-	runs('funnel', shorter={'mass=0.25': 'mass=0.03', "[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]', 'O.time < 0.45': 'O.time < 0.35'})
+	runs(
+		'funnel',
+		shorter={
+			'mass=0.25': 'mass=0.03',
+			"[(0.007, 0), (0.01, 0.5), (0.013, 1)]": '[(0.009, 0), (0.011, 1)]',
+			'O.time < 0.45': 'O.time < 0.35',
+		},
+	)
 	out, number = map(int, re.search(r'(\d+) of (\d+) grains', capsys.readouterr().out).groups())
 	grains = [body.state.pos for body in O.bodies if body.dynamic]
 	assert 0 < out and number == len(grains) > 8 and isPicture('output/funnel.png') and noFailures()
@@ -178,7 +220,9 @@ def testPebblesLieInTheTray(runs, capsys):
 	names = runs('mesh', shorter={'until=1.5': 'until=0.25'})
 	hull = O.bodies[5].shape
 	assert f'{hull.volume} m³, with {len(hull.normals)} planes' in capsys.readouterr().out
-	assert len(hull.normals) > 20 and O.bodies[24].shape.volume / hull.volume == pytest.approx(((0.007 + 0.0002 * 19) / 0.007) ** 3, rel=1e-5)
+	assert len(hull.normals) > 20 and O.bodies[24].shape.volume / hull.volume == pytest.approx(
+		((0.007 + 0.0002 * 19) / 0.007) ** 3, rel=1e-5
+	)
 	pebbles = [body.state for body in O.bodies if body.dynamic]
 	assert len(pebbles) == 20 and isPicture('output/pebbles.png') and noFailures()
 	assert all(state.pos[2] > 0 and abs(state.pos[0]) < 0.14 and abs(state.pos[1]) < 0.14 for state in pebbles)
@@ -207,7 +251,12 @@ def testTriaxialTestHoldsItsStress(runs, capsys):
 	columns = names['columns']
 	assert columns['lateralStress'].mean() == pytest.approx(1e5, rel=1e-3) and columns['deviator'].max() > 4e4
 	assert columns['axialStrain'][-1] == pytest.approx(0.02, abs=1e-4) and columns['volumetricStrain'][-1] > 0
-	assert isPicture('output/triaxial.png') and isPicture('output/triaxialSample.png') and f'{len(names["sample"].ids)} grains' in capsys.readouterr().out and noFailures()
+	assert (
+		isPicture('output/triaxial.png')
+		and isPicture('output/triaxialSample.png')
+		and f'{len(names["sample"].ids)} grains' in capsys.readouterr().out
+		and noFailures()
+	)
 
 
 def testTimeStepsColumnStands(runs, capsys):
@@ -228,7 +277,9 @@ def testAGasOfAContactSurfaceKeepsItsEnergy(runs, capsys):
 		assert noFailures() and O.dt < stable and O.engines[2].geomDispatcher.functors[0].stats()['contacts'] > 1000
 	assert worst['spring'] < 2e-4 and worst['foundation'] < 2e-4 and worst['boon2012'] > 2e-3
 	monkey = runs('energy', '--seconds', '0.002', '--number', '5', '--output', 'small.png')
-	assert isPicture('small.png') and len(re.findall(r'^(?:boon2012|spring|foundation) ', capsys.readouterr().out, re.MULTILINE)) == len(monkey['runs'])
+	assert isPicture('small.png') and len(re.findall(r'^(?:boon2012|spring|foundation) ', capsys.readouterr().out, re.MULTILINE)) == len(
+		monkey['runs']
+	)
 
 
 def testGrainsStayInTheDrumAndRiseWithItsWall(runs, capsys):
@@ -244,7 +295,14 @@ def testGrainsStayInTheDrumAndRiseWithItsWall(runs, capsys):
 
 
 def testBallastSettlesUnderItsLoad(runs, capsys):
-	names = runs('ballast', shorter={'mass=9': 'mass=5', 'long, wide, high = 0.36, 0.2, 0.7': 'long, wide, high = 0.26, 0.2, 0.7', '2e3, 0.05, 4': '1e3, 0.05, 2'})
+	names = runs(
+		'ballast',
+		shorter={
+			'mass=9': 'mass=5',
+			'long, wide, high = 0.36, 0.2, 0.7': 'long, wide, high = 0.26, 0.2, 0.7',
+			'2e3, 0.05, 4': '1e3, 0.05, 2',
+		},
+	)
 	settlement = names['settlement']
 	assert len(settlement) == 2 and 0 < settlement[0] < 0.05 and settlement[1] > 0 and noFailures()
 	assert isPicture('output/ballast.png') and '2 cycles' in capsys.readouterr().out

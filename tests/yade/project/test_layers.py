@@ -63,7 +63,9 @@ def testTheCoreKnowsNothingAboveIt():
 	own = {path.relative_to(project / 'src').as_posix() for path in files(project / 'src', '.hpp')}
 	for path in files(project / 'src', '.hpp', '.cpp'):
 		for name in includes(path):
-			ofAnother = name.startswith(('pkg/', 'py/', 'tests/', 'tools/', 'examples/', 'core/', 'lib/', 'boost/python')) or name == 'Python.h'
+			ofAnother = (
+				name.startswith(('pkg/', 'py/', 'tests/', 'tools/', 'examples/', 'core/', 'lib/', 'boost/python')) or name == 'Python.h'
+			)
 			assert not ofAnother or (path.name == 'Real.hpp' and name.startswith('lib/high-precision/')), f'{path.name} includes {name}'
 			assert not (project / 'pkg/polytope' / name).is_file() or name in own, f'{path.name} includes {name} of pkg'
 
@@ -85,7 +87,10 @@ def testEachFolderOfTheCoreIncludesToTheLeftOnly():
 @pytest.mark.parametrize('folder', ['src', 'pkg/polytope'])
 def testNoHeaderIncludesItselfThroughOthers(folder):
 	place = {path.name: path for path in files(project / folder, '.hpp')}
-	within = {path: {place[name] for name in map(lambda name: pathlib.Path(name).name, includes(path)) if name in place} for path in place.values()}
+	within = {
+		path: {place[name] for name in map(lambda name: pathlib.Path(name).name, includes(path)) if name in place}
+		for path in place.values()
+	}
 	for path in within:
 		reached, ahead = set(), set(within[path])
 		while ahead:

@@ -87,6 +87,7 @@ def testEachMutantIsTheProgramThatItsNameSays(mutants, tmp_path):
 
 def testMutantsThatDoNotCompileAreNamedByTheMessages():
 	"""On the line of the error, beside it, or where a template was asked for."""
+
 	def mutant(number, line):
 		return Mutant(number, 'src/a.hpp', line, 0, 'arithmetic', '+', '-', '')
 

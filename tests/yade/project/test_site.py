@@ -51,7 +51,9 @@ def testEveryPageIsThere(site):
 def testAllFunctionsAndClassesAreThere(site):
 	places = set(re.findall(r'id="([\w.]+)"', ''.join(read(site, 'api').values())))
 	assert {f'yade.polytope.{name}' for name in polytope.__all__} <= places
-	assert {f'yade.polytope.{name}.{key}' for name in ('FactorOfSafety', 'LimitAnalysis') for key in ('factor', 'stable', 'trials')} <= places
+	assert {
+		f'yade.polytope.{name}.{key}' for name in ('FactorOfSafety', 'LimitAnalysis') for key in ('factor', 'stable', 'trials')
+	} <= places
 	for name in _helpTexts.classes:
 		texts = {key for key, one in vars(getattr(yade, name)).items() if isinstance(one, property) and one.__doc__}
 		assert {f'yade.{name}', *(f'yade.{name}.{key}' for key in texts)} <= places

@@ -3,6 +3,7 @@
 
 Options of all verbs: `run` refuses the ones that a program does not have before there is a program, from the lists in tools/verbs.sh.
 """
+
 import os
 import re
 import subprocess
@@ -29,7 +30,10 @@ def search(*arguments):
 	return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=1800)
 
 
-@pytest.mark.parametrize('verb, options', [('fuzz', ['--seconds', '--target', '--dry-run']), ('sanitize', ['--only', 'core', 'threads', 'fuzz', 'valgrind', '--dry-run'])])
+@pytest.mark.parametrize(
+	'verb, options',
+	[('fuzz', ['--seconds', '--target', '--dry-run']), ('sanitize', ['--only', 'core', 'threads', 'fuzz', 'valgrind', '--dry-run'])],
+)
 def testHelpNamesTheOptions(verb, options):
 	done = inside(verb, '--help')
 	assert done.returncode == 0 and not done.stderr
@@ -49,7 +53,11 @@ programs = {
 
 def listed(function, verb):
 	"""What tools/verbs.sh has."""
-	return set(subprocess.run(['bash', '-c', f'. {project}/tools/verbs.sh; {function} {verb}'], capture_output=True, text=True, check=True).stdout.split())
+	return set(
+		subprocess.run(
+			['bash', '-c', f'. {project}/tools/verbs.sh; {function} {verb}'], capture_output=True, text=True, check=True
+		).stdout.split()
+	)
 
 
 @pytest.mark.parametrize('verb', [*programs, 'fuzz', 'sanitize', 'search'])
@@ -73,29 +81,35 @@ def testNamesOfAVerbAreThoseOfItsProgram(verb):
 	assert done.returncode == 2 and set(re.findall(r"\w+", done.stderr.split('choose from')[1])) == listed('namesOf', verb)
 
 
-@pytest.mark.parametrize('arguments, named', [
-        (['fuzz', '--seconds'], '--seconds'),
-        (['fuzz', '--seconds', '0'], '--seconds'),
-        (['fuzz', '--seconds', '99999999999999999999'], '--seconds'),
-        (['fuzz', '--target', 'nothing'], 'nothing'),
-        (['fuzz', '--nonsense'], '--nonsense'),
-        (['sanitize', '--only', 'nothing'], 'nothing'),
-        (['sanitize', '--only'], '--only'),
-        (['sanitize', 'core'], 'core'),
-        (['mpi'], 'number of processes'),
-        (['mpi', '0', 'x.py'], 'number of processes'),
-        (['mpi', '2', 'nowhere.py'], 'nowhere.py'),
-])
+@pytest.mark.parametrize(
+	'arguments, named',
+	[
+		(['fuzz', '--seconds'], '--seconds'),
+		(['fuzz', '--seconds', '0'], '--seconds'),
+		(['fuzz', '--seconds', '99999999999999999999'], '--seconds'),
+		(['fuzz', '--target', 'nothing'], 'nothing'),
+		(['fuzz', '--nonsense'], '--nonsense'),
+		(['sanitize', '--only', 'nothing'], 'nothing'),
+		(['sanitize', '--only'], '--only'),
+		(['sanitize', 'core'], 'core'),
+		(['mpi'], 'number of processes'),
+		(['mpi', '0', 'x.py'], 'number of processes'),
+		(['mpi', '2', 'nowhere.py'], 'nowhere.py'),
+	],
+)
 def testRefusals(arguments, named):
 	done = inside(*arguments)
 	assert done.returncode == 1 and named in done.stderr and not done.stdout
 	assert 'unbound' not in done.stderr
 
 
-@pytest.mark.parametrize('arguments, folders', [
-        (['fuzz'], {'checked': ['polytope_fuzz_construction', 'polytope_fuzz_contact']}),
-        (['sanitize'], {'checked': ['polytope_fuzz_construction', 'polytope_core_tests'], 'checked-threads': ['polytope_core_tests']}),
-])
+@pytest.mark.parametrize(
+	'arguments, folders',
+	[
+		(['fuzz'], {'checked': ['polytope_fuzz_construction', 'polytope_fuzz_contact']}),
+		(['sanitize'], {'checked': ['polytope_fuzz_construction', 'polytope_core_tests'], 'checked-threads': ['polytope_core_tests']}),
+	],
+)
 def testTheyConfigure(arguments, folders):
 	"""A dry run reaches the compiler."""
 	done = inside(*arguments, '--dry-run')
@@ -116,11 +130,27 @@ def testSearchHelps():
 	assert '--pairs' in done.stdout and '--quick' in done.stdout and 'Families:' in done.stdout
 
 
-@pytest.mark.parametrize('arguments', [
-        ['--pairs', '0'], ['--pairs', '-1'], ['--pairs', '99999999999999999999'], ['--pairs', '1e6'], ['--pairs', '1000000000001'], ['--pairs'],
-        ['--seed', '99999999999999999999'], ['--threads', '-1'], ['--threads', '4294967296'], ['--trial', '1'], ['--family', 'none'], ['--nonsense'],
-        ['--quick', '--pairs', '0'], ['--log', '/proc/nope/x'], ['--family', 'solids', '--trial', '-1'], ['--family', 'solids', '--trial', '1', '--quick']
-])
+@pytest.mark.parametrize(
+	'arguments',
+	[
+		['--pairs', '0'],
+		['--pairs', '-1'],
+		['--pairs', '99999999999999999999'],
+		['--pairs', '1e6'],
+		['--pairs', '1000000000001'],
+		['--pairs'],
+		['--seed', '99999999999999999999'],
+		['--threads', '-1'],
+		['--threads', '4294967296'],
+		['--trial', '1'],
+		['--family', 'none'],
+		['--nonsense'],
+		['--quick', '--pairs', '0'],
+		['--log', '/proc/nope/x'],
+		['--family', 'solids', '--trial', '-1'],
+		['--family', 'solids', '--trial', '1', '--quick'],
+	],
+)
 def testSearchRefuses(arguments):
 	done = search(*arguments)
 	assert done.returncode == 2 and not done.stdout

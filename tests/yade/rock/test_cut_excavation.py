@@ -115,7 +115,9 @@ def testABlockThatShearHoldsOnASlopeIsCutAcrossIt(flat):
 	for part in up, low:
 		assert part.shearForce.norm() == pytest.approx(0.475 * shear, rel=2e-5)
 	assert up.normalForce.norm() + low.normalForce.norm() == pytest.approx(0.95 * normal, rel=1e-4)
-	slope = weight * math.sin(angle) * half[2] / ((1 if flat else 2 * half[1]) * 2**3 / 12)  # of the pressure that balances the moment of the shear
+	slope = (
+		weight * math.sin(angle) * half[2] / ((1 if flat else 2 * half[1]) * 2**3 / 12)
+	)  # of the pressure that balances the moment of the shear
 	apart = slope * (1 - 0.05**2) * (1 if flat else 2 * half[1])
 	assert low.normalForce.norm() - up.normalForce.norm() == pytest.approx(apart, rel=2e-3)
 	before = [Vector3(O.bodies[k].state.pos) for k in places]
@@ -194,7 +196,9 @@ def testBondsAreSharedByTheirArea(flat, bonded):
 	lost = 0.05**3  # of the second moment along x
 	inPlane, out = (moments[0], moments[1]) if moments[0] > moments[1] else (moments[1], moments[0])
 	assert inPlane == pytest.approx(2**3 / 12, rel=1e-3)
-	for axis, kept in ((2, 1 - lost), (1, 1 - lost)) if flat else ((1, 1 - lost), (0, 0.95), (2, ((1 - lost) * inPlane + 0.95 * out) / (inPlane + out))):
+	for axis, kept in (
+		((2, 1 - lost), (1, 1 - lost)) if flat else ((1, 1 - lost), (0, 0.95), (2, ((1 - lost) * inPlane + 0.95 * out) / (inPlane + out)))
+	):
 		assert about[axis] == pytest.approx(kept * moment[axis], rel=2e-3, abs=1e-3 * moment.norm())
 	assert sum(part.energy for part in parts.values()) == pytest.approx(stored, rel=0.06) and stored > 0
 	O.step()
@@ -293,12 +297,16 @@ def forcesNow():
 		if body.dynamic and not body.isClumpMember:
 			parts = [body, *(O.bodies[k] for k in (body.shape.members if body.isClump else ()))]
 			force = sum((O.forces.f(part.id) for part in parts), Vector3.Zero)
-			torque = sum((O.forces.t(part.id) + (part.state.pos - body.state.pos).cross(O.forces.f(part.id)) for part in parts), Vector3.Zero)
+			torque = sum(
+				(O.forces.t(part.id) + (part.state.pos - body.state.pos).cross(O.forces.f(part.id)) for part in parts), Vector3.Zero
+			)
 			found[body.id] = force, torque
 	return found
 
 
-@pytest.mark.parametrize('scene, region', [(stressedMass, oblique), (lambda: stressedMass(cohesion=1e6, tensileStrength=1e6), oblique), (flatMass, flatRegion)])
+@pytest.mark.parametrize(
+	'scene, region', [(stressedMass, oblique), (lambda: stressedMass(cohesion=1e6, tensileStrength=1e6), oblique), (flatMass, flatRegion)]
+)
 def testAStressedMassIsAtRestWhereItIsCutAndAllIsHeld(scene, region):
 	"""No force or torque on any body jumps by 1e-5 of what neighbours are pressed with, and no block moves by 1e-3 of a joint's closure."""
 	scene()
@@ -327,7 +335,9 @@ def cube(size=2, place=(10, 0, 0), flat=False):
 
 
 def volumes(ids):
-	return sorted(sum(float(O.bodies[part].shape.volume) for part in (O.bodies[k].shape.members if O.bodies[k].isClump else [k])) for k in ids)
+	return sorted(
+		sum(float(O.bodies[part].shape.volume) for part in (O.bodies[k].shape.members if O.bodies[k].isClump else [k])) for k in ids
+	)
 
 
 @pytest.mark.parametrize(
@@ -410,7 +420,9 @@ def testFacesKeepMaterialJointAndWater():
 			assert [smooth if one == 0 else -1 for one in sets] == list(part.shape.faceMaterials)
 			for one, normal, offset in zip(sets, normals, part.shape.offsets, strict=True):
 				at = abs(normal.dot(part.state.pos) + offset)
-				assert (one == 0) == (abs(normal[2]) > 0.9 and abs(at - 2) < 1e-6) and (one == 1) == (abs(normal[1]) > 0.9 and abs(at - 2) < 1e-6)
+				assert (one == 0) == (abs(normal[2]) > 0.9 and abs(at - 2) < 1e-6) and (one == 1) == (
+					abs(normal[1]) > 0.9 and abs(at - 2) < 1e-6
+				)
 		# the face of 2 m by 2 m less the 1 m by 1 m, on which the pressure is that of 1 m
 		assert float(water.load(left)[0][2]) == pytest.approx(0.75 * uplift[k], rel=1e-9)
 	assert sorted(before) == [-1, -1, -1, -1, 0, 1]
@@ -423,9 +435,15 @@ def testFacesKeepMaterialJointAndWater():
 
 def refused(name, **arguments):
 	"""Nothing of the scene has changed."""
+
 	def state():
 		bodies = [(body.id, type(body.shape).__name__, Vector3(body.state.pos), len(body.intrs())) for body in O.bodies]
-		return bodies, [type(engine).__name__ for engine in O.engines], len(O.materials), sorted((one.id1, one.id2) for one in O.interactions)
+		return (
+			bodies,
+			[type(engine).__name__ for engine in O.engines],
+			len(O.materials),
+			sorted((one.id1, one.id2) for one in O.interactions),
+		)
 
 	before = state()
 	with pytest.raises(ValueError, match=f'^{name}'):
@@ -513,7 +531,10 @@ def testAClumpOnAFloorIsCutAsOneBody():
 	"""Two flush halves and a wing; the upper half of all is cut off."""
 	material()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 3, 0.5), fixed=True))
-	clump = polytope.clump([polytope.cuboid((x, 0, 0.5 - 1e-6), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)] + [polytope.cuboid((0, 0.75, 0.5 - 1e-6), (0.3, 0.25, 0.5))])[0]
+	clump = polytope.clump(
+		[polytope.cuboid((x, 0, 0.5 - 1e-6), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)]
+		+ [polytope.cuboid((0, 0.75, 0.5 - 1e-6), (0.3, 0.25, 0.5))]
+	)[0]
 	undamped(gravity=(0, 0, -gravity))
 	polytope.settle()
 	weight = O.bodies[clump].state.mass * gravity

@@ -238,7 +238,9 @@ def testTheSceneIsWhatItWas():
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
-@pytest.mark.parametrize('joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)])
+@pytest.mark.parametrize(
+	'joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)]
+)
 def testAFactorBelowOneIsFoundFromLargerStrengths(joint, theory):
 	block = onSlope(dip, (0.5, 0.5, 0.1), **joint)
 	before = O.bodies[block].state.pos
@@ -253,7 +255,9 @@ def testAFactorBelowOneIsFoundFromLargerStrengths(joint, theory):
 def testASceneThatDoesNotStandWithLargerStrengthsIsRefused():
 	block = onSlope(dip, (0.5, 0.5, 0.1))
 	before = O.bodies[block].state.pos
-	with pytest.raises(RuntimeError, match=r'own strengths \(failed.*\), nor with 20 times cohesion; polytope\.settle\(\) first.*other strengths'):
+	with pytest.raises(
+		RuntimeError, match=r'own strengths \(failed.*\), nor with 20 times cohesion; polytope\.settle\(\) first.*other strengths'
+	):
 		polytope.factorOfSafety(reduce=['cohesion'])
 	assert O.bodies[block].state.pos == before and O.materials[0].frictionAngle == friction
 
@@ -279,7 +283,9 @@ def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
 	O.bodies.append(polytope.cuboid((0, 0, -3), (20, 5, 3), fixed=True))
 	block = O.bodies.append(polytope.cuboid((0, 0, 0.5), (1, 0.5, 0.5)))
 	O.engines = polytope.engines(gravity=(gravity * math.sin(steep), 0, -gravity * math.cos(steep)))
-	polytope.bolt((0, 0, 1), (0, 0, -2), area=4.9e-4, youngsModulus=2e11, yieldForce=yields, freeLength=free, grout=polytope.Grout(1e9, 4e5))
+	polytope.bolt(
+		(0, 0, 1), (0, 0, -2), area=4.9e-4, youngsModulus=2e11, yieldForce=yields, freeLength=free, grout=polytope.Grout(1e9, 4e5)
+	)
 	polytope.settle()
 	found = polytope.factorOfSafety(tolerance=0.05)
 	way = 2 ** (1 / 3) / 50

@@ -46,7 +46,9 @@ def testADiscThatEndsInsideDividesNothing():
 
 
 def testADiscOutsideCutsNothing():
-	with pytest.warns(UserWarning, match=r'^jointSets: no joint reaches into the region, whose centre is \(.*are their places in other units or axes'):
+	with pytest.warns(
+		UserWarning, match=r'^jointSets: no joint reaches into the region, whose centre is \(.*are their places in other units or axes'
+	):
 		rock = cut(Joint(0, 0, (14, 0, 0), radius=3), incomplete='cut')
 	assert len(rock.blocks) == 1 and len(rock.joints) == 0
 
@@ -137,7 +139,9 @@ def testSpacingOfDiscsIsThatOfAScanLine():
 				along = (one.offset - points @ one.normal) / (one.normal @ direction)
 				at = points + along[:, None] * direction
 				hits[place] += ((np.abs(along) < length / 2) & (np.linalg.norm(at - one.centre, axis=1) < one.radius)).sum()
-	assert hits / (networks * 1000 * length) == pytest.approx(1 / 0.5, rel=0.07)  # some 2000 discs reach into each place: 2.2 % is a standard deviation
+	assert hits / (networks * 1000 * length) == pytest.approx(
+		1 / 0.5, rel=0.07
+	)  # some 2000 discs reach into each place: 2.2 % is a standard deviation
 
 
 @pytest.mark.parametrize('radius', [2.0, ('exponential', 1.5), ('lognormal', 2, 1), ('powerLaw', 1, 8, 2.5), ('powerLaw', 1, 8, 3)])

@@ -34,15 +34,28 @@ def testTable(read, separator):
 
 def testJointsOfAFileHaveMaterialsBySet(read):
 	"""Numbers come first, then names; each has its own material."""
-	joints = read('# mapped in May\n\ndip,dip_direction,x,y,z,set\n0,0,0,0,0,fault\n# the bedding:\n0,0,0,0,2,bedding\n0,0,0,0,4,12\n0,0,0,0,-4,bedding\n')
+	joints = read(
+		'# mapped in May\n\ndip,dip_direction,x,y,z,set\n0,0,0,0,0,fault\n# the bedding:\n0,0,0,0,2,bedding\n0,0,0,0,4,12\n0,0,0,0,-4,bedding\n'
+	)
 	assert [joint.set for joint in joints] == ['fault', 'bedding', 12, 'bedding']
 	rock = polytope.jointedRock(box, half, [polytope.Joint(0, 0, (0, 0, -6)), joints])
 	assert rock.entries == 4 and rock.sets.tolist() == [0, 3, 2, 1, 2]
 	for number in range(5):
 		O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, label=f'm{number}'))
 	ids = rock.append(material='m0', jointMaterials=['m1', 'm2', 'm3', 'm4'])
-	tops = {round(float(O.bodies[k].state.pos[2] + max(O.bodies[k].shape.offsets[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9)), 3): k for k in ids}
-	found = {top: next(O.bodies[k].shape.faceMaterials[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9) for top, k in tops.items()}
+	tops = {
+		round(
+			float(
+				O.bodies[k].state.pos[2] + max(O.bodies[k].shape.offsets[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9)
+			),
+			3,
+		): k
+		for k in ids
+	}
+	found = {
+		top: next(O.bodies[k].shape.faceMaterials[i] for i, n in enumerate(O.bodies[k].shape.normals) if n[2] > 0.9)
+		for top, k in tops.items()
+	}
 	assert found == {-6: 1, -4: 3, 0: 4, 2: 3, 4: 2, 10: -1}
 	with pytest.raises(ValueError, match='for each of the 4 jointSets'):
 		rock.append(material='m0', jointMaterials=['m1', 'm2'])
@@ -59,7 +72,10 @@ def testAnglesThatCouldBeRadiansAreTold(read):
 
 def testJointsOutsideTheRegionAreNamed():
 	inside, outside = polytope.Joint(0, 0, (0, 0, 1)), polytope.Joint(0, 0, (0, 0, 40), radius=5)
-	with pytest.warns(UserWarning, match=r'^jointSets: 2 of 3 joints lie wholly outside the region, and cut nothing: 1 at \(0, 0, 40\), 2 at \(0, 0, -11\)'):
+	with pytest.warns(
+		UserWarning,
+		match=r'^jointSets: 2 of 3 joints lie wholly outside the region, and cut nothing: 1 at \(0, 0, 40\), 2 at \(0, 0, -11\)',
+	):
 		rock = polytope.jointedRock(box, half, [[inside, outside], polytope.Joint(0, 0, (0, 0, -11))])
 	assert len(rock.bodies) == 2
 

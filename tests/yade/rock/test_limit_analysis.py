@@ -67,12 +67,16 @@ def testPlaneFailure(flat, reduce, theory):
 	expect(found, theory)
 	opening = math.atan(math.tan(friction) / (theory if 'friction' in reduce else 1))
 	assert found.bodies == [block]
-	assert found.directions[0] == pytest.approx((math.cos(opening), math.sin(opening) if flat else 0, 0 if flat else math.sin(opening)), abs=0.01)
+	assert found.directions[0] == pytest.approx(
+		(math.cos(opening), math.sin(opening) if flat else 0, 0 if flat else math.sin(opening)), abs=0.01
+	)
 	assert np.linalg.norm(found.displacements[0]) == pytest.approx(0.02 * (0.2 ** (1 / 2) if flat else 0.2 ** (1 / 3)), rel=1e-6)
 	assert found.joints == 1 and [trial.stands for trial in found.trials if trial.factor == 1] == [True]
 
 
-@pytest.mark.parametrize('joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)])
+@pytest.mark.parametrize(
+	'joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)]
+)
 def testAFactorBelowOne(joint, theory):
 	onSlope(dip, (0.5, 0.5, 0.1), **joint)
 	expect(polytope.limitAnalysis(tolerance=fine), theory)
@@ -84,11 +88,15 @@ def testTopplingOfAColumnHeldByTheTensionOfItsBase(flat):
 	wide, high, steep = 0.5, 1.0, math.radians(40)
 	load = 5000 * gravity * wide * high
 	lacking = load * (high * math.sin(steep) - wide * math.cos(steep)) / 2  # moment about the foot, of unit width
-	block = onSlope(steep, (wide / 2, 0.5, high / 2), flat, tensileStrength=1.7 * lacking * 2 / wide**2, cohesion=1e7, frictionAngle=math.radians(60))
+	block = onSlope(
+		steep, (wide / 2, 0.5, high / 2), flat, tensileStrength=1.7 * lacking * 2 / wide**2, cohesion=1e7, frictionAngle=math.radians(60)
+	)
 	found = polytope.limitAnalysis(tolerance=fine)
 	expect(found, 1.7)
 	turn = found.rotations[0] @ ((0, 0, -1) if flat else (0, 1, 0))
-	assert found.bodies == [block] and turn == pytest.approx(np.linalg.norm(found.displacements[0]) / math.hypot(wide / 2, high / 2), rel=0.05)
+	assert found.bodies == [block] and turn == pytest.approx(
+		np.linalg.norm(found.displacements[0]) / math.hypot(wide / 2, high / 2), rel=0.05
+	)
 
 
 @pytest.mark.parametrize('flat', [False, True])
@@ -137,9 +145,16 @@ def limitOfTranslation(load, planes):
 		def lost(way):
 			return -load @ way + sum(cohesion / factor * sliding(way, normal) for normal, _, cohesion in planes)
 
-		limits = [{'type': 'ineq', 'fun': lambda way, n=normal, t=tangent: n @ way - t / factor * sliding(way, n)} for normal, tangent, _ in planes]
+		limits = [
+			{'type': 'ineq', 'fun': lambda way, n=normal, t=tangent: n @ way - t / factor * sliding(way, n)}
+			for normal, tangent, _ in planes
+		]
 		limits.append({'type': 'ineq', 'fun': lambda way: 1 - way @ way})
-		starts = [sum(x * n for x, n in zip(part, [plane[0] for plane in planes], strict=True)) + 0.5 * load + 0.3 * side for part in ((1, 1), (1, 0.3), (0.3, 1)) for side in [*first, *-first]]
+		starts = [
+			sum(x * n for x, n in zip(part, [plane[0] for plane in planes], strict=True)) + 0.5 * load + 0.3 * side
+			for part in ((1, 1), (1, 0.3), (0.3, 1))
+			for side in [*first, *-first]
+		]
 		found = [minimize(lost, start, constraints=limits, method='SLSQP') for start in starts]
 		return max([-one.fun for one in found if one.success and all(limit['fun'](one.x) > -1e-7 for limit in limits)], default=0.0)
 
@@ -341,7 +356,15 @@ def testTheSceneIsWhatItWas():
 
 @pytest.mark.parametrize(
 	'name, value',
-	[('tolerance', 0), ('tolerance', math.nan), ('most', 1), ('most', math.inf), ('reduce', 'friction'), ('reduce', ['weight']), ('reduce', [])],
+	[
+		('tolerance', 0),
+		('tolerance', math.nan),
+		('most', 1),
+		('most', math.inf),
+		('reduce', 'friction'),
+		('reduce', ['weight']),
+		('reduce', []),
+	],
 )
 def testBadArgumentsAreNamed(name, value):
 	onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
@@ -417,7 +440,9 @@ def testThatOfStrengthReduction():
 	ids = rock.append(jointMaterials=[0, 1, 1], material=1)
 	for k, blocks in zip(ids, rock.bodies, strict=True):
 		O.bodies[k].dynamic = not any(
-			rock.faces[block][plane] < 0 and (normal[2] < -0.99 or normal[0] > 0.99) for block in blocks for plane, normal in enumerate(rock.blocks[block][0])
+			rock.faces[block][plane] < 0 and (normal[2] < -0.99 or normal[0] > 0.99)
+			for block in blocks
+			for plane, normal in enumerate(rock.blocks[block][0])
 		)
 	O.engines = polytope.engines(damping=0.4)
 	limit = polytope.limitAnalysis()
@@ -425,7 +450,9 @@ def testThatOfStrengthReduction():
 	assert polytope.limitAnalysis().factor == pytest.approx(limit.factor, rel=0.01)  # the faces are the same
 	found = polytope.factorOfSafety(tolerance=0.02)
 	assert 80 < len(ids) < 200
-	assert found.factor == pytest.approx(limit.factor, rel=0.02) and found.factor == pytest.approx(math.tan(math.radians(40)) / math.tan(math.radians(35)), rel=0.03)
+	assert found.factor == pytest.approx(limit.factor, rel=0.02) and found.factor == pytest.approx(
+		math.tan(math.radians(40)) / math.tan(math.radians(35)), rel=0.03
+	)
 	assert len(set(limit.bodies) & set(found.bodies)) > 0.7 * len(found.bodies), (len(ids), limit, found)
 
 

@@ -27,7 +27,13 @@ def silent(act):
 		return act()
 
 
-@pytest.mark.parametrize('change, message', [({'area': 490}, r'^area: 490 m² .*490 mm² are 0.00049 m²'), ({'youngsModulus': 200}, r'^youngsModulus: 200 Pa .* 200 GPa are 2e\+11 Pa')])
+@pytest.mark.parametrize(
+	'change, message',
+	[
+		({'area': 490}, r'^area: 490 m² .*490 mm² are 0.00049 m²'),
+		({'youngsModulus': 200}, r'^youngsModulus: 200 Pa .* 200 GPa are 2e\+11 Pa'),
+	],
+)
 def testABoltInOtherUnits(change, message):
 	blocks()
 	silent(lambda: polytope.bolt((0, 0, 1.9), (0, 0, -0.9), **steel))
@@ -61,7 +67,9 @@ def testARecordInAnotherUnit():
 def testAPointOnAFaceOfTwoBlocks():
 	blocks()
 	silent(lambda: polytope.history({'in': (0, 0, 0.9)}))
-	with pytest.warns(UserWarning, match=r'^points: on: \(0.0, 0.0, 1.0\) is on a face of bodies 1, 2, and moves with body 1; give a point inside'):
+	with pytest.warns(
+		UserWarning, match=r'^points: on: \(0.0, 0.0, 1.0\) is on a face of bodies 1, 2, and moves with body 1; give a point inside'
+	):
 		polytope.history({'on': (0, 0, 1)})
 
 

@@ -81,7 +81,9 @@ def testABlockInARoofSlidesOnOneSide():
 
 
 def testReport():
-	rock = polytope.jointedRock(box, half, [JointSet(0, 0, spacing=1, through=(0, 0, 0)), JointSet(vertical, east, spacing=20, through=(4, 0, 0))])
+	rock = polytope.jointedRock(
+		box, half, [JointSet(0, 0, spacing=1, through=(0, 0, 0)), JointSet(vertical, east, spacing=20, through=(4, 0, 0))]
+	)
 	report = polytope.rockReport(rock)
 	assert len(report.volumes) == 20 and report.volumes.sum() == pytest.approx(4000)
 	assert report.flatness == pytest.approx([1 / 20] * 20)
@@ -96,7 +98,9 @@ def testReportOfDiscsCountsTheirOwnArea():
 
 
 def testScanLine():
-	rock = polytope.jointedRock(box, half, [JointSet(0, 0, spacing=1, through=(0, 0, 0.5)), Joint(0, 0, (0, 0, 0.1), radius=2)], incomplete='cut')
+	rock = polytope.jointedRock(
+		box, half, [JointSet(0, 0, spacing=1, through=(0, 0, 0.5)), Joint(0, 0, (0, 0, 0.1), radius=2)], incomplete='cut'
+	)
 	distances, joints = polytope.scanLine(rock, (0, 0, -4), (0, 0, 4))
 	assert distances == pytest.approx(sorted([*np.arange(0.5, 8), 4.1])) and len(joints) == 9
 	assert len(polytope.scanLine(rock, (3, 0, -4), (3, 0, 4))[0]) == 8, 'beside the disc'
@@ -118,7 +122,9 @@ def testOtherThingsThanARockAreRefused():
 
 
 def testStereonet(tmp_path):
-	rock = polytope.jointedRock(box, half, [JointSet(radians(30), 1, spacing=2), JointSet(radians(80), 3, spacing=2, exponential=True, fisher=100)])
+	rock = polytope.jointedRock(
+		box, half, [JointSet(radians(30), 1, spacing=2), JointSet(radians(80), 3, spacing=2, exponential=True, fisher=100)]
+	)
 	dips, directions = polytope.stereonet(rock, tmp_path / 'net.png')
 	assert (tmp_path / 'net.png').read_bytes().startswith(b'\x89PNG')
 	assert dips[rock.sets == 0] == pytest.approx(radians(30)) and directions[rock.sets == 0] == pytest.approx(1)

@@ -15,7 +15,9 @@ area, weight = 4 * halfLength * halfWidth, 2600 * 9.81 * 4 * halfLength * halfWi
 def slope(factor, **joint):
 	"""A block on a plane, held by friction and cohesion with this factor of safety."""
 	cohesion = (factor * weight * math.sin(dip) - weight * math.cos(dip) * math.tan(friction)) / area
-	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=friction, cohesion=cohesion, **joint))
+	O.materials.append(
+		RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=friction, cohesion=cohesion, **joint)
+	)
 	turn = Quaternion((0, 1, 0), dip)
 	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -1), (20, 20, 1), orientation=turn, fixed=True))
 	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, height / 2), (halfLength, halfWidth, height / 2), orientation=turn))
@@ -26,7 +28,9 @@ def slope(factor, **joint):
 def hanging(factor):
 	"""A block that hangs from a roof by the tensile strength of its joint, with this factor of safety."""
 	strength = factor * weight / area
-	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, cohesion=10 * strength, tensileStrength=strength))
+	O.materials.append(
+		RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, cohesion=10 * strength, tensileStrength=strength)
+	)
 	O.bodies.append(polytope.cuboid((0, 0, 1), (20, 20, 1), fixed=True))
 	O.bodies.append(polytope.cuboid((0, 0, 1e-6 - height / 2), (halfLength, halfWidth, height / 2)))  # in touch
 	O.engines = polytope.engines()

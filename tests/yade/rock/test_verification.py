@@ -45,7 +45,9 @@ def saidBy(page):
 def testEachPageHasOneShortScript():
 	assert {nameOf(page) for page in pages} == set(within)
 	scripts = [scriptOf(page) for page in pages]
-	assert {path.name for path in (project / 'examples/verification').glob('*.py')} == {path.name for path in scripts if path.parent.name == 'verification'}
+	assert {path.name for path in (project / 'examples/verification').glob('*.py')} == {
+		path.name for path in scripts if path.parent.name == 'verification'
+	}
 	for page, script in zip(pages, scripts, strict=True):
 		assert len(script.read_text().splitlines()) <= 40, script
 		assert all(f'**{part}.**' in page.read_text() for part in ('Problem', 'Closed form', 'Our figure', 'Others')), page

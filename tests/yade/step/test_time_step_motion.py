@@ -98,7 +98,7 @@ def testATrayThatMovesFast():
 	rest = stepOf(lambda: tray(0), 0.05, damping=0)
 	moving = stepOf(lambda: tray(150), 0.05, damping=0)
 	assert 'motion' not in (moving[1], rest[1])
-	assert .8 * rest[0] < moving[0] < rest[0] * (1 + 1e-6)
+	assert 0.8 * rest[0] < moving[0] < rest[0] * (1 + 1e-6)
 	for body in O.bodies:
 		if body.dynamic:
 			assert body.state.vel[0] == pytest.approx(150, abs=1e-3) and abs(body.state.pos[2] - 0.005) < 1e-4

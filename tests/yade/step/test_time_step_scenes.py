@@ -160,8 +160,13 @@ print('RESULT', O.numThreads, O.dt.hex(), engine.limitingBody, engine.limitedBy)
 def testTwoThreadsGiveTheSameStep():
 	results = []
 	for threads in ('1', '2'):
-		run = subprocess.run([sys.executable, '-c', threaded, os.path.dirname(os.path.dirname(__file__))], env={**os.environ, 'OMP_NUM_THREADS': threads},
-			capture_output=True, text=True, timeout=100)
+		run = subprocess.run(
+			[sys.executable, '-c', threaded, os.path.dirname(os.path.dirname(__file__))],
+			env={**os.environ, 'OMP_NUM_THREADS': threads},
+			capture_output=True,
+			text=True,
+			timeout=100,
+		)
 		assert run.returncode == 0, run.stderr
 		(line,) = [line.split() for line in run.stdout.splitlines() if line.startswith('RESULT')]
 		assert line[1] == threads

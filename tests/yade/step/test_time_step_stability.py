@@ -110,7 +110,15 @@ def testABlockRocksOnItsContactSurfaceAtTheFrequencyOfItsStiffness(perArea, time
 @pytest.mark.parametrize('model', models)
 def testHeapsOf27Settle(model, perArea, faces):
 	joint(normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.6)
-	loop(perArea=perArea, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.3, gravity=(0, 0, -gravity), damping=0.6, ig2=contactOf(model, perArea))
+	loop(
+		perArea=perArea,
+		normalDamping=0.3,
+		shearDamping=0.3,
+		rockingDamping=0.3,
+		gravity=(0, 0, -gravity),
+		damping=0.6,
+		ig2=contactOf(model, perArea),
+	)
 	stepper()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (8, 8, 0.5), fixed=True))
 	random = np.random.default_rng(7)

@@ -53,9 +53,9 @@ def testBeforeAContactAFlatFaceOfASpringIsStifferThanACorner(model, stiffest):
 	joint()
 	loop(gravity=(0, -gravity, 0), ig2=contactOf(model, perArea=False))
 	stepper()
-	O.bodies.append([
-		polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True), polytope.polygon([(-0.5, 3), (0.5, 3), (0, 3.001)])
-	])
+	O.bodies.append(
+		[polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True), polytope.polygon([(-0.5, 3), (0.5, 3), (0, 3.001)])]
+	)
 	O.step()
 	mass = O.bodies[1].state.mass
 	assert _polytope.timeStepLimits()['material'] == pytest.approx(1 / math.sqrt(stiffest * 1e8 / mass), rel=1e-3)
@@ -176,8 +176,17 @@ def testStableTimeStepIsTheSame():
 
 
 @pytest.mark.parametrize(
-	'name, value', [('timestepSafetyCoefficient', 0), ('timestepSafetyCoefficient', 2.1), ('timestepSafetyCoefficient', math.nan),
-	                ('motionLimit', 0), ('motionLimit', math.inf), ('maxDt', 0), ('maxDt', -1), ('timeStepUpdateInterval', 0)]
+	'name, value',
+	[
+		('timestepSafetyCoefficient', 0),
+		('timestepSafetyCoefficient', 2.1),
+		('timestepSafetyCoefficient', math.nan),
+		('motionLimit', 0),
+		('motionLimit', math.inf),
+		('maxDt', 0),
+		('maxDt', -1),
+		('timeStepUpdateInterval', 0),
+	],
 )
 def testWrongValuesAreRefusedByName(name, value):
 	engine = PolytopeTimeStepper()

@@ -124,17 +124,30 @@ class Collisions:
 		self.half = math.pi * math.sqrt(0.5 / stiffness)
 		# Ip2_FrictMat_FrictMat_FrictPhys: kn = 2 E1 R1 E2 R2 / (E1 R1 + E2 R2)
 		sphere = FrictMat(density=1, young=stiffness / self.radius, poisson=1, frictionAngle=0)
-		O.materials.append(sphere if how.model == 'spheres' else RockJointMat(density=1, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0))
+		O.materials.append(
+			sphere
+			if how.model == 'spheres'
+			else RockJointMat(density=1, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0)
+		)
 		self.pairs = [self._pair(meeting, self._base(k)) for k, meeting in enumerate(meetings)]
 		O.engines = self._engines()
 		O.dt = self.half / steps
 
 	def _engines(self):
 		if self.how.model == 'spheres':
-			bound, loop = Bo1_Sphere_Aabb(), ([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])
+			bound, loop = (
+				Bo1_Sphere_Aabb(),
+				([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+			)
 		else:
-			geometry, physics = Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.how.model), Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)
-			bound, loop = Bo1_Polytope_Aabb(), ([geometry], [physics], [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.how.damping)])
+			geometry, physics = (
+				Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.how.model),
+				Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False),
+			)
+			bound, loop = (
+				Bo1_Polytope_Aabb(),
+				([geometry], [physics], [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.how.damping)]),
+			)
 		collider = InsertionSortCollider([bound], verletDist=0)  # pairs are searched for in each step
 		return [ForceResetter(), collider, InteractionLoop(*loop), NewtonIntegrator(damping=0)]
 
@@ -221,7 +234,9 @@ def spread(found):
 
 def timeSteps(findings, several, quick):
 	steps = (25, 50, 100) if quick else (25, 50, 100, 200)
-	found = {name: {n: Collisions(several, how, n).run() for n in steps} for name, how in tqdm(contacts.items(), desc='time steps', disable=None)}
+	found = {
+		name: {n: Collisions(several, how, n).run() for n in steps} for name, how in tqdm(contacts.items(), desc='time steps', disable=None)
+	}
 	spreads = {name: {n: spread(result) for n, result in bySteps.items()} for name, bySteps in found.items()}
 	columns = ('median', 'rms', 'largest', 'gain', 'gaining', 'number')
 	findings.table(
@@ -229,21 +244,44 @@ def timeSteps(findings, several, quick):
 		'Energy error of random collisions of two regular solids without friction and damping, over the energy before: by time steps in half a period '
 		'of the contact. Overlap of a central impact 2 % of the inscribed radius of a cube.',
 		['contact', 'steps', *columns, 'mean time in contact [half periods]'],
-		[[name, n, *(s[key] for key in columns), found[name][n]['contactTime']] for name, bySteps in spreads.items() for n, s in bySteps.items()],
+		[
+			[name, n, *(s[key] for key in columns), found[name][n]['contactTime']]
+			for name, bySteps in spreads.items()
+			for n, s in bySteps.items()
+		],
 	)
 	row, first, last = findings.row, spreads[paper][steps[0]], spreads[paper][steps[-1]]
 	row(f'{paper}: median error', last['median'], accept=(0.08, 0.25))
 	row(f'{paper}: largest error', last['largest'], accept=(0.5, 5), note='depends on the sample')
-	row(f'{paper}: median at {steps[0]} steps over that at {steps[-1]}', first['median'] / last['median'], theory=1, accept=(0.9, 1.1), note="the error is the contact's")
+	row(
+		f'{paper}: median at {steps[0]} steps over that at {steps[-1]}',
+		first['median'] / last['median'],
+		theory=1,
+		accept=(0.9, 1.1),
+		note="the error is the contact's",
+	)
 	square = (steps[-1] / steps[0]) ** 2
 	fall = spreads[surface][steps[0]]['rms'] / spreads[surface][steps[-1]]['rms']
-	row(f'{surface}: root mean square at {steps[0]} steps over that at {steps[-1]}', fall, theory=square, accept=(square / 2, math.inf), note="the error is the integrator's")
+	row(
+		f'{surface}: root mean square at {steps[0]} steps over that at {steps[-1]}',
+		fall,
+		theory=square,
+		accept=(square / 2, math.inf),
+		note="the error is the integrator's",
+	)
 	for n in steps:
 		row(f'{surface}: median error at {n} steps', spreads[surface][n]['median'], theory=0, accept=(0, surfaceMedian * (200 / n) ** 2))
 	bound = max(s['largest'] / (math.pi / n) ** 2 * 4 for n, s in spreads[spheres].items())
 	row(f'{spheres}: largest error over (ω Δt)²/4, at any time step', bound, theory=1, accept=(0, 1), note='bound of the leapfrog scheme')
-	row(f'{sharp}: median error at 100 steps', spreads[sharp][100]['median'], accept=(0, 0.3 * spreads[paper][100]['median']), note='nearly a gradient while overlaps are small')
-	momentum = max(float(result[key].max()) for bySteps in found.values() for result in bySteps.values() for key in ('momentum', 'angularMomentum'))
+	row(
+		f'{sharp}: median error at 100 steps',
+		spreads[sharp][100]['median'],
+		accept=(0, 0.3 * spreads[paper][100]['median']),
+		note='nearly a gradient while overlaps are small',
+	)
+	momentum = max(
+		float(result[key].max()) for bySteps in found.values() for result in bySteps.values() for key in ('momentum', 'angularMomentum')
+	)
 	row('largest change of momentum or angular momentum in a collision', momentum, theory=0, accept=(0, 1e-8), note='mass × speed is 1')
 
 
@@ -264,7 +302,9 @@ def damping(findings, several, quick):
 	for name, byDamping in found.items():
 		least = next((z for z in fractions if all(byDamping[y]['gaining'] == 0 for y in fractions if y >= z)), None)
 		said = f'of {list(fractions)}; gaining: {[s["gaining"] for s in byDamping.values()]}'
-		findings.row(f'{name}: least damping at which no collision gains', 'none up to 1' if least is None else least, 'of critical', note=said)
+		findings.row(
+			f'{name}: least damping at which no collision gains', 'none up to 1' if least is None else least, 'of critical', note=said
+		)
 	findings.row(f'{surface}: collisions that gain at {fractions[1]:g} of critical', found[surface][fractions[1]]['gaining'], accept=(0, 0))
 
 

@@ -169,7 +169,10 @@ class Study:
 				rows.append([planes, name, *most, *jumps])
 				if name in (*surfaces, analytic):
 					self.findings.row(
-						f'{name}, {planes} planes: largest jump of point, normal or force', max(jumps), theory=0, accept=(0, ridge.get(name, 0))
+						f'{name}, {planes} planes: largest jump of point, normal or force',
+						max(jumps),
+						theory=0,
+						accept=(0, ridge.get(name, 0)),
 					)
 		self.findings.table(
 			'redundant_planes',

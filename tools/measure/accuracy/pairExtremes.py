@@ -39,7 +39,9 @@ def options(arguments=None):
 	parser.add_argument('--samples', type=count, help='pairs of each kind at each value (default: 10, with --quick 2)')
 	parser.add_argument('--axes', nargs='+', choices=list(axes), default=list(axes), metavar='AXIS', help=f'of {", ".join(axes)}')
 	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='axes at a time')
-	parser.add_argument('--program', type=existingFile, default=program, help='polytope_extremes, as built by ./run build polytope_extremes')
+	parser.add_argument(
+		'--program', type=existingFile, default=program, help='polytope_extremes, as built by ./run build polytope_extremes'
+	)
 	parser.add_argument('--output', type=writableFolder, default=pathlib.Path('output/pairExtremes'), help='folder for all files')
 	given = parser.parse_args(arguments)
 	given.samples = given.samples or (2 if given.quick else 10)
@@ -91,7 +93,12 @@ def report(findings, name, samples):
 		else:
 			findings.row(f'{axis.title}: {limit.text}, worst', most, accept=(0, limit.most))
 	findings.text(f'{axis.title}. {axis.note}')
-	findings.table(name, f'{axis.title}; value: {axis.label}; errors of point over the overlap’s own size, of lengths over the size', summaryColumns, summary(samples))
+	findings.table(
+		name,
+		f'{axis.title}; value: {axis.label}; errors of point over the overlap’s own size, of lengths over the size',
+		summaryColumns,
+		summary(samples),
+	)
 
 
 def transitions(findings, given):
@@ -110,12 +117,24 @@ def transitions(findings, given):
 
 	title = 'Status changes at the corner radius (paper)'
 	findings.row(f'{title}: jump of the contact point over the size', largest('point'), accept=(0, 1e-13))
-	findings.row(f'{title}: turn of the normal (chord of the unit vectors)', largest('normal'), note='the model’s own: deep points lack a normal')
+	findings.row(
+		f'{title}: turn of the normal (chord of the unit vectors)', largest('normal'), note='the model’s own: deep points lack a normal'
+	)
 	findings.row(f'{title}: change of depth, relative', largest('depth'))
 	findings.table(
 		'transitions',
 		'Body 2 pressed into body 1: largest jumps where the status changes (bisected to rounding)',
-		['pair', 'from', 'to', 'times', 'from overlap over corner radius', 'to', 'turn of the normal', 'change of depth', 'way of the point'],
+		[
+			'pair',
+			'from',
+			'to',
+			'times',
+			'from overlap over corner radius',
+			'to',
+			'turn of the normal',
+			'change of depth',
+			'way of the point',
+		],
 		[
 			[*key, len(rows), *(f'{pick(float(row["overlap"]) for row in rows):.3g}' for pick in (min, max))]
 			+ [f'{largest(name, rows):.3g}' for name in ('normal', 'depth', 'point')]

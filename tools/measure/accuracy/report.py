@@ -45,9 +45,13 @@ def present():
 def options(arguments=None):
 	parser = argparse.ArgumentParser(prog='./run accuracy', description=__doc__.splitlines()[0])
 	parser.add_argument('--quick', action='store_true', help='fewer samples and steps: minutes')
-	parser.add_argument('--only', nargs='+', choices=list(present()), default=list(present()), metavar='NAME', help=f'of {", ".join(present())}')
+	parser.add_argument(
+		'--only', nargs='+', choices=list(present()), default=list(present()), metavar='NAME', help=f'of {", ".join(present())}'
+	)
 	parser.add_argument('--fresh', action='store_true', help='run again what is complete already')
-	parser.add_argument('--output', type=pathlib.Path, help='folder for all files (default: output/accuracy, with --quick output/accuracy-quick)')
+	parser.add_argument(
+		'--output', type=pathlib.Path, help='folder for all files (default: output/accuracy, with --quick output/accuracy-quick)'
+	)
 	parser.add_argument('--jobs', type=count, default=len(os.sched_getaffinity(0)), help='studies at a time (default: one a processor)')
 	given = parser.parse_args(arguments)
 	given.output = outputFolder(parser, given.output or ('output/accuracy-quick' if given.quick else 'output/accuracy'))

@@ -328,7 +328,7 @@ def slide(model, steps, slope=30.5, friction=30.0):
 	mass = density * 8 * half[0] * half[1] * half[2]
 	step = 0.1 * math.sqrt(mass / stiffness)
 	a = gravity * (math.sin(math.radians(slope)) - math.tan(math.radians(friction)) * math.cos(math.radians(slope)))
-	length = 0.5 * a * (steps * step)**2
+	length = 0.5 * a * (steps * step) ** 2
 	turn = Quaternion((0, 1, 0), math.radians(slope))
 	along, up = turn * Vector3(1, 0, 0), turn * Vector3(0, 0, 1)
 	scene = Scene(model, damping=0, normalDamping=1, shearDamping=1, rockingDamping=1)

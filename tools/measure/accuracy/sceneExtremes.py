@@ -40,7 +40,11 @@ def _text(x):
 
 
 def sound(findings, title, failures, finite):
-	findings.row(f'{title}: scenes with a contact query without an answer or a number that is not finite', sum(map(bool, failures)) + finite.count(False), accept=(0, 0))
+	findings.row(
+		f'{title}: scenes with a contact query without an answer or a number that is not finite',
+		sum(map(bool, failures)) + finite.count(False),
+		accept=(0, 0),
+	)
 
 
 def worst(values):
@@ -53,7 +57,11 @@ def stiffness(findings, quick):
 	ratios = (1, 1e2, 1e4) if quick else (1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6)
 	results = [(model, ratio, stack(model, stiffnessRatio=ratio)) for model in models for ratio in ratios]
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
-	findings.row(f'{title}: normal forces at rest, worst relative error', worst(x for _, _, r in results for x in (r.lowerForce, r.upperForce)), accept=(0, 1e-7))
+	findings.row(
+		f'{title}: normal forces at rest, worst relative error',
+		worst(x for _, _, r in results for x in (r.lowerForce, r.upperForce)),
+		accept=(0, 1e-7),
+	)
 	heights = worst(x for _, _, r in results for x in (r.lowerHeight, r.upperHeight))
 	findings.row(f'{title}: heights at rest over the softer overlap, worst error', heights, accept=(0, 2e-7))
 	findings.text(
@@ -66,7 +74,12 @@ def stiffness(findings, quick):
 def mass(findings, quick):
 	title = 'Mass ratio'
 	ratios = (1, 1e3, 1e9) if quick else (1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9)
-	results = [(f'{model}, {"light" if light else "heavy"} moves', ratio, collide(model, ratio, light)) for model in models for light in (True, False) for ratio in ratios]
+	results = [
+		(f'{model}, {"light" if light else "heavy"} moves', ratio, collide(model, ratio, light))
+		for model in models
+		for light in (True, False)
+		for ratio in ratios
+	]
 	stacks = [('surface', ratio, stack('surface', massRatio=ratio, away=0, most=5000)) for ratio in ratios]
 	everything = results + stacks
 	sound(findings, title, [r.failures for _, _, r in everything], [r.finite for _, _, r in everything])
@@ -90,7 +103,9 @@ def timeStep(findings, quick):
 	sound(findings, title, [r.failures for _, _, r in results], [r.finite for _, _, r in results])
 	# central differences: a free swing's amplitude is larger by 1/√(1 − (Δt/Δt crit)²)
 	below = worst(r.growth * math.sqrt(1 - r.timeStep**2) - 1 for _, f, r in results if f <= 0.9)
-	findings.row(f'{title}: up to 0.9 of polytope.stableTimeStep(2), swing over the scheme’s own, worst difference', below, accept=(0, 0.05))
+	findings.row(
+		f'{title}: up to 0.9 of polytope.stableTimeStep(2), swing over the scheme’s own, worst difference', below, accept=(0, 0.05)
+	)
 	# beyond it the block may rock instead, until it lifts off: height need not show it, energy does
 	above = min(r.energyGrowth for _, f, r in results if f >= 1.1)
 	findings.row(f'{title}: from 1.1 of it on, least growth of the kinetic energy: it shows', above, accept=(10, math.inf))
@@ -113,9 +128,15 @@ def towers(findings, quick):
 		findings.row(f'{title}: largest way sideways ({model})', r.sideways, 'm', accept=(0, 5e-3))
 	# blocks aside tilt their joints, and the top comes down with the square of the way aside: 1e-3 of the settlement after 6000 steps, a quarter of
 	# that with half the way, 3e-13 with none; it goes on for as long as the column leans, 4.5e-3 after 30 000
-	findings.row(f'{title}: settlement of the top over that of aligned blocks, difference', worst(r.settlement for r in last.values()), accept=(0, 1e-2))
-	findings.text(f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
-		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.')
+	findings.row(
+		f'{title}: settlement of the top over that of aligned blocks, difference',
+		worst(r.settlement for r in last.values()),
+		accept=(0, 1e-2),
+	)
+	findings.text(
+		f'{title}. Cubes of 1 m, each up to 2 cm aside, placed with the overlaps that carry the weight. A joint’s rocking stiffness in the '
+		'paper’s model is k L² (L half the width), so the column buckles under a weight of 7.84 k L² h/H² (Greenhill), that is, below k = 1.6e9 N/m; here it is 1e10 N/m.'
+	)
 	findings.table('tower', f'{title}; value: steps', *cells(results))
 
 
@@ -149,10 +170,16 @@ def slides(findings, quick):
 		finite.append(good)
 	sound(findings, title, failures, finite)
 	# the first millimetre is given to the shear that the joint had stored
-	findings.row(f'{title}: distance after {steps} steps, worst relative error', worst(r.distanceError for _, n, r in results if n == steps), accept=(0, 1e-5))
+	findings.row(
+		f'{title}: distance after {steps} steps, worst relative error',
+		worst(r.distanceError for _, n, r in results if n == steps),
+		accept=(0, 1e-5),
+	)
 	findings.row(f'{title}: speed, worst relative error', worst(r.speedError for _, _, r in results), accept=(0, 1e-5))
 	findings.row(f'{title}: tilt of the block', worst(r.tilt for _, _, r in results), 'rad', accept=(0, 1e-5))
-	findings.text(f'{title}. A flat block slides down a slope half a degree steeper than its friction angle, with normal and rocking damping.')
+	findings.text(
+		f'{title}. A flat block slides down a slope half a degree steeper than its friction angle, with normal and rocking damping.'
+	)
 	findings.table('slide', f'{title}; value: steps', *cells(results))
 
 

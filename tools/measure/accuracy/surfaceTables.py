@@ -100,7 +100,20 @@ class SurfaceStudy:
 			'crossings',
 			'Speed kept (final over initial), least speed on the way, direction, spin times half length over speed, largest lift over '
 			'the depth at rest; depth at rest across a joint over that on one slab.',
-			['floor', 'body', 'contact', 'stiffness', 'speed kept', 'least', 'direction [rad]', 'spin', 'lift', 'depth', 'steps', 'failures'],
+			[
+				'floor',
+				'body',
+				'contact',
+				'stiffness',
+				'speed kept',
+				'least',
+				'direction [rad]',
+				'spin',
+				'lift',
+				'depth',
+				'steps',
+				'failures',
+			],
 			[
 				[c.floor, c.body, c.contact, c.rule, *_numbers(c.crossing, 'kept slowest direction spin lift'), _short(c.depth)]
 				+ [c.crossing.steps, c.crossing.failures]
@@ -294,7 +307,9 @@ class SurfaceStudy:
 			+ ['largest difference over the way'],
 			[[n, r, *map(_short, slab[1::2]), *map(_short, plates[1::2]), _short(error)] for n, r, slab, plates, error in found],
 		)
-		self.worst('rolling dodecahedron: difference of the ways on ten plates and on a slab', [(n, r, e) for n, r, _, _, e in found], rolling)
+		self.worst(
+			'rolling dodecahedron: difference of the ways on ten plates and on a slab', [(n, r, e) for n, r, _, _, e in found], rolling
+		)
 
 
 def _numbers(result, names):

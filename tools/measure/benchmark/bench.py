@@ -6,6 +6,7 @@ Prints one table with target, ours, peer, ratio, and whether the target is met; 
 is of two measurements of this run, on one pinned core, medians of repetitions in random order. Absolute times mean
 something on a machine that does nothing else.
 """
+
 import argparse
 import csv
 import dataclasses
@@ -32,7 +33,15 @@ from tabulate import tabulate
 here = pathlib.Path(__file__).resolve().parent
 groups = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
 outputs = (
-        'results.json', 'results.txt', 'targets.csv', 'heaps.csv', 'kernels.csv', 'kernels.json', 'kernels.log', 'heap-contacts.csv', 'cost-against-planes.png'
+	'results.json',
+	'results.txt',
+	'targets.csv',
+	'heaps.csv',
+	'kernels.csv',
+	'kernels.json',
+	'kernels.log',
+	'heap-contacts.csv',
+	'cost-against-planes.png',
 )
 
 
@@ -66,19 +75,21 @@ def machine(programs):
 	git = ('git', '-c', f'safe.directory={project}', '-C', str(project))
 	built = pathlib.Path(programs).parents[2]
 	with open(built / 'compile_commands.json') as file:
-		flags = [entry['command'].split(' -o ')[0] for entry in json.load(file) if entry['file'].endswith(('/ContactQuery.cpp', '/Kernels.cpp'))]
+		flags = [
+			entry['command'].split(' -o ')[0] for entry in json.load(file) if entry['file'].endswith(('/ContactQuery.cpp', '/Kernels.cpp'))
+		]
 	return {
-	        'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
-	        'revision': output(*git, 'rev-parse', 'HEAD'),
-	        'changed': bool(output(*git, 'status', '--porcelain', '--untracked-files=no')),
-	        'revisionDate': output(*git, 'show', '-s', '--format=%cI', 'HEAD'),
-	        'processor': models[0] if models else platform.processor(),
-	        'cores': os.cpu_count(),
-	        'system': platform.platform(),
-	        'compiler': output('c++', '--version').split('\n')[0],
-	        'flags': flags,
-	        'loadAverage': os.getloadavg(),
-	        'python': platform.python_version(),
+		'date': datetime.datetime.now(datetime.UTC).isoformat(timespec='seconds'),
+		'revision': output(*git, 'rev-parse', 'HEAD'),
+		'changed': bool(output(*git, 'status', '--porcelain', '--untracked-files=no')),
+		'revisionDate': output(*git, 'show', '-s', '--format=%cI', 'HEAD'),
+		'processor': models[0] if models else platform.processor(),
+		'cores': os.cpu_count(),
+		'system': platform.platform(),
+		'compiler': output('c++', '--version').split('\n')[0],
+		'flags': flags,
+		'loadAverage': os.getloadavg(),
+		'python': platform.python_version(),
 	}
 
 
@@ -94,24 +105,26 @@ def kernelGroup(run):
 	heap = run.scenes.contactsOfHeap(run.output / 'heap-contacts.csv')
 	found, context = kernels.run(run.programs, run.core, run.quick, run.output, heap)
 	run.results['kernels'] = {
-	        'context': context,
-	        'measurements': [dict(dataclasses.asdict(one), median=one.median, spread=one.spread) for one in found.values()],
+		'context': context,
+		'measurements': [dict(dataclasses.asdict(one), median=one.median, spread=one.spread) for one in found.values()],
 	}
 	run.results['machine']['instructionSet'] = context['instruction set']
 	writeCsv(
-	        run.output / 'kernels.csv', [
-	                {
-	                        'method': one.method,
-	                        'set': one.set,
-	                        'µs': one.median,
-	                        'spread': one.spread,
-	                        'wrong': one.wrong,
-	                        'pairs': one.pairs,
-	                        'pivots': one.pivots,
-	                        'iterations': one.iterations,
-	                        'contacts': one.contacts,
-	                } for one in found.values()
-	        ]
+		run.output / 'kernels.csv',
+		[
+			{
+				'method': one.method,
+				'set': one.set,
+				'µs': one.median,
+				'spread': one.spread,
+				'wrong': one.wrong,
+				'pairs': one.pairs,
+				'pivots': one.pivots,
+				'iterations': one.iterations,
+				'contacts': one.contacts,
+			}
+			for one in found.values()
+		],
 	)
 	methods = list(dict.fromkeys(one.method for one in found.values()))
 	sets = list(dict.fromkeys(one.set for one in found.values()))
@@ -141,7 +154,10 @@ def kernelGroup(run):
 def shapeGroup(run):
 	found = shapes.run(run.core, run.quick)
 	run.results['shapes'] = found
-	run.say(tabulate([[name, cost] for name, cost in found['microseconds'].items()], ['bodies made, blocks cut', 'µs each'], floatfmt='.1f') + '\n')
+	run.say(
+		tabulate([[name, cost] for name, cost in found['microseconds'].items()], ['bodies made, blocks cut', 'µs each'], floatfmt='.1f')
+		+ '\n'
+	)
 	return targets.shapeRows(found)
 
 
@@ -149,8 +165,8 @@ def resultGroup(run):
 	found = results.run(run.core, run.quick)
 	run.results['results'] = found
 	run.say(
-	        f"{found['bodies']} bodies, {found['contacts']} contacts among {found['pairs']} pairs, saved in {found['bytes'] / 1e6:.0f} MB, "
-	        f"by a checkpoint in {found['checkpointBytes'] / 1e6:.0f} MB; {found['spheres']['contacts']} contacts of spheres\n"
+		f"{found['bodies']} bodies, {found['contacts']} contacts among {found['pairs']} pairs, saved in {found['bytes'] / 1e6:.0f} MB, "
+		f"by a checkpoint in {found['checkpointBytes'] / 1e6:.0f} MB; {found['spheres']['contacts']} contacts of spheres\n"
 	)
 	names = ('arrays', 'snapshot', 'bodySnapshot', 'picture', 'save', 'load', 'checkpoint', 'loadCheckpoint')
 	rows = [[name, found[name]['processor'], found[name]['clock']] for name in names]
@@ -166,9 +182,16 @@ def describe(run, heaps):
 	def row(name, one):
 		low, high = min(one['perPair']), max(one['perPair'])
 		return [
-		        name, one['request']['method'] + (' with area' if one['request']['area'] else ''), one['bodies'], one['threads'], one['pairs'], one['contacts'],
-		        1e6 * scenes.median(one['perPair']), f'{1e6 * low:.3f} … {1e6 * high:.3f}', 1e6 * scenes.median(one['perContact']),
-		        1e6 * scenes.median(one['perBody'])
+			name,
+			one['request']['method'] + (' with area' if one['request']['area'] else ''),
+			one['bodies'],
+			one['threads'],
+			one['pairs'],
+			one['contacts'],
+			1e6 * scenes.median(one['perPair']),
+			f'{1e6 * low:.3f} … {1e6 * high:.3f}',
+			1e6 * scenes.median(one['perContact']),
+			1e6 * scenes.median(one['perBody']),
 		]
 
 	head = ['', 'method', 'bodies', 'threads', 'pairs', 'contacts', 'µs/pair', 'range', 'µs/contact', 'µs/body and step']
@@ -179,7 +202,9 @@ def sceneGroup(run):
 	heaps = run.scenes.solids()
 	settled = run.scenes.settledCubes()
 	describe(
-	        run, [(name, one) for name, methods in heaps.items() for one in methods.values()] + [('settled cubes, spheres', one) for one in settled.values()]
+		run,
+		[(name, one) for name, methods in heaps.items() for one in methods.values()]
+		+ [('settled cubes, spheres', one) for one in settled.values()],
 	)
 	showExtras(run)
 	return targets.sceneRows(heaps) + targets.settledRows(settled)
@@ -210,7 +235,10 @@ def engineTable(title, found):
 	"""What each engine takes, {number: {method: result}}."""
 	rows = []
 	for number, methods in found.items():
-		each = {method: {name: [row['engines'][name] for row in one['rows']] for name in one['rows'][0]['engines']} for method, one in methods.items()}
+		each = {
+			method: {name: [row['engines'][name] for row in one['rows']] for name in one['rows'][0]['engines']}
+			for method, one in methods.items()
+		}
 		# ours first; the collider of the spheres is YADE's own
 		for (name, ours), (peer, spheres) in zip(each['ours'].items(), each['spheres'].items(), strict=True):
 			cost = [1e6 * statistics.fmean(times) / methods[method]['bodies'] for method, times in (('ours', ours), ('spheres', spheres))]
@@ -222,7 +250,9 @@ def scaleGroup(run):
 	found = scale.measure(run.quick, run.large)
 	run.results['scale'] = found
 	for one in found['bodies']:
-		run.say(f"{one['bodies']} flying bodies: {one['before']:.2f} µs a body and step, {one['after']:.2f} after loading; {one['seconds']:.0f} s and {one['gigabytes']:.2f} GB in all")
+		run.say(
+			f"{one['bodies']} flying bodies: {one['before']:.2f} µs a body and step, {one['after']:.2f} after loading; {one['seconds']:.0f} s and {one['gigabytes']:.2f} GB in all"
+		)
 	for workers, seconds in found['workers'].items():
 		run.say(f"{found['cubes']} cubes, {workers} worker processes and rank 0: {1e3 * seconds:.1f} ms a step")
 	run.say('')
@@ -275,12 +305,18 @@ def main():
 		return 0
 	run = Run(options)
 	about = run.results['machine']
-	run.say(f"{about['processor']}, {about['cores']} cores; {about['compiler']}; revision {about['revision'][:12]}{' with changes' if about['changed'] else ''}")
+	run.say(
+		f"{about['processor']}, {about['cores']} cores; {about['compiler']}; revision {about['revision'][:12]}{' with changes' if about['changed'] else ''}"
+	)
 	load = about['loadAverage'][0]
 	if load > 0.5:
-		run.note(f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.')
+		run.note(
+			f'the machine was busy when this began (load {load:.1f} on {about["cores"]} cores): absolute times are unsure, ratios noisy.'
+		)
 	rows, measured, interrupted = [], [], False
-	for name, group in zip(groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup), strict=True):
+	for name, group in zip(
+		groups, (kernelGroup, shapeGroup, resultGroup, sceneGroup, sizeGroup, scaleGroup, growthGroup, threadGroup), strict=True
+	):
 		if options.only in (None, name):
 			print(f'\n{name}', flush=True)
 			try:
@@ -291,8 +327,15 @@ def main():
 				run.note(f'interrupted in {name}: the results are those of what was measured before.')
 				break
 	table = [
-	        [row['measure'], row['target'], row['ours'], row['peer'], '' if math.isnan(row['ratio']) else f"{row['ratio']:.3g}", {True: 'yes', False: 'NO', None: ''}[row['met']]]
-	        for row in rows
+		[
+			row['measure'],
+			row['target'],
+			row['ours'],
+			row['peer'],
+			'' if math.isnan(row['ratio']) else f"{row['ratio']:.3g}",
+			{True: 'yes', False: 'NO', None: ''}[row['met']],
+		]
+		for row in rows
 	]
 	run.say(tabulate(table, ['measure', 'target', 'ours', 'peer', 'ratio', 'met'], disable_numparse=True))
 	judged = [row for row in rows if row['met'] is not None]
@@ -304,14 +347,20 @@ def main():
 	(run.output / 'results.txt').write_text('\n'.join(run.text) + '\n')
 	writeCsv(run.output / 'targets.csv', rows)
 	writeCsv(
-	        run.output / 'heaps.csv', [
-	                {
-	                        **{key: value for key, value in one['request'].items() if key not in ('save', 'load', 'pairs')}, 'threads': one['threads'],
-	                        **{key: value for key, value in row.items() if key != 'engines'}, 'bodies': one['bodies'], 'largestSpeed': one['largestSpeed'],
-	                        'bytesPerBody': scenes.memoryPerBody(one),
-	                        'bytesPerContact': scenes.memoryPerContact(one)
-	                } for one in run.results['heaps'] for row in one['rows']
-	        ]
+		run.output / 'heaps.csv',
+		[
+			{
+				**{key: value for key, value in one['request'].items() if key not in ('save', 'load', 'pairs')},
+				'threads': one['threads'],
+				**{key: value for key, value in row.items() if key != 'engines'},
+				'bodies': one['bodies'],
+				'largestSpeed': one['largestSpeed'],
+				'bytesPerBody': scenes.memoryPerBody(one),
+				'bytesPerContact': scenes.memoryPerContact(one),
+			}
+			for one in run.results['heaps']
+			for row in one['rows']
+		],
 	)
 	print(f'Results and pictures: {run.output}')
 	return 130 if interrupted else 0

@@ -3,6 +3,7 @@
 
 Usage: heap.py '{"method": "ours", …}' with the fields of Request as JSON. The last line printed is RESULT and JSON.
 """
+
 import dataclasses
 import json
 import os
@@ -22,7 +23,7 @@ from boon2012.falling.scene import FallingPolyhedra, circumradiusOfUnitVolume
 class Request:
 	method: str = 'ours'
 	"""ours, spheres (YADE's own, of the same volume), potentialBlock or polyhedra (YADE's own, built by YadePeers.cmake)."""
-	faces: tuple = (6, )
+	faces: tuple = (6,)
 	number: int = 200
 	columns: int = 6
 	compact: bool = False
@@ -63,7 +64,13 @@ class Heap(FallingPolyhedra):
 
 def heap(request):
 	scene = Heap(
-	        faces=tuple(request.faces), number=request.number, columns=request.columns, size=1, normalStiffness=1.25e8, leastWallHeight=16, wallThickness=1
+		faces=tuple(request.faces),
+		number=request.number,
+		columns=request.columns,
+		size=1,
+		normalStiffness=1.25e8,
+		leastWallHeight=16,
+		wallThickness=1,
 	)
 	scene.compact = request.compact
 	return scene
@@ -79,6 +86,7 @@ def volumetricStiffness(scene):
 
 def toPotentialBlock(shape, scene):
 	from yade import FrictMat, PotentialBlock
+
 	a, b, c = np.array([list(n) for n in shape.normals]).T.tolist()
 	r = shape.cornerRadius
 	own = PotentialBlock(a=a, b=b, c=c, d=[d - r for d in shape.offsets], r=r, R=0, AabbMinMax=True)
@@ -87,6 +95,7 @@ def toPotentialBlock(shape, scene):
 
 def toPolyhedra(shape, scene):
 	from yade import Polyhedra, PolyhedraMat
+
 	own = Polyhedra(v=list(shape.vertices))
 	own.Initialize()
 	stiffness = volumetricStiffness(scene)
@@ -96,12 +105,13 @@ def toPolyhedra(shape, scene):
 
 def potentialBlockLoop(scene):
 	from yade import Ig2_PB_PB_ScGeom, Ip2_FrictMat_FrictMat_KnKsPBPhys, Law2_SCG_KnKsPBPhys_KnKsPBLaw, PotentialBlock2AABB
+
 	normal = volumetricStiffness(scene)
 	shear = scene.stiffnessRatio * normal
 	return PotentialBlock2AABB(), InteractionLoop(
-	        [Ig2_PB_PB_ScGeom()],
-	        [Ip2_FrictMat_FrictMat_KnKsPBPhys(kn_i=normal, ks_i=shear, Knormal=normal, Kshear=shear, viscousDamping=scene.contactDamping)],
-	        [Law2_SCG_KnKsPBPhys_KnKsPBLaw(allowViscousAttraction=False)],
+		[Ig2_PB_PB_ScGeom()],
+		[Ip2_FrictMat_FrictMat_KnKsPBPhys(kn_i=normal, ks_i=shear, Knormal=normal, Kshear=shear, viscousDamping=scene.contactDamping)],
+		[Law2_SCG_KnKsPBPhys_KnKsPBLaw(allowViscousAttraction=False)],
 	)
 
 
@@ -112,10 +122,11 @@ def polyhedraLoop(scene):
 		Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys,
 		Law2_PolyhedraGeom_PolyhedraPhys_Volumetric,
 	)
+
 	return Bo1_Polyhedra_Aabb(), InteractionLoop(
-	        [Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
-	        [Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-	        [Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
+		[Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
+		[Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
+		[Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
 	)
 
 
@@ -152,10 +163,10 @@ def replaceByPeer(scene, convert, loop):
 
 def setEngines(scene, bounds):
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider(bounds, verletDist=scene.verletFraction * scene.size),
-	        scene.interactionLoop,
-	        NewtonIntegrator(damping=scene.damping, gravity=(0, 0, -scene.gravity)),
+		ForceResetter(),
+		InsertionSortCollider(bounds, verletDist=scene.verletFraction * scene.size),
+		scene.interactionLoop,
+		NewtonIntegrator(damping=scene.damping, gravity=(0, 0, -scene.gravity)),
 	]
 
 
@@ -170,21 +181,26 @@ def replaceBySpheres(scene):
 		Ip2_FrictMat_FrictMat_FrictPhys,
 		Law2_ScGeom_FrictPhys_CundallStrack,
 	)
+
 	# aside by a little: exactly above each other they would stay so
 	aside = np.random.default_rng(scene.seed).uniform(-0.1, 0.1, (scene.number, 2)) * scene.size
-	places = [(body.state.pos[0] + x, body.state.pos[1] + y, body.state.pos[2]) for body, (x, y) in zip(scene.particles(), aside, strict=True)]
+	places = [
+		(body.state.pos[0] + x, body.state.pos[1] + y, body.state.pos[2]) for body, (x, y) in zip(scene.particles(), aside, strict=True)
+	]
 	step = O.dt
 	O.reset()
-	radius = scene.size * (3 / (4 * np.pi))**(1 / 3)
+	radius = scene.size * (3 / (4 * np.pi)) ** (1 / 3)
 	# Ip2_FrictMat_FrictMat_FrictPhys: kn = 2 E1 R1 E2 R2 / (E1 R1 + E2 R2) for equal ones E R
 	O.materials.append(
-	        FrictMat(density=scene.density, young=scene.normalStiffness / radius, poisson=scene.stiffnessRatio, frictionAngle=scene.frictionAngle)
+		FrictMat(
+			density=scene.density, young=scene.normalStiffness / radius, poisson=scene.stiffnessRatio, frictionAngle=scene.frictionAngle
+		)
 	)
 	half = scene.width / 2
 	O.bodies.append([utils.wall(0, 2, sense=1)] + [utils.wall(side * half, axis, sense=-side) for axis in (0, 1) for side in (-1, 1)])
 	scene.particleIds = O.bodies.append([utils.sphere(place, radius) for place in places])
 	scene.interactionLoop = InteractionLoop(
-	        [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]
+		[Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]
 	)
 	setEngines(scene, [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()])
 	O.dt = step
@@ -196,7 +212,9 @@ def replaceBySpheres(scene):
 def saveState(path):
 	"""Orientations as (x, y, z, w)."""
 	states = [body.state for body in O.bodies]
-	np.savez_compressed(path, **{name: np.array([list(getattr(state, name)) for state in states]) for name in ('pos', 'ori', 'vel', 'angVel')})
+	np.savez_compressed(
+		path, **{name: np.array([list(getattr(state, name)) for state in states]) for name in ('pos', 'ori', 'vel', 'angVel')}
+	)
 
 
 def loadState(path):
@@ -240,6 +258,7 @@ def askFor(scene, request):
 		O.engines = [O.engines[0], InsertionSortCollider(tight.boundDispatcher.functors, verletDist=tight.verletDist), *O.engines[2:]]
 	if request.recorder:
 		from yade import PolytopeVTKRecorder
+
 		O.engines += [PolytopeVTKRecorder(fileName=request.recorder, iterPeriod=100, recorders=['bodies', 'contacts'])]
 
 
@@ -260,14 +279,16 @@ def measure(scene, request):
 		after = len(O.interactions), O.interactions.countReal()
 		# YADE's clock goes on while another process has the core: with one thread, only the share that was ours counts
 		share = min(1, processor / wall) if O.numThreads == 1 else 1
-		rows.append({
-		        'pairs': (before[0] + after[0]) / 2,
-		        'contacts': (before[1] + after[1]) / 2,
-		        'loop': 1e-9 * share * scene.interactionLoop.execTime / each,
-		        'step': 1e-9 * share * sum(engine.execTime for engine in O.engines) / each,
-		        'engines': {type(engine).__name__: 1e-9 * share * engine.execTime / each for engine in O.engines},
-		        'share': share,
-		})
+		rows.append(
+			{
+				'pairs': (before[0] + after[0]) / 2,
+				'contacts': (before[1] + after[1]) / 2,
+				'loop': 1e-9 * share * scene.interactionLoop.execTime / each,
+				'step': 1e-9 * share * sum(engine.execTime for engine in O.engines) / each,
+				'engines': {type(engine).__name__: 1e-9 * share * engine.execTime / each for engine in O.engines},
+				'share': share,
+			}
+		)
 	O.timingEnabled = False
 	return rows
 
@@ -300,17 +321,17 @@ def main(request):
 	if not np.isfinite(speed):
 		sys.exit(f'{request.method}: bodies have velocities that are not finite')
 	return {
-	        'request': dataclasses.asdict(request),
-	        'rows': rows,
-	        'bodies': len(O.bodies),
-	        'threads': O.numThreads,
-	        'settleSeconds': settled,
-	        'largestSpeed': float(speed),
-	        'emptyBytes': empty,
-	        'bodiesBytes': bodies,
-	        'endBytes': memoryInUse(),
-	        'pairs': len(O.interactions),
-	        'contacts': O.interactions.countReal(),
+		'request': dataclasses.asdict(request),
+		'rows': rows,
+		'bodies': len(O.bodies),
+		'threads': O.numThreads,
+		'settleSeconds': settled,
+		'largestSpeed': float(speed),
+		'emptyBytes': empty,
+		'bodiesBytes': bodies,
+		'endBytes': memoryInUse(),
+		'pairs': len(O.interactions),
+		'contacts': O.interactions.countReal(),
 	}
 
 

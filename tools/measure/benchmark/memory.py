@@ -4,6 +4,7 @@
 As a program (bench.py runs it in a process of its own) it prints them as JSON. Each is the difference between two scenes of as many bodies in
 the same order, one with pairs and one without, so what engines and lists of bodies need is not in it.
 """
+
 import ctypes
 import gc
 import math
@@ -13,9 +14,10 @@ import oneProcess
 
 class MallocInfo(ctypes.Structure):
 	"""struct mallinfo2 of the C library."""
+
 	_fields_ = [
-	        (name, ctypes.c_size_t)
-	        for name in ('arena', 'ordblks', 'smblks', 'hblks', 'hblkhd', 'usmblks', 'fsmblks', 'uordblks', 'fordblks', 'keepcost')
+		(name, ctypes.c_size_t)
+		for name in ('arena', 'ordblks', 'smblks', 'hblks', 'hblkhd', 'usmblks', 'fsmblks', 'uordblks', 'fordblks', 'keepcost')
 	]
 
 
@@ -34,10 +36,10 @@ def cubes(places, turn):
 
 	O.reset()
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e8, shearStiffness=1e8, frictionAngle=0.5))
-	polytope.cuboid((0, 0, 0), (.5, .5, .5))
+	polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5))
 	before = memoryInUse()
 	for place in places:
-		O.bodies.append(polytope.cuboid(place, (.5, .5, .5), turn))
+		O.bodies.append(polytope.cuboid(place, (0.5, 0.5, 0.5), turn))
 		O.bodies[-1].state.blockedDOFs = 'XYZ'
 	each = (memoryInUse() - before) / len(places)
 	O.engines = polytope.engines(timeStepper=False)
@@ -66,13 +68,13 @@ def spheres(places):
 	O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
 	before = memoryInUse()
 	for place in places:
-		O.bodies.append(utils.sphere(place, .5))
+		O.bodies.append(utils.sphere(place, 0.5))
 	each = (memoryInUse() - before) / len(places)
 	O.engines = [
-	        ForceResetter(),
-	        InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0),
-	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
-	        NewtonIntegrator(),
+		ForceResetter(),
+		InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0),
+		InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+		NewtonIntegrator(),
 	]
 	O.dt = 1e-6
 	return each
@@ -116,13 +118,10 @@ def measure(quick):
 	# one above the other in twos
 	touching, apart = ([(2 * k, 0, z) for k in range(number) for z in (0, distance)] for distance in (0.999, 2))
 	return {
-	        'body': turned(far),
-	        'pair apart': perPair(near, far, turned, touching=False),
-	        'contact': perPair(touching, apart, straight, touching=True),
-	        'spheres': {
-	                'body': spheres(far),
-	                'contact': perPair(touching, apart, spheres, touching=True)
-	        },
+		'body': turned(far),
+		'pair apart': perPair(near, far, turned, touching=False),
+		'contact': perPair(touching, apart, straight, touching=True),
+		'spheres': {'body': spheres(far), 'contact': perPair(touching, apart, spheres, touching=True)},
 	}
 
 

@@ -7,6 +7,7 @@ Prints the time and memory of each part as it ends, and of a body's step with th
 faces in any orientation, start on a lattice on which they just do not touch, and fly in all directions: in 200 steps each has met some of its
 neighbours. --number 100000 makes a tenth of them, for comparison; with --yades-collider YADE's InsertionSortCollider finds the pairs.
 """
+
 import argparse
 import json
 import os
@@ -50,7 +51,7 @@ def build(number, yadesCollider):
 	)
 
 	O.materials.append(RockJointMat(density=density, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
-	chance, side = random.Random(1), round(number**(1 / 3))
+	chance, side = random.Random(1), round(number ** (1 / 3))
 	width, height = side * 2 * radius, (number + side**2 - 1) // side**2 * 2 * radius
 	middle = (width / 2, width / 2)
 	O.bodies.append(polytope.cuboid((*middle, -1), (width / 2 + 2, width / 2 + 2, 1), fixed=True))
@@ -71,7 +72,7 @@ def build(number, yadesCollider):
 		reach = O.engines[1].verletDist
 		O.engines = [O.engines[0], InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=reach), *O.engines[2:]]
 	lightest = min(body.state.mass for body in O.bodies if body.dynamic)
-	O.dt = 0.2 * (lightest / stiffness)**0.5
+	O.dt = 0.2 * (lightest / stiffness) ** 0.5
 
 
 def run(steps, parts, name):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A measuring program in a process of its own, on one core and with one thread."""
+
 import json
 import os
 import pathlib
@@ -20,7 +21,7 @@ def run(script, core, quick):
 	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
 	if output.returncode or not lines:
 		raise RuntimeError(f'{script.name}: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-	return json.loads(lines[-1][len('RESULT '):])
+	return json.loads(lines[-1][len('RESULT ') :])
 
 
 def report(measure):

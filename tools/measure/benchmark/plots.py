@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The picture docs/speed.png, and the stages of a query."""
+
 import matplotlib
 
 matplotlib.use('Agg')
@@ -10,15 +11,15 @@ planesOf = {**{name: 2 * faces for name, faces in solids.items()}, **{f'hull {n}
 """Planes of both bodies together."""
 
 colors = {
-        'ours cold': '#c2410c',
-        'ours warm': '#f59e0b',
-        'ours, spring cold': '#be185d',
-        'ours, spring warm': '#f472b6',
-        'one pass': '#9ca3af',
-        'libccd MPR': '#1d4ed8',
-        'coal GJK+EPA': '#7c3aed',
-        'CLP, as YADE calls it': '#374151',
-        'CLP, one model reused': '#6b7280',
+	'ours cold': '#c2410c',
+	'ours warm': '#f59e0b',
+	'ours, spring cold': '#be185d',
+	'ours, spring warm': '#f472b6',
+	'one pass': '#9ca3af',
+	'libccd MPR': '#1d4ed8',
+	'coal GJK+EPA': '#7c3aed',
+	'CLP, as YADE calls it': '#374151',
+	'CLP, one model reused': '#6b7280',
 }
 
 
@@ -34,8 +35,16 @@ def costAgainstPlanes(kernels, path):
 		points = sorted((planesOf[name], kernels[method, name].median) for name in planesOf if (method, name) in kernels)
 		# a cube's pair and a hull's may have the same number of planes: the hulls go on where the solids end
 		if points:
-			axes.plot(*zip(*points, strict=True), 'o-', color=color, label=method, markersize=4, linewidth=2 if method.startswith('ours') else 1)
-	axes.set(xscale='log', yscale='log', xlabel='planes of both bodies', ylabel='µs a pair', title='Touching pair: regular solids, then random hulls')
+			axes.plot(
+				*zip(*points, strict=True), 'o-', color=color, label=method, markersize=4, linewidth=2 if method.startswith('ours') else 1
+			)
+	axes.set(
+		xscale='log',
+		yscale='log',
+		xlabel='planes of both bodies',
+		ylabel='µs a pair',
+		title='Touching pair: regular solids, then random hulls',
+	)
 	axes.grid(True, which='both', alpha=0.25)
 	axes.legend(fontsize=8, ncols=2)
 	save(figure, path)
@@ -50,8 +59,8 @@ def stages(kernels, name, start):
 	lp = time(f'ours, LP alone {start}')
 	byLp = time(f'ours, Chebyshev centre {start}')
 	return {
-	        'frames, planes, LP': lp,
-	        'normal, depth': max(0, byLp - lp),
-	        'analytic centre': max(0, time(f'ours {start}') - byLp),
-	        'contact area (if asked for)': max(0, time('ours with area warm') - time('ours warm')),
+		'frames, planes, LP': lp,
+		'normal, depth': max(0, byLp - lp),
+		'analytic centre': max(0, time(f'ours {start}') - byLp),
+		'contact area (if asked for)': max(0, time('ours with area warm') - time('ours warm')),
 	}

@@ -54,17 +54,35 @@ def measure(bodies, steps):
 	found['together'] = timed(lambda: [(comm.barrier(), comm.allreduce(1), comm.allreduce(1.0)) for _ in range(200)]) / 200
 	found['merge'] = timed(mpi.merge)
 	if mpi.rank() == 0:
-		found |= {'processor': processor, 'sent': ghosts, 'forces': max(forces), 'contacts': len(fields.contacts.ids), 'messages': messages[1]}
+		found |= {
+			'processor': processor,
+			'sent': ghosts,
+			'forces': max(forces),
+			'contacts': len(fields.contacts.ids),
+			'messages': messages[1],
+		}
 		print('RESULT', json.dumps(found), flush=True)
 
 
 def launch(workers, bodies, steps):
-	command = ['mpirun', '--oversubscribe', '-np', str(workers + 1), sys.executable, __file__, '--rank', '--bodies', str(bodies), '--steps', str(steps)]
+	command = [
+		'mpirun',
+		'--oversubscribe',
+		'-np',
+		str(workers + 1),
+		sys.executable,
+		__file__,
+		'--rank',
+		'--bodies',
+		str(bodies),
+		'--steps',
+		str(steps),
+	]
 	done = subprocess.run(command, env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=3600)
 	lines = [line for line in done.stdout.splitlines() if line.startswith('RESULT ')]
 	if done.returncode or not lines:
 		raise SystemExit(f'{workers} workers: {(done.stdout + done.stderr)[-2000:]}')
-	return json.loads(lines[-1][len('RESULT '):])
+	return json.loads(lines[-1][len('RESULT ') :])
 
 
 class Model:
@@ -119,27 +137,55 @@ def report(bodies, runs):
 	for workers, run in best.items():
 		work = max(run['processor'][1:])
 		told = model.step(workers, bodies, False) * 1e3 if model else None
-		rows.append([
-			workers, run['step'] * 1e3, first['step'] / run['step'], work * 1e3, max(first['processor'][1:]) / work, told, max(run['sent'][1:]), stateBytes * max(run['sent'][1:]), run['forces'],
-			run['together'] * 1e6, run['handOut'], run['merge'],
-		])
+		rows.append(
+			[
+				workers,
+				run['step'] * 1e3,
+				first['step'] / run['step'],
+				work * 1e3,
+				max(first['processor'][1:]) / work,
+				told,
+				max(run['sent'][1:]),
+				stateBytes * max(run['sent'][1:]),
+				run['forces'],
+				run['together'] * 1e6,
+				run['handOut'],
+				run['merge'],
+			]
+		)
 	heads = [
-		'workers', 'step [ms]', 'ratio', 'busiest worker [ms]', 'ratio', 'model [ms]', 'states sent', 'bytes', 'forces to rank 0 [bytes]', 'ranks meet [µs]',
-		'hand out [s]', 'merge [s]',
+		'workers',
+		'step [ms]',
+		'ratio',
+		'busiest worker [ms]',
+		'ratio',
+		'model [ms]',
+		'states sent',
+		'bytes',
+		'forces to rank 0 [bytes]',
+		'ranks meet [µs]',
+		'hand out [s]',
+		'merge [s]',
 	]
 	print(tabulate(rows, heads, floatfmt='.3g'))
 	for workers, run in best.items():
 		for name, (calls, seconds) in sorted(run['messages'].items(), key=lambda item: -item[1][1]):
 			print(f'    {workers} workers, worker 1: {name}: {calls} calls, {seconds * 1e3:.2f} ms a step, waiting included')
 	if model:
-		print(f'\nModel: {model.body * 1e6:.2f} µs a body, {model.ghost * 1e6:.2f} µs a body that two workers have, {model.message * 1e6:.1f} µs a message;')
-		print(f'handing out {model.handOut * 1e6:.0f} µs and {model.scene:.0f} bytes a body, on each rank; merging {model.merge * 1e6:.0f} µs a body.')
+		print(
+			f'\nModel: {model.body * 1e6:.2f} µs a body, {model.ghost * 1e6:.2f} µs a body that two workers have, {model.message * 1e6:.1f} µs a message;'
+		)
+		print(
+			f'handing out {model.handOut * 1e6:.0f} µs and {model.scene:.0f} bytes a body, on each rank; merging {model.merge * 1e6:.0f} µs a body.'
+		)
 		print(f'Speed-up with a million bodies; efficiency, time to hand out and size of the scene with {perWorker} bodies on each worker:')
 		print(model.table(1_000_000))
 
 
 def main():
-	parser = argparse.ArgumentParser(description='Time of a step on several processes of this machine, for each number of workers; with 1 and 2, a model of more.')
+	parser = argparse.ArgumentParser(
+		description='Time of a step on several processes of this machine, for each number of workers; with 1 and 2, a model of more.'
+	)
 	parser.add_argument('--bodies', type=int, default=20000)
 	parser.add_argument('--steps', type=int, default=30)
 	parser.add_argument('--workers', type=int, nargs='+', default=[1, 2])

@@ -5,6 +5,7 @@ As a program (bench.py runs it in a process of its own) it prints what it measur
 heap, made in random order, so that bodies and contacts lie in memory as in a heap, too. Times are those of the processor in this process and
 those it starts, with one thread each: other programs do not count, nor does waiting for the disk. Those of the clock are beside them.
 """
+
 import os
 import random
 import statistics
@@ -79,10 +80,10 @@ def ofSpheres(number, folder):
 	fields = ['spheres', 'id', 'velocity', 'mass', 'mask']
 	recorder = VTKRecorder(fileName=f'{folder}/spheres-', recorders=fields, compress=True, iterPeriod=1)
 	return {
-	        'contacts': O.interactions.countReal(),
-	        'bodySnapshot': median(recorder, 3),
-	        'save': median(lambda: O.save(f'{folder}/spheres.yade', quiet=True), 1),
-	        'load': median(lambda: O.load(f'{folder}/spheres.yade', quiet=True), 1),
+		'contacts': O.interactions.countReal(),
+		'bodySnapshot': median(recorder, 3),
+		'save': median(lambda: O.save(f'{folder}/spheres.yade', quiet=True), 1),
+		'load': median(lambda: O.load(f'{folder}/spheres.yade', quiet=True), 1),
 	}
 
 

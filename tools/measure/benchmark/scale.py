@@ -25,7 +25,7 @@ def bodies(number, steps=200):
 	lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
 	if output.returncode or not lines:
 		raise RuntimeError('million.py: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-	return json.loads(lines[-1][len('RESULT '):])
+	return json.loads(lines[-1][len('RESULT ') :])
 
 
 def measure(quick, large):

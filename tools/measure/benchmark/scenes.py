@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Heaps in YADE: ours beside YADE's PotentialBlock, Polyhedra and spheres, growth with the number of bodies, and threads."""
+
 import json
 import os
 import pathlib
@@ -44,7 +45,7 @@ class Scenes:
 		lines = [line for line in output.stdout.splitlines() if line.startswith('RESULT ')]
 		if output.returncode or not lines:
 			raise SceneFailed(f'exit code {output.returncode}: ' + ' '.join((output.stderr or output.stdout).split('\n')[-4:]))
-		result = json.loads(lines[-1][len('RESULT '):])
+		result = json.loads(lines[-1][len('RESULT ') :])
 		rows = result['rows']
 		result['perPair'] = [row['loop'] / row['pairs'] for row in rows if row['pairs']]
 		result['perContact'] = [row['loop'] / row['contacts'] for row in rows if row['contacts']]
@@ -101,17 +102,24 @@ class Scenes:
 	def settledCubes(self):
 		"""Settled cubes, and YADE's spheres of the same volume: {method: result}."""
 		number, columns = (500, 9) if self.quick else (10000, 30)
-		heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'settle': 8000 if self.quick else 12000, 'steps': self.steps}
+		heap = {
+			'faces': [6],
+			'number': number,
+			'columns': columns,
+			'compact': True,
+			'settle': 8000 if self.quick else 12000,
+			'steps': self.steps,
+		}
 		return {method: self.run(method=method, **heap) for method in tqdm(('ours', 'spheres'), desc=f'settled heap of {number}')}
 
 	def sizes(self, large):
 		"""Settled cubes, and YADE's spheres of the same volume, all engines: {number: {method: result}} twice. First in the run in which they have settled:
 		contacts that came and went lie anywhere in memory. Then loaded by a new process, where they lie one after the other."""
-		numbers = (500, ) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
+		numbers = (500,) if self.quick else (2000, 20000, 100000) if large else (2000, 20000)
 		settled, loaded = {}, {}
 		with tempfile.TemporaryDirectory() as folder:
 			for number in tqdm(numbers, desc='settled heaps by size'):
-				heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True, 'steps': 100}
+				heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6) ** 0.5), 'compact': True, 'steps': 100}
 				states = {method: f'{folder}/{number}-{method}.npz' for method in ('ours', 'spheres')}
 				settled[number] = {method: self.run(method=method, settle=8000, save=state, **heap) for method, state in states.items()}
 				# 300 steps: joints and pairs find what a saved state has not
@@ -126,14 +134,16 @@ class Scenes:
 			heap = {'faces': [6], 'number': number, 'columns': columns, 'compact': True, 'steps': self.steps}
 			self.run(settle=8000, save=state, **dict(heap, steps=10))
 			asked = {
-			        'nothing': {},
-			        'contact area': {'area': True},
-			        'stiffness per area': {'perArea': True},
-			        'energies (O.trackEnergy)': {'energy': True},
-			        "boxes of balls (YADE's own collider)": {'ballBoxes': True},
-			        'recorder every 100 steps': {'recorder': f'{folder}/vtk-'},
+				'nothing': {},
+				'contact area': {'area': True},
+				'stiffness per area': {'perArea': True},
+				'energies (O.trackEnergy)': {'energy': True},
+				"boxes of balls (YADE's own collider)": {'ballBoxes': True},
+				'recorder every 100 steps': {'recorder': f'{folder}/vtk-'},
 			}
-			return {name: self.run(settle=50, load=state, **request, **heap) for name, request in tqdm(asked.items(), desc='what is asked for')}
+			return {
+				name: self.run(settle=50, load=state, **request, **heap) for name, request in tqdm(asked.items(), desc='what is asked for')
+			}
 
 	def growth(self):
 		"""Heaps of as many layers on ever larger floors: {number: result}; and Polyhedra's memory, {number: result}."""
@@ -141,16 +151,23 @@ class Scenes:
 		found, memory = {}, {}
 		with tempfile.TemporaryDirectory() as folder:
 			for number in tqdm(numbers, desc='growth'):
-				heap = {'faces': [6], 'number': number, 'columns': round((number / 5.6)**0.5), 'compact': True, 'steps': 100 if number < 1e5 else 50}
+				heap = {
+					'faces': [6],
+					'number': number,
+					'columns': round((number / 5.6) ** 0.5),
+					'compact': True,
+					'steps': 100 if number < 1e5 else 50,
+				}
 				state = f'{folder}/{number}.npz'
 				# small heaps are over in milliseconds, and processes differ by a third there: the middle one of five
 				runs = [self.run(settle=2500, save=state, **heap) for _ in range(5 if number < 10000 else 1)]
 				found[number] = sorted(runs, key=lambda run: median(run['perBody']))[len(runs) // 2]
 				if number == 2000:
 					memory = {
-					        method: self.run(load=state, settle=1, **dict(heap, steps=10)) if method == 'ours' else
-					        self.peer(method, load=state, settle=1, **dict(heap, steps=10))
-					        for method in ('ours', *peers)
+						method: self.run(load=state, settle=1, **dict(heap, steps=10))
+						if method == 'ours'
+						else self.peer(method, load=state, settle=1, **dict(heap, steps=10))
+						for method in ('ours', *peers)
 					}
 		return found, memory
 

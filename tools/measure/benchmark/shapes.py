@@ -3,6 +3,7 @@
 
 As a program (bench.py runs it in a process of its own) it prints what it measured as JSON.
 """
+
 import statistics
 import time
 
@@ -57,8 +58,7 @@ def cut(wanted):
 
 	spacing = 100 / (wanted ** (1 / 3) - 1)  # n joints make n + 1 layers
 	sets = [
-		polytope.JointSet(radians(dip), azimuth, spacing, exponential=True, fisher=200)
-		for dip, azimuth in ((5, 0), (85, pi / 2), (85, 0))
+		polytope.JointSet(radians(dip), azimuth, spacing, exponential=True, fisher=200) for dip, azimuth in ((5, 0), (85, pi / 2), (85, 0))
 	]
 	normals = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 	times = []

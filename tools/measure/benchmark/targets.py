@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The table of targets and measured values."""
+
 import dataclasses
 import math
 
@@ -150,7 +151,10 @@ def sizeRows(settled, loaded):
 		rows.append(atMost(f'time per body and step, settled heap of {number} cubes', 1.5, "YADE's spheres", *perBody(methods)))
 		ours, spheres = (1e6 * median([row['step'] / row['contacts'] for row in methods[key]['rows']]) for key in ('ours', 'spheres'))
 		rows.append(reported(f'time per contact and step, settled heap of {number} cubes', "YADE's spheres", ours, spheres))
-	rows += [reported(f'time per body and step, heap of {number} cubes as loaded', "YADE's spheres", *perBody(methods)) for number, methods in loaded.items()]
+	rows += [
+		reported(f'time per body and step, heap of {number} cubes as loaded', "YADE's spheres", *perBody(methods))
+		for number, methods in loaded.items()
+	]
 	return rows
 
 
@@ -164,22 +168,31 @@ def scaleRows(found):
 	rows = []
 	if large is not small:
 		for name, when in (('before', 'flying bodies'), ('after', 'flying bodies, saved and loaded')):
-			rows.append(atMost(f"time per body and step, {large['bodies']} {when}", 1.3, f"that of {small['bodies']}", large[name], small[name]))
+			rows.append(
+				atMost(f"time per body and step, {large['bodies']} {when}", 1.3, f"that of {small['bodies']}", large[name], small[name])
+			)
 	if large['bodies'] >= 1e6:
 		what = 'a million bodies (made; 200 steps; saved; loaded; 100 steps)'
 		rows += [below(f'{what}: time', 30, large['seconds'] / 60, 'min'), below(f'{what}: memory', 24, large['gigabytes'], 'GB')]
 		rows.append(below(f"PolytopeVTKRecorder, {large['bodies']} flying bodies and their contacts", 10, large['snapshot'], 's'))
 	one, two = (1e3 * found['workers'][workers] for workers in (1, 2))
-	return [*rows, atLeast(f"time of a step, workers 1 → 2, {found['cubes']} cubes on several processes", 1.6, 'one worker', two, one, '{:.1f} ms')]
+	return [
+		*rows,
+		atLeast(f"time of a step, workers 1 → 2, {found['cubes']} cubes on several processes", 1.6, 'one worker', two, one, '{:.1f} ms'),
+	]
 
 
 def growthRows(found, memory):
 	numbers = sorted(found)
 	first = numbers[0]
 	cost = {number: 1e6 * median(found[number]['perBody']) for number in numbers}
-	rows = [atMost(f'time per body and step, {number} bodies', 1.3, f'that of {first}', cost[number], cost[first]) for number in numbers[1:]]
+	rows = [
+		atMost(f'time per body and step, {number} bodies', 1.3, f'that of {first}', cost[number], cost[first]) for number in numbers[1:]
+	]
 	pair = {number: 1e6 * median(found[number]['perPair']) for number in numbers}
-	rows += [reported(f'InteractionLoop per pair, {number} bodies', f'that of {first}', pair[number], pair[first]) for number in numbers[1:]]
+	rows += [
+		reported(f'InteractionLoop per pair, {number} bodies', f'that of {first}', pair[number], pair[first]) for number in numbers[1:]
+	]
 	if memory.get('ours') and memory.get('polyhedra'):
 		for measure, bytesOf in (('body', scenes.memoryPerBody), ('contact', scenes.memoryPerContact)):
 			ours, peer = (bytesOf(memory[key]) for key in ('ours', 'polyhedra'))

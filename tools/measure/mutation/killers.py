@@ -36,7 +36,7 @@ class Run:
 		before = resource.getrusage(resource.RUSAGE_CHILDREN)
 		with tempfile.TemporaryFile('w+', errors='replace') as out:
 			process = subprocess.Popen(
-			        command, env=variables, cwd=folder, stdout=out, stderr=subprocess.STDOUT, preexec_fn=limits, process_group=0
+				command, env=variables, cwd=folder, stdout=out, stderr=subprocess.STDOUT, preexec_fn=limits, process_group=0
 			)
 			try:
 				self.code = process.wait(10 + asleep * seconds)

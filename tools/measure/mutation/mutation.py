@@ -25,11 +25,11 @@ from sites import Mutant, sites
 
 core = ('src/centre', 'src/contact', 'src/program', 'src/numbers', 'src/shape', 'src/timestep')
 plugin = tuple(
-        f'pkg/polytope/{name}.cpp'
-        for name in 'joint/RockJointLaw joint/RockJointPhysics joint/RockJointShear contact/PolytopeGeom contact/ContactOptions contact/ContactCounters'.split()
+	f'pkg/polytope/{name}.cpp'
+	for name in 'joint/RockJointLaw joint/RockJointPhysics joint/RockJointShear contact/PolytopeGeom contact/ContactOptions contact/ContactCounters'.split()
 )
 pluginTests = (
-        'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_spring.py test_energy.py test_mechanical_energy.py'
+	'test_contact_physics.py test_rock_joint.py test_joint_history.py test_bounds.py test_spring.py test_energy.py test_mechanical_energy.py'
 ).split()
 shareOfConstants = 0.15
 shareOfPlugin = 0.2
@@ -51,7 +51,9 @@ def chosen(count, seed):
 			some = [place for place in places[ofPlugin] if (place[3] == 'constant') == constant]
 			found += chance.sample(some, min(len(some), round(count * share * part)))
 	# numbers follow the files, so that one choice is the same program whatever is taken out of it
-	return [Mutant(i + 1, *place[:5], chance.choice(place[5]), place[6]) for i, place in enumerate(sorted(found, key=lambda place: place[:3]))]
+	return [
+		Mutant(i + 1, *place[:5], chance.choice(place[5]), place[6]) for i, place in enumerate(sorted(found, key=lambda place: place[:3]))
+	]
 
 
 def sourcesKey():
@@ -72,15 +74,22 @@ def head(arguments):
 		revision = ''
 	model = [line.split(':')[1].strip() for line in open('/proc/cpuinfo') if line.startswith('model name')]
 	return {
-	        'program': 'tools/measure/mutation/mutation.py', 'revision': revision or 'unknown', 'sources': sourcesKey(),
-	        'seed': arguments.seed, 'asked': arguments.mutants, 'date': datetime.datetime.now(datetime.UTC).strftime('%Y-%m-%d'), 'machine': f'{(model or ["?"])[0]}, {platform.machine()}',
+		'program': 'tools/measure/mutation/mutation.py',
+		'revision': revision or 'unknown',
+		'sources': sourcesKey(),
+		'seed': arguments.seed,
+		'asked': arguments.mutants,
+		'date': datetime.datetime.now(datetime.UTC).strftime('%Y-%m-%d'),
+		'machine': f'{(model or ["?"])[0]}, {platform.machine()}',
 	}
 
 
 def write(path, results):
 	"""One mutant a line."""
 	rows = ',\n'.join('  ' + json.dumps(row) for row in results['mutants'])
-	rest = json.dumps({key: value for key, value in results.items() if key != 'mutants'}, indent=1).replace('\n  ', ' ').replace('\n ]', ']')
+	rest = (
+		json.dumps({key: value for key, value in results.items() if key != 'mutants'}, indent=1).replace('\n  ', ' ').replace('\n ]', ']')
+	)
 	path.write_text(rest[:-2] + ',\n "mutants": [\n' + rows + '\n ]\n}\n')
 
 
@@ -107,11 +116,18 @@ def parsed():
 	parser.add_argument('--mutants', type=int, default=400, help='how many to pick (400); those that do not compile are taken out')
 	parser.add_argument('--seed', type=int, default=1)
 	parser.add_argument('--minutes', type=float, default=1e9, help='ends after so long; the same call goes on where it ended')
-	parser.add_argument('--only', choices=['core', 'plugin'], help="only mutants of src/ with the core's tests, or only the tests of the plug-in")
+	parser.add_argument(
+		'--only', choices=['core', 'plugin'], help="only mutants of src/ with the core's tests, or only the tests of the plug-in"
+	)
 	parser.add_argument('--file', action='append', help='only mutants of files whose names contain this; may be repeated')
 	parser.add_argument('--id', type=int, action='append', help='only these mutants, anew; may be repeated')
-	parser.add_argument('--unit', action='append', metavar='src/FOLDER/FILE.cpp', help="compiles these files alone and links them with the project's own "
-	        'build of the tests: quick, but a test that instantiates a template by itself has no mutant in it; may be repeated')
+	parser.add_argument(
+		'--unit',
+		action='append',
+		metavar='src/FOLDER/FILE.cpp',
+		help="compiles these files alone and links them with the project's own "
+		'build of the tests: quick, but a test that instantiates a template by itself has no mutant in it; may be repeated',
+	)
 	parser.add_argument('--again', action='store_true', help='with the same sources and other tests: those that survived are judged anew')
 	parser.add_argument('--tests', nargs='+', metavar='test_NAME.py', default=pluginTests, help='of the plug-in (those about forces)')
 	parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='of the compiler')
@@ -176,7 +192,11 @@ def main():
 		schemata.make(arguments.jobs, 'overlay')
 		survivors = {entry['id'] for entry in results['mutants'] if not entry['killedBy']}
 		tests = PluginTests(schemata.tree, arguments.tests)
-		judge(tests, 'plug-in' if arguments.tests == pluginTests else ' '.join(arguments.tests), lambda mutant: not inCore(mutant) or mutant.id in survivors)
+		judge(
+			tests,
+			'plug-in' if arguments.tests == pluginTests else ' '.join(arguments.tests),
+			lambda mutant: not inCore(mutant) or mutant.id in survivors,
+		)
 	killed = sum(bool(entry['killedBy']) for entry in results['mutants'])
 	say(f'{killed} of {len(results["mutants"])} killed; {len(results["doNotCompile"])} did not compile; {path}')
 

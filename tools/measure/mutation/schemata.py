@@ -56,7 +56,17 @@ class Schemata:
 	def configure(self):
 		"""-O1, which no build type of the project has: half the time to compile."""
 		header = project / 'tools/measure/mutation/Switch.hpp'
-		command = ['cmake', '-S', self.tree, '-B', self.build, '-G', 'Ninja', '-DPOLYTOPE_YADE=ON', f'-DPOLYTOPE_OVERLAY={self.build}/overlay']
+		command = [
+			'cmake',
+			'-S',
+			self.tree,
+			'-B',
+			self.build,
+			'-G',
+			'Ninja',
+			'-DPOLYTOPE_YADE=ON',
+			f'-DPOLYTOPE_OVERLAY={self.build}/overlay',
+		]
 		command += [f'-DYADE_SOURCE_DIR={cached("YADE_SOURCE_DIR")}', f'-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -w -include {header}']
 		command += ['-DCMAKE_BUILD_TYPE=Mutants']
 		subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -77,7 +87,9 @@ class Schemata:
 		commands = [entry for entry in commands if '/tree/src/contact/' in entry['file']]
 
 		def messages(entry):
-			done = subprocess.run(entry['command'] + ' -fsyntax-only -fmax-errors=0', shell=True, cwd=entry['directory'], capture_output=True, text=True)
+			done = subprocess.run(
+				entry['command'] + ' -fsyntax-only -fmax-errors=0', shell=True, cwd=entry['directory'], capture_output=True, text=True
+			)
 			return done.stderr if done.returncode else ''
 
 		while commands:
@@ -112,7 +124,9 @@ class Schemata:
 		self.make(jobs, *objects.values())
 		program, own = self.build / 'testsOfUnits', project / 'build'
 		subprocess.run(['ninja', '-C', own, '-j', str(jobs), 'polytope_core_tests'], check=True, stdout=subprocess.DEVNULL)
-		found = subprocess.run(['ninja', '-C', own, '-t', 'commands', 'tests/core/polytope_core_tests'], capture_output=True, text=True, check=True)
+		found = subprocess.run(
+			['ninja', '-C', own, '-t', 'commands', 'tests/core/polytope_core_tests'], capture_output=True, text=True, check=True
+		)
 		command = re.sub(r' -Wl,--dependency-file=\S+', ' FIRST', found.stdout.splitlines()[-1].split(' && ')[1])
 		for unit, name in objects.items():
 			if not unit.startswith('src/'):

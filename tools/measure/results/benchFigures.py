@@ -8,7 +8,19 @@ import re
 from text import bold, origin, paragraph, short, table
 
 file = 'bench.json'
-ofScenes = ('InteractionLoop', 'time per body', 'time per contact', 'time of a step', 'a million bodies', 'memory', 'polytope.arrays', 'PolytopeVTKRecorder', 'O.save', 'O.load', 'checkpoint')
+ofScenes = (
+	'InteractionLoop',
+	'time per body',
+	'time per contact',
+	'time of a step',
+	'a million bodies',
+	'memory',
+	'polytope.arrays',
+	'PolytopeVTKRecorder',
+	'O.save',
+	'O.load',
+	'checkpoint',
+)
 ofBodies = ('body of', 'jointedRock')
 order = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
 """Of the groups of `./run bench`."""
@@ -19,13 +31,23 @@ def taken(source):
 	found = json.loads((source / 'results.json').read_text())
 	machine = found['machine']
 	run = {
-	        'groups': found['groups'], 'revision': machine['revision'] + '-dirty' * machine['changed'], 'date': machine['date'][:10], 'machine': machine['processor'],
-	        'cores': machine['cores'], 'load': round(machine['loadAverage'][0], 2), 'system': machine['system'], 'compiler': machine['compiler'],
-	        'instructionSet': machine.get('instructionSet'), 'quick': found['quick'], 'notes': found['notes'],
+		'groups': found['groups'],
+		'revision': machine['revision'] + '-dirty' * machine['changed'],
+		'date': machine['date'][:10],
+		'machine': machine['processor'],
+		'cores': machine['cores'],
+		'load': round(machine['loadAverage'][0], 2),
+		'system': machine['system'],
+		'compiler': machine['compiler'],
+		'instructionSet': machine.get('instructionSet'),
+		'quick': found['quick'],
+		'notes': found['notes'],
 	}
 	kept = ('method', 'set', 'median', 'spread', 'wrong', 'pairs', 'pivots', 'iterations', 'contacts')
 	kernels = [{key: one[key] for key in kept} for one in found.get('kernels', {}).get('measurements', [])]
-	return _written({'features': found.get('features'), 'shapes': found.get('shapes'), 'runs': [run], 'targets': found['targets'], 'kernels': kernels})
+	return _written(
+		{'features': found.get('features'), 'shapes': found.get('shapes'), 'runs': [run], 'targets': found['targets'], 'kernels': kernels}
+	)
 
 
 def withKept(text, path):
@@ -100,7 +122,16 @@ def targets(chosen):
 			met = f'{sum(row["met"] for row in judged)} of {len(judged)}' if judged else ''
 			if judged and not all(row['met'] for row in judged):
 				met = bold(met)
-			lines.append([f'{head}: {names}' if names else head, target, joined(row['ours'] for row in group), joined(row['peer'] for row in group), ', '.join(filter(None, map(ratio, group))), met])
+			lines.append(
+				[
+					f'{head}: {names}' if names else head,
+					target,
+					joined(row['ours'] for row in group),
+					joined(row['peer'] for row in group),
+					', '.join(filter(None, map(ratio, group))),
+					met,
+				]
+			)
 		return table(['measure', 'target', 'ours', 'compared with', 'ratio', 'met'], lines)
 
 	return figure
@@ -134,7 +165,11 @@ def faster(peer):
 	"""Times faster than YADE's shape, the loop of 200 falling solids: least to most."""
 
 	def figure(folder):
-		rows = [row for row in read(folder)['targets'] if row['measure'].startswith('InteractionLoop per step, 200 falling') and row['target'].endswith(peer)]
+		rows = [
+			row
+			for row in read(folder)['targets']
+			if row['measure'].startswith('InteractionLoop per step, 200 falling') and row['target'].endswith(peer)
+		]
 		if not rows:
 			raise ValueError(f'{file}: no comparison with {peer}: run all groups of ./run bench')
 		return f'{min(row["ratio"] for row in rows):.0f} to {max(row["ratio"] for row in rows):.0f} times faster'
@@ -152,10 +187,10 @@ def features(folder):
 
 
 figures = {
-        'bench.verdict': verdict,
-        'bench.scenes': targets(isScene),
-        'bench.pairs': targets(isPair),
-        'bench.bodies': targets(isBody),
-        'bench.features': features,
-        'bench.polyhedra': faster('Polyhedra'),
+	'bench.verdict': verdict,
+	'bench.scenes': targets(isScene),
+	'bench.pairs': targets(isPair),
+	'bench.bodies': targets(isBody),
+	'bench.features': features,
+	'bench.polyhedra': faster('Polyhedra'),
 }

@@ -19,7 +19,16 @@ def taken(source):
 		if 'revision' not in record:
 			raise ValueError(f'{path.parent}: run.json does not say the revision; run it again')
 		about = {key: record[key] for key in ('revision', 'date', 'machine', 'cores', 'load', 'options', 'seconds')}
-		scripts.append({'name': path.parent.name, 'letter': found['letter'], 'title': found['title'], **about, 'good': found['good'], 'rows': found['rows']})
+		scripts.append(
+			{
+				'name': path.parent.name,
+				'letter': found['letter'],
+				'title': found['title'],
+				**about,
+				'good': found['good'],
+				'rows': found['rows'],
+			}
+		)
 	if not scripts:
 		raise ValueError(f'{source}: no */findings.json there')
 	return _written(scripts)
@@ -27,7 +36,11 @@ def taken(source):
 
 def withKept(text, path):
 	"""New results with those of the scripts that were not run with them; each says its revision and date."""
-	scripts = {script['name']: script for source in ([path.read_text()] if path.exists() else []) + [text] for script in json.loads(source)['scripts']}
+	scripts = {
+		script['name']: script
+		for source in ([path.read_text()] if path.exists() else []) + [text]
+		for script in json.loads(source)['scripts']
+	}
 	return _written([scripts[name] for name in sorted(scripts)])
 
 
@@ -60,7 +73,15 @@ def mustBe(row):
 
 def cells(row):
 	ours = short(row['ours'], 6)
-	return [row['quantity'], row['unit'], short(row['paper'], 6), short(row['theory'], 6), bold(ours + ' missed') if row['good'] is False else ours, difference(row), mustBe(row)]
+	return [
+		row['quantity'],
+		row['unit'],
+		short(row['paper'], 6),
+		short(row['theory'], 6),
+		bold(ours + ' missed') if row['good'] is False else ours,
+		difference(row),
+		mustBe(row),
+	]
 
 
 titles = ['quantity', 'unit', 'paper', 'closed form', 'ours', 'difference', 'must be']
@@ -84,8 +105,16 @@ def verdicts(name):
 	def line(script):
 		judged = [row for row in script['rows'] if row['good'] is not None]
 		missed = [row for row in judged if not row['good']]
-		said = '; '.join(bold(f'{row["quantity"]}: {short(row["ours"], 3)} {row["unit"]}, must be {mustBe(row)}') for row in missed) or 'none'
-		return [f'{script["letter"]}: {script["title"]}', f'{len(judged) - len(missed)} of {len(judged)}', said, f'{script["seconds"]:.0f} s', origin(script)]
+		said = (
+			'; '.join(bold(f'{row["quantity"]}: {short(row["ours"], 3)} {row["unit"]}, must be {mustBe(row)}') for row in missed) or 'none'
+		)
+		return [
+			f'{script["letter"]}: {script["title"]}',
+			f'{len(judged) - len(missed)} of {len(judged)}',
+			said,
+			f'{script["seconds"]:.0f} s',
+			origin(script),
+		]
 
 	return lambda folder: table(['study', 'limits met', 'missed', 'took', 'run on'], map(line, scriptsOf(folder, name)))
 
@@ -101,7 +130,9 @@ def speedKept(names):
 		if not rows:
 			return 'not measured'
 		loss = {row['quantity']: row['ours'] for row in rows}
-		found = [[loss.get(f'1 m/s over three joints: loss of speed: {name}, per {rule}') for rule in ('contact', 'area')] for name in names]
+		found = [
+			[loss.get(f'1 m/s over three joints: loss of speed: {name}, per {rule}') for rule in ('contact', 'area')] for name in names
+		]
 		kept = next((both for both in found if None not in both), None)
 		return '; '.join(short(one, 2) for one in kept) if kept else 'not measured'
 

@@ -68,7 +68,9 @@ def summary(folder):
 	revisions = collections.defaultdict(set)
 	for row in rows(folder / file):
 		revisions[row['revision'][:7], row['seed']].add(row['file'].split('/')[0])
-	which = '; '.join(f'{", ".join(sorted(places))}: revision {revision}, seed {seed}' for (revision, seed), places in sorted(revisions.items()))
+	which = '; '.join(
+		f'{", ".join(sorted(places))}: revision {revision}, seed {seed}' for (revision, seed), places in sorted(revisions.items())
+	)
 	text = f'{share:.1f} %'
 	return paragraph(f"""{some} mutants were run ({which}): {count['killed']} are killed, {count['equivalent']} change
 		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.""")
@@ -103,8 +105,10 @@ def change(row):
 
 
 figures = {
-        'mutation.summary': summary,
-        'mutation.places': byPlace,
-        'mutation.open': lambda folder: '\n\n'.join(filter(lambda text: text != 'None.', [listed('open')(folder), listed('not judged')(folder)])) or 'None.',
-        'mutation.equivalent': listed('equivalent'),
+	'mutation.summary': summary,
+	'mutation.places': byPlace,
+	'mutation.open': lambda folder: (
+		'\n\n'.join(filter(lambda text: text != 'None.', [listed('open')(folder), listed('not judged')(folder)])) or 'None.'
+	),
+	'mutation.equivalent': listed('equivalent'),
 }

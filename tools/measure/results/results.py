@@ -25,12 +25,12 @@ import tradeoffFigures
 project = pathlib.Path(__file__).resolve().parents[3]
 place = re.compile(r'(<!-- from ([\w.]+) -->)(.*?)(<!-- end -->)', re.DOTALL)
 kinds = {
-        'accuracy': (findingsFigures, findingsFigures.files['accuracy']),
-        'bench': (benchFigures, benchFigures.file),
-        'mutation': (mutationFigures, mutationFigures.file),
-        'paper': (findingsFigures, findingsFigures.files['paper']),
-        'search': (searchFigures, searchFigures.file),
-        'tradeoff': (tradeoffFigures, tradeoffFigures.file),
+	'accuracy': (findingsFigures, findingsFigures.files['accuracy']),
+	'bench': (benchFigures, benchFigures.file),
+	'mutation': (mutationFigures, mutationFigures.file),
+	'paper': (findingsFigures, findingsFigures.files['paper']),
+	'search': (searchFigures, searchFigures.file),
+	'tradeoff': (tradeoffFigures, tradeoffFigures.file),
 }
 """Name of the results → module with taken() and figures; file in docs/results."""
 figures = {name: figure for module, _ in kinds.values() for name, figure in module.figures.items()}
@@ -82,7 +82,9 @@ def take(root, name, source):
 def main():
 	parser = argparse.ArgumentParser(prog='./run figures', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 	parser.add_argument('--check', action='store_true', help='only says what differs')
-	parser.add_argument('--take', nargs=2, metavar=('NAME', 'PATH'), action='append', default=[], help=f'new results: {", ".join(kinds)}; may be repeated')
+	parser.add_argument(
+		'--take', nargs=2, metavar=('NAME', 'PATH'), action='append', default=[], help=f'new results: {", ".join(kinds)}; may be repeated'
+	)
 	parser.add_argument('--root', type=pathlib.Path, default=project, help='folder with README.md and docs (the project)')
 	arguments = parser.parse_args()
 	for name, _ in arguments.take:

@@ -40,7 +40,11 @@ def origin(about):
 
 	:param dict about: revision, date, machine, cores, load (not all have it), quick
 	"""
-	parts = [f'{about["machine"]}, {about["cores"]} cores', about['date'], 'revision ' + about['revision'][:7] + (' with changes' if about['revision'].endswith('-dirty') else '')]
+	parts = [
+		f'{about["machine"]}, {about["cores"]} cores',
+		about['date'],
+		'revision ' + about['revision'][:7] + (' with changes' if about['revision'].endswith('-dirty') else ''),
+	]
 	if about.get('seed') is not None:
 		parts.append(f'seed {about["seed"]}')
 	if about.get('quick'):

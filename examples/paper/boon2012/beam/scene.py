@@ -150,9 +150,7 @@ class ThreeHingedBeam:
 			ForceResetter(),
 			InsertionSortCollider([Bo1_Polytope_Aabb()], verletDist=0),
 			InteractionLoop(
-				[Ig2_Polytope_Polytope_PolytopeGeom(
-						contactModel=self.contactModel, contactPoint=self.contactPoint, solver=self.solver
-					)],
+				[Ig2_Polytope_Polytope_PolytopeGeom(contactModel=self.contactModel, contactPoint=self.contactPoint, solver=self.solver)],
 				[
 					Ip2_RockJointMat_RockJointMat_RockJointPhys(
 						stiffnessPerArea=False,
@@ -222,7 +220,10 @@ class ThreeHingedBeam:
 		"""The largest load of all imposed rotations, as `balance` reads it."""
 		alignment = math.atan(self.height / self.length)
 		found = minimize_scalar(
-			lambda rotation: -float(self.balance(rotation).load), bounds=(1e-2 * alignment, alignment), method='bounded', options={'xatol': 1e-8}
+			lambda rotation: -float(self.balance(rotation).load),
+			bounds=(1e-2 * alignment, alignment),
+			method='bounded',
+			options={'xatol': 1e-8},
 		)
 		return self.balance(found.x)
 

@@ -12,7 +12,12 @@ from .theory import BeamBetweenWalls, BeamOfTwoBlocks
 
 __all__ = ['AbutmentSize', 'BeamCurve', 'BeamStudy', 'DrivenBeam', 'PushedBeam', 'TiltedNormal', 'contactPointNames', 'solverNames']
 
-contactPointNames = {'centroid': 'centroid', 'analyticCentre': 'analytic centre', 'chebyshevCentre': 'Chebyshev centre', 'spring': 'contact surface'}
+contactPointNames = {
+	'centroid': 'centroid',
+	'analyticCentre': 'analytic centre',
+	'chebyshevCentre': 'Chebyshev centre',
+	'spring': 'contact surface',
+}
 solverNames = {'newton': 'Newton', 'ipopt': 'Ipopt'}
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Plot of simulation A: what a contact problem costs (Fig. 6 of the paper)."""
 
-
 from matplotlib.figure import Figure
 
 __all__ = ['plotCosts']

@@ -88,7 +88,12 @@ class FallingPolyhedraReport:
 			self.findings.row(title, rounded(statistics.fmean(values)), accept=must, note=note + '; ours: mean of the seeds' * self.several)
 			if self.several:
 				most = rounded(deviation * math.sqrt(f.ppf(0.995, len(values) - 1, self.freedom)))
-				self.findings.row(f'{title}, scatter between seeds', rounded(statistics.stdev(values)), accept=(0, most), note='99.5 % of such samples are below')
+				self.findings.row(
+					f'{title}, scatter between seeds',
+					rounded(statistics.stdev(values)),
+					accept=(0, most),
+					note='99.5 % of such samples are below',
+				)
 
 	def singleRuns(self):
 		"""Why single runs are outside the ranges of the reference."""

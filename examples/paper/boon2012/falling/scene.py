@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulation A of the paper: regular polyhedra fall onto a floor between four walls."""
+
 import dataclasses
 import math
 
@@ -32,13 +33,13 @@ def circumradiusOfUnitVolume(faces):
 	"""Circumradius of the regular solid of volume 1, from volume and circumradius of the one of edge 1."""
 	root = math.sqrt
 	volume, circumradius = {
-	        4: (1 / (6 * root(2)), root(6) / 4),
-	        6: (1, root(3) / 2),
-	        8: (root(2) / 3, 1 / root(2)),
-	        12: ((15 + 7 * root(5)) / 4, root(3) * (1 + root(5)) / 4),
-	        20: (5 * (3 + root(5)) / 12, root(10 + 2 * root(5)) / 4),
+		4: (1 / (6 * root(2)), root(6) / 4),
+		6: (1, root(3) / 2),
+		8: (root(2) / 3, 1 / root(2)),
+		12: ((15 + 7 * root(5)) / 4, root(3) * (1 + root(5)) / 4),
+		20: (5 * (3 + root(5)) / 12, root(10 + 2 * root(5)) / 4),
 	}[faces]
-	return circumradius / volume**(1 / 3)
+	return circumradius / volume ** (1 / 3)
 
 
 @dataclasses.dataclass
@@ -48,7 +49,7 @@ class FallingPolyhedra:
 	The paper gives number and solids; all sizes and parameters are our choice. Make it with `FallingPolyhedra(...).build()`.
 	"""
 
-	faces: tuple = (8, )
+	faces: tuple = (8,)
 	"""Numbers of faces (4, 6, 8, 12, 20) of the solids, used in turn; an int for one solid alone."""
 	number: int = 200
 	seed: int = 1
@@ -85,7 +86,7 @@ class FallingPolyhedra:
 
 	def __post_init__(self):
 		if isinstance(self.faces, int):
-			self.faces = (self.faces, )
+			self.faces = (self.faces,)
 
 	@property
 	def mass(self):
@@ -113,26 +114,26 @@ class FallingPolyhedra:
 	def build(self):
 		O.reset()
 		O.materials.append(
-		        RockJointMat(
-		                density=self.density,
-		                normalStiffness=self.normalStiffness,
-		                shearStiffness=self.stiffnessRatio * self.normalStiffness,
-		                frictionAngle=self.frictionAngle
-		        )
+			RockJointMat(
+				density=self.density,
+				normalStiffness=self.normalStiffness,
+				shearStiffness=self.stiffnessRatio * self.normalStiffness,
+				frictionAngle=self.frictionAngle,
+			)
 		)
 		self._addContainer()
 		self._addParticles()
 		self.geometryFunctor = Ig2_Polytope_Polytope_PolytopeGeom()
 		self.interactionLoop = InteractionLoop(
-		        [self.geometryFunctor],
-		        [Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
-		        [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
+			[self.geometryFunctor],
+			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)],
+			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(normalDamping=self.contactDamping, shearDamping=self.contactDamping)],
 		)
 		O.engines = [
-		        ForceResetter(),
-		        PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=self.verletFraction * self.size),
-		        self.interactionLoop,
-		        NewtonIntegrator(damping=self.damping, gravity=(0, 0, -self.gravity)),
+			ForceResetter(),
+			PolytopeCollider([Bo1_Polytope_Aabb()], verletDist=self.verletFraction * self.size),
+			self.interactionLoop,
+			NewtonIntegrator(damping=self.damping, gravity=(0, 0, -self.gravity)),
 		]
 		O.dt = self.timeStep
 		return self
@@ -156,8 +157,8 @@ class FallingPolyhedra:
 		outer = half + 2 * wall
 		self.floorId = O.bodies.append(cuboid((0, 0, -wall), (outer, outer, wall), **fixed))
 		self.wallIds = O.bodies.append(
-		        [cuboid((side * (half + wall), 0, rise), (wall, outer, rise), **fixed) for side in (-1, 1)] +
-		        [cuboid((0, side * (half + wall), rise), (half, wall, rise), **fixed) for side in (-1, 1)]
+			[cuboid((side * (half + wall), 0, rise), (wall, outer, rise), **fixed) for side in (-1, 1)]
+			+ [cuboid((0, side * (half + wall), rise), (half, wall, rise), **fixed) for side in (-1, 1)]
 		)
 
 	def _addParticles(self):
@@ -166,12 +167,12 @@ class FallingPolyhedra:
 			faces = self.faces[k % len(self.faces)]
 			layer = k // self.columns**2
 			body = regular(
-			        faces,
-			        circumradiusOfUnitVolume(faces) * self.size,
-			        center=tuple(center),
-			        orientation=Quaternion(*orientation),
-			        cornerRadius=self.cornerFraction * self.size,
-			        color=solidColors[faces] if len(self.faces) > 1 else layerColors[layer % len(layerColors)],
+				faces,
+				circumradiusOfUnitVolume(faces) * self.size,
+				center=tuple(center),
+				orientation=Quaternion(*orientation),
+				cornerRadius=self.cornerFraction * self.size,
+				color=solidColors[faces] if len(self.faces) > 1 else layerColors[layer % len(layerColors)],
 			)
 			self.particleIds.append(O.bodies.append(body))
 

@@ -45,10 +45,18 @@ def showOutcome(results, ranges, known, chaotic=()):
 	rows.append(['queries without an answer', 0, *(r['failures'] for r in results)])
 	for key, label in quantities.items():
 		judged = None if key in chaotic else ranges.get(key)
-		rows.append([label + ' *' * (key in chaotic and key in ranges), _range(ranges.get(key)), *(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results)])
+		rows.append(
+			[
+				label + ' *' * (key in chaotic and key in ranges),
+				_range(ranges.get(key)),
+				*(f'{r[key]:.4g}' + _verdict(r[key], judged) for r in results),
+			]
+		)
 	print(tabulate(rows, ['', 'reference', *[r['shape'] for r in results]], disable_numparse=True))
 	if ranges and chaotic:
-		print('* Heaps are chaotic, and a body that topples late or a hard impact decides alone: a single run may lie outside. What must hold is')
+		print(
+			'* Heaps are chaotic, and a body that topples late or a hard impact decides alone: a single run may lie outside. What must hold is'
+		)
 		print('  compared below where all five solids are run, and by ./run paper --only A over eight seeds.')
 
 

@@ -3,6 +3,7 @@
 
 One script writes one `Findings` into its folder; `./run paper` puts those of all six together into one report.
 """
+
 import csv
 import json
 import math
@@ -40,16 +41,16 @@ class Findings:
 			raise ValueError(f"row {quantity}: accept must be (low, high), not {accept}")
 		good = None if accept is None else bool(accept[0] <= ours <= accept[1])  # False for NaN
 		self.content['rows'].append(
-		        {
-		                'quantity': quantity,
-		                'unit': unit,
-		                'paper': _number(paper),
-		                'theory': _number(theory),
-		                'ours': _number(ours),
-		                'accept': None if accept is None else [_number(x) for x in accept],
-		                'good': good,
-		                'note': note
-		        }
+			{
+				'quantity': quantity,
+				'unit': unit,
+				'paper': _number(paper),
+				'theory': _number(theory),
+				'ours': _number(ours),
+				'accept': None if accept is None else [_number(x) for x in accept],
+				'good': good,
+				'note': note,
+			}
 		)
 		return good is not False
 
@@ -94,6 +95,7 @@ class Findings:
 	def show(self):
 		"""Prints the rows."""
 		from tabulate import tabulate
+
 		titles = ['', 'unit', 'paper', 'closed form', 'ours', 'difference', 'must be', '']
 		print(tabulate([rowCells(row) for row in self.content['rows']], titles, disable_numparse=True))
 

@@ -94,7 +94,9 @@ def writableFolder(text):
 	try:
 		tempfile.TemporaryFile(dir=there).close()
 	except OSError as error:
-		raise argparse.ArgumentTypeError(f'cannot write to {folder}: {error.strerror}; name a folder that files can be written to') from None
+		raise argparse.ArgumentTypeError(
+			f'cannot write to {folder}: {error.strerror}; name a folder that files can be written to'
+		) from None
 	return folder
 
 

@@ -111,7 +111,9 @@ def writeHtml(sections, template, path, quick, absent, earlier=(), base=None):
 	:param list absent: letters of the simulations that were not asked for and are not there
 	:param list earlier: letters of those that an earlier call completed
 	"""
-	environment = jinja2.Environment(loader=jinja2.FileSystemLoader([template.parent, *([base] if base else [])]), autoescape=True, undefined=jinja2.StrictUndefined)
+	environment = jinja2.Environment(
+		loader=jinja2.FileSystemLoader([template.parent, *([base] if base else [])]), autoescape=True, undefined=jinja2.StrictUndefined
+	)
 	rows = [row for part in sections for row in part['rows']]
 	about = {
 		'quick': quick,

@@ -70,7 +70,9 @@ class Run:
 		if code is None:
 			return False
 		seconds = time.monotonic() - self.began
-		(self.folder / 'run.json').write_text(json.dumps({**self.key, **self.origin, 'exitCode': code, 'seconds': seconds}, indent='\t') + '\n')
+		(self.folder / 'run.json').write_text(
+			json.dumps({**self.key, **self.origin, 'exitCode': code, 'seconds': seconds}, indent='\t') + '\n'
+		)
 		return True
 
 	def stop(self):

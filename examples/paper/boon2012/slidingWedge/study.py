@@ -125,7 +125,11 @@ class SlidingWedgeReport(WedgeReport):
 		base, findings = self.base, self.findings
 		must = self.ofReference((base.failed - margin, base.stable + margin))
 		within = base.failed - margin <= base.withShear() <= base.stable + margin
-		note = 'the critical angle above, so it explains the whole difference' if within else 'not the critical angle above: no whole explanation'
+		note = (
+			'the critical angle above, so it explains the whole difference'
+			if within
+			else 'not the critical angle above: no whole explanation'
+		)
 		findings.row('limit equilibrium with the locked-in shear measured', base.withShear(), '°', accept=must, note=note)
 		settled, last = base.settled, base.atFailure
 		lowest, *_ = self.theory.lowerBound()

@@ -355,7 +355,14 @@ class SlopeReport:
 		self.findings.table(
 			'settings',
 			'Other settings. Beside them a limit analysis in which forces keep the corner radius away from the ends of joints.',
-			['setting', 'fails at [°]', 'stands at [°]', 'limit analysis, corners worn off [°]', 'contact queries without an answer', 'remark'],
+			[
+				'setting',
+				'fails at [°]',
+				'stands at [°]',
+				'limit analysis, corners worn off [°]',
+				'contact queries without an answer',
+				'remark',
+			],
 			[
 				[run.label, *bracket, worn[run.scene.cornerRadius], run.failedQueries, run.remark]
 				for run, bracket in zip(runs, brackets, strict=True)

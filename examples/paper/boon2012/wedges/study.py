@@ -42,7 +42,12 @@ def wedgeParser(text, geometry, steps):
 	show('--shear-stiffness', type=positive, default=1e7, help='in the same unit')
 	times = 'stiffness of a contact: times the area of the wedge\'s face; times the area of the present contact section; as it is'
 	show('--stiffness-times', choices=stiffnessFactors, default='face', help=times)
-	show('--contact-model', choices=contactModels, default='boon2012', help='the others are those of a contact surface, which read no contact point')
+	show(
+		'--contact-model',
+		choices=contactModels,
+		default='boon2012',
+		help='the others are those of a contact surface, which read no contact point',
+	)
 	show('--contact-point', choices=contactPoints, default='analyticCentre')
 	show('--damping', type=fraction, default=0.7, help='YADE\'s own, of NewtonIntegrator')
 	show('--contact-damping', type=notNegative, default=0.0, help='of contacts in normal and shear direction, fraction of critical')

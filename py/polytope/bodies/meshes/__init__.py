@@ -99,7 +99,9 @@ def _hull(path, points, error, body):
 			if not str(refusal).startswith('points'):
 				raise
 			largest, extent = float(np.abs(points).max()), _extent(points)
-			digits = f'; at coordinates up to {largest:.3g} m its numbers may have too few digits: {remedy}' if largest > farOut * extent else ''
+			digits = (
+				f'; at coordinates up to {largest:.3g} m its numbers may have too few digits: {remedy}' if largest > farOut * extent else ''
+			)
 			raise ValueError(f"path: the vertices of '{path}' make no body ({refusal}){digits}") from None
 
 	return bodyOf(shape, **body)
@@ -140,7 +142,9 @@ def _objects(path, mesh, error, body):
 	if odd:
 		seen = [f'object {number} {what}' for number, what in odd.items()]
 		more = f' and {len(seen) - named} more' if len(seen) > named else ''
-		warn(f"path: of '{path}', {', '.join(seen[:named])}{more}; the body is the convex hull; cut it into convex ones if that is not meant")
+		warn(
+			f"path: of '{path}', {', '.join(seen[:named])}{more}; the body is the convex hull; cut it into convex ones if that is not meant"
+		)
 	return made
 
 

@@ -37,7 +37,9 @@ def readByMeshio(path):
 
 def _surface(mesh, points):
 	"""(triangles, number of the object of each) of the volumes of a mesh, or of its surface where it has none."""
-	tags = next((mesh.cell_data[name] for name in volumeTags if name in mesh.cell_data), [np.zeros(len(block.data), int) for block in mesh.cells])
+	tags = next(
+		(mesh.cell_data[name] for name in volumeTags if name in mesh.cell_data), [np.zeros(len(block.data), int) for block in mesh.cells]
+	)
 	outer = []
 	for block, tag in zip(mesh.cells, tags, strict=True):
 		kind = next((kind for kind in faces if block.type.rstrip('0123456789') == kind), None)

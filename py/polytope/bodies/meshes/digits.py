@@ -14,7 +14,6 @@ fewDigits = 6
 """Significant digits in decimal that programs write which are not told how many. Numbers with fewer are taken for exact, such as those of a grid."""
 
 
-
 def rounding(points):
 	"""Largest error that a coordinate has, where all points are numbers of single precision or of few digits; otherwise 0.
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Containers and ground from mesh files, as facets of YADE's: `polytope.facets(…)`."""
 
-
 import numpy as np
 from yade import Vector3
 

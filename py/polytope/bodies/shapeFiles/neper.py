@@ -141,4 +141,7 @@ def _flat(words, face, points, body):
 	except ValueError as error:
 		if not str(error).startswith('points2d'):
 			raise
-		raise words.wrong(f'the vertices of this cell make no polygon ({error}); cells that regularization or -transform cut has bent are not convex: tessellate without them', line) from None
+		raise words.wrong(
+			f'the vertices of this cell make no polygon ({error}); cells that regularization or -transform cut has bent are not convex: tessellate without them',
+			line,
+		) from None

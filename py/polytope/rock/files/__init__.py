@@ -61,4 +61,6 @@ def _formatOf(rows):
 	if tables.isTable(first):
 		return 'table'
 	columns = ', '.join(tables.needed)
-	raise rows.wrong(rows.first + 1, f'no columns named {columns}, and no beginning of another format', 'name the columns there, or give format=')
+	raise rows.wrong(
+		rows.first + 1, f'no columns named {columns}, and no beginning of another format', 'name the columns there, or give format='
+	)

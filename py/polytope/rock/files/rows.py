@@ -33,7 +33,9 @@ class Rows:
 			value = math.nan
 		if not math.isfinite(value):
 			point = text.replace(',', '.')
-			raise self.wrong(line, f'{what} must be a number, got {text!r}', f'write a decimal point: {point}' if _isNumber(point) else 'correct it')
+			raise self.wrong(
+				line, f'{what} must be a number, got {text!r}', f'write a decimal point: {point}' if _isNumber(point) else 'correct it'
+			)
 		return value
 
 	def whole(self, line, text, what):

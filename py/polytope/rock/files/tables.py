@@ -70,7 +70,11 @@ def joints(rows):
 		if line <= rows.first + 1 or not any(field.strip() for field in fields):
 			continue
 		if separator == ',' and any(fields[len(_words(heading)) :]):
-			raise rows.wrong(line, f'{len(fields)} fields, {len(_words(heading))} columns', 'are there decimal commas? Write decimal points, or separate columns by semicolons or tabs')
+			raise rows.wrong(
+				line,
+				f'{len(fields)} fields, {len(_words(heading))} columns',
+				'are there decimal commas? Write decimal points, or separate columns by semicolons or tabs',
+			)
 		if len(fields) <= max(columns.values()):
 			raise rows.wrong(line, f'{len(fields)} fields, {max(columns.values()) + 1} or more are expected', 'complete the line')
 		found.append(_joint(rows, line, {name: fields[place].strip() for name, place in columns.items()}))
@@ -83,7 +87,9 @@ def _tellRadians(rows, joints):
 	angles = np.degrees([(joint.dip, joint.dipDirection) for joint in joints]).reshape(-1, 2)
 	within = (angles[:, 0] <= math.pi / 2 + turnRounding).all() and (np.abs(angles[:, 1]) <= 2 * math.pi + turnRounding).all()
 	if within and len(angles) and (np.abs(angles - np.round(angles)) > turnRounding).any():
-		warn(f"path: '{rows.path}': no dip is above {angles[:, 0].max():.3g}°, no dip direction above {np.abs(angles[:, 1]).max():.3g}°; if they are in radians, write degrees")
+		warn(
+			f"path: '{rows.path}': no dip is above {angles[:, 0].max():.3g}°, no dip direction above {np.abs(angles[:, 1]).max():.3g}°; if they are in radians, write degrees"
+		)
 
 
 def _joint(rows, line, fields):

@@ -137,7 +137,11 @@ def _partsOf(body, region):
 		if region.holds(centre + middle):
 			inside += 1
 		else:
-			cuts = [(Vector3(*map(real, normal)), real(offset)) for normal, offset, label in zip(normals, offsets, labels, strict=True) if label >= 0]
+			cuts = [
+				(Vector3(*map(real, normal)), real(offset))
+				for normal, offset, label in zip(normals, offsets, labels, strict=True)
+				if label >= 0
+			]
 			groups.setdefault(number, []).append(Part(body.id, *pieceOf(body, cuts)))
 	return list(groups.values()), inside
 

@@ -46,7 +46,9 @@ def refuseUnknown(cut):
 	for engine in O.engines:
 		held = set(engine.ids) & set(parts) if isinstance(engine, (BaseMotion, QuietBoundary)) else ()
 		if held:
-			raise ValueError(f'cut: block {parts[min(held)]}, which the region would cut, is one of a {type(engine).__name__}; keep the region off it, or give cut=False')
+			raise ValueError(
+				f'cut: block {parts[min(held)]}, which the region would cut, is one of a {type(engine).__name__}; keep the region off it, or give cut=False'
+			)
 	for contact in O.interactions:
 		for part in {contact.id1, contact.id2} & set(parts):
 			if contact.isReal:
@@ -93,7 +95,9 @@ def takeOver(rests):
 				_refuseSum(*wrong.popitem())
 			bonded |= movers
 	if bonded:
-		warn(f'cut: what is left of blocks {", ".join(map(str, sorted(bonded)))} is bodies that are bonded to each other where it is not convex, for contacts with the parts of a clump would not add up there (docs/stress-and-excavation.md)')
+		warn(
+			f'cut: what is left of blocks {", ".join(map(str, sorted(bonded)))} is bodies that are bonded to each other where it is not convex, for contacts with the parts of a clump would not add up there (docs/stress-and-excavation.md)'
+		)
 	for k, own in parts.items():
 		replaceInRocks(former[k], [part.body for part in own], [part.planes for part in own])
 	_replaceInWaters(parts)

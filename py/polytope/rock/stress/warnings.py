@@ -30,7 +30,11 @@ def warnOfGravity(field, faces, chosen):
 	parts = {k: float(np.linalg.norm(left)) / bears[k] for k, left in forces.items() if bears.get(k, 0) > 0}
 	worst = max(parts, key=parts.get, default=None)
 	if worst is not None and parts[worst] > accuracy:
-		loads, water = ('gravity and water', ' less the buoyancy ρ_w g of what is under water: it is the stress between the blocks') if waters else ('gravity', '')
+		loads, water = (
+			('gravity and water', ' less the buoyancy ρ_w g of what is under water: it is the stress between the blocks')
+			if waters
+			else ('gravity', '')
+		)
 		warn(
 			f'gradient: stress and {loads} do not balance, by {parts[worst]:.2g} of what body {worst} bears; the mass will move until they do. '
 			f'The divergence of the stress must be -ρg: with z upwards and gravity along -z the derivative of σ_zz along z is ρg{water}'

@@ -24,9 +24,7 @@ def onStep(contact=None, perArea=False, floor='plates', body='cube', height=0.00
 	"""
 	lying = lyingBody(body)
 	pieces = Floor(1, 1.0, before=3, after=3, steps=(0.0, height))
-	run = SurfaceScene(
-		planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(1 - lying.front - 0.05, 0.13)
-	).build().settle()
+	run = SurfaceScene(planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(1 - lying.front - 0.05, 0.13)).build().settle()
 	run.push(speed)
 	run.advance(0.15 / speed)
 	corners = run.corners()
@@ -100,7 +98,9 @@ def drop(floor='plates', body='cube', contact=None, perArea=False, speed=0.5, ti
 	turned = Quaternion(axis, math.radians(tilt))
 	pieces = Floor(1, spacing, before=spacing + 1.5, after=2.5)
 	scene = {'law': {}, 'stepFraction': 0.05, **scene}
-	run = SurfaceScene(planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(spacing + at, 0.13), tilt=turned, **scene).build()
+	run = SurfaceScene(
+		planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(spacing + at, 0.13), tilt=turned, **scene
+	).build()
 	state, period = run.moving.state, math.sqrt(run.mass / run.stiffness)
 	run.newton.gravity = (0, 0, 0)
 	O.dt = 0.02 * period
@@ -139,10 +139,22 @@ def roll(
 	"""
 	pieces = Floor(seams, spacing, before=3, after=4)
 	law = {'normalDamping': 0.5, 'shearDamping': 0.3}
-	run = SurfaceScene(
-		planarFloor(floor, body), body, contact or {}, perArea, pieces, at=(0.0, 0.13), friction=friction,
-		incline=math.radians(incline), law=law, **scene
-	).build().settle()
+	run = (
+		SurfaceScene(
+			planarFloor(floor, body),
+			body,
+			contact or {},
+			perArea,
+			pieces,
+			at=(0.0, 0.13),
+			friction=friction,
+			incline=math.radians(incline),
+			law=law,
+			**scene,
+		)
+		.build()
+		.settle()
+	)
 	start, ways = run.position[0], []
 	for _ in range(10):
 		run.advance(time / 10)

@@ -93,9 +93,7 @@ def _overlapping(floor):
 
 
 def _boxes(floor):
-	return [
-		utils.box(*_middle(low, high, *floor.side, top - floor.thickness, top), fixed=True) for low, high, top in floor.rows()
-	]
+	return [utils.box(*_middle(low, high, *floor.side, top - floor.thickness, top), fixed=True) for low, high, top in floor.rows()]
 
 
 def _facets(floor):

@@ -211,7 +211,9 @@ def slideDown(floor='plates', body='cube', contact=None, perArea=False, incline=
 	run.advance(time - 0.05)
 	elapsed = O.time - begun
 	way = run.position - start
-	return _way(run, run.position - [way @ combined - speed * elapsed, way[1], 0], 0.5 * acceleration * elapsed**2, acceleration * time, first)
+	return _way(
+		run, run.position - [way @ combined - speed * elapsed, way[1], 0], 0.5 * acceleration * elapsed**2, acceleration * time, first
+	)
 
 
 def _longFloor(floor, body, contact, perArea, travel, spacing, **scene):
