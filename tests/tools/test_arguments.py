@@ -60,7 +60,7 @@ def testWaitingForAnotherBuildIsSaid(clone, tmp_path):
 	"""One line, and then it builds."""
 	functions = (clone / 'tools/inside.sh').read_text()
 	functions = functions[functions.index('# Builds one precision') : functions.index('# The plug-in of the precision in use')]
-	stubs = 'buildFolder() { echo "$cache"; }; configure() { :; }; step() { echo built; }; measuringPrograms=\n'
+	stubs = 'buildFolder() { echo "$cache"; }; configure() { :; }; setDevelop() { :; }; step() { echo built; }; measuringPrograms=\n'
 	cache = tmp_path / 'cache'
 	cache.mkdir()
 	held = 'exec 7>"$cache/build.lock"; flock 7; (exec 8>&-; sleep 1) & exec 7>&-\n'
