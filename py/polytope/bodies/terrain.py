@@ -34,8 +34,11 @@ def terrain(heights, spacing=None, depth=None, origin=(0, 0), scale=1.0, shift=(
 	:raises ValueError: naming the argument
 	:raises FileNotFoundError: naming *heights* if there is no such file
 	"""
+	ofMesh = isinstance(heights, (str, os.PathLike))
+	if ofMesh and spacing is not None:
+		raise ValueError('spacing: is that of a height map; a mesh has its own points')
 	factor, moved = positive(scale, 'scale'), np.array([*vector(shift, 'shift')], float)
-	points, triangles = _ofMesh(heights) if isinstance(heights, (str, os.PathLike)) else _ofHeights(heights, spacing, origin)
+	points, triangles = _ofMesh(heights) if ofMesh else _ofHeights(heights, spacing, origin)
 	points = factor * points + moved
 	extent = float(np.ptp(points[:, :2], axis=0).max())
 	base = points[triangles][:, :, 2].min() - (thicknessFraction * extent if depth is None else positive(depth, 'depth'))
@@ -99,13 +102,13 @@ def _cross(one, other):
 
 def _ofHeights(heights, spacing, origin):
 	"""Points and triangles of a height map."""
-	spacing, origin = positive(spacing, 'spacing'), rows([origin], 'origin', 2)[0]
 	try:
 		values = np.array(heights, float)
 	except (TypeError, ValueError):
 		values = np.empty(0)
 	if values.ndim != 2 or min(values.shape) < 2 or not np.isfinite(values).all():
 		raise ValueError('heights: must be rows of finite heights, at least 2 × 2, or the path of a mesh file')
+	spacing, origin = positive(spacing, 'spacing'), rows([origin], 'origin', 2)[0]
 	n, m = values.shape
 	x, y = np.meshgrid(float(origin[0]) + spacing * np.arange(n), float(origin[1]) + spacing * np.arange(m), indexing='ij')
 	first = (np.arange(n - 1)[:, None] * m + np.arange(m - 1)).ravel()

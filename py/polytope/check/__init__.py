@@ -33,7 +33,7 @@ def check(O, costs=False):
 	begins at once on joints with a strength to lose, joints that lose their cohesion or tensile strength to the material on the other side, bodies that hang from what they only touch or that nothing fixed is below, engines that move bodies that are free or do not exist, attributes that nothing reads, contact queries that failed, the time step and its time
 	steppers, bodies that move farther than their size in a step, turning boxes and facets that YADE's collider does not notice.
 
-	It lists all that it finds, not the first only. Where it finds nothing it says how many bodies can move, their sizes in m and masses in kg, the extent of what is fixed, and gravity: a stone of 40 m
+	It lists all that it finds, not the first only, and then says how many bodies can move, their sizes in m and masses in kg, the extent of what is fixed, and gravity: a stone of 40 m
 	is no mistake that it can know of. Where a position or velocity is not a number, what rests on it (overlaps, time step) is not looked at.
 
 	With *costs* it also finds what the scene pays for without using it: switches of the contact functors, energy tracking, a collider that
@@ -80,4 +80,4 @@ def checkOf(O, engines):
 			places += softJoints(scene)
 		found += [*places, *lostStrengths(scene), *hanging(scene), *falling(scene), *stepFindings(scene)]
 	findings = (Finding(*one) for one in dict.fromkeys(found))  # bodies of one material find the same
-	return Check(findings, '' if engines else aboutScene(scene))
+	return Check(findings, '' if engines or lost else aboutScene(scene))

@@ -24,7 +24,13 @@ def aboutScene(scene):
 		said.append(f'{_span([_width(scene, body) for body in ends])} m across')
 	said.append(f'{_span([float(body.state.mass) for body in whole])} kg')
 	held = extentOfSupports(scene)
-	fixed = [f'what is fixed is {held:.3g} m across'] if held else []
+	fixed = (
+		[f'what is fixed is {held:.3g} m across']
+		if held
+		else []
+		if any(not scene.moves(body) for body in scene.bodies)
+		else ['nothing is fixed']
+	)
 	gravity = [f'gravity is {tuple(float(f"{float(g):.6g}") for g in engine.gravity)} m/s²' for engine in scene.integrators[:1]]
 	return '; '.join([', '.join(said), *fixed, *gravity])
 

@@ -24,7 +24,7 @@ class Finding:
 class Check(list):
 	"""What polytope.check() returns: a list of findings (`what`, `seen`, `advice`, `cost`), empty where nothing is wrong. Printing it shows all.
 
-	:param str about: of the bodies, their sizes and masses: printed where nothing is wrong
+	:param str about: of the bodies, their sizes and masses, printed after the findings
 	:ivar float stepMicroseconds: of all engines, as the scene is; None where no costs were measured
 	:ivar str notMeasured: why costs that were asked for are missing; '' where they are not
 	"""
@@ -50,7 +50,7 @@ class Check(list):
 			costs = [f'a step takes {self.stepMicroseconds:.4g} µs{after}']
 		if not self:
 			return '\n'.join(filter(None, ('nothing was found that is wrong', self.about, *costs)))
-		return '\n'.join([*(self._shown(finding) for finding in self), *costs])
+		return '\n'.join([*(self._shown(finding) for finding in self), *filter(None, [self.about]), *costs])
 
 	def _shown(self, finding):
 		saves = '' if finding.cost is None else f' (saves {finding.cost:.3g} µs a step, {100 * finding.cost / self.stepMicroseconds:.0f} %)'

@@ -75,6 +75,8 @@ def overlaps(scene):
 			else f'their contact throws one of them at up to {found[pair]:.2g} m/s, more than a fall over its own thickness gives'
 		)
 		advice = 'move them apart: bodies should begin apart, or overlap by some thousandths of their size (polytope.cloud places them without overlap)'
+		if scene.O.interactions.has(*pair, True):
+			advice = f'a higher normalStiffness, if they came to be there by their weight, load or speed; else {advice}'
 		yield 'overlap', f'body {pair[0]} and body {pair[1]} {how}{more}: {speed}', advice
 
 

@@ -2,11 +2,12 @@
 """From where a picture is taken: directions of view, and the camera that shows given points."""
 
 import math
+import numbers
 
 import numpy as np
 from yade import NewtonIntegrator, O
 
-__all__ = ['against', 'cameraFor', 'fromTheFront', 'unit', 'viewAxes']
+__all__ = ['against', 'cameraFor', 'fromTheFront', 'pixels', 'unit', 'viewAxes']
 
 viewAngle = 24
 """Vertical opening of the camera [degrees]; small, so that bodies of equal size appear equal."""
@@ -18,8 +19,26 @@ alongUp = 1e-6
 """Sine of the angle between view and up below which up says nothing."""
 
 
+largest = 20000
+"""Pixels of a picture's edge."""
+
+
+def pixels(size):
+	"""(width, height) of a picture, checked."""
+	try:
+		width, height = size
+	except (TypeError, ValueError):
+		width = height = None
+	if not all(isinstance(edge, numbers.Integral) and not isinstance(edge, bool) and 1 <= edge <= largest for edge in (width, height)):
+		raise ValueError(f'size: must be (width, height), whole numbers of pixels from 1 to {largest}, got {size!r}')
+	return int(width), int(height)
+
+
 def viewAxes(view, up, flat):
 	"""Unit vectors: towards the camera, and up in the picture."""
+	for name, direction in ('view', view), ('up', up):
+		if direction is not None and not 0 < np.linalg.norm(np.asarray(direction, float)) < np.inf:
+			raise ValueError(f'{name}: must be a direction, finite and not zero, got {direction!r}')
 	up = unit(up if up is not None else against(flat))
 	view = unit(view if view is not None else (0, 0, 1) if flat else fromTheFront(up))
 	if np.linalg.norm(np.cross(up, view)) < alongUp:

@@ -19,7 +19,7 @@ import numpy as np
 from yade import O, Polytope
 
 from ..arguments import namedArguments
-from .camera import cameraFor, viewAxes
+from .camera import cameraFor, pixels, viewAxes
 from .faceColors import faceColors
 from .faces import collect
 from .looks import colorMap, colors, styles, typicalRadius, usualFixedColor
@@ -67,7 +67,8 @@ def picture(
 	:param view: direction from the scene to the camera; default from the front, above and a little from the left, for scenes
 	    of polygons along z
 	:param up: direction that is up in the picture; default against gravity, without any z, for polygons y
-	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn. Give the same for a series.
+	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn, but for those of
+	    bodies drawn as edges where others are drawn, too. Give the same for a series.
 	:param float zoom: above 1 to come nearer than the frame requires
 	:param size: (width, height) in pixels
 	:param background: RGB
@@ -78,6 +79,7 @@ def picture(
 	"""
 	if os.path.splitext(os.fspath(path))[1].lower() not in ('', '.png'):
 		raise ValueError(f'path: pictures are PNG files, their names end in .png, got {os.fspath(path)!r}')
+	size = pixels(size)
 	drawn = drawable(O.bodies if bodies is None else bodies)
 	flat = isFlat(drawn)
 	view, up = viewAxes(view, up, flat)

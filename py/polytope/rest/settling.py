@@ -74,11 +74,14 @@ def _tellDisplaced(bodies):
 	"""A block that has toppled is at rest, too."""
 	if bodies:
 		ones = ', '.join(f'body {k} by {way:.2g} m' for k, way in bodies[:named]) + (', …' if len(bodies) > named else '')
-		warn(f'settle: at rest, but {len(bodies)} that stood on others moved by more than their size: {ones}; they slid, fell or toppled')
+		warn(
+			f'settle: at rest, but {len(bodies)} that stood on others moved by more than a tenth of their size: {ones}; they slid, fell or toppled'
+		)
 
 
 def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
+	first = unrest
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
 		while taken < steps:
 			now = min(between, steps - taken)
@@ -91,7 +94,7 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			bar.update(now)
 			quiet = quiet + 1 if force < unbalanced and not fading else 0
 			if quiet == looks:
-				_tellDisplaced(unrest.displaced())
+				_tellDisplaced(first.displaced())
 				return taken
 			if fading:
 				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves

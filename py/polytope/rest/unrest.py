@@ -10,6 +10,7 @@ from yade import O
 from ..measures.arrays import arrays
 from ..scene.movers import partsOf
 from ..scene.present import jointMaterials
+from ..scene.relaxing import heldByRelaxing
 from ..scene.stages import sizeOf
 from .holding import anythingBelow, isHeld, isThin, touched
 from .unbalanced import unbalancedForces
@@ -35,6 +36,8 @@ farAway = 2
 """Way over the size in each of two spans on end, from which on one beside others that may come to rest slides away."""
 leaning = 2.0
 """Angle of a body that still moves, from which on it topples [°]: blocks turn by some tenths as their joints close."""
+displacedBy = 0.1
+"""Way over the size, from which on a body that stood on others has not come to rest where it was: joints close by some thousandths."""
 named = 3
 """Bodies that a message names."""
 
@@ -74,6 +77,7 @@ class Unrest:
 		self.steps, self.end, self.looks = 0, firstSpan, 0
 		self.stood = None
 		"""Ids of bodies that touched others at the first look."""
+		self.held = heldByRelaxing()
 		self.sum = self.mean = self.before = np.zeros(0)
 		self.origin = self.began = self.last = placesById()
 		self.start = arrays().bodies
@@ -100,9 +104,10 @@ class Unrest:
 		return float(forces.max(initial=0.0))
 
 	def displaced(self):
-		"""Bodies that stood on others when it began and have moved by more than their size, as (id, way [m]), the farthest first."""
+		"""Bodies that stood on others when it began, or were held by forces that fade, and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
 		ways = _ways(self.origin, placesById())
-		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in self.stood and ways[k] > sizeOf(int(k))]
+		stood = self.held | (self.stood or set())
+		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in stood and ways[k] > displacedBy * sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])
 
 	def hopeless(self):

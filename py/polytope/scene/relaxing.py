@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Forces of bodies that have been taken away, which fade to zero: an engine that goes on after saving and loading, and then removes itself."""
 
+import ast
 import functools
 import json
 import math
 
 from yade import NewtonIntegrator, O, PyRunner, Vector3
 
-__all__ = ['act', 'relaxing', 'startRelaxing']
+__all__ = ['act', 'heldByRelaxing', 'relaxing', 'startRelaxing']
 
 module = "__import__('yade.polytope.scene.relaxing', fromlist=['act']).act"
 """A call that leaves no name among the script's own."""
@@ -31,6 +32,15 @@ def startRelaxing(loads, steps):
 def relaxing():
 	"""The engines of this kind in the scene."""
 	return [engine for engine in O.engines if isinstance(engine, PyRunner) and engine.command.startswith(module)]
+
+
+def heldByRelaxing():
+	"""Ids of the bodies that those forces act on."""
+	found = set()
+	for engine in relaxing():
+		_, _, loads = ast.literal_eval(engine.command[len(module) :])
+		found |= {k for k, *_ in _unpacked(loads)}
+	return found
 
 
 def act(began, steps, loads):

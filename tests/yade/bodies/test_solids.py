@@ -147,6 +147,14 @@ def testTerrainRefusesAScale(scale):
 		polytope.terrain([[0, 0], [0, 0]], spacing=1, scale=scale)
 
 
+def testTerrainNamesTheArgument(tmp_path):
+	_hill().export(tmp_path / 'hill.ply')
+	with pytest.raises(ValueError, match='^spacing: is that of a height map'):
+		polytope.terrain(tmp_path / 'hill.ply', spacing=1)
+	with pytest.raises(ValueError, match='^heights: must be rows'):
+		polytope.terrain(_hill())
+
+
 @pytest.mark.parametrize('kind', ['cave', 'twice'])
 def testGroundThatHangsOverIsRefused(kind, tmp_path):
 	"""A roof beside the ground in an open mesh; ground that is there twice."""

@@ -479,7 +479,9 @@ def testItTellsOfSizesAndMasses():
 	O.materials.append(rock())
 	O.bodies.append(polytope.cuboid((0, 0, 21), (20, 20, 20)))
 	O.engines = polytope.engines()
-	assert repr(polytope.check(O)).endswith('1 body can move, 40 m across, 1.66e+08 kg; gravity is (0.0, 0.0, -9.81) m/s²')
+	assert repr(polytope.check(O)).endswith(
+		'1 body can move, 40 m across, 1.66e+08 kg; nothing is fixed; gravity is (0.0, 0.0, -9.81) m/s²'
+	)
 	polytope.clump([polytope.cuboid((100, 0, 0), (1, 1, 1)), polytope.cuboid((102, 0, 0), (1, 1, 1))])
 	assert '2 bodies can move, 4 to 40 m across, 4.16e+04 to 1.66e+08 kg' in repr(polytope.check(O)), 'of the clump as a whole'
 	O.bodies.append(utils.sphere((0, 0, 190), 45))
@@ -522,6 +524,32 @@ def testGravityAwayFromTheFloor(gravity):
 		assert 'body 1 is below all that is fixed' in onlyFinding('falls').seen
 	else:
 		assert not polytope.check(O)
+
+
+def testABodyThatFellPastTheFloor():
+	"""After a run, too; its speed does not make the joint too soft."""
+	scene(lambda: [polytope.cuboid((5, 0, 0.5), (0.1, 0.1, 0.1))])
+	assert not polytope.check(O)
+	while O.time < 2:
+		O.step()
+	found = onlyFinding('falls')
+	assert found.seen.startswith('body 2 is below')
+
+
+def testAFloorThatNothingMeets():
+	scene()
+	O.bodies[0].mask = 2
+	assert 'body 1 has no bit of its mask, 1,' in onlyFinding('masks').seen
+	O.bodies.append(polytope.cuboid((0, 0, 3), (0.5, 0.4, 0.5)))
+	O.bodies[2].mask = 3
+	assert not polytope.check(O), 'the other one may hold it'
+
+
+def testASceneWithoutAnythingFixedIsTold():
+	scene()
+	assert 'nothing is fixed' not in repr(polytope.check(O))
+	O.bodies[0].dynamic = True
+	assert 'nothing is fixed' in repr(polytope.check(O)), 'beside what it finds: bodies of the floor may touch'
 
 
 def testABodyBelowTheFloor():
@@ -716,7 +744,7 @@ def testBlocksPlacedIntoEachOther(distance, deep):
 	found = onlyFinding('overlap')
 	assert 'body 2 and body 3' in found.seen and 'cloud' in found.advice
 	O.bodies[3].mask = 2
-	assert not polytope.check(O)
+	assert 'overlap' not in [one.what for one in polytope.check(O)]
 
 
 @pytest.mark.parametrize(

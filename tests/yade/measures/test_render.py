@@ -9,7 +9,7 @@ import time
 import matplotlib.image
 import numpy as np
 import pytest
-from yade import FrictMat, NewtonIntegrator, O, Quaternion, polytope, utils
+from yade import FrictMat, NewtonIntegrator, O, Quaternion, RockJointMat, polytope, utils
 from yade.polytope.pictures.camera import against, fromTheFront
 from yade.polytope.pictures.faces import _rings, mostSphereFaces
 from yade.polytope.pictures.looks import colors, usualFixedColor
@@ -330,3 +330,19 @@ def testYadesOwnViewDrawsPolytopes(tmp_path):
 def redness(picture):
 	"""Pixels that are red."""
 	return picture[:, :, 0] > picture[:, :, 1] + 0.3
+
+
+@pytest.mark.parametrize(
+	'given, name',
+	[(dict(view=(0, 0, 0)), 'view'), (dict(up=(0, 0, float('nan'))), 'up'), (dict(size=(0, 10)), 'size'), (dict(size=7), 'size')],
+)
+def testDirectionsAndSizesAreChecked(given, name, tmp_path):
+	O.reset()
+	O.materials.append(RockJointMat())
+	O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	with pytest.raises(ValueError, match=f'^{name}: must be'):
+		polytope.picture(tmp_path / 'one.png', **given)
+	with pytest.raises(ValueError, match=f'^{name}: must be'):
+		polytope.animate(tmp_path / 'one.gif', every=10, **given)
+	assert not list(tmp_path.iterdir())

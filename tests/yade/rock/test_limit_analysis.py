@@ -51,6 +51,30 @@ def expect(found, theory):
 	assert found.failed / found.stable <= 1 + fine
 
 
+def testPartsThatAreBondedForGoodAreOneBlock():
+	"""As of a block that excavate has cut: the mode is that of one, and both parts are named."""
+	material(cohesion=6e3)
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	parts = O.bodies.append([polytope.cuboid((x, 0, 0.1), (0.25, 0.5, 0.1)) for x in (-0.25, 0.25)])
+	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
+	polytope.bond(parts, tensileStrength=math.inf, cohesion=math.inf)
+	found = polytope.limitAnalysis(tolerance=fine)
+	expect(found, (across * math.tan(friction) + 6e3) / along)
+	assert sorted(found.bodies) == parts and found.joints == 2
+	assert found.displacements[0] == pytest.approx(found.displacements[1], rel=1e-6)
+
+
+def testOneBondedForGoodToWhatIsFixedIsFixed():
+	material()
+	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
+	lower, upper = O.bodies.append([polytope.cuboid((0, 0, z), (0.5, 0.5, 0.1)) for z in (0.1, 0.3)])
+	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
+	polytope.bond([floor, lower], tensileStrength=math.inf, cohesion=math.inf)
+	found = polytope.limitAnalysis(tolerance=fine)
+	expect(found, math.tan(friction) / math.tan(dip))
+	assert found.bodies == [upper]
+
+
 @pytest.mark.parametrize('flat', [False, True])
 @pytest.mark.parametrize(
 	'reduce, theory',
@@ -106,7 +130,7 @@ def testABlockTopplesWhereGoodmanAndBraySay(flat, slender):
 	wide, high = 0.5, 1.0
 	onSlope(math.atan(slender * wide / high), (wide / 2, 0.5, high / 2), flat, frictionAngle=math.radians(60))
 	if slender > 1:
-		with pytest.raises(RuntimeError, match='does not stand, not even with 20 times friction, cohesion, tension'):
+		with pytest.raises(RuntimeError, match='does not stand, not even with 20 times friction, cohesion, tension: body '):
 			polytope.limitAnalysis()
 	else:
 		found = polytope.limitAnalysis(tolerance=fine)

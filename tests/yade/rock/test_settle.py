@@ -228,6 +228,21 @@ def testAColumnThatToppledIsTold(tilt, recwarn):
 	O.engines = polytope.engines()
 	recwarn.clear()
 	polytope.settle(damping=0.3)
-	told = [str(one.message) for one in recwarn if 'moved by more than their size' in str(one.message)]
+	told = [str(one.message) for one in recwarn if 'moved by more than a tenth of their size' in str(one.message)]
 	assert len(told) == (tilt > 26.6)
 	assert not told or 'body 1 by ' in told[0]
+
+
+def testARoofThatComesDownIsTold(recwarn):
+	"""A prop is excavated below a block between walls: it comes to rest on the floor below, 2 m deeper."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=math.radians(30)))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (4, 2, 0.5), fixed=True))
+	O.bodies.append([polytope.cuboid((x, 0, 2), (1, 1, 2), fixed=True) for x in (-2, 2)])
+	prop, roof = O.bodies.append([polytope.cuboid((0, 0, z), (1, 1, 1)) for z in (1, 3)])
+	O.engines = polytope.engines()
+	polytope.settle()
+	polytope.excavate([prop], over=1000)
+	recwarn.clear()
+	polytope.settle()
+	assert O.bodies[roof].state.pos[2] < 1.1
+	assert any(f'body {roof} by 2 m' in str(one.message) for one in recwarn)

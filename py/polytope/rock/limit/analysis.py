@@ -5,12 +5,13 @@ import dataclasses
 
 import numpy as np
 from tqdm import tqdm
+from yade import O
 
 from ...arguments import namedArguments, number
 from ...scene.stages import partOfSize
 from ...strengthReduction import checkedStrengths, strengths
 from ..bracket import Bracket
-from ..failure import Failure, inMode
+from ..failure import Failure, inMode, told
 from .blocks import blocksOf, cornersOf, refuseScene
 from .equilibrium import Equilibrium
 from .leastStrength import leastStrength
@@ -57,7 +58,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	:param float tolerance: width of the bracket over the factor
 	:param float most: factor at which to give up, and by which strengths are multiplied where it is below 1
 	:returns: *LimitAnalysis*
-	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds, bolts, blocks that no joint connects to a fixed one
+	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds that can fail, bolts, blocks that no joint connects to a fixed one
 	:raises ImportError: python3-cvxopt is not installed
 	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them
 	"""
@@ -90,7 +91,7 @@ class _Search:
 				bracket.stable = 1 / most
 				if not self._stands(bracket.stable, bracket):
 					raise RuntimeError(
-						f'the scene does not stand, not even with {most:g} times {", ".join(self.reduce)}; a support, or more of the other strengths'
+						f'the scene does not stand, not even with {most:g} times {", ".join(self.reduce)}: {told(*self._mode()[:2])}; a support, or more of the other strengths'
 					)
 			while not bracket.isNarrow:
 				if self._stands(bracket.next(), bracket) and bracket.stable >= most:
@@ -145,5 +146,11 @@ class _Search:
 		ways = np.linalg.norm(motion[:, :3], axis=1)
 		turns = np.linalg.norm(motion[:, 3:], axis=1) * self.blocks.sizes / (2 * self.length)  # of a face
 		size = partOfSize / float(((ways + turns) / self.blocks.sizes).max())
-		order = inMode(ways)
-		return [self.blocks.ids[k] for k in order], size * motion[order, :3], size / self.length * motion[order, 3:]
+		ids, moves, turned = [], [], []
+		for row in inMode(ways):
+			turn = size / self.length * motion[row, 3:]
+			for k in self.blocks.ids[row]:
+				ids.append(k)
+				moves.append(size * motion[row, :3] + np.cross(turn, np.array(O.bodies[k].state.pos, float) - self.blocks.centres[row]))
+				turned.append(turn)
+		return ids, np.array(moves), np.array(turned)

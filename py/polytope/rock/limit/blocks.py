@@ -24,9 +24,10 @@ components = 'xyzXYZ'
 
 @dataclasses.dataclass
 class Blocks:
-	"""Those that can move: clumps, and bodies that are in none."""
+	"""Rigid ones that can move: bodies and clumps, those that bonds without a limit hold together as one."""
 
 	ids: list
+	"""For each the ids of its bodies and clumps."""
 	centres: np.ndarray
 	"""(n, 3) [m]"""
 	loads: np.ndarray
@@ -72,7 +73,7 @@ def refuseScene():
 	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, with gravity; set O.engines first')
 	refuseMatchMaker()
-	if any(bond.intact for bond in madeBonds()):
+	if any(bond.intact and not _isRigid(bond) for bond in madeBonds()):
 		raise ValueError(
 			'polytope.bond: bonds are brittle and elastic, limit analysis has plastic joints; give joints cohesion and tensileStrength in place of bonds, or take polytope.factorOfSafety'
 		)
@@ -87,28 +88,53 @@ def refuseScene():
 			)
 
 
+def _isRigid(bond):
+	"""As *polytope.excavate* makes them between parts of one block."""
+	return math.isinf(bond.tensileStrength) and math.isinf(bond.cohesion)
+
+
+def _groups():
+	"""Ids of bodies and clumps that can move, in groups that bonds without a limit hold together; without those that such bonds hold to a fixed body."""
+	movers = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id]
+	row = {k: number for number, k in enumerate(movers)}
+	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in madeBonds() if bond.intact and _isRigid(bond)]
+	one, two = np.array(links, int).reshape(-1, 2).T
+	labels = csgraph.connected_components(csr_matrix((np.ones(len(one)), (one, two)), (len(movers), len(movers))), directed=False)[1]
+	groups = {}
+	for k, label in zip(movers, labels.tolist(), strict=True):
+		groups.setdefault(label, []).append(k)
+	return [group for group in groups.values() if all(canMove(O.bodies[k]) for k in group)]
+
+
 def blocksOf():
-	ids = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id and canMove(body)]
+	ids = _groups()
 	if not ids:
 		raise ValueError('O.bodies: none can move; append blocks that are not fixed')
 	gravity = np.array([float(x) for x in integrators()[0].gravity])
 	permanent = permanentLoads()
 	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater)]
-	loads = np.zeros((len(ids), 6))
-	for row, k in enumerate(ids):
-		loads[row, :3] = float(O.bodies[k].state.mass) * gravity
-		for force, moment in [
-			*(engine.load(k) for engine in waters),
-			*(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent)),
-		]:
-			loads[row] += [float(x) for x in (*force, *moment)]
-	free = np.array([[component not in O.bodies[k].state.blockedDOFs for component in components] for k in ids])
+	loads, centres = np.zeros((len(ids), 6)), np.zeros((len(ids), 3))
+	for row, group in enumerate(ids):
+		masses = np.array([float(O.bodies[k].state.mass) for k in group])
+		places = np.array([[float(x) for x in O.bodies[k].state.pos] for k in group])
+		centres[row] = masses @ places / masses.sum()
+		for k, mass, place in zip(group, masses, places, strict=True):
+			arm = place - centres[row]
+			own = [
+				(mass * gravity, np.zeros(3)),
+				*(engine.load(k) for engine in waters),
+				*(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent)),
+			]
+			for force, moment in own:
+				force = np.array([float(x) for x in force])
+				loads[row] += [*force, *(np.array([float(x) for x in moment]) + np.cross(arm, force))]
+	blocked = [set().union(*(O.bodies[k].state.blockedDOFs for k in group)) for group in ids]
+	free = np.array([[component not in some for component in components] for some in blocked])
 	if not (loads * free).any():
 		raise ValueError(
 			'O.engines: nothing loads the blocks; give NewtonIntegrator gravity, or blocks a permanent force (O.forces.setPermF)'
 		)
-	centres = np.array([[float(x) for x in O.bodies[k].state.pos] for k in ids])
-	return Blocks(ids, centres, loads, free, np.array([sizeOf(k) for k in ids]))
+	return Blocks(ids, centres, loads, free, np.array([float(np.linalg.norm([sizeOf(k) for k in group], ord=3)) for group in ids]))
 
 
 def _atCentre(load, part, k):
@@ -122,8 +148,8 @@ def cornersOf(blocks):
 
 	:raises ValueError: naming what is no joint, and blocks that no joint connects to a fixed one
 	"""
-	faces = commonFaces()
-	row = {k: number for number, k in enumerate(blocks.ids)}
+	row = {k: number for number, group in enumerate(blocks.ids) for k in group}
+	faces = [face for face in commonFaces() if row.get(moverOf(face.id1), -1) != row.get(moverOf(face.id2), -1)]
 	one, two = (
 		np.array([row.get(moverOf(k), -1) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces])
 	)
@@ -156,7 +182,7 @@ def _refuseLoose(blocks, one, two):
 		(count + 1, count + 1),
 	)
 	part = csgraph.connected_components(graph, directed=False)[1]
-	loose = [k for k, number in zip(blocks.ids, part, strict=False) if number != part[-1]]
+	loose = [group[0] for group, number in zip(blocks.ids, part, strict=False) if number != part[-1]]
 	if loose:
 		ones = ', '.join(map(str, loose[:5])) + (' …' if len(loose) > 5 else '')
 		raise ValueError(

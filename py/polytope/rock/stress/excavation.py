@@ -27,7 +27,7 @@ def excavate(bodies=None, normals=None, offsets=None, over=0, cut=True):
 
 	Blocks that the region crosses are cut by its faces. What lies outside stays as one body, a clump where it is not convex (or parts that are bonded for good, with a warning, where contacts with a clump would not add up), or several where the region goes through it; bodies that the
 	region leaves as they are keep their numbers, what is left of others gets new ones. Its contacts go on with their shear, slip, cohesion and bonds, its faces with their materials and joints. Of a block no
-	slivers are cut off or left whose inscribed radius is below a hundredth of its own. Bodies that cannot move are neither cut nor taken.
+	slivers are cut off or left whose inscribed radius is below a hundredth of its own. By a region, bodies that cannot move are neither cut nor taken.
 
 	Blocks that vanish at once leave their neighbours with forces that are out of balance, so that these swing: a joint gets up to twice the change of its load. With *over* the forces that
 	what is taken exerts on what stays go on acting and fade to zero in so many steps: take five periods of the slowest swing or more. The rest of a block that is cut is held by the force and torque that
