@@ -40,12 +40,14 @@ std::vector<const NormalLaw*>& NormalLaw::all()
 const NormalLaw& NormalLaw::named(const std::string& name)
 {
 	for (const NormalLaw* law : all())
-		if (law->name == name) return *law;
+		if (law->name && law->name == name) return *law;
 	throw std::runtime_error("the normal law " + name + " is not known: load the library that has it first");
 }
 
 std::string NormalLaw::fault() const
 {
+	if (!name || !*name) return "a normal law must have a name";
+	if (!pressure || !tangent || !energy) return "the normal law " + std::string(name) + " must have all three functions";
 	if (&named(name) == this) return "";
 	return "there is a normal law " + std::string(name) + " already: give this one another name";
 }

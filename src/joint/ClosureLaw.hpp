@@ -32,7 +32,7 @@ struct POLYTOPE_API NormalLaw {
 	static const NormalLaw& named(const std::string& name);
 	/// Those that were made, in this order; of several with one name the first has it.
 	static std::vector<const NormalLaw*>& all();
-	/// Names another law of its name that was made before it; an empty text: there is none.
+	/// Says that it has no name, not all functions, or the name of another law that was made before it; an empty text: none of these.
 	std::string fault() const;
 
 	const char* const name;

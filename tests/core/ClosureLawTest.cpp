@@ -186,4 +186,18 @@ TEST(ClosureLaw, WhatDoesNotBelongTogetherIsNamed)
 	EXPECT_TRUE(begins(soft, law + "the pressure must rise: ")) << soft;
 }
 
+TEST(ClosureLaw, ALawWithoutANameOrAFunctionIsRefused)
+{
+	const auto said = [](const char* name, NormalLaw::Function energy) {
+		const NormalLaw   law(name, hyperbola.pressure, hyperbola.tangent, energy);
+		const std::string text = law.fault();
+		EXPECT_THROW(ClosureLaw::own(law, 1), std::invalid_argument);
+		NormalLaw::all().pop_back();
+		return text;
+	};
+	EXPECT_EQ(said("", hyperbola.energy), "a normal law must have a name");
+	EXPECT_EQ(said(nullptr, hyperbola.energy), "a normal law must have a name");
+	EXPECT_EQ(said("ClosureLawTest part", nullptr), "the normal law ClosureLawTest part must have all three functions");
+}
+
 } // namespace

@@ -68,7 +68,7 @@ namespace {
 		const Vector3r                                 centre2 = other.origin - one.origin;
 		const Real                                     margins = one.margin + other.margin;
 		const auto gap = polytope::pairDistance(*one.convex, one.rotation, *other.convex, other.rotation, centre2);
-		if (gap.distance >= margins) {
+		if (gap.distance > 0 && gap.distance >= margins) {
 			setWay(result, gap.normal, margins - gap.distance, gap.point[0], one.margin);
 			return true;
 		}
@@ -78,8 +78,9 @@ namespace {
 		polytope::PairMemory memory;
 		contactQuery(*one.convex, one.rotation, *other.convex, other.rotation, centre2 - way * gap.normal, settings, memory,
 		        workspace, result);
-		if (!result.inContact) return false;
-		if (gap.distance > 0) {
+		if (!result.inContact && margins > 0) return false;
+		if (!result.inContact) result.depth = 0; // half-spaces without a margin that just touch
+		else if (gap.distance > 0) {
 			const Vector3r foot = result.point + (gap.point[0] - result.point).dot(gap.normal) * gap.normal;
 			setWay(result, gap.normal, margins - gap.distance, foot, one.margin);
 		} else result.depth += margins;

@@ -26,6 +26,34 @@ def loop():
 """
 
 
+def testWithoutMarginsItIsTheContactOfTheHalfSpaces(rounded):  # noqa: F811
+	"""0.01 m deep, just touching, apart: as of two plain polytopes, and no query fails."""
+	script = (
+		start
+		+ """
+sharp = lambda center, **more: polytope.withShape(polytope.cuboid(center=center, extents=(h,) * 3, **more), RoundedPolytope(radius=0.))
+plain = lambda center, **more: polytope.cuboid(center=center, extents=(h,) * 3, **more)
+seen = []
+for gap in (-0.01, 0, 0.01):
+	for below, above in ((plain, plain), (plain, sharp), (sharp, sharp)):
+		O.reset(); material()
+		O.bodies.append([below((0, 0, -h), fixed=True), above((0, 0, h + gap))])
+		O.engines = [ForceResetter(), InsertionSortCollider(bounds(), verletDist=0), loop()]
+		O.dt = 1e-9
+		O.step()
+		failed = sum(one.stats()['failures'] for one in O.engines[2].geomDispatcher.functors)
+		seen.append([[float(i.geom.penetrationDepth) for i in O.interactions if i.isReal and i.geom.penetrationDepth > 1e-12], failed])
+answer(seen)
+"""
+	)
+	seen, _ = inYade(script, rounded)
+	(deep,), _ = seen[0]
+	assert deep == pytest.approx(0.01, rel=0.02)
+	for k, (depths, failed) in enumerate(seen):
+		assert failed == 0
+		assert depths == ([pytest.approx(deep, rel=1e-9)] if k < 3 else [])
+
+
 def testDepthsHaveTheirClosedForms(rounded):  # noqa: F811
 	"""Faces, crossed edges, a corner on a face, corner on corner; with sharp bodies; with walls; with spheres: depth 0.01 m, and the normal."""
 	script = (
