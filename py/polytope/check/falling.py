@@ -58,7 +58,8 @@ def belowAll(scene):
 		if not scene.moves(body):
 			ends[body.mask] = max(ends.get(body.mask, -np.inf), _lowest(body, down))
 	touched = {moverOf(k) for contact in scene.O.interactions if contact.isReal for k in (contact.id1, contact.id2)}
-	touched |= {moverOf(k) for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}
+	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}  # also of bodies that are gone
+	touched |= {moverOf(body.id) for body in scene.bodies if body.id in bonded}
 	found = []
 	for body in scene.O.bodies if ends else ():
 		if body is not None and isMover(body) and body.id not in touched:

@@ -36,7 +36,8 @@ def saidInATerminal(command):
 
 	reader = threading.Thread(target=read)
 	reader.start()
-	done = subprocess.run(command, stdout=subprocess.PIPE, stderr=its, timeout=300)
+	# each update is shown: on a fast machine all is over within the usual tenth of a second
+	done = subprocess.run(command, stdout=subprocess.PIPE, stderr=its, timeout=300, env={**os.environ, 'TQDM_MININTERVAL': '0'})
 	os.close(its)
 	reader.join()
 	os.close(ours)

@@ -97,7 +97,9 @@ def _groups():
 	"""Ids of bodies and clumps that can move, in groups that bonds without a limit hold together; without those that such bonds hold to a fixed body."""
 	movers = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id]
 	row = {k: number for number, k in enumerate(movers)}
-	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in madeBonds() if bond.intact and _isRigid(bond)]
+	there = {body.id for body in O.bodies if body is not None}
+	rigid = [bond for bond in madeBonds() if bond.intact and _isRigid(bond) and {bond.id1, bond.id2} <= there]
+	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in rigid]
 	one, two = np.array(links, int).reshape(-1, 2).T
 	labels = csgraph.connected_components(csr_matrix((np.ones(len(one)), (one, two)), (len(movers), len(movers))), directed=False)[1]
 	groups = {}
