@@ -5,7 +5,6 @@ import numpy as np
 from yade import Box, Facet, Polytope, Sphere, Wall
 
 from ..bonding.bolting import madeBolts
-from ..bonding.bonds import madeBonds
 from ..pictures.faces import worldVertices
 from ..scene.movers import isMover, moverOf, partsOf
 
@@ -14,10 +13,10 @@ __all__ = ['belowAll', 'falling']
 
 def falling(scene):
 	"""Gravity in the wrong direction, a body on the wrong side of a floor or fallen past it, a mask that it has not in common with any."""
-	lost = belowAll(scene)
+	lost = scene.fallen
 	if lost:
 		more = f', and so are {len(lost) - 1} others' if len(lost) > 1 else ''
-		seen = f'body {lost[0]} is below all that is fixed{more}: with gravity {tuple(_gravity(scene).tolist())} it falls for ever'
+		seen = f'body {lost[0]} is below all that is fixed{more}: with gravity {tuple(scene.totalGravity.tolist())} it falls for ever'
 		yield (
 			'falls',
 			seen,
@@ -34,7 +33,7 @@ def _through(scene):
 	held = 0
 	for body in scene.bodies:
 		held |= 0 if scene.moves(body) else body.mask
-	if not held or not scene.ownEngines or not scene.gravity() > 0 or any(bond.intact for bond in madeBonds()) or madeBolts():
+	if not held or not scene.ownEngines or not scene.gravity() > 0 or scene.bonded or madeBolts():
 		return []
 	free = {body.id: body.mask for body in scene.bodies if scene.moves(body) and body.mask and not body.isClumpMember}
 	masks = set(free.values())
@@ -47,31 +46,22 @@ def _through(scene):
 
 def belowAll(scene):
 	"""Ids of bodies below all that is fixed and could hold them, which nothing touches; bodies alone in space may fall."""
-	if scene.O.periodic or not scene.ownEngines or not scene.gravity() > 0 or madeBolts():
+	if scene.O.periodic or not scene.ownEngines or scene.down is None or madeBolts():
 		return []
-	gravity = _gravity(scene)
-	if not gravity.any():
-		return []
-	down = gravity / np.linalg.norm(gravity)
 	ends = {}
 	for body in scene.bodies:
 		if not scene.moves(body):
-			ends[body.mask] = max(ends.get(body.mask, -np.inf), _lowest(body, down))
+			ends[body.mask] = max(ends.get(body.mask, -np.inf), _lowest(body, scene.down))
 	touched = {moverOf(k) for contact in scene.O.interactions if contact.isReal for k in (contact.id1, contact.id2)}
-	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}  # also of bodies that are gone
-	touched |= {moverOf(body.id) for body in scene.bodies if body.id in bonded}
+	touched |= {moverOf(body.id) for body in scene.bodies if body.id in scene.bonded}
 	found = []
 	for body in scene.O.bodies if ends else ():
 		if body is not None and isMover(body) and body.id not in touched:
 			masks = [scene.O.bodies[k].mask for k in partsOf(body.id)]
 			under = [end for mask, end in ends.items() if any(mask & own for own in masks)]
-			if under and np.array(body.state.pos, float) @ down > max(under):
+			if under and np.array(body.state.pos, float) @ scene.down > max(under):
 				found.append(body.id)
 	return found
-
-
-def _gravity(scene):
-	return np.sum([np.array(engine.gravity, float) for engine in scene.integrators], axis=0)
 
 
 def _lowest(body, down):

@@ -4,7 +4,6 @@
 import numpy as np
 from yade import Polytope, RockJointMat
 
-from ..bonding.bonds import madeBonds
 from ..rock.faceMaterials import materialOfPlane, materialsOf
 from ..scene.movers import isMover
 from .neighbours import touchingPairs
@@ -40,16 +39,14 @@ def lostStrengths(scene):
 
 def hanging(scene):
 	"""Bodies that have only others above, which they just touch: without an overlap no contact comes about, and no tensile strength acts."""
-	if scene.O.iter > 0 or not scene.ownEngines or not scene.gravity() > 0:
+	if scene.O.iter > 0 or not scene.ownEngines or scene.down is None:
 		return
-	gravity = np.sum([np.array(engine.gravity, float) for engine in scene.integrators], axis=0)
-	up = -gravity / np.linalg.norm(gravity)
+	up = -scene.down
 	bodies = [body for body in scene.bodies if isinstance(body.shape, Polytope)]
-	bonded = {key for bond in madeBonds() if bond.intact for key in (bond.id1, bond.id2)}
 	able = {
 		body.id
 		for body in bodies
-		if isMover(body) and body.id not in bonded and any(getattr(one, 'tensileStrength', 0) > 0 for one in materialsOf(body))
+		if isMover(body) and body.id not in scene.bonded and any(getattr(one, 'tensileStrength', 0) > 0 for one in materialsOf(body))
 	}
 	above, held = {}, set()
 	for one, other, contact in touchingPairs(scene, bodies) if able else ():

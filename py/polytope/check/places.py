@@ -14,7 +14,6 @@ from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
-from .falling import belowAll
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 
@@ -125,7 +124,7 @@ def stiffness(scene):
 	makers = jointMakers(scene.loops)
 	if not makers or makers[0].kn:  # a MatchMaker: its values are not known here
 		return
-	deepest, worst, gravity, lost = 0.0, None, scene.gravity(), set(belowAll(scene))  # what falls for ever meets nothing
+	deepest, worst, gravity, lost = 0.0, None, scene.gravity(), set(scene.fallen)  # what falls for ever meets nothing
 	for body in scene.bodies:
 		if body.id not in lost and isinstance(body.shape, Polytope) and isinstance(body.material, RockJointMat) and isMover(body):
 			share = overlapShare(body, isPerArea(body.material, makers), gravity)

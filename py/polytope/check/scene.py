@@ -2,12 +2,16 @@
 """Data of a scene that several checks of polytope.check() need."""
 
 import collections
+import functools
 import itertools
 
+import numpy as np
 import yade
 from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
 
+from ..bonding.bonds import madeBonds
 from ..scene.movers import canMove
+from .falling import belowAll
 
 __all__ = ['Kind', 'SceneToCheck']
 
@@ -47,6 +51,26 @@ class SceneToCheck:
 	def gravity(self):
 		"""Largest of the integrators [m/s²]."""
 		return max((float(sum(x * x for x in engine.gravity)) ** 0.5 for engine in self.integrators), default=0.0)
+
+	@functools.cached_property
+	def totalGravity(self):
+		"""(3,) of all integrators together [m/s²]"""
+		return np.sum([np.array(engine.gravity, float) for engine in self.integrators] or [np.zeros(3)], axis=0)
+
+	@functools.cached_property
+	def down(self):
+		"""Unit vector along it; None: there is none."""
+		return self.totalGravity / np.linalg.norm(self.totalGravity) if self.totalGravity.any() else None
+
+	@functools.cached_property
+	def bonded(self):
+		"""Ids of bodies with an intact bond, also of such as are gone."""
+		return {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}
+
+	@functools.cached_property
+	def fallen(self):
+		"""Ids of bodies that fall for ever."""
+		return belowAll(self)
 
 	def inMetres(self):
 		"""Whether densities and gravity are those of metres, kilograms and seconds: in other units that agree with each other large numbers are no mistake."""

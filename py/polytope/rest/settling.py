@@ -8,7 +8,7 @@ from ..arguments import flag, namedArguments, number, warn
 from ..bonding.bolting import bolts
 from ..bonding.bonds import bonds
 from ..scene.present import integrators, laws, meanwhile
-from ..scene.relaxing import relaxing
+from ..scene.relaxing import heldByRelaxing, relaxing
 from .scaledMasses import scaledMasses
 from .unrest import NotAtRest, Unrest, named, remedy, told
 
@@ -81,7 +81,7 @@ def _tellDisplaced(bodies):
 
 def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
-	first = unrest
+	first, held = unrest, heldByRelaxing()
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
 		while taken < steps:
 			now = min(between, steps - taken)
@@ -94,7 +94,7 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			bar.update(now)
 			quiet = quiet + 1 if force < unbalanced and not fading else 0
 			if quiet == looks:
-				_tellDisplaced(first.displaced())
+				_tellDisplaced(first.displaced(held))
 				return taken
 			if fading:
 				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves

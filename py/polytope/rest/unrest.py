@@ -10,7 +10,6 @@ from yade import O
 from ..measures.arrays import arrays
 from ..scene.movers import partsOf
 from ..scene.present import jointMaterials
-from ..scene.relaxing import heldByRelaxing
 from ..scene.stages import sizeOf
 from .holding import anythingBelow, isHeld, isThin, touched
 from .unbalanced import unbalancedForces
@@ -77,7 +76,6 @@ class Unrest:
 		self.steps, self.end, self.looks = 0, firstSpan, 0
 		self.stood = None
 		"""Ids of bodies that touched others at the first look."""
-		self.held = heldByRelaxing()
 		self.sum = self.mean = self.before = np.zeros(0)
 		self.origin = self.began = self.last = placesById()
 		self.start = arrays().bodies
@@ -103,10 +101,10 @@ class Unrest:
 		self.last = places
 		return float(forces.max(initial=0.0))
 
-	def displaced(self):
-		"""Bodies that stood on others when it began, or were held by forces that fade, and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
+	def displaced(self, held=frozenset()):
+		"""Bodies that stood on others when it began, or were held in another way (their ids), and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
 		ways = _ways(self.origin, placesById())
-		stood = self.held | (self.stood or set())
+		stood = (self.stood or set()) | held
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in stood and ways[k] > displacedBy * sizeOf(int(k))]
 		return sorted(far, key=lambda one: -one[1])
 

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from rockScenes import stressedMass
 from yade import FrictMat, HyperbolicClosure, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
 from yade.polytope.rock.history import histories
 from yade.polytope.scene.relaxing import relaxing
@@ -248,18 +249,9 @@ def testWhatHangsBetweenWallsStandsWhereItsLowerHalfIsCutOffGradually(over, stan
 		assert moved[up] < -0.01
 
 
-def stressedMass(**strength):
-	"""A cube of oblique blocks under stress, those at its faces fixed. Returns the rock."""
+def massUnderStress(**strength):
 	material(normalStiffness=1e11, shearStiffness=5e10, **strength)
-	sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-	joints = [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
-	sets = [polytope.JointSet(math.radians(dip), math.radians(direction), spacing) for dip, direction, spacing in joints]
-	mass = polytope.jointedRock(sides, [5, 0, 5, 0, 5, 0], sets)
-	for k, made in zip(mass.append(), mass.faces, strict=True):
-		O.bodies[k].dynamic = not (made < 0).any()
-	O.engines = polytope.engines(gravity=(0, 0, 0))
-	polytope.inSitu(-1e6 * np.array([[4, 1, 0.5], [1, 5, 0.3], [0.5, 0.3, 6]]))
-	return mass
+	return stressedMass()
 
 
 def oblique(half=1.2):
@@ -305,7 +297,8 @@ def forcesNow():
 
 
 @pytest.mark.parametrize(
-	'scene, region', [(stressedMass, oblique), (lambda: stressedMass(cohesion=1e6, tensileStrength=1e6), oblique), (flatMass, flatRegion)]
+	'scene, region',
+	[(massUnderStress, oblique), (lambda: massUnderStress(cohesion=1e6, tensileStrength=1e6), oblique), (flatMass, flatRegion)],
 )
 def testAStressedMassIsAtRestWhereItIsCutAndAllIsHeld(scene, region):
 	"""No force or torque on any body jumps by 1e-5 of what neighbours are pressed with, and no block moves by 1e-3 of a joint's closure."""

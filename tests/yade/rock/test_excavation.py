@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from rockScenes import stressedMass
 from yade import O, PyRunner, RockJointMat, Vector3, polytope
 from yade.polytope.scene.relaxing import relaxing
 
@@ -169,14 +170,7 @@ def testForcesAndMomentsOfWhatIsTakenAwayGoOnActing(scene, removed, kept):
 def testTheLargestBlockOfAMassUnderStressLeavesNoJump(strength):
 	"""Oblique joints, also such as act as bonds: forces and torques of its neighbours are what they were, to 1e-5 of what it pressed them with."""
 	material(normalStiffness=1e11, shearStiffness=5e10, **strength)
-	sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-	joints = [(50, 80, 1.3), (70, 200, 1.5), (20, 310, 1.6)]
-	sets = [polytope.JointSet(math.radians(dip), math.radians(direction), spacing) for dip, direction, spacing in joints]
-	mass = polytope.jointedRock(sides, [5, 0, 5, 0, 5, 0], sets)
-	for k, made in zip(mass.append(), mass.faces, strict=True):
-		O.bodies[k].dynamic = not (made < 0).any()
-	O.engines = polytope.engines(gravity=(0, 0, 0))
-	polytope.inSitu(-1e6 * np.array([[4, 1, 0.5], [1, 5, 0.3], [0.5, 0.3, 6]]))
+	stressedMass()
 	removed = max((body for body in O.bodies), key=lambda body: float(body.shape.volume)).id
 	neighbours = [k for contact in O.bodies[removed].intrs() for k in (contact.id1, contact.id2) if k != removed and O.bodies[k].dynamic]
 	assert neighbours

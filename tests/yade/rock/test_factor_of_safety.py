@@ -6,42 +6,20 @@ import pathlib
 
 import numpy as np
 import pytest
+from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity, gravityOnSlope
 from scipy.optimize import brentq
-from yade import FrictMat, NewtonIntegrator, O, PyRunner, RockJointMat, Vector3, polytope
+from yade import FrictMat, NewtonIntegrator, O, PyRunner, Vector3, polytope
 from yade.polytope.scene.permanentLoads import permanentLoads
 from yade.polytope.strengthReduction import divideStrengths
 
-gravity = 9.81
-
-
-def material(**joint):
-	O.materials.append(
-		RockJointMat(**{'density': 5000, 'normalStiffness': 1e9, 'shearStiffness': 1e9, 'frictionAngle': math.radians(30), **joint})
-	)
-
 
 def onSlope(dip, half, flat=False, **joint):
-	"""A block on a plane, at rest; by gravity that leans."""
-	material(**joint)
-	if flat:
-		O.bodies.append(polytope.polygon([(-3, -1), (3, -1), (3, 0), (-3, 0)], fixed=True))
-		x, y = half[0], 2 * half[2]
-		block = O.bodies.append(polytope.polygon([(-x, 0), (x, 0), (x, y), (-x, y)]))
-		down = (gravity * math.sin(dip), -gravity * math.cos(dip), 0)
-	else:
-		O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
-		block = O.bodies.append(polytope.cuboid((0, 0, half[2]), half))
-		down = (gravity * math.sin(dip), 0, -gravity * math.cos(dip))
-	O.engines = polytope.engines(gravity=down)
+	"""At rest."""
+	block = blockOnSlope(dip, half, flat, **joint)
 	for k in (0, 1):
-		O.bodies[k].state.pos -= Vector3(*down) * (k * 1e-9)  # in touch
+		O.bodies[k].state.pos -= Vector3(*gravityOnSlope(dip, flat)) * (k * 1e-9)  # in touch
 	polytope.settle()
 	return block
-
-
-dip, friction = math.radians(40), math.radians(30)
-weight = 1000 * gravity
-across, along = weight * math.cos(dip), weight * math.sin(dip)
 
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
@@ -100,7 +78,7 @@ def testTheWedgeOfHoekAndBray(shearStiffness):
 	"""Two joints of 24 kPa, 20° and 48 kPa, 30°, perfectly plastic; slides along their line of intersection."""
 	one, two, face, top = map(normalOf, ((45, 105), (70, 235), (65, 185), (12, 195)))
 	for label, cohesion, angle in (('A', 24e3, 20), ('B', 48e3, 30), ('W', 1e9, 80)):
-		material(
+		blockMaterial(
 			label=label,
 			density=2600,
 			shearStiffness=shearStiffness,
@@ -125,11 +103,11 @@ def testTheWedgeOfHoekAndBray(shearStiffness):
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testOfSeveralBlocksTheWeakerMoves():
 	"""Side by side, with cohesions of factors of safety 1.4 and 1.9; the stronger one is not part of the mode."""
-	material()
+	blockMaterial()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (9, 9, 0.5), fixed=True, material=0))
 	O.materials[0].cohesion = 1e6
 	for k, factor in enumerate((1.9, 1.4)):
-		material(cohesion=factor * along - across * math.tan(friction))
+		blockMaterial(cohesion=factor * along - across * math.tan(friction))
 		O.bodies.append(polytope.cuboid((0, 3 * k, 0.1), (0.5, 0.5, 0.1), material=k + 1))
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
 	polytope.settle()
@@ -143,7 +121,7 @@ def testOfSeveralBlocksTheWeakerMoves():
 def testWhatHangsByTension(bonded):
 	"""A block of 1 m³ under a roof, by its joint and by a bond: σ A/W."""
 	strength = 1.6 * 5000 * gravity
-	material(**({} if bonded else {'tensileStrength': strength, 'cohesion': 1e7}))
+	blockMaterial(**({} if bonded else {'tensileStrength': strength, 'cohesion': 1e7}))
 	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
 	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5 + 1e-7), (0.5, 0.5, 0.5)))
 	O.engines = polytope.engines()
@@ -179,7 +157,7 @@ def pushing(angle):
 	"""Two blocks at rest, in the plane; (steep, gentle) of their planes. The joint between the blocks ends above the kink, where the upper one would be held by the gentle plane."""
 	steep, gentle, high, long, above = math.radians(50), math.radians(10), 1.0, 2.0, 0.05
 	back, down, along = high / math.tan(steep), math.tan(gentle), above / math.tan(steep)
-	material(density=2600, frictionAngle=math.radians(angle), normalStiffness=1e10, shearStiffness=1e10)
+	blockMaterial(density=2600, frictionAngle=math.radians(angle), normalStiffness=1e10, shearStiffness=1e10)
 	O.bodies.append(polytope.polygon([(0, 0), (-1.5 * back, 1.5 * high), (-1.5 * back, -1), (0, -1)], fixed=True))
 	O.bodies.append(polytope.polygon([(0, 0), (2 * long, -2 * long * down), (2 * long, -2), (0, -2)], fixed=True))
 	O.bodies.append(polytope.polygon([(-along, above), (-along, high), (-back, high)]))
@@ -265,7 +243,7 @@ def testASceneThatDoesNotStandWithLargerStrengthsIsRefused():
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testASceneThatFailsByItsFirstSwingAloneIsRefused():
 	"""Its brittle joint would bear 1.05 times the load, and not that of gravity at once: no factor below 1."""
-	material(frictionAngle=0, cohesion=1.05 * along)
+	blockMaterial(frictionAngle=0, cohesion=1.05 * along)
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	block = O.bodies.append(polytope.cuboid((0, 0, 0.1), (0.5, 0.5, 0.1)))
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
@@ -279,7 +257,7 @@ def testASceneThatFailsByItsFirstSwingAloneIsRefused():
 def testABoltThatYieldsHoldsAsFarAsTheBlockMayMove():
 	"""Grouted, without pretension; the steel yields over its free length, and turns with the way u along the joint: T acts by u/√(u² + l²) along it. It fails at u = size/50."""
 	steep, angle, free, yields, load = math.radians(38), math.radians(42), 0.1, 3e4, 2500 * gravity * 2
-	material(density=2500, normalStiffness=2e9, shearStiffness=2e9, frictionAngle=angle)
+	blockMaterial(density=2500, normalStiffness=2e9, shearStiffness=2e9, frictionAngle=angle)
 	O.bodies.append(polytope.cuboid((0, 0, -3), (20, 5, 3), fixed=True))
 	block = O.bodies.append(polytope.cuboid((0, 0, 0.5), (1, 0.5, 0.5)))
 	O.engines = polytope.engines(gravity=(gravity * math.sin(steep), 0, -gravity * math.cos(steep)))
@@ -332,7 +310,7 @@ def testPictureAndText(tmp_path):
 def besideAStop(gap):
 	"""A block that would slide at a factor of 1.2, and a wall this far down the slope from it."""
 	steep = math.radians(30)
-	material(frictionAngle=math.atan(1.2 * math.tan(steep)))
+	blockMaterial(frictionAngle=math.atan(1.2 * math.tan(steep)))
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 3, 0.5), fixed=True))
 	block = O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
 	O.bodies.append(polytope.cuboid((1.5 + gap, 0, 0.5), (1, 1, 0.5), fixed=True))
@@ -400,7 +378,7 @@ def onAThinPlate(ownStep):
 	"""A block on a plate of a fiftieth of its height; it and the plate slide on a plane of 20°."""
 	O.reset()
 	steep = math.radians(20)
-	material()
+	blockMaterial()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 3, 0.5), fixed=True))
 	for low, high in ((0, 0.02), (0.02, 1.02)):
 		O.bodies.append(polytope.cuboid((0, 0, (low + high) / 2), (1, 1, (high - low) / 2)))

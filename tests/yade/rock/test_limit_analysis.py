@@ -8,6 +8,7 @@ import sys
 
 import numpy as np
 import pytest
+from rockScenes import across, along, blockMaterial, blockOnSlope, dip, friction, gravity
 from scipy.optimize import minimize
 from yade import FrictMat, O, PolytopeBond, PolytopeBonds, RockJointMat, Vector3, polytope, utils
 
@@ -15,35 +16,8 @@ project = pathlib.Path(__file__).resolve().parents[3]
 sys.path.append(str(project / 'examples/paper'))
 from boon2012.slope import theory  # noqa: E402
 
-gravity = 9.81
 fine = 1e-3
 """Tolerance of the factor where a closed form is known."""
-
-
-def material(**joint):
-	O.materials.append(
-		RockJointMat(**{'density': 5000, 'normalStiffness': 1e9, 'shearStiffness': 1e9, 'frictionAngle': math.radians(30), **joint})
-	)
-
-
-def onSlope(dip, half, flat=False, **joint):
-	"""A block on a plane; by gravity that leans."""
-	material(**joint)
-	if flat:
-		O.bodies.append(polytope.polygon([(-3, -1), (3, -1), (3, 0), (-3, 0)], fixed=True))
-		x, y = half[0], 2 * half[2]
-		block = O.bodies.append(polytope.polygon([(-x, 0), (x, 0), (x, y), (-x, y)]))
-		O.engines = polytope.engines(gravity=(gravity * math.sin(dip), -gravity * math.cos(dip), 0))
-	else:
-		O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
-		block = O.bodies.append(polytope.cuboid((0, 0, half[2]), half))
-		O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
-	return block
-
-
-dip, friction = math.radians(40), math.radians(30)
-weight = 1000 * gravity
-across, along = weight * math.cos(dip), weight * math.sin(dip)
 
 
 def expect(found, theory):
@@ -53,7 +27,7 @@ def expect(found, theory):
 
 def testPartsThatAreBondedForGoodAreOneBlock():
 	"""As of a block that excavate has cut: the mode is that of one, and both parts are named."""
-	material(cohesion=6e3)
+	blockMaterial(cohesion=6e3)
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	parts = O.bodies.append([polytope.cuboid((x, 0, 0.1), (0.25, 0.5, 0.1)) for x in (-0.25, 0.25)])
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
@@ -65,7 +39,7 @@ def testPartsThatAreBondedForGoodAreOneBlock():
 
 
 def testOneBondedForGoodToWhatIsFixedIsFixed():
-	material()
+	blockMaterial()
 	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	lower, upper = O.bodies.append([polytope.cuboid((0, 0, z), (0.5, 0.5, 0.1)) for z in (0.1, 0.3)])
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
@@ -86,7 +60,7 @@ def testOneBondedForGoodToWhatIsFixedIsFixed():
 )
 def testPlaneFailure(flat, reduce, theory):
 	"""The direction is that of associated flow: the block opens by tan φ/F times its slip."""
-	block = onSlope(dip, (0.5, 0.5, 0.1), flat, cohesion=6e3)
+	block = blockOnSlope(dip, (0.5, 0.5, 0.1), flat, cohesion=6e3)
 	found = polytope.limitAnalysis(reduce=reduce, tolerance=fine)
 	expect(found, theory)
 	opening = math.atan(math.tan(friction) / (theory if 'friction' in reduce else 1))
@@ -102,7 +76,7 @@ def testPlaneFailure(flat, reduce, theory):
 	'joint, theory', [({}, math.tan(friction) / math.tan(dip)), ({'cohesion': 5e2}, (across * math.tan(friction) + 5e2) / along)]
 )
 def testAFactorBelowOne(joint, theory):
-	onSlope(dip, (0.5, 0.5, 0.1), **joint)
+	blockOnSlope(dip, (0.5, 0.5, 0.1), **joint)
 	expect(polytope.limitAnalysis(tolerance=fine), theory)
 
 
@@ -112,7 +86,7 @@ def testTopplingOfAColumnHeldByTheTensionOfItsBase(flat):
 	wide, high, steep = 0.5, 1.0, math.radians(40)
 	load = 5000 * gravity * wide * high
 	lacking = load * (high * math.sin(steep) - wide * math.cos(steep)) / 2  # moment about the foot, of unit width
-	block = onSlope(
+	block = blockOnSlope(
 		steep, (wide / 2, 0.5, high / 2), flat, tensileStrength=1.7 * lacking * 2 / wide**2, cohesion=1e7, frictionAngle=math.radians(60)
 	)
 	found = polytope.limitAnalysis(tolerance=fine)
@@ -128,7 +102,7 @@ def testTopplingOfAColumnHeldByTheTensionOfItsBase(flat):
 def testABlockTopplesWhereGoodmanAndBraySay(flat, slender):
 	"""tan α = b/h; no friction helps a block that is more slender."""
 	wide, high = 0.5, 1.0
-	onSlope(math.atan(slender * wide / high), (wide / 2, 0.5, high / 2), flat, frictionAngle=math.radians(60))
+	blockOnSlope(math.atan(slender * wide / high), (wide / 2, 0.5, high / 2), flat, frictionAngle=math.radians(60))
 	if slender > 1:
 		with pytest.raises(RuntimeError, match='does not stand, not even with 20 times friction, cohesion, tension: body '):
 			polytope.limitAnalysis()
@@ -139,7 +113,7 @@ def testABlockTopplesWhereGoodmanAndBraySay(flat, slender):
 
 def testWhatHangsByTension():
 	strength = 1.6 * 5000 * gravity
-	material(tensileStrength=strength, cohesion=1e7)
+	blockMaterial(tensileStrength=strength, cohesion=1e7)
 	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
 	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
 	O.engines = polytope.engines()
@@ -193,7 +167,7 @@ def testAWedge():
 	"""That of Hoek & Bray, whose limit equilibrium without shear across the line of intersection is 1.877: the most that forces within the strengths of both planes can hold."""
 	one, two, face, top = map(normalOf, ((45, 105), (70, 235), (65, 185), (12, 195)))
 	for label, cohesion, angle in (('A', 24e3, 20), ('B', 48e3, 30), ('W', 1e9, 80)):
-		material(label=label, density=2600, frictionAngle=math.radians(angle), cohesion=cohesion)
+		blockMaterial(label=label, density=2600, frictionAngle=math.radians(angle), cohesion=cohesion)
 	up = np.array([-face[0] * face[2], -face[1] * face[2], 1 - face[2] ** 2])
 	box = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 	O.bodies.append(polytope.fromHalfSpaces([one, *box], [0] + [200] * 6, material='A', fixed=True))
@@ -220,7 +194,7 @@ def columnsOnSteps(angle):
 	"""Goodman & Bray's sixteen columns, as in examples/goodmanBray.py."""
 	steep, width, heaviness = math.radians(30), 10.0, 25e3
 	heights = [4.0 * n for n in range(1, 11)] + [40 - 6.2 * n for n in range(1, 7)]
-	material(density=heaviness / gravity, frictionAngle=math.radians(angle))
+	blockMaterial(density=heaviness / gravity, frictionAngle=math.radians(angle))
 	for n, height in enumerate(heights, 1):
 		left, right, step = width * n, width * (n + 1), n + 1.0
 		O.bodies.append(polytope.polygon([(left, step - 30), (right, step - 30), (right, step), (left, step)], fixed=True))
@@ -256,7 +230,7 @@ def testASlopeWithTheAngleOfALinearProgramInThePlane():
 	"""Simulation E of the paper, whose limit analysis is a program of its own: 19.75°."""
 	content = json.loads((project / 'examples/paper/geometry/e_slope.json').read_text())
 	angle = theory.criticalFrictionAngle(content['free'], content['fixed']).angle
-	material(frictionAngle=math.radians(30))
+	blockMaterial(frictionAngle=math.radians(30))
 	for name in ('free', 'fixed'):
 		for corners in content[name]:
 			O.bodies.append(polytope.polygon(corners, fixed=name == 'fixed'))
@@ -271,7 +245,7 @@ def testABlockBesideASteepPlane(side):
 	surface = math.sin(base), 0, math.cos(base)
 	planes = [polytope.Joint(base, math.radians(90), (0, 0, 0)), *(polytope.Joint(steep, 0, (0, y, 0)) for y in (-1, 1))]
 	rock = polytope.jointedRock([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), surface, (0, 0, -1)], [3, 3, 3, 3, 1.5, 4], planes)
-	material(density=2600, frictionAngle=friction)
+	blockMaterial(density=2600, frictionAngle=friction)
 	ids = rock.append()
 	above = [k for k in ids if np.dot(O.bodies[k].state.pos, surface) > 0]
 	_, block, wall = sorted(above, key=lambda k: O.bodies[k].state.pos[1])
@@ -289,7 +263,7 @@ def testABlockBesideASteepPlane(side):
 def testAWedgeInARoof():
 	"""Between two blocks that a permanent force presses, and that move along it alone: φ = i + arctan(W/2H)."""
 	lean, pressed, height = math.radians(20), 8e3, 0.8
-	material(density=2500, frictionAngle=math.radians(60))
+	blockMaterial(density=2500, frictionAngle=math.radians(60))
 
 	def block(corners):
 		return O.bodies.append(polytope.fromVertices([(x, y, z) for y in (-0.5, 0.5) for x, z in corners]))
@@ -313,7 +287,7 @@ def testWaterInATensionCrack():
 	"""Plane failure of Hoek & Bray, 1.2768."""
 	high, face, plane, crack, water = 60.0, math.radians(60), math.radians(35), 14.0, 1000 * gravity
 	back, foot, full = (high - crack) / math.tan(plane), high - crack, 7.0
-	material(density=26e3 / gravity, frictionAngle=math.radians(35), cohesion=1e5)
+	blockMaterial(density=26e3 / gravity, frictionAngle=math.radians(35), cohesion=1e5)
 	O.bodies.append(polytope.polygon([(-9, -9 * math.tan(plane)), (-9, -20), (90, -20), (90, 90 * math.tan(plane))], fixed=True))
 	block = O.bodies.append(polytope.polygon([(0, 0), (back, foot), (back, high), (high / math.tan(face), high)]))
 	O.engines = polytope.engines(gravity=(0, -gravity, 0))
@@ -330,11 +304,11 @@ def testWaterInATensionCrack():
 
 
 def testOfSeveralBlocksTheWeakerMoves():
-	material()
+	blockMaterial()
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (9, 9, 0.5), fixed=True, material=0))
 	O.materials[0].cohesion = 1e6
 	for k, factor in enumerate((1.9, 1.4)):
-		material(cohesion=factor * along - across * math.tan(friction))
+		blockMaterial(cohesion=factor * along - across * math.tan(friction))
 		O.bodies.append(polytope.cuboid((0, 3 * k, 0.1), (0.5, 0.5, 0.1), material=k + 1))
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
 	found = polytope.limitAnalysis(tolerance=fine)
@@ -344,7 +318,7 @@ def testOfSeveralBlocksTheWeakerMoves():
 
 def testAClumpMovesAsOne():
 	"""Two halves of the block of testPlaneFailure, glued together."""
-	material(cohesion=6e3)
+	blockMaterial(cohesion=6e3)
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	clump, parts = polytope.clump([polytope.cuboid((x, 0, 0.1), (0.25, 0.5, 0.1)) for x in (-0.25, 0.25)])
 	O.engines = polytope.engines(gravity=(gravity * math.sin(dip), 0, -gravity * math.cos(dip)))
@@ -357,7 +331,7 @@ def testAClumpMovesAsOne():
 
 def testUnitsAndPlaceDoNotMatter():
 	"""In millimetres, far from the origin."""
-	material(density=5e-6, cohesion=6e-3 * 1e-6 * 1e6)
+	blockMaterial(density=5e-6, cohesion=6e-3 * 1e-6 * 1e6)
 	far = Vector3(3e5, -2e5, 1e5)
 	O.bodies.append(polytope.cuboid(far + Vector3(0, 0, -500), (3000, 2000, 500), fixed=True))
 	O.bodies.append(polytope.cuboid(far + Vector3(0, 0, 100), (500, 500, 100)))
@@ -367,7 +341,7 @@ def testUnitsAndPlaceDoNotMatter():
 
 
 def testTheSceneIsWhatItWas():
-	block = onSlope(dip, (0.5, 0.5, 0.1), cohesion=1e5)
+	block = blockOnSlope(dip, (0.5, 0.5, 0.1), cohesion=1e5)
 	O.bodies[block].state.pos -= Vector3(0, 0, 1e-8)
 	O.run(50, wait=True)
 	before = O.iter, O.bodies[block].state.pos, O.interactions[0, block].phys.normalForce, O.materials[0].cohesion, len(O.engines)
@@ -391,7 +365,7 @@ def testTheSceneIsWhatItWas():
 	],
 )
 def testBadArgumentsAreNamed(name, value):
-	onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
+	blockOnSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
 	with pytest.raises(ValueError, match=f'^{name}: '):
 		polytope.limitAnalysis(**{name: value})
 
@@ -423,7 +397,7 @@ def otherMaterial():
 	],
 )
 def testScenesThatAreNoBlocksWithJointsAreRefused(spoil, message):
-	onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
+	blockOnSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
 	spoil()
 	with pytest.raises(ValueError, match=message):
 		polytope.limitAnalysis()
@@ -441,7 +415,7 @@ def testALawOfItsOwnIsRefused():
 
 
 def testPictureAndText(tmp_path):
-	block = onSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
+	block = blockOnSlope(dip, (0.5, 0.5, 0.1), cohesion=6e3)
 	found = polytope.limitAnalysis()
 	assert str(found).startswith('factor of safety 1.') and f'body {block} by 0.012 m towards (' in str(found)
 	path = pathlib.Path(tmp_path) / 'mode.png'
@@ -460,7 +434,7 @@ def testThatOfStrengthReduction():
 	normals = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (-math.sin(face), 0, math.cos(face))]
 	rock = polytope.jointedRock(normals, [depth, 1, wide, 0, high, 1, 0], planes, smallest=0.3)
 	for angle in (40, 45):
-		material(density=2600, normalStiffness=5e8, shearStiffness=2.5e8, frictionAngle=math.radians(angle))
+		blockMaterial(density=2600, normalStiffness=5e8, shearStiffness=2.5e8, frictionAngle=math.radians(angle))
 	ids = rock.append(jointMaterials=[0, 1, 1], material=1)
 	for k, blocks in zip(ids, rock.bodies, strict=True):
 		O.bodies[k].dynamic = not any(
@@ -482,7 +456,7 @@ def testThatOfStrengthReduction():
 
 def testABlockThatTwistsOnItsBase():
 	"""About its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the face, as the page says."""
-	block = onSlope(0.0, (0.5, 0.5, 0.5), frictionAngle=0, cohesion=1e5)
+	block = blockOnSlope(0.0, (0.5, 0.5, 0.5), frictionAngle=0, cohesion=1e5)
 	O.bodies[block].state.blockedDOFs = 'xyzXY'
 	O.forces.setPermT(block, (0, 0, 4e4))
 	found = polytope.limitAnalysis(tolerance=fine)
@@ -491,7 +465,7 @@ def testABlockThatTwistsOnItsBase():
 
 
 def testThePackageThatLacksIsNamed(monkeypatch):
-	onSlope(dip, (0.5, 0.5, 0.1))
+	blockOnSlope(dip, (0.5, 0.5, 0.1))
 	monkeypatch.setitem(sys.modules, 'cvxopt', None)
 	with pytest.raises(ImportError, match='limitAnalysis needs the package python3-cvxopt; sudo apt install'):
 		polytope.limitAnalysis()

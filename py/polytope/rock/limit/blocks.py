@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from scipy.sparse import csgraph, csr_matrix
-from yade import O, Polytope, PolytopeWater, RockJointMat
+from yade import O, Polytope, RockJointMat
 
 from ...bonding.bolting import madeBolts
 from ...bonding.bonds import madeBonds
@@ -16,6 +16,7 @@ from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import commonFaces, materialOf
+from ..stress.forces import weightAndWater
 
 __all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
 
@@ -112,19 +113,17 @@ def blocksOf():
 	ids = _groups()
 	if not ids:
 		raise ValueError('O.bodies: none can move; append blocks that are not fixed')
-	gravity = np.array([float(x) for x in integrators()[0].gravity])
 	permanent = permanentLoads()
-	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater)]
+	weights = weightAndWater([k for group in ids for k in group])
 	loads, centres = np.zeros((len(ids), 6)), np.zeros((len(ids), 3))
 	for row, group in enumerate(ids):
 		masses = np.array([float(O.bodies[k].state.mass) for k in group])
 		places = np.array([[float(x) for x in O.bodies[k].state.pos] for k in group])
 		centres[row] = masses @ places / masses.sum()
-		for k, mass, place in zip(group, masses, places, strict=True):
+		for k, place in zip(group, places, strict=True):
 			arm = place - centres[row]
 			own = [
-				(mass * gravity, np.zeros(3)),
-				*(engine.load(k) for engine in waters),
+				weights[k],
 				*(_atCentre(permanent[part], part, k) for part in {k, *partsOf(k)} & set(permanent)),
 			]
 			for force, moment in own:

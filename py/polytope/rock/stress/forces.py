@@ -7,7 +7,7 @@ from ...bonding.bonds import madeBonds
 from ...scene.movers import canMove, partsOf
 from ...scene.present import integrators
 
-__all__ = ['less', 'loadsAtRest', 'removedForces']
+__all__ = ['less', 'loadsAtRest', 'removedForces', 'weightAndWater']
 
 
 def removedForces(removed):
@@ -19,7 +19,7 @@ def loadsAtRest(bodies):
 	"""id → (force, torque) that balances contacts, bonds, weight and water of bodies and clumps that can move; of a clump its parts each by themselves, and its weight."""
 	movers = [k for k in bodies if O.bodies[k].dynamic]
 	parts = {part for k in movers for part in partsOf(k)}
-	loads = _weightAndWater(movers)
+	loads = weightAndWater(movers)
 	for k, load in _forces(lambda k: k in parts, lambda _: True).items():
 		_add(loads, k, *load)
 	return {k: (-force, -torque) for k, (force, torque) in loads.items()}
@@ -33,7 +33,8 @@ def less(loads, others):
 	return left
 
 
-def _weightAndWater(movers):
+def weightAndWater(movers):
+	"""id → (force, torque about its centre) of bodies and clumps."""
 	gravity = integrators()[0].gravity
 	waters = [engine for engine in O.engines if isinstance(engine, PolytopeWater)]
 	loads = {k: (O.bodies[k].state.mass * gravity, Vector3.Zero) for k in movers}
