@@ -11,7 +11,8 @@ namespace polytope {
 bool staysApart(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
         const Vector3& centre2, Real way, ContactWorkspace& workspace)
 {
-	if (!(way >= 0) || !(way < std::numeric_limits<Real>::infinity())) return false;
+	using std::abs;
+	if (!(abs(way) < std::numeric_limits<Real>::infinity())) return false;
 	// balls around both bodies, as far apart as the bodies may come nearer
 	const Real between = shape1.boundingRadius() + shape2.boundingRadius() + 2 * way;
 	if (shape1.dimension() == 3 && centre2.squaredNorm() > between * between) return true;

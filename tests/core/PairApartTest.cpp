@@ -38,6 +38,19 @@ TEST(PairApart, FacesMayComeNearerByHalfTheirGapEach)
 	EXPECT_FALSE(stay(pair, 0));
 }
 
+TEST(PairApart, ANegativeWayIsAnOverlap)
+{
+	Pair pair;
+	pair.shape[0] = pair.shape[1] = solid(6);
+	const Real edge               = 2 * pair.inscribedRadius();
+	for (const Real overlap : { 1e-9, 1e-6, 1e-3, 0.1 }) {
+		pair.centre2 = Vector3(edge - overlap, 0.1, 0.2);
+		EXPECT_TRUE(stay(pair, Real(-0.501) * overlap));
+		EXPECT_FALSE(stay(pair, Real(-0.499) * overlap));
+	}
+	EXPECT_FALSE(stay(pair, -std::numeric_limits<Real>::infinity()));
+}
+
 TEST(PairApart, WithoutALimitNoPairDoes)
 {
 	Pair pair;

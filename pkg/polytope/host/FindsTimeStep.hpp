@@ -9,7 +9,7 @@ class Scene;
 class FindsTimeStep {
 public:
 	virtual ~FindsTimeStep() = default;
-	/// Whether bodies were added since it has run, so that they would move with a step that was not made for them.
+	/// Whether bodies were added or freed since it has run, so that they would move with a step that was not made for them.
 	virtual bool knowsNotAll(const Scene& ofScene) const = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <src/numbers/Tolerances.hpp>
 
+#include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 #include "shape/ShapeFamily.hpp"
 
@@ -25,6 +26,18 @@ namespace {
 	{
 		const Real sine = (orientation.conjugate() * reference.orientation).vec().norm(); // of half the angle
 		return sine <= polytope::tolerance::noTurn ? Real(0) : 2 * reference.radius * sine;
+	}
+
+	bool hasVelocity(const State& state) { return state.vel != Vector3r::Zero() || state.angVel != Vector3r::Zero(); }
+
+	/// Whether a body that was fixed when its box was made has been freed, or one that was still is moved. The parts of a clump are not told that it is freed;
+	/// in the step after they have its velocity.
+	bool hasStarted(const BoxRoom::Reference& reference)
+	{
+		const State& state = *reference.state;
+		if (reference.blocked && state.blockedDOFs != State::DOF_ALL) return true;
+		if (!reference.still) return false;
+		return hasVelocity(state) || state.pos != reference.position || (reference.radius > 0 && turned(reference, state.ori) > 0);
 	}
 
 	/// A body that would leave its largest box by rotation within so many steps gets the box of its circumscribed ball.
@@ -91,6 +104,8 @@ void BoxRoom::takeOne(const Scene& scene, std::size_t id)
 	if (reference.state != body->state) reference.state = body->state;
 	reference.sweep    = body->bound->sweepLength;
 	reference.position = body->state->pos;
+	reference.blocked  = body->state->blockedDOFs == State::DOF_ALL;
+	reference.still    = isFixed(*body, scene) && !hasVelocity(*body->state);
 }
 
 void BoxRoom::takeFromAll(const Scene& scene)
@@ -115,6 +130,7 @@ bool BoxRoom::isOutside(std::size_t id, bool byTranslation) const
 		const Vector3r moved = reference.state->pos - reference.position;
 		// as the integrator measures it; also a position that is no number
 		if (!(moved.cwiseAbs().maxCoeff() < reference.sweep) && moved != Vector3r::Zero()) return true;
+		if (hasStarted(reference)) return true;
 	}
 	if (!(reference.radius > 0) || !(rooms_[id] < std::numeric_limits<Real>::infinity())) return false;
 	return !(turned(reference, reference.state->ori) <= rooms_[id]); // also an orientation that is no number

@@ -27,6 +27,10 @@ public:
 		Real              margin      = 0; ///< Polytope::margin()
 		/// Its own: the body's shape may be exchanged. None where its planes do not say where the surface is.
 		std::shared_ptr<const polytope::ConvexShape> convex;
+		/// Whether all its degrees of freedom were blocked: as one of them no longer is, it may touch what it did not (outside()).
+		bool blocked = false;
+		/// Whether it was fixed and without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put elsewhere.
+		bool still = false;
 	};
 
 	/// What a box may be enlarged by for a rotation [m], and for how many steps it should last.
@@ -50,7 +54,8 @@ public:
 	void takeFromAll(const Scene& scene);
 	void take(const Scene& scene, const std::vector<Body::id_t>& ids);
 
-	/// Ids of bodies that are out of their boxes, in ascending order; by translation, too: in periodic cells YADE's own collider looks for those.
+	/// Ids of bodies that are out of their boxes, freed, or no longer still, in ascending order; by translation, too: in periodic cells YADE's own collider looks for
+	/// those.
 	std::vector<Body::id_t> outside(const Scene& scene, bool byTranslation) const;
 
 private:

@@ -4,6 +4,7 @@
 #include <core/Scene.hpp>
 
 #include <src/contact/PairApart.hpp>
+#include <src/numbers/Tolerances.hpp>
 
 #include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
@@ -123,10 +124,13 @@ bool PairSearch::staysApart(const Body& one, const Body& other) const
 	const auto &reference1 = room_.references()[one.id], &reference2 = room_.references()[other.id];
 	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
 		return false;
-	if (isPiece(one) || isPiece(other)) return false;
-	// along each axis a body moves by less than its sweep length
-	const Real sweep = math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep),
-	           way   = sweep + math::max(room_.rooms()[one.id], room_.rooms()[other.id]) + reference1.margin + reference2.margin;
+	Real way = reference1.margin + reference2.margin;
+	if (reference1.still && reference2.still)
+		way -= Real(polytope::tolerance::gapSkin) * math::min(reference1.radius, reference2.radius);
+	else if (isPiece(one) || isPiece(other)) return false;
+	else // along each axis a body moves by less than its sweep length
+		way += math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep)
+		        + math::max(room_.rooms()[one.id], room_.rooms()[other.id]);
 	static thread_local polytope::ContactWorkspace workspace;
 	return polytope::staysApart(*reference1.convex, reference1.orientation.toRotationMatrix(), *reference2.convex,
 	        reference2.orientation.toRotationMatrix(), reference2.position - reference1.position, way, workspace);

@@ -16,8 +16,9 @@ namespace yade {
 /// searched for: they leave the grid of all for a smaller one, until they are so many that the first is made anew.
 ///
 /// Of two polytopes whose boxes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
-/// Interaction, which costs memory, and time in each step. Pieces of a rigid support (fixed bodies, members of clumps) keep theirs: internal
-/// faces are searched for among them.
+/// Interaction, which costs memory, and time in each step. Neither do two fixed ones without velocity, as the pieces of a ground are, that are apart or lie
+/// flush; two that pierce each other do, so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body
+/// that moves keep theirs: internal faces are searched for among the pieces that a body may touch.
 class PairSearch {
 public:
 	explicit PairSearch(const BoxRoom& room) : room_(room) { }

@@ -120,7 +120,7 @@ void PolytopeCollider::searchSome()
 	pairs_.ofSome(*scene, *this, outside_);
 }
 
-/// Bodies that were added since the time step was found: this step has to suit them.
+/// Bodies that were added or freed since the time step was found: this step has to suit them.
 void PolytopeCollider::adaptTimeStep()
 {
 	for (const auto& engine : scene->engines) {

@@ -2,6 +2,7 @@
 #include "step/PolytopeTimeStepper.hpp"
 
 #include <pkg/common/PeriodicEngines.hpp>
+#include <boost/functional/hash.hpp>
 
 #include "host/SpringsOfScene.hpp"
 #include "joint/RockJointLaw.hpp"
@@ -23,6 +24,19 @@ namespace {
 		return sum;
 	}
 
+	/// A number that is another one where other bodies are moved by forces: bodies may be fixed and freed. On several processes always 0: there bodies come
+	/// and go, and all take their time step together.
+	std::size_t moversOf(const Scene& scene)
+	{
+		std::size_t number = 0;
+		for (const auto& body : *scene.bodies) {
+			if (!body) continue;
+			if (body->getIsSubdomain()) return 0;
+			if (isMovedByForces(*body)) boost::hash_combine(number, body->id);
+		}
+		return number;
+	}
+
 	/// In a scene in which nothing can move: the time for which engines wait that may put bodies into it. The collider calls the time stepper before these
 	/// move (PolytopeCollider); with another one the step stays as it is.
 	TimeStepLimit periodLimit(const Scene& scene)
@@ -41,6 +55,11 @@ namespace {
 
 } // namespace
 
+bool PolytopeTimeStepper::knowsNotAll(const Scene& ofScene) const
+{
+	return active && !dead && hasRun_ && (bodies_ != ofScene.bodies->size() || movers_ != moversOf(ofScene));
+}
+
 bool PolytopeTimeStepper::isActivated()
 {
 	if (!active) return false;
@@ -52,13 +71,15 @@ bool PolytopeTimeStepper::isActivated()
 
 void PolytopeTimeStepper::computeTimeStep(Scene* ofScene)
 {
-	if (!hasRun_ || bodies_ != ofScene->bodies->size() || isErased(material_.body, *ofScene)
+	const std::size_t movers = moversOf(*ofScene);
+	if (!hasRun_ || bodies_ != ofScene->bodies->size() || movers != movers_ || isErased(material_.body, *ofScene)
 	        || ++updates_ >= polytope::tolerance::potentialUpdates) {
 		material_ = potential_.limit(*ofScene);
 		updates_  = 0;
 	}
 	hasRun_  = true;
 	bodies_  = ofScene->bodies->size();
+	movers_  = movers;
 	springs_ = springsMade(*ofScene);
 
 	TimeStepLimit chosen;

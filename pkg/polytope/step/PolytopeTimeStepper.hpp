@@ -15,7 +15,7 @@ public:
 	/// was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
-	bool knowsNotAll(const Scene& ofScene) const override { return active && !dead && hasRun_ && bodies_ != ofScene.bodies->size(); }
+	bool knowsNotAll(const Scene& ofScene) const override;
 
 	/// Refuses values out of range, naming the attribute, and restores the last good ones.
 	void postLoad(PolytopeTimeStepper&);
@@ -36,7 +36,7 @@ on: put it anywhere into *O.engines*, after the :yref:`InteractionLoop` for exam
   between neighbours that stay where they are; one such body is stable up to $2\tau$, any heap up to $\tau$.
 * *material*: the same of the one contact that each body may have with any other of the scene, with stiffnesses from the scene's own Ip2 functor
   (:yref:`Ip2_RockJointMat_RockJointMat_RockJointPhys` or :yref:`Ip2_FrictMat_FrictMat_FrictPhys`; of others, from :yref:`young<ElastMat.young>`).
-  Evaluated when bodies are added and with each tenth update.
+  Evaluated when bodies are added or freed and with each tenth update.
 
 and no more than what *motion* allows: in a step no two bodies that may meet before the next update move against each other by more than
 :yref:`motionLimit<PolytopeTimeStepper.motionLimit>` times the smaller one's inscribed radius. What has left the others, or moves along with all that
@@ -72,6 +72,7 @@ private:
 	unsigned                            updates_ = 0; ///< since then
 	bool                                hasRun_  = false;
 	std::size_t                         bodies_ = 0, springs_ = 0; ///< that there were
+	std::size_t                         movers_ = 0;               ///< moversOf() the scene then
 	CheckedAttributes<Real, Real, Real> checked_ { std::tie(timestepSafetyCoefficient, motionLimit, maxDt) };
 };
 REGISTER_SERIALIZABLE(PolytopeTimeStepper);

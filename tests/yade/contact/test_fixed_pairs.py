@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pairs of two fixed bodies: those that are apart or flush have no interaction, until one of them is freed, moved or put elsewhere."""
+
+import pytest
+from yade import O, RockJointMat, Vector3, polytope
+from yade.polytope.scene.present import geometryFunctors
+
+stiffness = 1e8
+
+
+def _engines():
+	O.engines = polytope.engines(gravity=(0, 0, -9.81))
+
+
+def _two(lift=0, **attributes):
+	"""A fixed cube of 1 m on another one, `lift` above it; ids of both."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
+	lower = O.bodies.append(polytope.cuboid((0, 0, 0), (0.5, 0.5, 0.5), fixed=True))
+	upper = O.bodies.append(polytope.cuboid((0, 0, 1 + lift), (0.5, 0.5, 0.5), fixed=True, **attributes))
+	_engines()
+	return lower, upper
+
+
+def _queries():
+	return sum(functor.stats()['pairs'] for functor in geometryFunctors())
+
+
+def testPiecesOfTheGroundAreNotAskedForEachOther():
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
+	O.bodies.append(polytope.terrain([[0.3 * ((i + 2 * j) % 3) for j in range(8)] for i in range(8)], spacing=1, origin=(4e6, 0)))
+	_engines()
+	O.run(5, True)
+	assert len(O.interactions.all()) == 0 and _queries() == 0
+	stone = O.bodies.append(polytope.cuboid((4e6 + 3.4, 3.4, 1.4), (0.15, 0.15, 0.15)))
+	polytope.run(until=1)
+	touched = [one for one in O.interactions if one.isReal]
+	assert touched and all(stone in (one.id1, one.id2) for one in O.interactions.all())
+	assert O.bodies[stone].state.pos[2] > 0
+
+
+def testPiercingBodiesKeepTheirContact():
+	lower, upper = _two(lift=-1e-3)
+	O.run(3, True)
+	assert O.forces.f(upper)[2] == pytest.approx(stiffness * 1e-3, rel=1e-2)
+
+
+@pytest.mark.parametrize('lift', (0, 0.004, -1e-7))
+def testAVelocityBringsThemIntoContact(lift):
+	lower, upper = _two(lift)
+	O.dt = 1e-4  # nothing is moved by forces, so nothing limits it
+	O.run(200, True)
+	assert not O.interactions.has(lower, upper)
+	O.bodies[upper].state.vel = (0, 0, -0.01)
+	start, depth = O.time, 1e-3
+	polytope.run(until=start + (depth + lift) / 0.01)
+	assert O.forces.f(upper)[2] == pytest.approx(stiffness * (1 - O.bodies[upper].state.pos[2]), rel=0.01)
+	assert O.forces.f(upper)[2] == pytest.approx(stiffness * depth, rel=0.05)
+
+
+def testAFreedBlockRestsOnWhatWasFixedBesideIt():
+	lower, upper = _two()
+	O.run(200, True)
+	O.bodies[upper].dynamic = True
+	polytope.run(until=O.time + 1)
+	weight = 2600 * 9.81
+	assert O.bodies[upper].state.pos[2] == pytest.approx(1 - weight / stiffness, abs=0.02 * weight / stiffness)
+
+
+def testABlockThatIsPutIntoAnotherTouchesIt():
+	lower, upper = _two()
+	O.run(200, True)
+	for depth in (1e-4, 1e-3):  # without a velocity
+		O.bodies[upper].state.pos = Vector3(0, 0, 1 - depth)
+		O.step()
+		assert O.forces.f(upper)[2] == pytest.approx(stiffness * depth, rel=1e-3)
+
+
+def testAFreedClumpRestsToo():
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 0.5, 0.5), fixed=True))
+	clump, _parts = O.bodies.appendClumped([polytope.cuboid((x, 0, 1), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)])
+	O.bodies[clump].dynamic = False
+	_engines()
+	O.run(200, True)
+	assert len([one for one in O.interactions if one.isReal]) == 0
+	O.bodies[clump].dynamic = True
+	polytope.run(until=O.time + 1)
+	assert O.bodies[clump].state.pos[2] == pytest.approx(1 - 2600 * 9.81 / stiffness, abs=0.02 * 2600 * 9.81 / stiffness)
+
+
+def testSavedScenesHaveTheSamePairs(tmp_path):
+	lower, upper = _two()
+	O.run(10, True)
+	O.save(str(tmp_path / 'scene.yade.gz'))
+	O.load(str(tmp_path / 'scene.yade.gz'))
+	O.run(10, True)
+	assert not O.interactions.has(lower, upper)
+	O.bodies[upper].dynamic = True
+	O.run(2000, True)
+	assert O.interactions.has(lower, upper) and O.interactions[lower, upper].isReal
