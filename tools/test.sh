@@ -5,6 +5,7 @@
 
 results=$build/test-results # a JUnit file for each part; tools/skipped.py reads what was skipped from them
 fast=
+nativeTrace=$build/tests/core/libpolytope_native_trace.so
 places=() # what pytest runs, all where it is empty; rooms are folders of tests/yade
 core=yes  # whether ctest runs
 
@@ -35,7 +36,7 @@ runPytest() {
 	[ -z "$fast" ] || options+=(-m "not slow")
 	rm -f "$results/$precision.xml"
 	# `pytest` as a program: `python3 -m pytest` would put the project's folder first, and its py/ hides the module `py`
-	(cd "$project" && pytest "${folders[@]}" --junitxml="$results/$precision.xml" "${options[@]}" "$@")
+	(cd "$project" && LD_PRELOAD=$nativeTrace pytest "${folders[@]}" --junitxml="$results/$precision.xml" "${options[@]}" "$@")
 }
 
 # All tests in double, then in long double those that tests/yade/conftest.py names for wider precisions.
@@ -60,7 +61,7 @@ buildTests() {
 	if [ "$precision" = double ] && [ -n "$core" ]; then
 		build overlay testPrograms
 	else
-		build overlay
+		buildWith polytope_native_trace
 	fi
 }
 

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a process that a fault ends writes in the tests' runs (tests/core/nativeTrace.cpp)."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+
+library = pathlib.Path(__file__).resolve().parents[2] / 'build/tests/core/libpolytope_native_trace.so'
+
+
+def testAFaultInAThreadIsWrittenWithItsFunctions():
+	"""Of Python, by its faulthandler as in pytest, and of C."""
+	fault = 'import ctypes, faulthandler, threading; faulthandler.enable(); threading.Thread(target=lambda: ctypes.string_at(1)).start()'
+	ended = subprocess.run([sys.executable, '-c', fault], env={**os.environ, 'LD_PRELOAD': str(library)}, capture_output=True, text=True)
+	assert ended.returncode == -signal.SIGSEGV
+	assert 'in <lambda>' in ended.stderr, ended.stderr
+	functions = ended.stderr.partition('Functions of the thread')[2]
+	assert '_ctypes' in functions and 'libc.so' in functions, ended.stderr
