@@ -16,6 +16,14 @@ namespace {
 		return dimension == 3 || abs(matrix(2, 2) - 1) <= Real(tolerance::orthogonal);
 	}
 
+	/// Of a half-space, which takes its normal as it is.
+	bool hasUnitNormal(const ConvexShape& shape)
+	{
+		if (isfinite(shape.boundingRadius())) return true;
+		const Vector3& normal = shape.planes().normals.front();
+		return abs(normal.squaredNorm() - 1) <= Real(tolerance::orthogonal) && (shape.dimension() == 3 || normal[2] == 0);
+	}
+
 	/// Whether it is one of the values from 0 to the last: a program may have made it of an integer.
 	template <class Choice> bool isOneUpTo(Choice value, Choice last) { return int(value) >= 0 && int(value) <= int(last); }
 
@@ -66,6 +74,9 @@ std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const C
 	if (dimension != shape2.dimension()) return "shape2: a polygon and a polyhedron cannot touch; both must have the same dimension";
 	if (!isfinite(shape1.boundingRadius()) && !isfinite(shape2.boundingRadius()))
 		return "shape2: two half-spaces cannot touch; one of both must be bounded";
+	const char* const unit = ": the normal of a half-space must be a unit vector, in 2-D with z = 0";
+	if (!hasUnitNormal(shape1)) return std::string("shape1") + unit;
+	if (!hasUnitNormal(shape2)) return std::string("shape2") + unit;
 	const char* const what = dimension == 3 ? ": must be a rotation matrix" : ": must be the matrix of a rotation about z";
 	if (!isRotation(rotation1, dimension)) return std::string("rotation1") + what;
 	if (!isRotation(rotation2, dimension)) return std::string("rotation2") + what;

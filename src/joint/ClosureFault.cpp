@@ -77,6 +77,8 @@ namespace {
 
 } // namespace
 
+Real ClosureLaw::initialTangent() const { return tangent(Real(tolerance::leastClosure * tolerance::noClosure)); }
+
 std::string ClosureLaw::fault() const
 {
 	Values      low   = valuesAt(*this, tolerance::leastClosure);

@@ -67,6 +67,7 @@ public:
 	Real pressure(Real closure) const; ///< σ/k [m]
 	Real tangent(Real closure) const;  ///< dσ/dδ over k [-]
 	Real energy(Real closure) const;   ///< ∫ σ/k dδ [m²]
+	Real initialTangent() const;       ///< of a joint that has not closed yet [-]: above 1 it is stiffer there than k
 	Real closure(Real pressure) const; ///< that gives σ/k [m]
 
 	/// Whether these belong together: a sentence that names the law and what does not, or an empty one. At closures from tolerance::leastClosure on, by

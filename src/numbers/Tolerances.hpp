@@ -149,8 +149,8 @@ constexpr Real distance = 16 * rounding;
 /// themselves; they have taken less than one per vertex.
 constexpr int distanceSteps = 4, distanceStepsAtLeast = 64;
 
-/// Rotation matrices of a query: how far products of their columns may be from those of unit vectors (Preconditions.hpp). Orientations that an integrator turns
-/// and normalises stay within some roundings; a matrix that is farther off is a mistake.
+/// Rotation matrices, and unit normals, that are given: how far products of their columns, or the normal's square, may be from those of unit vectors (Preconditions.hpp). Orientations
+/// that an integrator turns and normalises stay within some roundings; what is farther off is a mistake.
 constexpr double orthogonal = 1e-6;
 
 /// Planes up to which sorting by insertion is faster than std::sort.

@@ -14,4 +14,9 @@ constexpr int segmentSteps = 60;
 /// Square of the sine of the angle below which two segments are parallel: their nearest places are then the middle of where they lie beside each other.
 constexpr double parallelSegments = 1e-12;
 
+/// Sine of the angle from which on two faces, an edge and a face, or two edges of bodies with margins count as not parallel: their force then acts at the nearest points
+/// (contact/SpreadContact.hpp). A face that lies on another one parts from it on one side at a tilt of about the overlap over its width, a hundredth at the most; the
+/// angle is ten times that, and less than that between neighbouring faces of most polyhedra.
+constexpr double parallelFeatures = 0.1;
+
 } // namespace polytope::tolerance

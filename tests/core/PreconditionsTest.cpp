@@ -43,6 +43,14 @@ TEST(Preconditions, NameTheArgument)
 	EXPECT_EQ(fault(*wall, unturned, centre, good), "");
 	EXPECT_TRUE(starts(fault(*flat, unturned, centre, good), "shape2: a polygon and a polyhedron"));
 	EXPECT_TRUE(starts(faultOf(*wall, unturned, *wall, unturned, centre, good), "shape2: two half-spaces"));
+	for (const Vector3& normal : { Vector3(0, 0, 0), Vector3(0, 0, 2), Vector3(0, 0, std::numeric_limits<Real>::quiet_NaN()) }) {
+		const auto slanted = ConvexShape::halfSpace(normal, 3);
+		EXPECT_TRUE(starts(fault(*slanted, unturned, centre, good), "shape2: the normal of a half-space must be a unit vector"));
+		EXPECT_TRUE(starts(faultOf(*slanted, unturned, *solid, unturned, centre, good), "shape1: the normal of a half-space"));
+	}
+	const Vector3 aslant = Vector3(0, 0.6, 0.8);
+	EXPECT_EQ(fault(*ConvexShape::halfSpace(aslant, 3), unturned, centre, good), "");
+	EXPECT_TRUE(starts(faultOf(*flat, unturned, *ConvexShape::halfSpace(aslant, 2), unturned, centre, good), "shape2: the normal"));
 	EXPECT_TRUE(starts(fault(*solid, 2 * unturned, centre, good), "rotation2: must be a rotation matrix"));
 	EXPECT_TRUE(starts(fault(*solid, -unturned, centre, good), "rotation2"));
 	Matrix3 tilted;

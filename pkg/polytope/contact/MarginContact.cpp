@@ -7,8 +7,11 @@
 #include <core/Scene.hpp>
 
 #include <src/contact/PairDistance.hpp>
+#include <src/contact/SpreadContact.hpp>
 #include <src/numbers/Tolerances.hpp>
 #include <src/shape/ClosestPoint.hpp>
+
+#include <optional>
 
 namespace yade {
 
@@ -16,36 +19,43 @@ POLYTOPE_CLASSES((PolytopeMarginFunctor));
 
 namespace {
 
-	/// Normal, depth and point of a result, from body 1's origin; a depth below zero: apart by as much. `foot`: the end of the shortest way on body 1's half-spaces.
-	void setWay(polytope::ContactResult& result, const Vector3r& normal, const Real& depth, const Vector3r& foot, const Real& margin1)
-	{
-		result.normal = normal;
-		result.depth  = depth;
-		result.point  = foot + (margin1 - depth / 2) * normal;
-	}
+	using polytope::CoreInPlace;
 
-	/// Of a segment or point with half-spaces. \param sign +1: the segment is body 1. Returns its place along the segment.
-	Real meetSegment(const CoreOfBody& segment, const CoreOfBody& other, int sign, polytope::ContactResult& result)
+	/// The shortest way between two cores: from a place of body 1's, which is relative to its origin.
+	struct Way {
+		Vector3r normal, foot;
+		Real     deepest; ///< overlap of the bodies there; below 0: apart by as much [m]
+	};
+
+	/// Of a segment or point with half-spaces. \param sign +1: the segment is body 1
+	Way fromSegment(const CoreOfBody& segment, const CoreOfBody& other, int sign)
 	{
 		const Matrix3r turn  = other.rotation.transpose();
 		const auto     found = polytope::closestOnSegment(
                         *other.convex, Vector3r(turn * (segment.origin - other.origin)), Vector3r(turn * segment.way));
 		const Vector3r outward = other.rotation * found.nearest.outward, foot = other.rotation * found.nearest.point;
 		const Real     depth = segment.margin + other.margin - found.nearest.distance;
-		if (sign > 0) setWay(result, -outward, depth, found.along * segment.way, segment.margin);
-		else setWay(result, outward, depth, foot, other.margin);
-		return found.along;
+		if (sign > 0) return { -outward, found.along * segment.way, depth };
+		return { outward, foot, depth };
 	}
 
-	/// Of two segments or points. Returns their places, negative where they cross: there is no answer.
-	polytope::Vector2 meetSegments(const CoreOfBody& one, const CoreOfBody& other, polytope::ContactResult& result)
+	/// Of two segments or points; none where they cross.
+	std::optional<Way> betweenSegments(const CoreOfBody& one, const CoreOfBody& other)
 	{
 		const auto     along = polytope::closestOnSegments(one.origin, one.way, other.origin, other.way);
 		const Vector3r way   = other.origin + along[1] * other.way - one.origin - along[0] * one.way;
 		const Real     gap   = way.norm();
-		if (!(gap > 0)) return polytope::Vector2::Constant(-1);
-		setWay(result, way / gap, one.margin + other.margin - gap, along[0] * one.way, one.margin);
-		return along;
+		if (!(gap > 0)) return std::nullopt;
+		return Way { way / gap, along[0] * one.way, one.margin + other.margin - gap };
+	}
+
+	/// Of half-spaces with half-spaces that are apart.
+	std::optional<Way> betweenHalfSpaces(const CoreOfBody& one, const CoreOfBody& other, const Vector3r& moved)
+	{
+		const auto gap = polytope::pairDistance(
+		        *one.convex, one.rotation, *other.convex, other.rotation, Vector3r(other.origin + moved - one.origin));
+		if (!(gap.distance > 0)) return std::nullopt;
+		return Way { gap.normal, gap.point[0], one.margin + other.margin + moved.dot(gap.normal) - gap.distance };
 	}
 
 	/// No polygon: that is no solid here.
@@ -60,31 +70,25 @@ namespace {
 		foot.angVel = start.angVel + along * (end.angVel - start.angVel);
 	}
 
-	/// Of half-spaces with half-spaces. Returns false where there is no answer.
-	bool meet(
-	        const CoreOfBody& one, const CoreOfBody& other, const polytope::ContactSettings& settings, polytope::ContactResult& result)
+	/// Place on a segment of what acts at a point, 0 to 1.
+	Real placeOn(const CoreOfBody& segment, const Vector3r& point)
 	{
-		static thread_local polytope::ContactWorkspace workspace;
-		const Vector3r                                 centre2 = other.origin - one.origin;
-		const Real                                     margins = one.margin + other.margin;
-		const auto gap = polytope::pairDistance(*one.convex, one.rotation, *other.convex, other.rotation, centre2);
-		if (gap.distance > 0 && gap.distance >= margins) {
-			setWay(result, gap.normal, margins - gap.distance, gap.point[0], one.margin);
-			return true;
-		}
-		// the half-spaces' contact; apart, moved together until they touch: its point is where the surfaces face each other
-		const Real           size = math::min(one.convex->boundingRadius(), other.convex->boundingRadius());
-		const Real           way  = gap.distance > 0 ? gap.distance + Real(polytope::tolerance::gapSkin) * size : Real(0);
-		polytope::PairMemory memory;
-		contactQuery(*one.convex, one.rotation, *other.convex, other.rotation, centre2 - way * gap.normal, settings, memory,
-		        workspace, result);
-		if (!result.inContact && margins > 0) return false;
-		if (!result.inContact) result.depth = 0; // half-spaces without a margin that just touch
-		else if (gap.distance > 0) {
-			const Vector3r foot = result.point + (gap.point[0] - result.point).dot(gap.normal) * gap.normal;
-			setWay(result, gap.normal, margins - gap.distance, foot, one.margin);
-		} else result.depth += margins;
-		return true;
+		const Real square = segment.way.squaredNorm();
+		if (!(square > 0)) return 0;
+		return math::min(math::max(Real((point - segment.origin).dot(segment.way) / square), Real(0)), Real(1));
+	}
+
+	void publish(Real depth, Real energy, Vector3r normal, Vector3r point, polytope::ContactResult& result)
+	{
+		result               = {};
+		result.depth         = depth;
+		result.normal        = normal;
+		result.point         = point;
+		result.inContact     = depth > 0;
+		result.hasGeometry   = true;
+		result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
+		result.infeasibility = -depth / 2; // the largest ball between two surfaces has the depth as its diameter
+		result.energy        = result.inContact ? energy : Real(0);
 	}
 
 } // namespace
@@ -97,23 +101,66 @@ bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr
 	const auto     other  = familyOf(*shape2).core(*shape2, place2, state2.ori, state1.pos);
 	if (!one || !other || !isSolid(*one) || !isSolid(*other)) return failed(c);
 	if (!c->isReal() && stiffnessRuleOfNew(*scene, *c) == StiffnessRule::PerArea) return failed(c);
-	polytope::ContactResult result;
-	polytope::Vector2       along = polytope::Vector2::Zero(); // of those that are segments
-	if (!one->convex && !other->convex) along = meetSegments(*one, *other, result);
-	else if (!one->convex) along[0] = meetSegment(*one, *other, +1, result);
-	else if (!other->convex) along[1] = meetSegment(*other, *one, -1, result);
-	else if (!meet(*one, *other, settings(StiffnessRule::PerContact), result)) return failed(c);
-	if (along[0] < 0 || !math::isfinite(result.depth)) return failed(c);
-	result.inContact     = result.depth > 0;
-	result.hasGeometry   = true;
-	result.status        = result.inContact ? polytope::ContactStatus::Contact : polytope::ContactStatus::Separated;
-	result.infeasibility = -result.depth / 2; // the largest ball between two surfaces has the depth as its diameter
-	result.energy        = result.inContact ? result.depth * result.depth / 2 : Real(0);
-	if (!one->end1 && !other->end1) return apply(result, one->origin, state1, state2, shift2, force, c);
-	State foot1, foot2;
-	if (one->end1) moveWithEnds(*one, along[0], foot1);
-	if (other->end1) moveWithEnds(*other, along[1], foot2);
-	return apply(result, one->origin, one->end1 ? foot1 : state1, other->end1 ? foot2 : state2, shift2, force, c);
+
+	static thread_local polytope::ContactWorkspace workspace;
+	polytope::ContactResult                        result;
+	const Real                                     margins = one->margin + other->margin;
+	std::optional<Way>                             way;
+	if (!one->convex && !other->convex) way = betweenSegments(*one, *other);
+	else if (!one->convex) way = fromSegment(*one, *other, +1);
+	else if (!other->convex) way = fromSegment(*other, *one, -1);
+	else {
+		way = betweenHalfSpaces(*one, *other, Vector3r::Zero());
+		if (!way) { // half-spaces that overlap: their own contact, without margins; with these from where body 2 is moved out of it
+			auto settings              = this->settings(StiffnessRule::PerContact);
+			settings.geometryAcrossGap = settings.section = settings.outline = true;
+			polytope::PairMemory memory;
+			contactQuery(*one->convex, one->rotation, *other->convex, other->rotation, other->origin - one->origin, settings, memory,
+			        workspace, result);
+			if (!result.inContact) result.depth = 0; // they just touch
+			if (margins > 0) {
+				const Real size = math::min(one->convex->boundingRadius(), other->convex->boundingRadius());
+				way = betweenHalfSpaces(*one, *other, Vector3r((2 * result.depth + polytope::tolerance::gapSkin * size) * result.normal));
+			}
+			const Real depth = result.depth + margins;
+			if (!way && margins > 0) publish(depth, depth * depth / 2, result.normal, result.point, result);
+		}
+	}
+	if (!way && !result.hasGeometry) return failed(c);
+	polytope::SpreadContact spread;
+	if (way && way->deepest > 0) {
+		const auto inPlace = [&](const CoreOfBody& core) {
+			return CoreInPlace { core.convex.get(), core.origin - one->origin, core.rotation, core.way };
+		};
+		spread = polytope::spreadContact(inPlace(*one), inPlace(*other), way->normal, way->foot, way->deepest);
+		// the force that a law has at this depth is that of the mean closure, times its slope
+		const auto* const known = static_cast<const PolytopeGeom*>(c->geom.get());
+		const auto* const joint = known ? known->closure.get() : nullptr;
+		Real              depth = spread.closure * spread.slope, energy = spread.closure * spread.closure / 2;
+		if (joint) {
+			depth  = joint->law.closure(joint->law.pressure(spread.closure) * spread.slope);
+			energy = joint->law.energy(spread.closure) / joint->law.tangent(depth);
+		}
+		publish(depth, energy, way->normal, spread.point + (one->margin - way->deepest / 2) * way->normal, result);
+		result.outline      = spread.outline.data();
+		result.outlineCount = int(spread.outline.size());
+		for (int k = 1; k + 1 < result.outlineCount; ++k) {
+			const polytope::Vector2 u = spread.outline[k] - spread.outline[0], v = spread.outline[k + 1] - spread.outline[0];
+			result.area += (u[0] * v[1] - u[1] * v[0]) / 2;
+		}
+	} else if (way) publish(way->deepest, 0, way->normal, way->foot + (one->margin - way->deepest / 2) * way->normal, result);
+	if (!math::isfinite(result.depth + result.point.sum())) return failed(c);
+
+	State       foot1, foot2;
+	const State &moving1 = one->end1 ? foot1 : state1, &moving2 = other->end1 ? foot2 : state2;
+	if (one->end1) moveWithEnds(*one, placeOn(*one, one->origin + result.point), foot1);
+	if (other->end1) moveWithEnds(*other, placeOn(*other, one->origin + result.point), foot2);
+	if (!apply(result, one->origin, moving1, moving2, shift2, force, c)) return false;
+	if (!way) return true;
+	auto& geom              = static_cast<PolytopeGeom&>(*c->geom);
+	geom.faceForceCode      = std::int8_t(polytope::FaceForce::Spring); // with every contact model
+	geom.energyPerStiffness = result.energy;
+	return true;
 }
 
 } // namespace yade

@@ -8,10 +8,13 @@ namespace yade {
 
 /// Contact of two bodies of any classes whose families say what their cores and margins are (ShapeFamily::core).
 ///
-/// While the cores are apart, the bodies overlap along the shortest way between them: normal and depth are those of two balls at its ends. Where they overlap, it is the
-/// contact of their half-spaces, deeper by both margins; a segment or point is pushed out to the nearest face. Of segments that lie along a face, or along each other, the ball is
-/// in the middle of where they do. For stiffnesses per contact: there is no area; with a stiffness per area the pair is counted as a failure, and so is one of bodies without
-/// a core, of a polygon, or of two segments that cross. An extension makes functors for its classes of it by YADE_POLYTOPE_MARGIN_PAIR.
+/// The bodies overlap along the shortest way between the cores, by both margins less its length; where the cores themselves overlap, body 2 is moved out of body 1 along the normal
+/// of their contact, and the way back counts as margin. A segment or point in half-spaces is pushed out to the nearest face. Where faces or edges nearly lie on each other, the
+/// force acts in the middle of them, and moves from there with a tilt (src/contact/SpreadContact.hpp): so a body comes to rest on its faces. `outline` is then the
+/// part of both faces that overlaps, over which a rock joint shears. Half-spaces without any margin have the contact of two polytopes.
+///
+/// For stiffnesses per contact; with a stiffness per area the pair is counted as a failure, and so is one of bodies without a core, of a polygon, or of two segments that
+/// cross. An extension makes functors for its classes of it by YADE_POLYTOPE_MARGIN_PAIR.
 class PolytopeMarginFunctor : public PolytopeGeomFunctor {
 public:
 	bool go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,

@@ -226,7 +226,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	}
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);
 	geom.remember(memory);
-	return apply(result, frame1.origin, state1, state2, shift2, force, c);
+	return write(result, frame1.origin, state1, state2, shift2, force, c);
 }
 
 bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom)
@@ -236,6 +236,14 @@ bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const poly
 }
 
 bool PolytopeGeomFunctor::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
+        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
+{
+	const Real rest = math::abs(result.normal.squaredNorm() - 1), sum = result.point.sum() + result.depth + result.area + result.energy;
+	if (result.hasGeometry && !(rest <= Real(polytope::tolerance::orthogonal) && math::isfinite(sum))) return failed(c);
+	return write(result, origin1, state1, state2, shift2, force, c);
+}
+
+bool PolytopeGeomFunctor::write(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
         const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
 	count(result);

@@ -230,20 +230,26 @@ protected:
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
-	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to.
+	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A result whose normal is no unit vector (tolerance::orthogonal), or
+	/// whose point, depth, area or energy is not finite, is a failure.
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 
 	/// The scene's; the defaults where it has no functor of two polytopes.
 	const Ig2_Polytope_Polytope_PolytopeGeom& ofScene() const;
 
-	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron).
+	/// Counts a pair that has no answer (a shape that is no solid, a polygon against a polyhedron): its status is *failed*, stats() has it among *failures*, and a contact
+	/// keeps its last geometry.
 	bool failed(const shared_ptr<Interaction>& c);
 
 	ContactCounters& counters();
 	void             count(const polytope::ContactResult& result);
 
 private:
+	/// apply() of a result that is sound.
+	bool write(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
+	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
+
 	boost::python::object settingOfScene(const char* name) const;
 	/// Says where that setting is set.
 	[[noreturn]] void refuse(const std::string& name) const;

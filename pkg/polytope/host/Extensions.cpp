@@ -16,7 +16,9 @@
 #include <yade-polytope/Fingerprint.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <exception>
 #include <dlfcn.h>
 #include <elf.h>
 #include <filesystem>
@@ -26,6 +28,8 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace yade {
 
@@ -139,9 +143,56 @@ namespace {
 		return "";
 	}
 
+	/// What the process that loads it on trial tells of its end.
+	int trialPipe = -1;
+
+	[[noreturn]] void tellException()
+	{
+		std::string what = "an object that is no std::exception";
+		try {
+			std::rethrow_exception(std::current_exception());
+		} catch (const std::exception& error) {
+			what = error.what();
+		} catch (...) {
+		}
+		const auto written = write(trialPipe, what.data(), what.size());
+		_exit(written < 0 ? 2 : 1);
+	}
+
+	/// What is wrong with code that runs while the library is loaded, its static objects' constructors; empty if nothing is. An exception there cannot be caught: it would have to
+	/// pass the dynamic linker's frames, which ends the process. So a process of its own loads the library first. It shares all memory until it writes, and takes milliseconds.
+	std::string faultOfConstructors(const std::string& path)
+	{
+		int ends[2];
+		if (pipe(ends) != 0) return "";
+		const pid_t child = fork();
+		if (child == 0) {
+			trialPipe = ends[1];
+			std::set_terminate(tellException);
+			dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+			_exit(0);
+		}
+		close(ends[1]);
+		std::string told;
+		char        part[256];
+		for (ssize_t count; child > 0 && (count = read(ends[0], part, sizeof(part))) != 0;) {
+			if (count > 0) told.append(part, std::size_t(count));
+			else if (errno != EINTR) break;
+		}
+		close(ends[0]);
+		int state = 0;
+		if (child < 0) return "";
+		while (waitpid(child, &state, 0) < 0 && errno == EINTR) { }
+		if (WIFSIGNALED(state))
+			return std::string("a constructor of its static objects ends the process: ") + strsignal(WTERMSIG(state));
+		if (WEXITSTATUS(state) == 0) return "";
+		return "a constructor of its static objects " + (told.empty() ? std::string("ends the process") : "throws: " + told);
+	}
+
 	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of those lists again.
 	Extension opened(const std::string& path, const std::string& name)
 	{
+		if (const std::string fault = faultOfConstructors(path); !fault.empty()) throw std::runtime_error(fault);
 		Names& all  = ClassFactory::instance().pluginClasses;
 		auto&  laws = polytope::NormalLaw::all();
 		Names  known;

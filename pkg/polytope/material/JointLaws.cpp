@@ -15,6 +15,15 @@ namespace {
 
 polytope::ClosureLaw JointClosure::law(Real) const { return {}; }
 
+std::string JointClosure::fault(Real stiffness) const
+{
+	const polytope::ClosureLaw given = law(stiffness);
+	if (given.isLinear())
+		return "a " + getClassName()
+		        + " has no normal law; take a class whose law() gives one, HyperbolicClosure for example, or None for a linear spring";
+	return given.fault();
+}
+
 polytope::ClosureLaw HyperbolicClosure::law(Real) const { return polytope::ClosureLaw::hyperbola(maximumClosure); }
 
 polytope::ClosureLaw PowerClosure::law(Real stiffness) const { return polytope::ClosureLaw::power(exponent, referenceStress / stiffness); }

@@ -19,6 +19,8 @@ public:
 
 	/// \param stiffness of the material [Pa/m, or N/m for each contact]
 	virtual polytope::ClosureLaw law(Real stiffness) const;
+	/// What is wrong with it, that it has none among others; empty if nothing is.
+	std::string fault(Real stiffness) const;
 
 	YADE_CLASS_BASE_DOC(JointClosure, Serializable, "Base of the normal laws for :yref:`RockJointMat.closure`.");
 };

@@ -103,7 +103,7 @@ void RockJointMat::refuseForLaws() const
 	if (closure && tensileStrength > 0)
 		refuse("tensileStrength", "a joint with a closure of its own has none, for its spring is linear in tension; leave it at 0");
 	if (closure) {
-		const std::string fault = closure->law(normalStiffness).fault();
+		const std::string fault = closure->fault(normalStiffness);
 		if (!fault.empty()) refuse("closure", fault);
 	}
 	if (!strength) {

@@ -160,7 +160,7 @@ bool givesStiffnesses(const boost::shared_ptr<yade::Functor>& functor, const boo
 
 std::string faultOfClosure(const boost::shared_ptr<yade::JointClosure>& closure, const yade::Real& stiffness)
 {
-	return closure->law(stiffness).fault();
+	return closure->fault(stiffness);
 }
 
 /// Null for None. Anything but a body is refused by the argument's name: Boost's own message would list C++ types.

@@ -86,6 +86,13 @@ namespace {
 		return math::exp(step * math::ceil(math::log(size) / step));
 	}
 
+	/// Of a joint's own normal law, where it begins stiffer than the material's normalStiffness.
+	Real initialTangent(const NormShearPhys& phys)
+	{
+		const auto* const joint = dynamic_cast<const RockJointPhys*>(&phys);
+		return joint && joint->laws.get() ? math::max(Real(1), joint->laws.get()->closure.initialTangent()) : Real(1);
+	}
+
 	/// Stiffnesses that an Ip2 functor gives a pair, or where it cannot be called without a real contact, those of elastic bodies.
 	template <class Stiffness>
 	Stiffness answer(
@@ -112,7 +119,7 @@ namespace {
 					        static_cast<const RockJointMat&>(*material2), contact);
 				else functor->go(material1, material2, contact);
 				if (const auto* phys = dynamic_cast<const NormShearPhys*>(contact->phys.get()))
-					return { phys->kn, phys->ks };
+					return { phys->kn * initialTangent(*phys), phys->ks };
 			}
 			const auto *elastic1 = dynamic_cast<const ElastMat*>(material1.get()),
 			           *elastic2 = dynamic_cast<const ElastMat*>(material2.get());

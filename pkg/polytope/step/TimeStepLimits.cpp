@@ -4,6 +4,8 @@
 #include <core/InteractionLoop.hpp>
 
 #include <src/contact/OverlapFootprint.hpp>
+#include <src/numbers/Rotation.hpp>
+#include <src/shear/ContactOutline.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
 
@@ -76,9 +78,30 @@ namespace {
 		return kn / seen.area * turn * seen.second * turn.transpose();
 	}
 
+	/// Of bodies with margins, whose half-spaces are apart: of the faces that lie on each other (src/contact/SpreadContact.hpp).
+	Matrix3r rockingOfOutline(const PolytopeGeom& geom, Real kn)
+	{
+		const auto seen = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
+		if (!(seen.area > 0)) return Matrix3r::Zero();
+		const Real        n[3] = { geom.normal[0], geom.normal[1], geom.normal[2] };
+		const auto        axes = polytope::axesAround<Real, 3>(n);
+		const Vector3r    u(axes.m[0][0], axes.m[0][1], axes.m[0][2]), v(axes.m[1][0], axes.m[1][1], axes.m[1][2]);
+		polytope::Matrix3 second = seen.second[0] * u * u.transpose() + seen.second[1] * (u * v.transpose() + v * u.transpose())
+		        + seen.second[2] * v * v.transpose();
+		const Matrix3r turn = polytope::crossMatrix(geom.normal);
+		return polytope::rockingOfSpring * kn / seen.area * turn * second * turn.transpose();
+	}
+
+	bool hasMargin(const Body& body)
+	{
+		const Polytope* const shape = polytopeOf(body);
+		return shape && shape->margin().value_or(0) > 0;
+	}
+
 	/// Moment per tilt of the bodies.
 	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom)
 	{
+		if (hasMargin(pair.body1) || hasMargin(pair.body2)) return rockingOfOutline(geom, pair.phys.kn);
 		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
 		const Real                   force   = math::max(elastic, pair.phys.normalForce.dot(geom.normal));
 		const polytope::ConvexShape* shape1  = geom.standIn.get() ? geom.standIn.get()->partner.get() : convexShapeOf(pair.body1);

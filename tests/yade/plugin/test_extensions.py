@@ -396,3 +396,21 @@ def testWithoutStiffnessesCheckSaysSo():
 	found, _ = inYade(script, library)
 	name = 'Ip2_OwnJointMat_OwnJointMat_OwnJointPhys'
 	assert any(what == 'time step' and f'{name} does not say how stiff' in seen for what, seen in found), found
+
+
+@pytest.mark.parametrize(
+	'constructor, reason',
+	[
+		('throw std::runtime_error("no licence")', 'a constructor of its static objects throws: no licence'),
+		('throw 5', 'a constructor of its static objects throws: an object that is no std::exception'),
+		('std::abort()', 'a constructor of its static objects ends the process: Aborted'),
+		('std::_Exit(3)', 'a constructor of its static objects ends the process'),
+	],
+	ids=['exception', 'number', 'abort', 'exit'],
+)
+def testAConstructorThatThrowsIsRefused(constructor, reason):
+	"""Of a static object, while the library is loaded, where no exception can be caught."""
+	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
+	changed = text + f'\n#include <cstdlib>\n#include <stdexcept>\nstruct Thrower {{ Thrower() {{ {constructor}; }} }};\nconst Thrower thrower;\n'
+	library = built('hyperbolicJoint', f'thrower{len(reason)}{len(constructor)}', hyperbolicJoint=changed)
+	assert refused(library) == reason

@@ -44,6 +44,36 @@ answer([seen, found, weight, turning, O.interactions.countReal(), float(O.forces
 	assert found.splitlines()[0] == 'nothing was found that is wrong'
 
 
+@pytest.mark.parametrize('wrong', ['result.point[1] = std::nan("")', 'result.normal *= 2', 'result.depth /= 0'])
+def testAResultThatIsNoContactIsCounted(wrong):
+	"""A point that is no number, a normal that is no unit vector, an infinite depth: a status and counters of the functor, which check tells of; no force."""
+	text = (project / 'examples/extend/ownPoint/ownPoint.cpp').read_text()
+	after = 'geometry(c).remember(memory);'
+	changed = text.replace(after, f'{after} if (scene->iter > 100) {wrong};')
+	assert changed != text
+	library = built('ownPoint', f'wrong{len(wrong)}', ownPoint=changed)
+	script = """
+from yade import polytope
+polytope.load(sys.argv[1])
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5))
+O.bodies.append(polytope.cuboid(center=(0, 0, -0.5), extents=(2, 2, 0.5), fixed=True))
+O.bodies.append(polytope.cuboid(center=(0, 0, 0.4999), extents=(0.5, 0.4, 0.5)))
+O.engines = polytope.engines(geometry=[Ig2_Polytope_Polytope_OwnPoint()])
+O.run(100, True)
+functor = O.engines[2].geomDispatcher.functors[0]
+before, good = functor.stats()['failures'], O.interactions[0, 1].geom.status
+O.run(50, True)
+stats, c = functor.stats(), O.interactions[0, 1]
+law = O.engines[2].lawDispatcher.functors[0]
+numbers = [*c.geom.contactPoint, *c.geom.normal, c.geom.penetrationDepth, *O.bodies[1].state.vel]
+answer([before, good, stats['failures'], stats['statuses']['failed'], c.geom.status, all(abs(float(x)) < 10 for x in numbers), law.nonFiniteForces, [one.what for one in polytope.check(O)]])
+"""
+	(before, good, failures, failed, status, finite, forces, found), _ = inYade(script, library)
+	assert before == 0 and good == 'contact'
+	assert 45 <= failures == failed <= 50 and status == 'failed' and finite and forces == 0
+	assert 'failures' in found
+
+
 def testABlockRestsOnTwoBeamsOfAGrid(tmp_path):
 	"""Forces of the four nodes are the block's weight, shared as the lever says; arrays and VTK files know the contacts; loaded again, it rests on."""
 	library = built('gridPair')

@@ -302,6 +302,133 @@ answer([volume, refusal, seen])
 		assert depth == pytest.approx(0, abs=1e-12) and normal == pytest.approx(0, abs=1e-9)
 
 
+resting = (
+	start
+	+ """
+from yade import utils
+def energy():
+	moving = [body.state for body in O.bodies if body.state.blockedDOFs != 'xyzXYZ' and body.state.mass > 0]
+	turning = [(state, state.ori.conjugate() * state.angVel) for state in moving]
+	return float(sum(s.mass * s.vel.squaredNorm() + sum(i * w * w for i, w in zip(s.inertia, spin)) for s, spin in turning) / 2)
+def scene(below, radius, slope=0, tilt=(0.003, 0.002, 0), half=(h, h, h), **more):
+	O.reset(); material(1e8)
+	q = Quaternion((1, 0, 0), slope)
+	ground = lambda depth, radius: polytope.cuboid(center=q * Vector3(0, 0, -depth), extents=(1.5, 1.5, h), orientation=q, fixed=True)
+	if below == 'wall': O.bodies.append(utils.wall(0, axis=2, sense=1))
+	elif below == 'sharp': O.bodies.append(ground(h, 0))
+	else: O.bodies.append(polytope.withShape(ground(h + 0.1, 0.1), RoundedPolytope(radius=0.1)))
+	angle = Vector3(*tilt).norm()
+	turned = q * Quaternion(Vector3(*tilt) / angle, angle) if angle else q
+	body = polytope.cuboid(center=q * Vector3(0.05, 0, half[2] + radius + angle * max(half) + 2e-3), extents=half, orientation=turned)
+	O.bodies.append(polytope.withShape(body, RoundedPolytope(radius=radius)))
+	O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False), **more)
+	return q
+def rest(q, steps):
+	"""Largest kinetic energy, that at the end over it, way of the last fifth, and tilt and turn against the ground at the end."""
+	most = 0
+	for part in range(5):
+		start = Vector3(O.bodies[1].state.pos)
+		for k in range(20):
+			O.run(steps // 100, True)
+			most = max(most, energy())
+	turned = q.conjugate() * O.bodies[1].state.ori
+	(c,) = [i for i in O.interactions if i.isReal]
+	return [most, energy() / most, float((O.bodies[1].state.pos - start).norm()), float((turned * Vector3(0, 0, 1)).cross(Vector3(0, 0, 1)).norm()), len(c.geom.outline), float(c.geom.penetrationDepth * c.phys.kn)]
+"""
+)
+
+
+@pytest.mark.parametrize('below', ['sharp', 'wall', 'round'])
+def testItComesToRestOnItsFace(rounded, below):  # noqa: F811
+	"""Let fall with a tilt, margins from below the depth of the contact to near the size of the core, in space and, with what leads out of it blocked, in a plane: still to 1e-12 of its energy, upright, with its weight on the face."""
+	script = (
+		resting
+		+ """
+seen = []
+for radius in (2e-5, 1e-3, 0.1, 0.3):
+	for blocked in ('', 'xYZ'):
+		q = scene(sys.argv[2], radius, tilt=(0.003, 0 if blocked else 0.002, 0))
+		O.bodies[1].state.blockedDOFs = blocked
+		seen.append([*rest(q, 16000), 9.81 * float(O.bodies[1].state.mass)])
+answer(seen)
+"""
+	)
+	seen, _ = inYade(script, rounded, below)
+	for most, left, way, tilt, corners, push, weight in seen:
+		assert most > 1 and left < 1e-12 and way < 1e-9, seen
+		assert tilt < 1e-7 and corners == 4 and push == pytest.approx(weight, rel=1e-6), seen
+
+
+def testItStaysOnASlopeBelowTheAngleOfFriction(rounded):  # noqa: F811
+	script = (
+		resting
+		+ """
+seen = []
+for below in ('sharp', 'round'):
+	for radius in (1e-3, 0.1, 0.3):
+		seen.append(rest(scene(below, radius, slope=0.3), 20000))
+answer(seen)
+"""
+	)
+	seen, _ = inYade(script, rounded)
+	for _, left, way, tilt, corners, _ in seen:
+		assert left < 1e-12 and way < 1e-9 and tilt < 1e-3 and corners == 4, seen
+
+
+def testItRocksWithoutGainOrLoss(rounded):  # noqa: F811
+	"""On faces, edges and corners in turn, without friction and dampers: the energy stays as the time step lets it."""
+	script = (
+		resting
+		+ """
+seen = []
+for half in ((h, h, h), (0.2, 0.2, 0.7)):
+	scene('sharp', 0.1, tilt=(0.03, 0.02, 0), half=half, damping=0)
+	O.materials[0].frictionAngle = 0
+	total = lambda: energy() + 9.81 * float(O.bodies[1].state.mass * O.bodies[1].state.pos[2]) + sum(float(i.phys.kn * i.geom.energyPerStiffness) for i in O.interactions if i.isReal)
+	O.run(1, True)
+	first, depth = total(), 9.81 * float(O.bodies[1].state.mass) / 1e8
+	errors = []
+	for k in range(100):
+		O.run(200, True)
+		errors.append(abs(total() - first) / first)
+	seen.append([max(errors), O.time])
+answer(seen)
+"""
+	)
+	seen, _ = inYade(script, rounded)
+	assert max(error for error, _ in seen) < ROCKING, seen
+
+
+def testTwoBodiesOfRockableSettle(rounded):  # noqa: F811
+	"""Of its library, with their radius, one on the other: at rest upright, with the weight of both below."""
+	script = (
+		resting
+		+ """
+path = sys.argv[2] + '/library.shp'
+O.reset(); material(1e7)
+O.bodies.append(utils.wall(0, axis=2, sense=1))
+for k in (0, 1):
+	(body,) = polytope.readShapes(path, names='Cube', rounded=RoundedPolytope)
+	top = float(max(body.shape.offsets)) + float(body.shape.radius)
+	body.state.pos = (0.1 * top * k, 0, (2 * k + 1.001) * top)
+	body.state.ori = Quaternion.Identity
+	O.bodies.append(body)
+O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+found = repr(polytope.check(O))
+most = 0
+for k in range(100):
+	O.run(300, True)
+	most = max(most, energy())
+push = [float(c.geom.penetrationDepth * c.phys.kn) for c in (O.interactions[0, 1], O.interactions[1, 2])]
+answer([found, energy() / most, push, [9.81 * float(body.state.mass) for body in list(O.bodies)[1:]], [float(body.shape.radius) for body in list(O.bodies)[1:]]])
+"""
+	)
+	(found, left, push, weights, radii), _ = inYade(script, rounded, project / 'tests/yade/shapes')
+	assert found.splitlines()[0] == 'nothing was found that is wrong', found
+	assert min(radii) > 0 and left < 1e-12
+	assert push == pytest.approx([sum(weights), weights[1]], rel=1e-6)
+
+
 def testShapesOfRockableKeepTheirRadius(rounded):  # noqa: F811
 	"""A cube of its library: sharp with its faces moved out, or a rounded one, whose faces are in the same places."""
 	script = (

@@ -348,3 +348,104 @@ def testTwoRanksAgreeOnThem(rods, ellipsoid, tmp_path, monkeypatch):
 	for here, there in zip(one[0], two[0], strict=True):
 		assert there == pytest.approx(here, rel=1e-9, abs=1e-12)
 	assert min(place[5] for place in one[0]) < -1e-3  # it moves
+
+
+@pytest.fixture(scope='module')
+def plane():
+	return built('plane', examples=examples)
+
+
+startOfPlanes = """
+from yade import polytope, utils, Quaternion, Vector3
+import math
+polytope.load(sys.argv[1])
+def material(stiffness=1e8, **more):
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5, stiffnessPerArea=False, **more))
+def plane(position, orientation):
+	body = Body()
+	body.shape, body.material = Plane(), O.materials[-1]
+	body.state.pos = body.state.refPos = position
+	body.state.ori = orientation
+	body.state.blockedDOFs, body.bounded, body.dynamic = 'xyzXYZ', True, False
+	return body
+def block(center, orientation, radius):
+	return polytope.withShape(polytope.cuboid(center, (0.4, 0.3, 0.2), orientation=orientation), RoundedBlock(radius=radius))
+"""
+
+
+def testAFamilyWithoutBounds(plane):
+	"""A slope far from the body's place, beside a rounded block, a polytope and a sphere: depth along its normal; the block rests on it, below the angle of friction, and slides above it."""
+	script = (
+		startOfPlanes
+		+ """
+seen = []
+d, tilt = 0.01, Quaternion((1, 0, 0), 0.3)
+for make in (lambda: block(tilt * Vector3(7, 8, 0.3 - d), tilt, 0.1), lambda: polytope.cuboid(tilt * Vector3(7, 8, 0.2 - d), (0.4, 0.3, 0.2), orientation=tilt), lambda: utils.sphere(tilt * Vector3(7, 8, 0.2 - d), 0.2)):
+	O.reset(); material()
+	O.bodies.append([plane(tilt * Vector3(-90, 40, 0), tilt), make()])
+	O.engines = polytope.engines()
+	O.dt = 1e-9
+	O.step()
+	(c,) = [i for i in O.interactions if i.isReal]
+	towards = 1 if c.id1 == 0 else -1
+	seen.append([float(c.geom.penetrationDepth), float((towards * c.geom.normal - tilt * Vector3(0, 0, 1)).norm()), float((c.geom.contactPoint - tilt * Vector3(7, 8, -d / 2)).norm())])
+ways = []
+for angle in (0.3, 0.7):
+	tilt = Quaternion((1, 0, 0), angle)
+	O.reset(); material()
+	O.bodies.append([plane((0, 0, 0), tilt), block(tilt * Vector3(0, 0, 0.3), tilt, 0.1)])
+	O.engines = polytope.engines()
+	found = repr(polytope.check(O))
+	O.run(6000, True)
+	start = O.bodies[1].state.pos
+	O.run(1000, True)
+	ways.append(float((O.bodies[1].state.pos - start).norm()))
+answer([seen, ways, found])
+"""
+	)
+	(seen, ways, found), _ = inYade(script, plane)
+	for (depth, normal, point), near in zip(seen, (1e-12, 1e-3, 1e-12), strict=True):  # that without a margin is less at the rim
+		assert depth == pytest.approx(0.01, abs=near) and normal == pytest.approx(0, abs=near) and point == pytest.approx(0, abs=max(near, 1e-9))
+	assert ways[0] < 1e-9 and ways[1] > 0.01
+	assert found.splitlines()[0] == 'nothing was found that is wrong', found
+
+
+def testTheStepBeforeContactKnowsTheLargestTangent(plane):
+	"""Of a law that begins 100 times as stiff as the material says: a tenth of the step of one that begins with that stiffness; a block that is dropped leaves no faster than it came."""
+	script = (
+		startOfPlanes
+		+ """
+def scene(tangent):
+	O.reset(); material(closure=SofteningClosure(length=10 * tangent, initialTangent=tangent))
+	O.bodies.append([plane((0, 0, 0), Quaternion.Identity), block((0, 0, 0.35), Quaternion.Identity, 0.1)])
+	O.engines = polytope.engines(damping=0)
+steps = []
+for tangent in (0.5, 1, 100):
+	scene(tangent)
+	steps.append(polytope.stableTimeStep())
+O.run(1, True)
+while not O.interactions.countReal():
+	came = abs(float(O.bodies[1].state.vel[2]))
+	O.step()
+while O.interactions.countReal() and O.iter < 100000: O.step()
+answer([steps, came, float(O.bodies[1].state.vel[2])])
+"""
+	)
+	(steps, came, left), _ = inYade(script, plane)
+	assert steps[0] == steps[1] == pytest.approx(10 * steps[2], rel=1e-9)
+	assert 0.9 * came < left < 1.01 * came
+
+
+def testAClosureWithoutALawIsRefused(plane):
+	script = """
+from yade import polytope
+polytope.load(sys.argv[1])
+def said(closure):
+	try: RockJointMat(closure=closure)
+	except ValueError as error: return str(error)
+answer([said(SilentClosure()), said(JointClosure()), said(SofteningClosure()), said(PowerClosure(exponent=0))])
+"""
+	(silent, base, *good), _ = inYade(script, plane)
+	reason = 'has no normal law; take a class whose law() gives one, HyperbolicClosure for example, or None for a linear spring'
+	assert silent == f'closure: a SilentClosure {reason}' and base == f'closure: a JointClosure {reason}'
+	assert good == [None, None]

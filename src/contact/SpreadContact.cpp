@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/SpreadContact.hpp"
+
+#include "numbers/Rotation.hpp"
+#include "shape/DistanceTolerances.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace polytope {
+
+namespace {
+
+	/// How parallel two features are: 1 to 0. `slope`: sine of the angle between them. Returns its derivative by the square of the sine in `change`.
+	Real parallelism(const Real& slopeSquared, Real& change)
+	{
+		const Real most = Real(tolerance::parallelFeatures) * Real(tolerance::parallelFeatures), rest = 1 - slopeSquared / most;
+		change = 0;
+		if (!(rest > 0)) return 0;
+		change = -2 * rest / most;
+		return rest * rest;
+	}
+
+	/// A weight, and how it changes as its body turns while the normal stays.
+	struct Weight {
+		Real    value = 0;
+		Vector3 turn  = Vector3::Zero();
+	};
+
+	/// The face and the edge of a core that look most along a direction.
+	struct Features {
+		Weight                 face, edge;
+		std::vector<Vector3>   corners; ///< of the face; none: it has no bounds
+		Vector3                faceNormal = Vector3::Zero(), onFace = Vector3::Zero();
+		std::array<Vector3, 2> ends { { Vector3::Zero(), Vector3::Zero() } };
+
+		Features(const CoreInPlace& core, const Vector3& outward)
+		{
+			if (core.shape) {
+				takeFace(core, outward);
+				takeEdge(core, outward);
+			} else {
+				ends = { core.origin, core.origin + core.way };
+				weighEdge(outward);
+			}
+		}
+
+	private:
+		void takeFace(const CoreInPlace& core, const Vector3& outward)
+		{
+			const Polyhedron& hull   = core.shape->polyhedron();
+			const auto&       planes = core.shape->planes();
+			const Vector3     own    = core.rotation.transpose() * outward;
+			std::size_t       best   = 0;
+			Real              most   = -1;
+			for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+				if (hull.planeOfFace[f] < 0) continue;
+				const Real cosine = planes.normals[hull.planeOfFace[f]].dot(own);
+				if (cosine > most) {
+					most = cosine;
+					best = f;
+				}
+			}
+			const bool halfSpace = hull.faces.empty();
+			const int  plane     = halfSpace ? 0 : hull.planeOfFace[best];
+			faceNormal           = core.rotation * planes.normals[plane];
+			onFace               = core.origin + planes.offsets[plane] * faceNormal;
+			if (!halfSpace)
+				for (int v : hull.faces[best])
+					corners.push_back(core.origin + core.rotation * hull.vertices[v]);
+			const Real cosine = faceNormal.dot(outward);
+			if (!(cosine > 0)) return;
+			const Vector3 axis = faceNormal.cross(outward);
+			Real          change;
+			face.value = parallelism(axis.squaredNorm(), change);
+			face.turn  = -2 * change * cosine * axis; // the square of the sine is 1 − cosine²
+		}
+
+		void takeEdge(const CoreInPlace& core, const Vector3& outward)
+		{
+			const Polyhedron& hull = core.shape->polyhedron();
+			const Vector3     own  = core.rotation.transpose() * outward;
+			Real              most = -std::numeric_limits<Real>::infinity();
+			int               best[2] = { -1, -1 };
+			for (const auto& loop : hull.faces)
+				for (std::size_t k = 0; k < loop.size(); ++k) {
+					const int  one = loop[k], other = loop[(k + 1) % loop.size()];
+					const Real height = own.dot(hull.vertices[one] + hull.vertices[other]);
+					if (one > other || !(height > most)) continue; // each edge has two faces
+					most    = height;
+					best[0] = one;
+					best[1] = other;
+				}
+			if (best[0] < 0) return;
+			for (int k = 0; k < 2; ++k)
+				ends[k] = core.origin + core.rotation * hull.vertices[best[k]];
+			weighEdge(outward);
+		}
+
+		void weighEdge(const Vector3& outward)
+		{
+			const Vector3 way    = ends[1] - ends[0];
+			const Real    length = way.norm();
+			if (!(length > 0)) return;
+			const Vector3 along = way / length;
+			const Real    sine  = along.dot(outward);
+			Real          change;
+			edge.value = parallelism(sine * sine, change);
+			edge.turn  = 2 * change * sine * along.cross(outward);
+		}
+	};
+
+	/// Sums over a pair of features, h over δ.
+	struct Sums {
+		Real    h1 = 0, h2 = 0, h3 = 0;
+		Vector2 place1 = Vector2::Zero(), place2 = Vector2::Zero();
+
+		void add(const Real& weight, const Vector2& place, const Real& h)
+		{
+			h1 += weight * h;
+			h2 += weight * h * h;
+			h3 += weight * h * h * h;
+			place1 += weight * h * place;
+			place2 += weight * h * h * place;
+		}
+	};
+
+	/// A place along the plane normal to the normal, and h over δ there.
+	struct Place {
+		Vector2 at;
+		Real    h;
+	};
+
+	Place between(const Place& one, const Place& other, const Real& part)
+	{
+		return { one.at + part * (other.at - one.at), one.h + part * (other.h - one.h) };
+	}
+
+	/// What a convex ring leaves where a function of its places is not negative.
+	template <class Value> void clip(std::vector<Place>& ring, std::vector<Place>& buffer, const Value& value)
+	{
+		buffer.clear();
+		for (std::size_t k = 0; k < ring.size(); ++k) {
+			const Place &one = ring[k], &next = ring[(k + 1) % ring.size()];
+			const Real   here = value(one), there = value(next);
+			if (here >= 0) buffer.push_back(one);
+			if ((here >= 0) != (there >= 0)) buffer.push_back(between(one, next, here / (here - there)));
+		}
+		ring.swap(buffer);
+	}
+
+	/// Over a triangle, to the third power exactly (corners 3/60, middles of sides 8/60, centre 27/60).
+	void addTriangle(const Place& a, const Place& b, const Place& c, Sums& sums)
+	{
+		const Vector2 u = b.at - a.at, v = c.at - a.at;
+		const Real    area = (u[0] * v[1] - u[1] * v[0]) / 2;
+		const auto    add  = [&](const Real& part, const Place& place) { sums.add(part * area / 60, place.at, place.h); };
+		for (const Place* corner : { &a, &b, &c })
+			add(3, *corner);
+		for (const auto& [one, other] : { std::pair(&a, &b), std::pair(&b, &c), std::pair(&c, &a) })
+			add(8, between(*one, *other, Real(0.5)));
+		add(27, { (a.at + b.at + c.at) / 3, (a.h + b.h + c.h) / 3 });
+	}
+
+	/// By Simpson's rule, to the third power exactly.
+	void addLine(const Place& one, const Place& other, Sums& sums)
+	{
+		const Real length = (other.at - one.at).norm();
+		for (const auto& [part, weight] : { std::pair(0, 1), std::pair(1, 4), std::pair(2, 1) }) {
+			const Place place = between(one, other, Real(part) / 2);
+			sums.add(weight * length / 6, place.at, place.h);
+		}
+	}
+
+	/// All pairs of features of two cores that a normal joins.
+	class Spread {
+	public:
+		Spread(const CoreInPlace& core1, const CoreInPlace& core2, const Vector3& normal, const Vector3& nearest, const Real& deepest)
+		        : one_(core1, normal), other_(core2, -normal), normal_(normal), nearest_(nearest), deepest_(deepest)
+		{
+			const Real n[3] = { normal[0], normal[1], normal[2] };
+			const auto axes = axesAround<Real, 3>(n);
+			for (int k = 0; k < 2; ++k)
+				axis_[k] = Vector3(axes.m[k][0], axes.m[k][1], axes.m[k][2]);
+		}
+
+		SpreadContact contact()
+		{
+			std::vector<Place> faces;
+			meetFaces(faces);
+			meetEdgeAndFace(one_, other_, 1);
+			meetEdgeAndFace(other_, one_, -1);
+			meetEdges();
+			SpreadContact result { deepest_ * (1 - less_), slope_, Vector3::Zero(), {} };
+			const Vector3 aside = arm_[0] * axis_[0] + arm_[1] * axis_[1] + deepest_ * normal_.cross(turn_);
+			result.point        = nearest_ + aside / slope_;
+			const Vector2 from(aside.dot(axis_[0]) / slope_, aside.dot(axis_[1]) / slope_);
+			for (const Place& corner : faces)
+				result.outline.push_back(corner.at - from);
+			return result;
+		}
+
+	private:
+		Features       one_, other_;
+		const Vector3 &normal_, &nearest_;
+		const Real     deepest_;
+		Vector3        axis_[2];
+		Real           less_ = 0, slope_ = 1;
+		Vector2        arm_  = Vector2::Zero();
+		Vector3        turn_ = Vector3::Zero(); ///< moment on body 2 about the nearest point, over k D δ
+
+		Vector2 across(const Vector3& place) const
+		{
+			return Vector2(axis_[0].dot(place - nearest_), axis_[1].dot(place - nearest_));
+		}
+		Real height(const Vector3& place) const { return normal_.dot(place - nearest_); }
+		/// Of a face over that place.
+		Real height(const Features& features, const Vector2& at) const
+		{
+			const Vector3 place = nearest_ + at[0] * axis_[0] + at[1] * axis_[1];
+			return features.faceNormal.dot(features.onFace - place) / features.faceNormal.dot(normal_);
+		}
+
+		/// The gaps of a pair of features, in h, to h over δ: δ where the gap is least.
+		void fromGaps(std::vector<Place>& places) const
+		{
+			Real least = std::numeric_limits<Real>::infinity();
+			for (const Place& place : places)
+				least = std::min(least, place.h);
+			for (Place& place : places)
+				place.h = 1 - (place.h - least) / deepest_;
+		}
+
+		/// \param more how the weight changes as body 2 turns, and body 1 does not
+		void take(const Real& weight, const Vector3& more, const Sums& sums)
+		{
+			if (!(sums.h2 > 0)) return;
+			const Real mean = sums.h3 / sums.h2, slope = 3 - 2 * mean * sums.h1 / sums.h2;
+			less_ += weight * (1 - mean);
+			slope_ -= weight * (1 - slope);
+			arm_ += weight * (3 * sums.place2 - 2 * mean * sums.place1) / sums.h2;
+			turn_ += (1 - mean) * more;
+		}
+
+		void meetFaces(std::vector<Place>& ring)
+		{
+			const Real weight = one_.face.value * other_.face.value;
+			if (!(weight > 0)) return;
+			const Features &bounded = one_.corners.empty() ? other_ : one_, &bounding = one_.corners.empty() ? one_ : other_;
+			for (const Vector3& corner : bounded.corners)
+				ring.push_back({ across(corner), 0 });
+			std::vector<Place> buffer;
+			// counter-clockwise about its own outward normal
+			if (&bounded == &other_) std::reverse(ring.begin(), ring.end());
+			clipByFace(ring, buffer, bounding, &bounding == &one_ ? 1 : -1);
+			if (ring.size() < 3) return ring.clear();
+			for (Place& place : ring)
+				place.h = height(other_, place.at) - height(one_, place.at);
+			fromGaps(ring);
+			clip(ring, buffer, [](const Place& place) { return place.h; });
+			Sums sums;
+			for (std::size_t k = 2; k < ring.size(); ++k)
+				addTriangle(ring[0], ring[k - 1], ring[k], sums);
+			if (!(sums.h2 > 0)) return ring.clear();
+			take(weight, one_.face.value * other_.face.turn - other_.face.value * one_.face.turn, sums);
+		}
+
+		/// What lies over a face. `sense`: 1 where its corners go counter-clockwise about the normal.
+		void clipByFace(std::vector<Place>& places, std::vector<Place>& buffer, const Features& face, int sense) const
+		{
+			const std::size_t count = face.corners.size();
+			for (std::size_t k = 0; k < count && !places.empty(); ++k) {
+				const Vector2 from = across(face.corners[k]), way = across(face.corners[(k + 1) % count]) - from;
+				clip(places, buffer, [&](const Place& place) {
+					const Vector2 to = place.at - from;
+					return sense * (way[0] * to[1] - way[1] * to[0]);
+				});
+			}
+		}
+
+		/// \param sense 1 where the edge is body 1's
+		void meetEdgeAndFace(const Features& edge, const Features& face, int sense)
+		{
+			const Real left = 1 - edge.face.value, weight = left * edge.edge.value * face.face.value;
+			if (!(weight > 0)) return;
+			std::vector<Place> ends { { across(edge.ends[0]), height(edge.ends[0]) }, { across(edge.ends[1]), height(edge.ends[1]) } }, buffer;
+			clipByFace(ends, buffer, face, -sense);
+			if (ends.size() < 2) return;
+			for (Place& place : ends)
+				place.h = sense * (height(face, place.at) - place.h);
+			fromGaps(ends);
+			clip(ends, buffer, [](const Place& place) { return place.h; });
+			Sums sums;
+			if (ends.size() >= 2) addLine(ends[0], ends[1], sums);
+			const Vector3 ofEdge = face.face.value * (left * edge.edge.turn - edge.edge.value * edge.face.turn),
+			              ofFace = left * edge.edge.value * face.face.turn;
+			take(weight, sense * (ofFace - ofEdge), sums);
+		}
+
+		void meetEdges()
+		{
+			const Real left1 = 1 - one_.face.value, left2 = 1 - other_.face.value;
+			if (!(left1 * left2 * one_.edge.value * other_.edge.value > 0)) return;
+			const Vector3 way1 = one_.ends[1] - one_.ends[0], way2 = other_.ends[1] - other_.ends[0];
+			const Vector3 along = way1.normalized();
+			Real          change;
+			const Real    parallel = parallelism(along.cross(way2.normalized()).squaredNorm(), change);
+			if (!(parallel > 0)) return;
+			// places of both by their way along edge 1
+			const Real length = way1.norm(), start = along.dot(other_.ends[0] - one_.ends[0]), end = along.dot(other_.ends[1] - one_.ends[0]);
+			const Real low = std::max(Real(0), std::min(start, end)), high = std::min(length, std::max(start, end));
+			if (!(low < high)) return;
+			const auto apart = [&](const Real& place) -> Vector3 {
+				return other_.ends[0] + (place - start) / (end - start) * way2 - one_.ends[0] - place * along;
+			};
+			// the square of the distance is a parabola along them: the part where it is less than δ more than its least
+			const Vector3 first = apart(low), rate = (apart(high) - first) / (high - low);
+			const Real    turn  = rate.squaredNorm();
+			const Real    least = turn > 0 ? std::min(std::max(Real(-first.dot(rate) / turn), Real(0)), Real(high - low)) : Real(0);
+			const Real    nearest = (first + least * rate).norm(), most = nearest + deepest_;
+			const auto    until   = [&](const Real& bound) {
+                                // (first + t rate)² = most²
+                                const Real middle = -first.dot(rate) / turn;
+                                const Real room   = most * most - (first + middle * rate).squaredNorm();
+                                const Real far    = room > 0 ? Real(sqrt(room / turn)) : Real(0);
+                                return bound > least ? std::min(bound, Real(middle + far)) : std::max(bound, Real(middle - far));
+			};
+			const Real from = turn > 0 ? until(0) : Real(0), to = turn > 0 ? until(high - low) : high - low;
+			Sums       sums;
+			// Gauss with four places
+			static constexpr double places[] = { 0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629 },
+			                        weights[] = { 0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693 };
+			for (int k = 0; k < 4; ++k) {
+				const Real    place = from + Real(places[k]) * (to - from);
+				const Vector3 way   = first + place * rate;
+				sums.add(Real(weights[k]) * (to - from), across(one_.ends[0] + (low + place) * along + way / 2),
+				        1 - (way.norm() - nearest) / deepest_);
+			}
+			const Vector3 of1 = left1 * one_.edge.turn - one_.edge.value * one_.face.turn,
+			              of2 = left2 * other_.edge.turn - other_.edge.value * other_.face.turn;
+			take(left1 * left2 * one_.edge.value * other_.edge.value * parallel,
+			        parallel * (left1 * one_.edge.value * of2 - left2 * other_.edge.value * of1), sums);
+		}
+	};
+
+} // namespace
+
+SpreadContact spreadContact(
+        const CoreInPlace& core1, const CoreInPlace& core2, const Vector3& normal, const Vector3& nearest, const Real& deepest)
+{
+	return Spread(core1, core2, normal, nearest, deepest).contact();
+}
+
+} // namespace polytope
