@@ -8,6 +8,7 @@
 #include "surface/KeptVertices.hpp"
 
 #include <array>
+#include <limits>
 #include <vector>
 
 /// Input (ContactOptions, ContactSettings), memory from step to step (PairMemory), buffers (ContactWorkspace) and output (ContactResult) of a contact
@@ -51,14 +52,14 @@ struct BoundingPlanes {
 struct InternalPlanes {
 	int count[2] = { 0, 0 };
 	int plane[2][BoundingPlanes::most];
-	/// For each the plane through which the solid ends beyond it, a·x ≤ d in the body's own axes; a = 0: it ends nowhere near.
-	Plane end[2][BoundingPlanes::most];
+	/// For each how far the solid goes on beyond it, along its normal [m]; infinite: it ends nowhere near.
+	Real beyond[2][BoundingPlanes::most];
 
 	bool none() const { return count[0] + count[1] == 0; }
-	void add(int body, int index, const Plane& endOfSolid = { Vector3::Zero(), 0 })
+	void add(int body, int index, const Real& farther = std::numeric_limits<Real>::infinity())
 	{
-		plane[body][count[body]] = index;
-		end[body][count[body]++] = endOfSolid;
+		plane[body][count[body]]    = index;
+		beyond[body][count[body]++] = farther;
 	}
 };
 

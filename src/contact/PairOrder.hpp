@@ -54,7 +54,7 @@ inline void exchangeBodies(InternalPlanes& planes)
 {
 	std::swap(planes.count[0], planes.count[1]);
 	std::swap(planes.plane[0], planes.plane[1]);
-	std::swap(planes.end[0], planes.end[1]);
+	std::swap(planes.beyond[0], planes.beyond[1]);
 }
 
 /// The planes for the pair with the two bodies exchanged; `centre2` as the caller of the exchanged pair has it. Polygons have no z.

@@ -114,7 +114,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	SurfaceOnPiece<R, D> piece;
 	ExtendedPieces<R, D> extended(planes);
 	LpBasis<R, D>        solid;
-	if (settings.internal && !across && beginOnPieces<R, D>(f, *settings.internal, planes, extended, piece.clips)) {
+	if (settings.internal && !across && beginOnPieces<R, D>(*settings.internal, planes, extended, piece.clips)) {
 		surface.on   = &piece;
 		surface.size = maxOf<R>(f.size, sizeOfOverlap<R>(q.in, *settings.internal));
 	}
@@ -131,7 +131,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	}
 	out.surfaceKept = surface.sums.kept;
 
-	// all pieces of a solid have the force's direction and its depth: no piece is pressed aside by an edge on its seam
+	// all pieces of a solid have the force's direction: no piece is pressed aside by an edge on its seam
 	const SurfaceSums<R, D>& sums    = surface.sums;
 	const R                  deepest = surface.deepest;
 	const bool               found   = surface.status == SurfaceStatus::Found;
@@ -170,18 +170,20 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 	}
 
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
-	R area = dot<R, D>(sums.areaVector, n);
-	area   = maxOf<R>(area, sums.pressure / deepest);
+	const bool parted = surface.on && piece.pressure > 0;
+	R          area   = dot<R, D>(parted ? piece.areaVector : sums.areaVector, n);
+	area              = maxOf<R>(area, (parted ? piece.pressure : sums.pressure) / deepest);
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
-	out.depth    = perArea ? length / area : length;
+	out.share         = surface.share();
+	const R onPiece = parted ? out.share : R(1);
+	out.depth    = perArea ? length * onPiece / area : length;
 	R stiffening = 1;
 	if (settings.closure) {
 		out.depth  = settings.closure->closure(out.depth);
 		stiffening = R(settings.closure->tangent(out.depth));
 	}
-	out.energy = !energy ? R(-1) : (perArea ? load.energy / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
-	out.share  = surface.share();
-	area *= out.share;
+	out.energy = !energy ? R(-1) : (perArea ? load.energy * onPiece / area : load.energy) / (stiffening > 0 ? stiffening : R(1));
+	if (surface.on && !parted) area = 0;
 	out.area = D == 2 ? area * minOf<R>(q.in.shape[0]->thickness(), q.in.shape[1]->thickness()) : area;
 
 	if (across) {

@@ -8,8 +8,8 @@
 #include "contact/StartBasis.hpp"
 
 /// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the part of it on
-/// this piece. The solid is the piece extended beyond each such face up to the plane through which the solid ends there; a solid that is not convex is so
-/// where it ends alone.
+/// this piece. The solid is taken to be the piece with each such face moved out to where the solid ends beyond it. Where the pieces are no such solid, as about a corner that points
+/// inwards, it differs from them beside the piece alone: the pressure on the piece, and so its part of the force, are right all the same.
 namespace polytope {
 
 /// Planes of internal faces, moved to where the solid ends beyond them until they are restored.
@@ -19,24 +19,15 @@ public:
 	ExtendedPieces(const ExtendedPieces&)            = delete;
 	ExtendedPieces& operator=(const ExtendedPieces&) = delete;
 
-	POLYTOPE_APART void extend(const ContactFrame<R, D>& f, const InternalPlanes& internal)
+	POLYTOPE_APART void extend(const InternalPlanes& internal)
 	{
 		for (int body = 0; body < 2; ++body)
 			for (int k = 0; k < internal.count[body]; ++k) {
-				const int    i   = planes_.begin(body) + internal.plane[body][k];
-				const Plane& end = internal.end[body][k];
-				R            own[D];
-				for (int m = 0; m < D; ++m)
-					own[m] = end.normal[m];
-				place_[count_] = i;
-				planes_.plane(i, normal_[count_], offset_[count_]);
+				const int i     = planes_.begin(body) + internal.plane[body][k];
+				place_[count_]  = i;
+				offset_[count_] = planes_.offset[i];
 				++count_;
-				if (norm<R, D>(own) > 0) {
-					R a[D];
-					framePlane<R, D>(f, body, own, R(end.offset), a, planes_.offset[i]);
-					for (int m = 0; m < D; ++m)
-						planes_.normal[m][i] = a[m];
-				} else planes_.offset[i] = R(padOffset); // that no body reaches
+				planes_.offset[i] = minOf<R>(planes_.offset[i] + R(internal.beyond[body][k]), R(padOffset)); // that no body reaches
 			}
 	}
 	POLYTOPE_INLINE void restore()
@@ -44,15 +35,13 @@ public:
 		while (count_ > 0) {
 			--count_;
 			planes_.offset[place_[count_]] = offset_[count_];
-			for (int m = 0; m < D; ++m)
-				planes_.normal[m][place_[count_]] = normal_[count_][m];
 		}
 	}
 
 private:
 	PairPlanes<R, D>& planes_;
 	int               count_ = 0, place_[2 * BoundingPlanes::most];
-	R                 normal_[2 * BoundingPlanes::most][D], offset_[2 * BoundingPlanes::most];
+	R                 offset_[2 * BoundingPlanes::most];
 };
 
 /// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: thin beside the body that
@@ -83,18 +72,19 @@ template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<
 	bounding.point = worldPoint<R, D>(q.in, q.frame, toBody<R, D>(q.frame, q.frame.home, centre));
 }
 
-/// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece and as far as the solid goes on beyond it.
+/// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece enlarged about its centre until it reaches as far as the
+/// solid, for planes that are moved out by no more than that factor bound no more.
 template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const InternalPlanes& internal)
 {
 	R size = R(padOffset);
 	for (int piece = 0; piece < 2; ++piece) {
 		if (internal.count[piece] == 0) continue;
-		R beyond = 0;
+		R larger = 1;
 		for (int k = 0; k < internal.count[piece]; ++k) {
-			const Plane& end = internal.end[piece][k];
-			beyond           = maxOf<R>(beyond, end.normal.isZero() ? R(padOffset) : R(abs(end.offset)));
+			const R own = in.shape[piece]->offsetArray()[internal.plane[piece][k]];
+			larger      = maxOf<R>(larger, own > 0 ? 1 + R(internal.beyond[piece][k]) / own : R(padOffset));
 		}
-		size = minOf<R>(size, minOf<R>(in.shape[1 - piece]->boundingRadius(), in.shape[piece]->boundingRadius() + beyond));
+		size = minOf<R>(size, minOf<R>(in.shape[1 - piece]->boundingRadius(), larger * in.shape[piece]->boundingRadius()));
 	}
 	return size;
 }
@@ -120,7 +110,7 @@ template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R
 
 /// The extended piece in place of the piece. What lies on the piece is kept within `clips`; false if they have no room.
 template <class R, int D>
-POLYTOPE_APART bool beginOnPieces(const ContactFrame<R, D>& f, const InternalPlanes& internal, const PairPlanes<R, D>& planes,
+POLYTOPE_APART bool beginOnPieces(const InternalPlanes& internal, const PairPlanes<R, D>& planes,
         ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
 {
 	clips.count = 0;
@@ -128,7 +118,7 @@ POLYTOPE_APART bool beginOnPieces(const ContactFrame<R, D>& f, const InternalPla
 		for (int k = 0; k < internal.count[body]; ++k)
 			clips.add(planes, planes.begin(body) + internal.plane[body][k]);
 	if (clips.full()) return false;
-	extended.extend(f, internal);
+	extended.extend(internal);
 	return true;
 }
 

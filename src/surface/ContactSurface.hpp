@@ -41,14 +41,15 @@ enum class SurfaceStatus : int {
 /// A piece of a larger solid, and what there is on it.
 template <class R, int D> struct SurfaceOnPiece {
 	SurfaceClips<R, D> clips;
-	R                  pressure  = 0;  ///< ∫ p dS over the part of the surface that lies on the piece [m³]
-	R                  centre[D] = {}; ///< ∫ p x dS over it [m⁴]
+	R                  pressure      = 0;  ///< ∫ p dS over the part of the surface that lies on the piece [m³]
+	R                  centre[D]     = {}; ///< ∫ p x dS over it [m⁴]
+	R                  areaVector[D] = {}; ///< ∫ n dS over it [m²]
 
 	POLYTOPE_INLINE void reset()
 	{
 		pressure = 0;
-		for (R& component : centre)
-			component = 0;
+		for (int k = 0; k < D; ++k)
+			centre[k] = areaVector[k] = 0;
 	}
 	/// What lies on the piece of a polygon of the surface.
 	template <class Cut> POLYTOPE_APART void add(const SurfacePiece<R, D>& piece, const Cut& cut, const SurfaceBuffers<R, D>& buffers)
@@ -58,14 +59,18 @@ template <class R, int D> struct SurfaceOnPiece {
 		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
 		if (!(of.area > 0)) return;
 		pressure += of.p;
-		for (int k = 0; k < D; ++k)
+		for (int k = 0; k < D; ++k) {
 			centre[k] += of.pMoment[k];
+			areaVector[k] += of.area * piece.normal[k];
+		}
 	}
 	POLYTOPE_INLINE void average(const SurfaceOnPiece& other)
 	{
 		pressure = (pressure + other.pressure) / 2;
-		for (int k = 0; k < D; ++k)
-			centre[k] = (centre[k] + other.centre[k]) / 2;
+		for (int k = 0; k < D; ++k) {
+			centre[k]     = (centre[k] + other.centre[k]) / 2;
+			areaVector[k] = (areaVector[k] + other.areaVector[k]) / 2;
+		}
 	}
 };
 

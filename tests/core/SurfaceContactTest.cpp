@@ -208,7 +208,7 @@ template <int D> struct CutSlab {
 			const Vector3 out((k == 0 ? 1 : -1), 0, 0);
 			for (int i = 0; i < half[k]->planeCount(); ++i)
 				if (half[k]->planes().normals[std::size_t(i)].dot(out) > Real(0.9))
-					covered[k].add(0, i, { out, k == 0 ? end - centre[k][0] : centre[k][0] - begin });
+					covered[k].add(0, i, k == 0 ? end - seam : seam - begin);
 		}
 	}
 	static std::shared_ptr<const ConvexShape> slab(Real wide, Real high)
@@ -260,12 +260,11 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 				// named in the other order
 				InternalPlanes ofSecond;
 				for (int i = 0; i < covered.count[0]; ++i)
-					ofSecond.add(1, covered.plane[0][i], covered.end[0][i]);
+					ofSecond.add(1, covered.plane[0][i], covered.beyond[0][i]);
 				settings.internal = &ofSecond;
 				EXPECT_EQ(query(swapped(piece), settings).share, result.share);
 				if (!result.inContact) continue;
 				EXPECT_EQ(result.status, all.status);
-				EXPECT_NEAR(result.depth / all.depth, 1, 1e-9);
 				const Load on(result, model);
 				const Real part = model == ContactModel::Spring ? result.share : Real(1);
 				share += result.share;

@@ -11,6 +11,8 @@ namespace {
 	/// A plane near the overlap, and a point just outside of it where a neighbour must be if the plane is an internal face.
 	struct Candidate {
 		int      plane;
+		Vector3r normal;       ///< of the plane
+		Real     offset;       ///< from the contact point
 		Vector3r outside;      ///< from the contact point
 		int      facePlane;    ///< of the face that is slid on
 		Vector3r face;         ///< its normal
@@ -85,43 +87,52 @@ namespace {
 				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²
 				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
-				all.push_back({ bounding.plane[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
+				all.push_back({ bounding.plane[piece][i], normal, bounding.slack[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
 				        bounding.slack[piece][j], chord.plane });
 			}
 		}
 		return all;
 	}
 
-	/// The plane, in the piece's own axes, through which the way from the overlap along a covered face's normal, within the face that is slid on, leaves the
-	/// pieces that continue this one; none if it leaves none.
-	polytope::Plane endBeyond(const TouchingPair& pair, int piece, const Candidate& covered, const std::vector<Solid>& others)
+	/// Whether a plane of the piece, but this one, has this normal.
+	bool isOwnNormal(const Vector3r& normal, int but, const TouchingPair& pair, int piece)
 	{
-		const Vector3r    along = covered.outside.normalized();
-		Vector3r          at    = covered.outside;
-		polytope::Plane   last  = { Vector3r::Zero(), 0 };
-		const Real        step  = flushStep(pair);
+		const polytope::HalfSpaces& own    = pair.convex[piece]->planes();
+		const Vector3r              turned = pair.rotation[piece].transpose() * normal;
+		for (std::size_t k = 0; k < own.size(); ++k)
+			if (int(k) != but && own.normals[k].dot(turned) > 1 - Real(polytope::tolerance::parallel)) return true;
+		return false;
+	}
+
+	/// How far the solid goes on beyond a covered face, along its normal: to where the way from the overlap along that, within the face that is slid on, leaves the pieces that
+	/// continue this one. It does not end where it leaves through a face that this piece has, too.
+	Real wayBeyond(const TouchingPair& pair, int piece, const Candidate& covered, const std::vector<Solid>& others)
+	{
+		const Real        infinite = std::numeric_limits<Real>::infinity();
+		const Vector3r    along    = covered.outside.normalized();
+		const Real        step     = flushStep(pair);
+		Vector3r          at       = covered.outside;
+		Real              end      = infinite;
 		std::vector<bool> passed(others.size(), false);
 		for (bool in = true; in;) {
 			in = false;
 			for (std::size_t k = 0; k < others.size() && !in; ++k) {
 				if (passed[k] || !contains(others[k].planes, at) || !covered.continuedBy(others[k], step)) continue;
 				passed[k] = in = true;
-				Real way       = std::numeric_limits<Real>::infinity();
+				Real leaves = infinite, ends = infinite;
 				for (const polytope::Plane& plane : others[k].planes) {
 					const Real rate = plane.normal.dot(along);
 					if (!(rate > Real(polytope::tolerance::parallel))) continue;
-					const Real own = (plane.offset - plane.normal.dot(at)) / rate;
-					if (!(own < way)) continue;
-					way  = own;
-					last = plane;
+					const Real way = (plane.offset - plane.normal.dot(at)) / rate;
+					leaves         = math::min(leaves, way);
+					if (!isOwnNormal(plane.normal, covered.plane, pair, piece)) ends = math::min(ends, way);
 				}
-				if (!math::isfinite(way)) return { Vector3r::Zero(), 0 };
-				at += (way + 2 * pair.ball) * along;
+				if (!math::isfinite(leaves)) return infinite;
+				end = (at + (math::isfinite(ends) ? ends : leaves) * along).dot(covered.normal) - covered.offset;
+				at += (leaves + 2 * pair.ball) * along;
 			}
 		}
-		if (last.normal.isZero()) return last;
-		const Vector3r from = pair.centre[piece] - pair.point;
-		return { pair.rotation[piece].transpose() * last.normal, last.offset - last.normal.dot(from) };
+		return end;
 	}
 
 	/// Which of two pieces that both have covered faces has them left out. Of those of the other one, some may be too far from this overlap to be seen here,
@@ -180,7 +191,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 				continue;
 			const int* const first = result.plane[piece];
 			if (std::find(first, first + count, one.plane) == first + count)
-				result.add(piece, one.plane, endBeyond(pair, piece, one, others[piece]));
+				result.add(piece, one.plane, wayBeyond(pair, piece, one, others[piece]));
 		}
 	}
 	if (result.count[0] > 0 && result.count[1] > 0) result.count[1 - supporting(pair)] = 0;

@@ -76,8 +76,7 @@ polytope::InternalPlanes PolytopeGeom::internalPlanes() const
 	const std::vector<int>&  codes = *internalFaces.get();
 	const std::vector<Real>& ends  = *internalEnds.get();
 	for (std::size_t k = 0; k < codes.size(); ++k)
-		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]),
-		        { Vector3r(ends[4 * k], ends[4 * k + 1], ends[4 * k + 2]), ends[4 * k + 3] });
+		planes.add(polytope::bodyOfCode(codes[k]), polytope::planeOfCode(codes[k]), ends[k]);
 	return planes;
 }
 
@@ -87,12 +86,11 @@ bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 	std::vector<Real> ends;
 	for (int body = 0; body < 2; ++body)
 		for (int k = 0; k < planes.count[body]; ++k) {
-			const polytope::Plane& end = planes.end[body][k];
 			codes.push_back(polytope::planeCode(body, planes.plane[body][k]));
-			ends.insert(ends.end(), { end.normal[0], end.normal[1], end.normal[2], end.offset });
+			ends.push_back(planes.beyond[body][k]);
 		}
 	// poses are rounded, and where a support ends with them
-	const auto        same = [](Real a, Real b) { return math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
+	const auto        same = [](Real a, Real b) { return a == b || math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
 	const auto* const knownCodes = internalFaces.get();
 	const auto* const knownEnds  = internalEnds.get();
 	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())

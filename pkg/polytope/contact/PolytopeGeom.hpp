@@ -133,8 +133,7 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		        "by their planes"))
 		((PlaneCodes, internalFaces, , (Attr::readonly | Attr::hidden), "Planes that are internal faces of a rigid support, 2 × plane + "
 		        "body"))
-		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each the plane through which the support ends beyond it: normal "
-		        "and offset in the body's own axes"))
+		((PlaneEnds, internalEnds, , (Attr::readonly | Attr::hidden), "For each how far the support goes on beyond it [m]"))
 		((Closure, closure, , (Attr::readonly | Attr::hidden), "Normal law of its rock joint; none: a linear spring"))
 		, /*ctor*/ createIndex(); normal = contactPoint = Vector3r::Zero(); // YADE leaves them as they are; a pair apart is saved, too
 		, /*py*/
