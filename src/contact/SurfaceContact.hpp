@@ -162,22 +162,22 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 				point[k] = centre[k];
 		}
 	}
-	if (surface.on
-	        && piece.pressure
-	                > 0) { // each piece's part acts at the centre of the pressure on it, and all together along the solid's line of action
-		for (int k = 0; k < D; ++k)
-			point[k] += piece.centre[k] / piece.pressure - centre[k];
+	const bool parted = surface.on && piece.pressure > 0;
+	// each piece's part acts at the centre of the pressure on it, and all together along the solid's line of action
+	for (int k = 0; k < D && parted; ++k) {
+		const R own = piece.centre[k] / piece.pressure;
+		point[k] += own - centre[k];
+		centre[k] = own;
 	}
 
 	// the mean of 2 p over the area is no more than its largest: so thin a view is of a surface that is folded
-	const bool parted = surface.on && piece.pressure > 0;
-	R          area   = dot<R, D>(parted ? piece.areaVector : sums.areaVector, n);
-	area              = maxOf<R>(area, (parted ? piece.pressure : sums.pressure) / deepest);
+	R area = dot<R, D>(parted ? piece.areaVector : sums.areaVector, n);
+	area   = maxOf<R>(area, (parted ? piece.pressure : sums.pressure) / deepest);
 	if (!(area > 0)) area = D == 3 ? deepest * deepest : deepest; // no surface
-	out.share         = surface.share();
+	out.share       = surface.share();
 	const R onPiece = parted ? out.share : R(1);
-	out.depth    = perArea ? length * onPiece / area : length;
-	R stiffening = 1;
+	out.depth       = perArea ? length * onPiece / area : length;
+	R stiffening    = 1;
 	if (settings.closure) {
 		out.depth  = settings.closure->closure(out.depth);
 		stiffening = R(settings.closure->tangent(out.depth));
@@ -212,6 +212,13 @@ template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQ
 			for (int k = 0; k < 3; ++k) {
 				plane[k] = far > 0 ? sums.mainNormal[k] / far : n[k];
 				place[k] = sums.weight > 0 ? sums.mainCentre[k] / sums.weight : point[k];
+			}
+			if (parted) { // within the piece, which may be far from the middle of the solid
+				R above = 0;
+				for (int k = 0; k < 3; ++k)
+					above += (centre[k] - place[k]) * plane[k];
+				for (int k = 0; k < 3; ++k)
+					place[k] = centre[k] - above * plane[k];
 			}
 			contactSection<R, 3>(q, bounds, place, plane, point, surface.spare);
 			out.area            = all;

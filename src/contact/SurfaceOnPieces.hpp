@@ -27,7 +27,8 @@ public:
 				place_[count_]  = i;
 				offset_[count_] = planes_.offset[i];
 				++count_;
-				planes_.offset[i] = minOf<R>(planes_.offset[i] + R(internal.beyond[body][k]), R(padOffset)); // that no body reaches
+				planes_.offset[i]
+				        = minOf<R>(planes_.offset[i] + R(internal.beyond[body][k]), R(padOffset)); // that no body reaches
 			}
 	}
 	POLYTOPE_INLINE void restore()
@@ -110,8 +111,8 @@ template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R
 
 /// The extended piece in place of the piece. What lies on the piece is kept within `clips`; false if they have no room.
 template <class R, int D>
-POLYTOPE_APART bool beginOnPieces(const InternalPlanes& internal, const PairPlanes<R, D>& planes,
-        ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
+POLYTOPE_APART bool beginOnPieces(
+        const InternalPlanes& internal, const PairPlanes<R, D>& planes, ExtendedPieces<R, D>& extended, SurfaceClips<R, D>& clips)
 {
 	clips.count = 0;
 	for (int body = 0; body < 2; ++body)

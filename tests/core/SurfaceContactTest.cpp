@@ -217,7 +217,7 @@ template <int D> struct CutSlab {
 	}
 };
 
-/// A body that lies on the joint between two pieces of one solid has the solid's contact with both together: the same force, point, depth and energy.
+/// A body that lies on the joint between two pieces of one solid has the solid's contact with both together: the same force, moment, area and energy.
 template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 {
 	std::mt19937_64 random(88 + D);
@@ -247,7 +247,7 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 			const ContactResult all = query(pair, with(model));
 			if (!all.inContact) continue;
 			const Load whole(all, model);
-			Real       share = 0, energy = 0;
+			Real       share = 0, energy = 0, area = 0;
 			Vector3    force = Vector3::Zero(), moment = Vector3::Zero();
 			for (int k = 0; k < 2; ++k) {
 				Pair piece     = pair;
@@ -268,12 +268,14 @@ template <int D> void expectPiecesToHaveTheContactOfTheSolid()
 				const Load on(result, model);
 				const Real part = model == ContactModel::Spring ? result.share : Real(1);
 				share += result.share;
+				area += result.area;
 				force += part * on.force;
 				moment += part * (on.moment + Vector3(slab.centre[k] - slab.middle).cross(on.force));
 				energy += part * on.energy;
 				parted += result.share < Real(0.99) && result.share > Real(0.01);
 			}
 			EXPECT_NEAR(share, 1, 1e-9);
+			EXPECT_NEAR(area / all.area, 1, 1e-9);
 			EXPECT_LE((force - whole.force).norm(), 1e-9 * whole.force.norm());
 			EXPECT_LE((moment - whole.moment).norm(), 1e-9 * whole.force.norm());
 			EXPECT_NEAR(energy / whole.energy, 1, 1e-9);

@@ -87,8 +87,9 @@ namespace {
 				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²
 				if (i == j || along.squaredNorm() < Real(polytope::tolerance::parallel)) continue;
 				const Real way = bounding.slack[piece][i] + 2 * pair.ball;
-				all.push_back({ bounding.plane[piece][i], normal, bounding.slack[piece][i], way / along.squaredNorm() * along, bounding.plane[piece][j], face,
-				        bounding.slack[piece][j], chord.plane });
+				all.push_back(
+				        { bounding.plane[piece][i], normal, bounding.slack[piece][i], way / along.squaredNorm() * along,
+				                bounding.plane[piece][j], face, bounding.slack[piece][j], chord.plane });
 			}
 		}
 		return all;

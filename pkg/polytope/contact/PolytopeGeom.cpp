@@ -90,7 +90,8 @@ bool PolytopeGeom::setInternalPlanes(const polytope::InternalPlanes& planes)
 			ends.push_back(planes.beyond[body][k]);
 		}
 	// poses are rounded, and where a support ends with them
-	const auto        same = [](Real a, Real b) { return a == b || math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
+	const auto same
+	        = [](Real a, Real b) { return a == b || math::abs(a - b) <= Real(polytope::tolerance::flush) * (1 + math::abs(a)); };
 	const auto* const knownCodes = internalFaces.get();
 	const auto* const knownEnds  = internalEnds.get();
 	if (knownCodes ? codes == *knownCodes && std::equal(ends.begin(), ends.end(), knownEnds->begin(), same) : codes.empty())

@@ -22,7 +22,7 @@ from ..scene.stages import partOfSize, sizeOf
 from ..strengthReduction import divideStrengths, strengths
 from .bracket import Bracket
 from .faceMaterials import materialsOf
-from .failure import Failure, inMode, told
+from .failure import Failure, inMode, noMode, told
 from .history import histories
 from .motion import Motion
 
@@ -84,11 +84,11 @@ def factorOfSafety(bodies=None, reduce=strengths, tolerance=0.01, most=20, steps
 	:param bodies: ids of those that count; default all that can move
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor
-	:param float most: factor at which to give up, and by which strengths are multiplied where it is below 1
+	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are multiplied where it is below 1
 	:param int steps: most of a trial; one that is neither at rest nor away by then counts as failed
 	:returns: *FactorOfSafety*
 	:raises ValueError: naming the argument: bodies that cannot move, or without joints and bonds whose strength could be reduced
-	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them, or is not at rest; it is what it was
+	:raises RuntimeError: the scene does not stand with *most* times its strengths, or is not at rest; it is what it was
 	"""
 	tolerance, most, steps = number(tolerance, 'tolerance'), number(most, 'most'), number(steps, 'steps')
 	if not 0 < tolerance < 1:
@@ -168,9 +168,8 @@ class _Search:
 				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked, self.limit)
 				bracket.stable = max(bracket.stable, self.reached)
 				if bracket.stable >= most:
-					raise RuntimeError(
-						f'stable with strengths divided by {bracket.stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*'
-					)
+					self.mode = noMode()
+					break
 		self._refuseUnsettled(bracket)
 		self._tellTrembling()
 		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)

@@ -8,7 +8,7 @@ import numpy as np
 from ..pictures.still import picture
 from ..scene.movers import moverOf
 
-__all__ = ['Failure', 'inMode', 'partOfMode', 'told']
+__all__ = ['Failure', 'inMode', 'noMode', 'partOfMode', 'told']
 
 partOfMode = 0.1
 """Of the largest displacement: bodies that move more are part of the mode."""
@@ -21,7 +21,7 @@ class Failure:
 	stable: float
 	"""Highest number by which strengths were divided and the scene stood."""
 	failed: float
-	"""Lowest one at which it failed."""
+	"""Lowest one at which it failed; infinite: it stood with all that were tried, so it fails by no lack of these strengths, or at a larger number than *most*."""
 	bodies: list
 	"""Ids of those that moved when it failed, the farthest first: all that moved at least a tenth as far."""
 	displacements: np.ndarray
@@ -31,7 +31,7 @@ class Failure:
 
 	@property
 	def factor(self):
-		"""Middle of the bracket."""
+		"""Middle of the bracket; infinite where nothing failed."""
 		return (self.stable + self.failed) / 2
 
 	@property
@@ -52,12 +52,19 @@ class Failure:
 		)
 
 	def __str__(self):
+		if np.isinf(self.failed):
+			return f'factor of safety infinite: it stands with strengths divided by {self.stable:g}, so it fails by no lack of them (or at a larger number; *most*)'
 		return f'factor of safety {self.factor:.4g} (stands at {self.stable:.4g}, fails at {self.failed:.4g}): {told(self.bodies, self.displacements)}'
 
 
 def inMode(ways):
 	"""Rows of the bodies that have gone so far, the farthest first, that they are part of the mode."""
 	return [k for k in np.argsort(-ways) if ways[k] >= partOfMode * ways.max()]
+
+
+def noMode():
+	"""(bodies, displacements, rotations) of what does not fail."""
+	return [], np.empty((0, 3)), np.empty((0, 3))
 
 
 def told(bodies, displacements):

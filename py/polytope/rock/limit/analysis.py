@@ -11,7 +11,7 @@ from ...arguments import namedArguments, number
 from ...scene.stages import partOfSize
 from ...strengthReduction import checkedStrengths, strengths
 from ..bracket import Bracket
-from ..failure import Failure, inMode, told
+from ..failure import Failure, inMode, noMode, told
 from .blocks import blocksOf, cornersOf, refuseScene
 from .equilibrium import Equilibrium
 from .leastStrength import leastStrength
@@ -56,11 +56,11 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
 	:param float tolerance: width of the bracket over the factor
-	:param float most: factor at which to give up, and by which strengths are multiplied where it is below 1
+	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are multiplied where it is below 1
 	:returns: *LimitAnalysis*
 	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds that can fail, bolts, blocks that no joint connects to a fixed one
 	:raises ImportError: python3-cvxopt is not installed
-	:raises RuntimeError: the scene does not stand with *most* times its strengths, or stands with a *most*-th of them
+	:raises RuntimeError: the scene does not stand with *most* times its strengths
 	"""
 	tolerance, most = float(number(tolerance, 'tolerance')), float(number(most, 'most'))
 	if not 1e-4 <= tolerance < 1:
@@ -95,11 +95,9 @@ class _Search:
 					)
 			while not bracket.isNarrow:
 				if self._stands(bracket.next(), bracket) and bracket.stable >= most:
-					raise RuntimeError(
-						f'stable with strengths divided by {bracket.stable:g}: it fails by no lack of {", ".join(self.reduce)}, or give a larger *most*; where blocks jam between '
-						'others, limit analysis has no bound (polytope.factorOfSafety may)'
-					)
-		return LimitAnalysis(bracket.stable, bracket.failed, *self._mode(), self.trials, len(self.corners.one))
+					break
+		mode = self._mode() if np.isfinite(bracket.failed) else noMode()
+		return LimitAnalysis(bracket.stable, bracket.failed, *mode, self.trials, len(self.corners.one))
 
 	def _stands(self, factor, bracket):
 		corners = self.corners

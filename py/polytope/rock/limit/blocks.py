@@ -90,7 +90,7 @@ def refuseScene():
 
 
 def _isRigid(bond):
-	"""As *polytope.excavate* makes them between parts of one block."""
+	"""Whether it holds whatever happens."""
 	return math.isinf(bond.tensileStrength) and math.isinf(bond.cohesion)
 
 

@@ -25,7 +25,7 @@ __all__ = ['excavate']
 def excavate(bodies=None, normals=None, offsets=None, over=0, cut=True):
 	"""Takes blocks away: ``polytope.excavate([4, 7], over=2000)``, or all that is in a region, such as a tunnel or a pit: ``polytope.excavate(normals=…, offsets=…, over=2000)``.
 
-	Blocks that the region crosses are cut by its faces. What lies outside stays as one body, a clump where it is not convex (or parts that are bonded for good, with a warning, where contacts with a clump would not add up), or several where the region goes through it; bodies that the
+	Blocks that the region crosses are cut by its faces. What lies outside stays as one body, a clump where it is not convex, or several where the region goes through it; bodies that the
 	region leaves as they are keep their numbers, what is left of others gets new ones. Its contacts go on with their shear, slip, cohesion and bonds, its faces with their materials and joints. Of a block no
 	slivers are cut off or left whose inscribed radius is below a hundredth of its own. By a region, bodies that cannot move are neither cut nor taken.
 

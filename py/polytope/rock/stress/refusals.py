@@ -197,8 +197,8 @@ def refuseForces(field, faces):
 		borne = 0.0 if contact is None else float(contact.phys.normalForce.norm())
 		if abs(borne - asked) > wrongForce * min(bears[moverOf(k)] for k in (face.id1, face.id2) if canMove(O.bodies[k])):
 			raise ValueError(
-				f'bodies: the joint between {face.id1} and {face.id2} would bear {borne:.4g} N for {asked:.4g} N. Do a mask or the collider keep them apart? Are they parts of a clump '
-				"whose faces are not convex (jointedRock's incomplete='cut' makes none)? Is the closure, pressure over normalStiffness, a large part of a block (stiffer joints)?"
+				f'bodies: the joint between {face.id1} and {face.id2} would bear {borne:.4g} N for {asked:.4g} N. Do a mask or the collider keep them apart? '
+				'Is the closure, pressure over normalStiffness, a large part of a block (stiffer joints)?'
 			)
 
 

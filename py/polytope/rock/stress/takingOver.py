@@ -2,16 +2,14 @@
 """Parts of blocks that have been cut take their place in the scene: joints, bonds, water, joint marks and histories go on with them."""
 
 import itertools
-import math
 
 import numpy as np
 from yade import BaseMotion, Collider, O, Polytope, PolytopeGeom, PolytopeWater, QuietBoundary, RockJointPhys, _polytope
 
-from ...arguments import warn
 from ...bodies.clumps import ofUnion, rigid
 from ...bonding.bolting import madeBolts
-from ...bonding.bonds import bond, bonds, madeBonds
-from ...scene.movers import moverOf, partsOf
+from ...bonding.bonds import bonds, madeBonds
+from ...scene.movers import partsOf
 from ...scene.permanentLoads import permanentLoads
 from ..history import followParts
 from ..jointsOfFaces import replaceInRocks
@@ -71,12 +69,10 @@ def _refuseContact(contact, k):
 def takeOver(rests):
 	"""Takes bodies out of the scene, and puts what is left of them in their place.
 
-	What is left and not convex is a clump. Where another body's contacts with the parts of a clump do not add up, which lie flush about a corner that points inwards (docs/contact-force.md,
-	internal faces), its parts are bodies of their own, bonded for good.
+	What is left and not convex is a clump.
 
 	:param rests: id of each body or clump → a list of bodies, each a list of cutting.Part; empty: nothing is left
-	:returns: id → ids of these bodies, of those bonded of their parts
-	:raises ValueError: if contacts do not add up all the same; the scene is as it was
+	:returns: id → ids of these bodies
 	"""
 	former = {part: O.bodies[part] for k in rests for part in partsOf(k)}
 	contacts = [contact for contact in O.interactions if contact.isReal and (contact.id1 in former or contact.id2 in former)]
@@ -84,20 +80,9 @@ def takeOver(rests):
 	parts = {k: [] for k in former}
 	for part in itertools.chain.from_iterable(itertools.chain.from_iterable(rests.values())):
 		parts[part.of].append(part)
-	bonded, wrong = set(), None
-	while wrong is None or wrong:
-		made = {k: [made for rest in several for made in _append(k, rest, k in bonded)] for k, several in rests.items()}
-		wrong = _goOn(contacts, linked, parts) if any(parts.values()) else {}
-		if wrong:
-			_erase(k for several in made.values() for k in several)
-			movers = {moverOf(part) for pair in wrong for part in pair if part in parts} - bonded
-			if not any(len(rest) > 1 for k in movers for rest in rests[k]):
-				_refuseSum(*wrong.popitem())
-			bonded |= movers
-	if bonded:
-		warn(
-			f'cut: what is left of blocks {", ".join(map(str, sorted(bonded)))} is bodies that are bonded to each other where it is not convex, for contacts with the parts of a clump would not add up there (docs/stress-and-excavation.md)'
-		)
+	made = {k: [_append(k, rest) for rest in several] for k, several in rests.items()}
+	if any(parts.values()):
+		_goOn(contacts, linked, parts)
 	for k, own in parts.items():
 		replaceInRocks(former[k], [part.body for part in own], [part.planes for part in own])
 	_replaceInWaters(parts)
@@ -106,36 +91,26 @@ def takeOver(rests):
 	return made
 
 
-def _refuseSum(pair, areas):
-	raise ValueError(
-		f'normals: contacts with what is left of body {pair[0]} or {pair[1]} do not add up, {areas[0]:.3g} m² for {areas[1]:.3g} m²; another place of the region, or cut=False'
-	)
-
-
 def _erase(ids):
 	for k in ids:
 		O.bodies.erase(k, eraseClumpMembers=True)
 
 
 def _goOn(contacts, linked, parts):
-	"""Bonds first: contacts ask for them. Returns pairs of former bodies with whose parts contacts do not add up → areas of these and of the whole."""
+	"""Bonds first: contacts ask for them."""
 	_findPairs()
 	for one in linked:
 		_betweenParts(one, bonds()._goesOnBetween, parts)
-	wrong = {}
 	for contact in contacts:
-		pairs = _betweenParts(contact, _polytope.goesOnBetween, parts)
-		area, whole = sum(float(O.interactions[pair].phys.contactArea) for pair in pairs), float(contact.phys.contactArea)
-		if area > (1 + addsUp) * whole:
-			wrong[contact.id1, contact.id2] = area, whole
-	return wrong
+		_betweenParts(contact, _polytope.goesOnBetween, parts)
 
 
 def _betweenParts(link, goesOn, parts):
-	"""The pairs of parts between which a contact or bond goes on."""
+	"""A contact or bond goes on between the parts that have a share of it."""
 	sides = [[part.body for part in parts[k]] if k in parts else [O.bodies[k]] for k in (link.id1, link.id2)]
 	wholes = O.bodies[link.id1], O.bodies[link.id2]
-	return [(one.id, other.id) for one, other in itertools.product(*sides) if goesOn(link, *wholes, one, other)]
+	for one, other in itertools.product(*sides):
+		goesOn(link, *wholes, one, other)
 
 
 def _findPairs():
@@ -145,28 +120,18 @@ def _findPairs():
 			engine()
 
 
-def _append(k, rest, bonded):
-	"""Ids of one body of parts: its own, or of the parts."""
+def _append(k, rest):
+	"""Id of one body of parts."""
 	bodies = [part.body for part in rest]
-	if len(bodies) == 1 or bonded:
-		made = [O.bodies.append(body) for body in bodies]
-		if bonded:
-			_bond(made)
+	if len(bodies) == 1:
+		made = O.bodies.append(bodies[0])
 	else:
 		overlap = O.bodies[k].isClump and not _addsUp(k)
-		made = [(ofUnion if overlap else rigid)(bodies)[0]]
-		_keepReference(O.bodies[made[0]].state, O.bodies[k].state)
+		made = (ofUnion if overlap else rigid)(bodies)[0]
+		_keepReference(O.bodies[made].state, O.bodies[k].state)
 	for part in rest:
 		_keepReference(part.body.state, O.bodies[part.of].state)
 	return made
-
-
-def _bond(ids):
-	"""For good, as stiff as a joint of their material."""
-	if len(ids) > 1:
-		own = O.bodies[ids[0]].material
-		stiffness = dict(normalStiffness=own.normalStiffness, shearStiffness=own.shearStiffness)
-		bond(ids, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0, **stiffness)
 
 
 def _keepReference(state, former):
@@ -180,8 +145,6 @@ def _addsUp(k):
 	return abs(parts - float(O.bodies[k].state.mass)) <= sameMass * parts
 
 
-addsUp = 0.01
-"""Of a contact's area: by how much the areas of its parts may be more, for the rims of new edges."""
 sameMass = 1e-9
 """Of a clump's mass: by how much the sum over its parts may be more by rounding; else they overlap."""
 
