@@ -75,18 +75,34 @@ def builder(make=None, *, lacks=()):
 
 
 @builder
-def fromHalfSpaces(normals, offsets, keepRedundant=True, **body):
-	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid.
+def fromHalfSpaces(normals, offsets, keepRedundant=True, thickness=None, **body):
+	"""Polyhedron {x : normals[i]·x ≤ offsets[i] for all i} in world coordinates, as a body at its centroid; or a polygon of the xy plane, as *polygon* makes it.
 
-	:param normals: (n, 3) outward normals of any length [-]
+	:param normals: (n, 3) outward normals of any length [-]; of a polygon (n, 2)
 	:param offsets: n offsets, in units of the normals' length [m]
 	:param bool keepRedundant: keep planes that own no face: they take part in the analytic centre (Boon et al. 2012,
 	    section 2.2) and change normals, see *Polytope*. Planes that repeat another one are dropped in any case.
+	:param float thickness: of a polygon: extent along z for mass and contact areas [m]; default 1
 	:raises ValueError: naming the argument: unbounded, empty or flat set, NaN or infinite values, zero normal, fewer than
-	    four planes, lengths that differ, cornerRadius that does not fit inside
+	    four planes (of a polygon three), lengths that differ, cornerRadius that does not fit inside, the *thickness* of a polyhedron
 	"""
-	normals, offsets, keepRedundant = vectors(normals, 'normals', 3), numbersOf(offsets, 'offsets'), flag(keepRedundant, 'keepRedundant')
-	return bodyOf(lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 3, 1, keepRedundant, *corner), **body)
+	flat = areFlat(normals)
+	if thickness is not None and not flat:
+		raise ValueError('thickness: is that of a polygon, whose normals have two components')
+	thickness = 1 if thickness is None else number(thickness, 'thickness')
+	normals, offsets = vectors(normals, 'normals', 2 if flat else 3), numbersOf(offsets, 'offsets')
+	keepRedundant = flag(keepRedundant, 'keepRedundant')
+	return bodyOf(
+		lambda *corner: _polytope.ofHalfSpaces(normals, offsets, 2 if flat else 3, thickness, keepRedundant, *corner), flat=flat, **body
+	)
+
+
+def areFlat(normals):
+	"""Whether these rows have two components."""
+	try:
+		return len(normals) > 0 and all(len(row) == 2 for row in normals)
+	except TypeError:
+		return False
 
 
 @builder

@@ -9,9 +9,13 @@ __all__ = ['lengthWithin', 'refuseOthers']
 
 
 def refuseOthers(rock):
-	""":raises ValueError: if it is not what jointedRock made"""
+	""":raises ValueError: if it is not what jointedRock made of a region of space"""
 	if not isinstance(rock, JointedRock):
 		raise ValueError(f'rock: must be what polytope.jointedRock(…) returns, got {type(rock).__name__}')
+	if rock.blocks[0][0].shape[1] == 2:
+		raise ValueError(
+			'rock: is one in the plane, and this is told of rock in space; its volumes, areas and sets say what there is in the plane'
+		)
 
 
 def lengthWithin(rock, start, along):

@@ -130,7 +130,7 @@ class JointSet:
 		self._refuseTooMany(region, wanted)
 		while area < wanted:
 			drawn = self._drawn(region, earlier, entry, random)
-			for cut, own in zip(drawn, areasOf(drawn, region.parts).tolist(), strict=True):
+			for cut, own in zip(drawn, areasOf(list(map(self._asCut, drawn)), region.parts).tolist(), strict=True):
 				if not own > 0:
 					continue
 				nearer = area + own - wanted < wanted - area
@@ -149,36 +149,55 @@ class JointSet:
 		if self.radius is None:
 			return [Cut(n, c, persistence=self.persistence, entry=entry) for n, c in zip(normals, centres, strict=True)]
 		sizes = self._sizes(region.radius, random)
-		directions = np.cross(normals, random.normal(size=(drawnAtOnce, 3)))
-		directions /= np.linalg.norm(directions, axis=1)[:, None]
-		centres += ((region.radius + sizes) * np.sqrt(random.random(drawnAtOnce)))[:, None] * directions
+		directions = self._directions(normals, random)
+		centres += ((region.radius + sizes) * self._parts(drawnAtOnce, random))[:, None] * directions
 		cuts = [Cut(n, c, float(r), persistence=self.persistence, entry=entry) for n, c, r in zip(normals, centres, sizes, strict=True)]
 		if self.termination:
 			for cut in cuts:
 				earlier.end(cut, self.termination, random)
 		return cuts
 
+	def _asCut(self, cut):
+		"""As it bounds blocks."""
+		return cut
+
+	def _directions(self, normals, random):
+		"""Unit vectors across these normals."""
+		directions = np.cross(normals, random.normal(size=(len(normals), 3)))
+		return directions / np.linalg.norm(directions, axis=1)[:, None]
+
+	def _parts(self, number, random):
+		"""Of the distance from the middle within which centres lie, evenly."""
+		return np.sqrt(random.random(number))
+
+	def _weights(self, reach, radii):
+		"""Of radii to each power: together (reach + r)², in proportion to which centres lie near enough."""
+		return [reach**2, 2 * reach * radii.moment(1), radii.moment(2)]
+
 	def _sizes(self, reach, random):
-		"""Radii weighted by (reach + r)², in proportion to which centres lie near enough."""
+		"""Radii weighted by how many centres lie near enough."""
 		radii = radiiOf(self.radius)
-		shares = np.array([reach**2, 2 * reach * radii.moment(1), radii.moment(2)])
-		powers = random.choice(3, drawnAtOnce, p=shares / shares.sum())
+		shares = np.array(self._weights(reach, radii))
+		powers = random.choice(len(shares), drawnAtOnce, p=shares / shares.sum())
 		sizes = np.empty(drawnAtOnce)
-		for power in range(3):
+		for power in range(len(shares)):
 			sizes[powers == power] = radii.draw(power, int((powers == power).sum()), random)
 		return sizes
 
 	def _refuseTooMany(self, region, wanted):
-		if self.radius is None:
-			expected = 2 * region.radius * self.intensity
-		else:
-			radii, reach = radiiOf(self.radius), region.radius
-			perVolume = self.intensity / (math.pi * radii.moment(2))
-			expected = perVolume * 2 * reach * math.pi * (reach**2 + 2 * reach * radii.moment(1) + radii.moment(2))
+		expected = self._expected(region)
 		if expected > mostJoints:
 			raise ValueError(
 				f'jointSets: a set of about {expected:.2g} joints, at most {mostJoints:.0g} can be; is a radius or P32 in another unit?'
 			)
+
+	def _expected(self, region):
+		"""Joints to be drawn."""
+		if self.radius is None:
+			return 2 * region.radius * self.intensity
+		radii, reach = radiiOf(self.radius), region.radius
+		perVolume = self.intensity / (math.pi * radii.moment(2))
+		return perVolume * 2 * reach * math.pi * (reach**2 + 2 * reach * radii.moment(1) + radii.moment(2))
 
 	def _normals(self, number, random):
 		if self.fisher is None:

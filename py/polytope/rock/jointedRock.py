@@ -19,6 +19,7 @@ from ..bodies.polytopes import fromHalfSpaces, randomColour
 from ..pictures.faces import rows
 from ..precision import real
 from .faceMaterials import faceMaterials, materialsOfFaces
+from .inPlane import asSegment, expectedInPlane, flatCut, flatSet, outlinesOf
 from .joint import Joint, areasOf, asArguments, finite
 from .jointSets import JointSet
 from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, keep, setsOf, writeFaces
@@ -48,7 +49,7 @@ class JointedRock:
 	blocks: list
 	"""(normals, offsets) of each convex block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
 	volumes: np.ndarray
-	"""Of the blocks [m³]; they add up to the region's."""
+	"""Of the blocks [m³]; they add up to the region's. In the plane areas [m²], and lengths [m] in place of *areas* and *sections*."""
 	bodies: list
 	"""For each rigid body the numbers of its blocks: one, or several where no joint separates them wholly (*incomplete*)."""
 	joints: np.ndarray
@@ -149,7 +150,10 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	A joint that ends in the rock cuts the blocks that it reaches into along its whole plane. What it separates only in part is one body, by default:
 	its blocks move together. Pieces that make one convex block are put together again.
 
-	:param normals: (n, 3) outward normals of the region, of any length [-]; for a region that is not convex a list of those of convex parts, which
+	In the plane (*normals* of two components) x is horizontal and y up, blocks are polygons, and joints lines as the section shows them: *dip* is the apparent one, *dipDirection* π/2 (it falls towards x)
+	or 3π/2, *spacing* and *p32* distance and length per area (P21), discs are segments of twice their *radius*, *fisher* the κ of von Mises' distribution, and z of points does not count.
+
+	:param normals: (n, 3) outward normals of the region, of any length [-], in the plane (n, 2); for a region that is not convex a list of those of convex parts, which
 	    may share faces and must not overlap
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
 	:param jointSets: sequence of *JointSet*, *Joint*, and lists of *Joint*, as *readJoints* returns. A list counts as one set for each value of *Joint.set* in it, numbers in ascending order and then names in
@@ -169,6 +173,8 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	if incomplete not in ('clump', 'cut'):
 		raise ValueError(f"incomplete: must be 'clump' or 'cut', got {incomplete!r}")
 	region = regionOf(normals, offsets)
+	if region.thickness:
+		entries = [flatSet(entry) if isinstance(entry, JointSet) else entry for entry in entries]
 	sets = [entry for entry in entries if isinstance(entry, JointSet)]
 	if smallest is None:
 		smallest = smallestFraction * min([region.inscribedRadius, *(1 / joints.intensity for joints in sets)])
@@ -176,7 +182,8 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 		raise ValueError(
 			f"smallest: must be from zero to the region's own inscribed radius, {region.inscribedRadius:.6g} m, got {smallest!r}: no piece has more"
 		)
-	expected = _expectedBlocks(region.volume, [joints for joints in sets if joints.radius is None and joints.persistence == 1])
+	through = [joints for joints in sets if joints.radius is None and joints.persistence == 1]
+	expected = expectedInPlane(region.volume / region.thickness, through) if region.thickness else _expectedBlocks(region.volume, through)
 	if expected > mostBlocks:
 		raise ValueError(
 			f'jointSets: about {expected:.2g} blocks are to be expected, at most {mostBlocks:.0g} can be; is a spacing in another unit?'
@@ -184,8 +191,11 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	cuts = _cuts(entries, region, np.random.default_rng(seed))
 	partial = len(region.parts) > 1 or any(cut.radius or len(cut.edges) for cut in cuts)
 	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
-	made = _polytope.jointedBlocks(region.parts, asArguments(cuts), real(smallest), real(bridge), mostBlocks, int(seed))
+	bounded = list(map(asSegment, cuts)) if region.thickness else cuts
+	made = _polytope.jointedBlocks(region.parts, asArguments(bounded), real(smallest), real(bridge), mostBlocks, int(seed))
 	rock = _rock(made, cuts, region.centre, sum(map(len, map(_setsOf, entries))))
+	if region.thickness:
+		outlinesOf(rock, region.thickness)
 	if not sets and not len(rock.joints) and not rock.uncut and len(region.parts) == 1:  # a joint along the face of two parts cuts neither
 		place = ', '.join(f'{round(float(x), 6) + 0.0:g}' for x in region.centre)
 		warn(
@@ -207,7 +217,7 @@ def _tellOutside(entries, region):
 	given = [
 		joint for entry in entries if not isinstance(entry, JointSet) for joint in (entry if isinstance(entry, (list, tuple)) else [entry])
 	]
-	areas = areasOf([joint.cut.moved(-region.centre) for joint in given], region.parts)
+	areas = areasOf([_cutOf(joint, region, bounded=True) for joint in given], region.parts)
 	outside = [(number, joint) for number, joint in enumerate(given) if not areas[number] > 0]
 	if outside:
 		ones = ', '.join(f'{number} at ({", ".join(f"{x:g}" for x in joint.centre)})' for number, joint in outside[:named])
@@ -235,9 +245,17 @@ def _cuts(entries, region, random):
 		else:
 			for joint in entry if isinstance(entry, (list, tuple)) else [entry]:
 				place = sets.index(joint.set) if isinstance(entry, (list, tuple)) else 0
-				cuts.append(dataclasses.replace(joint.cut.moved(-region.centre), entry=number + place))
+				cuts.append(dataclasses.replace(_cutOf(joint, region), entry=number + place))
 		number += len(sets)
 	return cuts
+
+
+def _cutOf(joint, region, bounded=False):
+	"""A single joint about the region's centre; *bounded*: as it bounds blocks."""
+	if not region.thickness:
+		return joint.cut.moved(-region.centre)
+	cut = flatCut(joint).moved(-region.centre)
+	return asSegment(cut) if bounded else cut
 
 
 def _rock(made, cuts, centre, entries):

@@ -46,10 +46,10 @@ def replaceInRocks(body, pieces, planes):
 def jointsOfPlanes(body, normals, joints):
 	"""For each plane of the body's shape the number of the joint that made it.
 
-	:param normals: of the block, in world axes
+	:param normals: of the block, in world axes; of a polygon two components
 	:param joints: for each of these the number of its joint
 	"""
-	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)
+	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)[:, : normals.shape[1]]
 	return joints[np.argmax(own @ (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T, axis=1)]
 
 

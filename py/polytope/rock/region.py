@@ -6,9 +6,10 @@ import dataclasses
 import numpy as np
 from yade import FrictMat, _polytope
 
-from ..arguments import numbersOf, vectors
+from ..arguments import numbersOf, rows, vectors
 from ..bodies.clumps import union
-from ..bodies.polytopes import fromHalfSpaces
+from ..bodies.polytopes import areFlat, fromHalfSpaces
+from .inPlane import asPrisms
 from .joint import Joint
 
 __all__ = ['Region', 'regionOf']
@@ -29,6 +30,8 @@ class Region:
 	"""The largest one of its parts [m]."""
 	volume: float
 	"""[m³]"""
+	thickness: float = 0.0
+	"""Of the prism that stands for a region in the plane [m]; 0: a region of space."""
 
 
 def regionOf(normals, offsets):
@@ -44,6 +47,10 @@ def regionOf(normals, offsets):
 	pairs = list(zip(normals, offsets, strict=False)) if several else [(normals, offsets)]
 	if several and not len(normals) == len(offsets) == len(pairs):
 		raise ValueError(f'offsets: must be as many sequences as there are parts, {len(normals)}, got {len(offsets)}')
+	flat = [areFlat(n) for n, _ in pairs]
+	if any(flat) and not all(flat):
+		raise ValueError('normals: some parts of the region have normals of two components, and some of three')
+	half, pairs = asPrisms([(rows(n, 'normals', 2), numbersOf(d, 'offsets')) for n, d in pairs]) if all(flat) else (0.0, pairs)
 	given = [_polytope.polyhedron(vectors(n, 'normals', 3), numbersOf(d, 'offsets')) for n, d in pairs]
 	volumes = np.array([float(part['volume']) for part in given])
 	centre = np.average([np.array(part['centroid'], float) for part in given], axis=0, weights=volumes)
@@ -54,8 +61,8 @@ def regionOf(normals, offsets):
 		normals = np.array(part['normals'], float)
 		about.append((vectors(normals, 'normals', 3), numbersOf(np.array(part['offsets'], float) - normals @ centre, 'offsets')))
 	corners = np.concatenate([np.array(part['vertices'], float) for part in given])
-	radius = float(np.linalg.norm(corners - centre, axis=1).max())
-	return Region(about, centre, radius, max(float(part['inscribedRadius']) for part in given), float(volumes.sum()))
+	radius = float(np.linalg.norm((corners - centre)[:, : 2 if half else 3], axis=1).max())
+	return Region(about, centre, radius, max(float(part['inscribedRadius']) for part in given), float(volumes.sum()), 2 * half)
 
 
 def _areSeveral(normals):
