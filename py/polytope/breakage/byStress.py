@@ -13,7 +13,7 @@ from ..measures.stress import bodyStress
 from ..scene.movers import movers
 from ..scene.namedBodies import namedBodies
 from ..scene.ranks import refuseDivided
-from .splitting import split
+from .splitting import splitAnew
 
 __all__ = ['breakGrains']
 
@@ -44,7 +44,7 @@ def breakGrains(
 	- q/*octahedral* with q = √((σ₁−σ₂)² + (σ₂−σ₃)² + (σ₃−σ₁)²)/3 (McDowell & de Bono 2013): normal to the direction of σ₁;
 	- 3 q/√2/*vonMises*: along both planes of greatest shear stress, into four pieces.
 
-	What is broken, how, and what is kept: split. Members of clumps, bonded and fixed bodies are left out.
+	What is broken, how, and what is kept: split; all contacts of the pieces begin anew. Members of clumps, bonded and fixed bodies are left out.
 
 	:param float tension, compression, shear, octahedral, vonMises: strengths [Pa] of a grain of *volume*; default infinite
 	:param float volume: [m³] for which strengths are given; other grains have strength × (volume/V)^(1/modulus). Default: all have the same
@@ -97,7 +97,7 @@ def _cut(k, planes, smallest):
 		cut = []
 		for piece in pieces:
 			try:
-				cut += split(piece, normal, centre, smallest)
+				cut += splitAnew(piece, normal, centre, smallest)
 			except ValueError as refused:
 				if not str(refused).startswith('point'):
 					raise

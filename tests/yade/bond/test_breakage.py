@@ -96,13 +96,14 @@ def testWhatIsRefused():
 	joint()
 	O.bodies.append([polytope.cuboid((k, 0, 0), (0.5, 0.5, 0.5)) for k in range(2)])
 	sphere = O.bodies.append(utils.sphere((9, 0, 0), 1))
-	clump, members = O.bodies.appendClumped([polytope.cuboid((k, 5, 0), (0.6, 0.5, 0.5)) for k in range(2)])
+	mixed, members = O.bodies.appendClumped([polytope.cuboid((0, 5, 0), (0.6, 0.5, 0.5)), utils.sphere((1, 5, 0), 0.5)])
+	clump = polytope.clump([polytope.cuboid((k, 9, 0), (0.5, 0.5, 0.5)) for k in range(2)])[0]
 	count = len(O.bodies)
 	for number, words in (
 		(99, 'there is no body 99'),
 		(sphere, 'no Polytope shape'),
 		(members[0], 'member of clump'),
-		(clump, 'no Polytope shape'),
+		(mixed, 'no Polytope shape'),
 	):
 		with pytest.raises(ValueError, match=f'^id: .*{words}'):
 			polytope.split(number, (1, 0, 0))
@@ -115,8 +116,81 @@ def testWhatIsRefused():
 	}.items():
 		with pytest.raises(ValueError, match=f'^{words}'):
 			polytope.split(0, *arguments)
-	loop(True)
-	polytope.bond()
-	with pytest.raises(ValueError, match='^id: body 0 has bonds'):
-		polytope.split(0, (1, 0, 0))
+	with pytest.raises(ValueError, match=f'^point: the plane does not cut clump {clump} in two'):
+		polytope.split(clump, (1, 0, 0), (1.6, 0, 0))
 	assert len(O.bodies) == count and all(body is not None for body in O.bodies)
+
+
+def testAClumpIsCutPartByPart():
+	"""An L that flies and spins, across one of its cubes: a cube and a clump, with all that it had."""
+	joint()
+	clump, members = polytope.clump([polytope.cuboid((x, y, 0), (0.5, 0.5, 0.5)) for x, y in ((0, 0), (1, 0), (0, 1))])
+	loop(True)
+	state = O.bodies[clump].state
+	state.vel, state.angVel = (3, -1, 2), (1, -2, 1)
+	state.angMom = spinOf(state)
+	O.dt = 1e-9
+	O.step()  # parts move with it
+	before, centre = sums([O.bodies[clump]], Vector3.Zero), Vector3.Zero
+	below, above = polytope.split(clump, (1, 0, 0), (0.75, 0, 0))
+	assert all(O.bodies[k] is None for k in (clump, *members))
+	assert O.bodies[below].isClump and len(O.bodies[below].shape.members) == 3 and not O.bodies[above].isClump
+	assert float(O.bodies[above].shape.volume) == pytest.approx(0.75)
+	after = sums([O.bodies[below], O.bodies[above]], centre)
+	assert after == pytest.approx(before, rel=1e-7, abs=1e-7 * np.abs(before).max())
+
+
+def testAClumpMayFallApart():
+	"""A U across its legs."""
+	joint()
+	clump, _ = polytope.clump([polytope.cuboid((x, y, 0), (0.5, 0.5, 0.5)) for x, y in ((0, 0), (1, 0), (2, 0), (0, 1), (2, 1))])
+	below, above = polytope.split(clump, (0, 1, 0), (0, 0.75, 0))
+	assert O.bodies[below].isClump and len(above) == 2
+	assert [float(O.bodies[k].shape.volume) for k in above] == pytest.approx([0.75, 0.75])
+
+
+@pytest.mark.parametrize('clumped', [False, True])
+def testRockJointsGoOn(clumped):
+	"""A block that holds on a slope by shear and cohesion, broken upright: the pieces bear what it bore, from the first step on."""
+	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.3, cohesion=1e5)
+	loop(True, gravity=(5, 0, -8), normalDamping=0.3)
+	floor = O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 3, 0.5), fixed=True))
+	halves = [polytope.cuboid((x, 0, 0.5 - 2e-5), (0.5, 0.5, 0.5)) for x in (-0.5, 0.5)]
+	block = polytope.clump(halves)[0] if clumped else O.bodies.append(polytope.cuboid((0, 0, 0.5 - 2e-5), (1, 0.5, 0.5)))
+	stepper()
+	polytope.settle()
+	weight = O.bodies[block].state.mass
+	sheared = lambda: sum((contact.phys.shearForce for contact in O.bodies[floor].intrs() if contact.isReal), Vector3.Zero)
+	pressed = lambda: sum((contact.phys.normalForce for contact in O.bodies[floor].intrs() if contact.isReal), Vector3.Zero)
+	shear, press = Vector3(sheared()), Vector3(pressed())
+	assert shear.norm() == pytest.approx(5 * weight, rel=1e-3)
+	pieces = polytope.split(block, (1, 0, 0), (0.2, 0, 0))
+	assert (sheared() - shear).norm() < 1e-6 * shear.norm() and (pressed() - press).norm() < 1e-3 * press.norm()
+	contacts = [
+		contact
+		for k in pieces
+		for part in (O.bodies[k].shape.members if O.bodies[k].isClump else [k])
+		for contact in O.bodies[part].intrs()
+		if contact.isReal
+	]
+	assert sum(contact.phys.contactArea for contact in contacts) == pytest.approx(2, rel=1e-4)
+	assert all(contact.phys.intact for contact in contacts)
+	places = [Vector3(O.bodies[k].state.pos) for k in pieces]
+	polytope.settle()
+	moved = [(O.bodies[k].state.pos - place).norm() for k, place in zip(pieces, places, strict=True)]
+	assert max(moved) < 5e-4  # the narrow one leans on a quarter of a metre now, and holds
+
+
+def testBondsGoOn():
+	joint()
+	ids = O.bodies.append([polytope.cuboid((k, 0, 0), (0.5, 0.5, 0.5)) for k in range(2)])
+	loop(True)
+	polytope.bond(ids, tensileStrength=1e6, cohesion=1e6)
+	pieces = polytope.split(0, (0, 1, 0), (0, 0.2, 0))
+	(engine,) = (engine for engine in O.engines if type(engine).__name__ == 'PolytopeBonds')
+	held = {
+		min(bond.id1, bond.id2) + max(bond.id1, bond.id2) - 1: bond.area
+		for bond in engine.bonds
+		if bond.intact and bond.id1 in (1, *pieces) and bond.id2 in (1, *pieces)
+	}
+	assert sorted(held.values()) == pytest.approx([0.3, 0.7]) and set(held) == set(pieces)

@@ -15,7 +15,7 @@ from ...scene.movers import partsOf
 from ..joint import Cut, asArguments
 from ..jointedRock import mostBlocks, smallestBridge
 
-__all__ = ['Part', 'Region', 'restsOf']
+__all__ = ['Part', 'Region', 'restsOf', 'together']
 
 thinnest = 0.01
 """Least inscribed radius of what is cut off or left, over that of the block: such slivers bear no load and shorten the time step. More than a joint's closure, by which blocks that were
@@ -112,7 +112,7 @@ def restsOf(k, region):
 	found = [_partsOf(body, region) for body in bodies]
 	if all(inside == 0 for _, inside in found):
 		return None
-	return _together([group for groups, _ in found for group in groups])
+	return together([group for groups, _ in found for group in groups])
 
 
 def _leastOf(body):
@@ -164,8 +164,8 @@ def _cells(body, faces, least):
 		yield (rows_[:, :3], rows_[:, 3], labels[begin:end], np.array(solid['centroid'], float)), number
 
 
-def _together(groups):
-	"""Groups of parts of one clump that touch are one body."""
+def together(groups):
+	"""Groups of *Part* of one clump that touch are one body: a list of bodies, each a list of them."""
 	bodies = []
 	for group in groups:
 		beside = [other for other in bodies if any(_touch(one.body, part.body) for one in other for part in group)]

@@ -53,8 +53,12 @@ def refuseUnknown(cut):
 				_refuseContact(contact, parts[part])
 
 
+def _isRockJoint(contact):
+	return isinstance(contact.phys, RockJointPhys) and isinstance(contact.geom, PolytopeGeom)
+
+
 def _refuseContact(contact, k):
-	if not (isinstance(contact.phys, RockJointPhys) and isinstance(contact.geom, PolytopeGeom)):
+	if not _isRockJoint(contact):
 		raise ValueError(
 			f'cut: the contact of block {k} between {contact.id1} and {contact.id2} is a {type(contact.phys).__name__}, and only rock joints go on with parts; '
 			'give the blocks a RockJointMat, or cut=False'
@@ -69,19 +73,20 @@ def _refuseContact(contact, k):
 def takeOver(rests):
 	"""Takes bodies out of the scene, and puts what is left of them in their place.
 
-	What is left and not convex is a clump.
+	What is left and not convex is a clump. Rock joints with a stiffness per area and bonds go on, other contacts begin anew.
 
 	:param rests: id of each body or clump → a list of bodies, each a list of cutting.Part; empty: nothing is left
 	:returns: id → ids of these bodies
 	"""
 	former = {part: O.bodies[part] for k in rests for part in partsOf(k)}
 	contacts = [contact for contact in O.interactions if contact.isReal and (contact.id1 in former or contact.id2 in former)]
+	contacts = [contact for contact in contacts if _isRockJoint(contact) and contact.phys.normalStiffness > 0 and not O.periodic]
 	linked = [one for one in madeBonds() if one.id1 in former or one.id2 in former]
 	parts = {k: [] for k in former}
 	for part in itertools.chain.from_iterable(itertools.chain.from_iterable(rests.values())):
 		parts[part.of].append(part)
 	made = {k: [_append(k, rest) for rest in several] for k, several in rests.items()}
-	if any(parts.values()):
+	if (contacts or linked) and any(parts.values()):
 		_goOn(contacts, linked, parts)
 	for k, own in parts.items():
 		replaceInRocks(former[k], [part.body for part in own], [part.planes for part in own])
