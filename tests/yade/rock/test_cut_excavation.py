@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from rockScenes import stressedMass
-from yade import FrictMat, HyperbolicClosure, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
+from yade import FrictMat, HyperbolicClosure, NewtonIntegrator, O, PolytopeBonds, RockJointMat, Vector3, plot, polytope
 from yade.polytope.rock.history import histories
 from yade.polytope.scene.relaxing import relaxing
 
@@ -600,3 +600,80 @@ def testAnArchThroughASlabBetweenPlates():
 		assert (force - known[0]).norm() < 1e-5 * pressed and (torque - known[1]).norm() < 1e-5 * pressed
 	O.run(100, wait=True)
 	assert max(float((body.state.pos - places[body.id]).norm()) for body in O.bodies) < 1e-3 * 2.5e6 / 2e10
+
+
+half, remaining, sideways, above = math.radians(25), 2.0, 5e4, 3e4
+"""Of a roof prism: angle of its joints with the vertical, height of what the cut leaves [m], horizontal and vertical stress [Pa]."""
+
+
+def roofPrism(flat, friction):
+	"""Two joints that meet 5 m above a floor make a prism in fixed rock, under a stress; its lower 3 m are cut out, and then it gets its weight. Returns what is left, the
+	vertical axis, and of the closed form a joint's length L, the settlement and the mean normal and shear stress of the joints, by the springs of both: u = (V b + W) / (2 L (kₙ sin²α + kₛ cos²α)), V the
+	vertical stress, b the width at the cut, W the weight."""
+	stiff, soft = 2e9, 1e9
+	material(normalStiffness=stiff, shearStiffness=soft, frictionAngle=friction)
+	up = 1 if flat else 2
+	place = lambda x, height: (x, height, 0) if flat else (x, 0, height)
+	joints = [polytope.Joint(math.pi / 2 - half, math.radians(direction), place(0, 5)) for direction in (90, 270)]
+	if flat:
+		rock = polytope.jointedRock([(1, 0), (-1, 0), (0, 1), (0, -1)], [4, 4, 7, 0], joints)
+		floor = polytope.polygon([(-4, -1), (4, -1), (4, 0), (-4, 0)], fixed=True)
+	else:
+		rock = polytope.jointedRock([*np.eye(3), *-np.eye(3)], [4, 0.5, 7, 4, 0.5, 0], joints)
+		floor = polytope.cuboid((0, 0, -0.5), (4, 0.5, 0.5), fixed=True)
+	ids = rock.append()
+	O.bodies.append(floor)
+	(prism,) = [k for k in ids if abs(O.bodies[k].state.pos[0]) < 1e-9 and O.bodies[k].state.pos[up] < 5]
+	for k in ids:
+		O.bodies[k].dynamic = k == prism
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	stress = np.zeros((3, 3))
+	stress[0, 0], stress[up, up] = -sideways, -above
+	polytope.inSitu(stress)
+	(left,) = polytope.excavate(normals=[place(0, 1)], offsets=[5 - remaining], over=2000)[prism]
+	weight, width = density * gravity * remaining**2 * math.tan(half), 2 * remaining * math.tan(half)
+	length, sine, cosine = remaining / math.cos(half), math.sin(half), math.cos(half)
+	sunk = (above * width + weight) / (2 * length * (stiff * sine**2 + soft * cosine**2))
+	pressed = sideways * cosine**2 + above * sine**2 - stiff * sunk * sine
+	sheared = soft * sunk * cosine - (above - sideways) * sine * cosine
+	assert 2 * length * (sheared * cosine - pressed * sine) == pytest.approx(weight)  # the closed form is in equilibrium
+	return left, up, length, sunk, pressed, sheared
+
+
+def loadRoof(up):
+	"""After the cut the weight, little by little."""
+	O.run(2000, wait=True)
+	(integrator,) = (engine for engine in O.engines if isinstance(engine, NewtonIntegrator))
+	for part in range(1, 41):
+		down = [0, 0, 0]
+		down[up] = -gravity * part / 40
+		integrator.gravity = tuple(down)
+		O.run(200, wait=True)
+
+
+@pytest.mark.parametrize('flat', [False, True])
+def testARoofPrismSettlesOnItsJoints(flat):
+	left, up, length, sunk, pressed, sheared = roofPrism(flat, math.radians(70))
+	at = float(O.bodies[left].state.pos[up])
+	loadRoof(up)
+	assert at - float(O.bodies[left].state.pos[up]) == pytest.approx(sunk, rel=0.01)
+	contacts = [contact for contact in O.bodies[left].intrs() if contact.isReal and contact.phys.contactArea > 0.01 * length]
+	assert len(contacts) == 2
+	for contact in contacts:
+		assert contact.phys.contactArea == pytest.approx(length, rel=1e-3)
+		assert contact.phys.normalForce.norm() / length == pytest.approx(pressed, rel=0.01)
+		assert contact.phys.shearForce.norm() / length == pytest.approx(sheared, rel=0.01)
+
+
+@pytest.mark.parametrize('flat', [False, True])
+@pytest.mark.parametrize('more', [-2, 2])
+def testARoofPrismStandsByTheAngleOfItsClosedForm(more, flat):
+	"""tan φ is the shear over the normal stress of its joints."""
+	*_, pressed, sheared = roofPrism(flat, math.radians(70))
+	O.reset()
+	left, up, *_ = roofPrism(flat, math.atan(sheared / pressed) + math.radians(more))
+	at = float(O.bodies[left].state.pos[up])
+	loadRoof(up)
+	O.run(3000, wait=True)
+	fallen = at - float(O.bodies[left].state.pos[up])
+	assert fallen > 0.1 if more < 0 else fallen < 1e-3

@@ -545,3 +545,26 @@ def testJointsWhoseFacesAreTooWeakAreRefused():
 	O.engines = polytope.engines(gravity=(0, 0, 0))
 	with pytest.raises(ValueError, match=r'needs 21.8° of friction and has 20.0°'):
 		polytope.inSitu(np.diag((-1e6, -1e6, -4e6)), bodies=ids)
+
+
+def testTheShearOfAJointInThePlaneIsThatOfItsMiddle():
+	"""Its pressure has its centre lower, where both stresses are larger."""
+	material(frictionAngle=math.radians(50))
+	half, length = math.radians(25), 5 / math.cos(math.radians(25))
+	joints = [polytope.Joint(math.pi / 2 - half, math.radians(direction), (0, 5, 0)) for direction in (90, 270)]
+	ids = polytope.jointedRock([(1, 0), (-1, 0), (0, 1), (0, -1)], [4, 4, 7, 0], joints).append()
+	O.bodies.append(polytope.polygon([(-4, -1), (4, -1), (4, 0), (-4, 0)], fixed=True))
+	(prism,) = [k for k in ids if abs(O.bodies[k].state.pos[0]) < 1e-9 and O.bodies[k].state.pos[1] < 5]
+	for k in ids:
+		O.bodies[k].dynamic = k == prism
+	O.engines = polytope.engines(gravity=(0, -9.81, 0))
+	rise = 2600 * 9.81
+	stress, gradient = np.diag([-5e4, -9 * rise, 0]), np.zeros((3, 3, 3))
+	gradient[1][1, 1] = rise
+	polytope.inSitu(stress, gradient=gradient)
+	sheared = [
+		float(c.phys.shearForce.norm())
+		for c in O.bodies[prism].intrs()
+		if c.isReal and c.phys.contactArea == pytest.approx(length, rel=1e-2)
+	]
+	assert sheared[:2] == pytest.approx([length * (6.5 * rise - 5e4) * math.sin(half) * math.cos(half)] * 2, rel=1e-3)

@@ -94,8 +94,10 @@ def _shear(field, faces):
 def _setShear(contact, face, field):
 	phys, normal = contact.phys, np.array(contact.geom.normal, float)
 	across = np.eye(3) - np.outer(normal, normal)
+	# of a polygon's contact the point is the centre of its pressure, not of its face
+	middle = face.centroid if O.bodies[contact.id1].shape.dimension == 2 else np.array(phys.shearPoint, float)
 	# on body 2, whose outward normal is −n
-	force = -float(phys.contactArea) * across @ field.at(np.array(phys.shearPoint, float)) @ normal
+	force = -float(phys.contactArea) * across @ field.at(middle) @ normal
 	phys.shearForce = Vector3(*force.tolist())
 	turning = -np.einsum('kij,j->ik', field.slope, normal)  # of the traction with the place
 	moments = turning @ face.second  # ∫ traction ⊗ r
