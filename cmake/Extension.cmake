@@ -1,22 +1,25 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
 # Part of the package yade-polytope: yade_polytope_add_extension(<name> SOURCES <files>…), a library with classes for a YADE with this plug-in
-# (docs/extending.md). build.cmake has set what the plug-in was built for. YADE_SOURCE_DIR: the source tree of the installed YADE, where that is not the one that
-# the plug-in was built with.
+# (docs/extending.md). build.cmake has set what the plug-in was built for. YADE_EXECUTABLE, YADE_SOURCE_DIR: program and source tree of the installed YADE, where
+# they are not those that the plug-in was built with.
 
 # what cmake/Yade.cmake asks for
 set(POLYTOPE_YADE ON)
 set(POLYTOPE_PRECISION "${YADE_POLYTOPE_PRECISION}")
+if(NOT YADE_EXECUTABLE AND NOT YADE_LIBRARY_DIR)
+	set(YADE_EXECUTABLE "${YADE_POLYTOPE_YADE_EXECUTABLE}")
+endif()
 if(NOT YADE_SOURCE_DIR)
 	set(YADE_SOURCE_DIR "${YADE_POLYTOPE_YADE_SOURCE_DIR}")
 endif()
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 include(Eigen)
 include(Yade)
-if(NOT YADE_VERSION STREQUAL YADE_POLYTOPE_YADE_VERSION OR NOT YADE_FEATURES STREQUAL YADE_POLYTOPE_YADE_FEATURES)
+if(NOT YADE_VERSION STREQUAL YADE_POLYTOPE_YADE_VERSION OR NOT YADE_FEATURES STREQUAL YADE_POLYTOPE_YADE_FEATURES OR NOT POLYTOPE_PRECISION STREQUAL YADE_POLYTOPE_PRECISION)
 	message(
-		FATAL_ERROR "yade-polytope was built for YADE ${YADE_POLYTOPE_YADE_VERSION} (${YADE_POLYTOPE_YADE_FEATURES}), but YADE ${YADE_VERSION} "
-		"(${YADE_FEATURES}) is installed in ${YADE_LIBRARY_DIR}: build yade-polytope again first.")
+		FATAL_ERROR "yade-polytope was built for YADE ${YADE_POLYTOPE_YADE_VERSION} in ${YADE_POLYTOPE_PRECISION} (${YADE_POLYTOPE_YADE_FEATURES}), but YADE ${YADE_VERSION} "
+		"in ${POLYTOPE_PRECISION} (${YADE_FEATURES}) is installed in ${YADE_LIBRARY_DIR}: build yade-polytope again first.")
 endif()
 
 function(yade_polytope_add_extension name)

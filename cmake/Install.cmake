@@ -20,7 +20,7 @@ install(
 	if(NOT CMAKE_INSTALL_PREFIX STREQUAL \"${YADE_PREFIX}\")
 		include(\"${PROJECT_SOURCE_DIR}/cmake/yadeLinks.cmake\")
 		set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
-		yade_links(\"${YADE_LIBRARY_DIR}\" \"\${prefix}/${YADE_INSTALL_DIR}\" \"\${prefix}/bin\")
+		yade_links(\"${YADE_PREFIX}\" \"${YADE_LIBRARY_DIR}\" \"\${prefix}/${YADE_INSTALL_DIR}\" \"\${prefix}/bin\")
 	endif()"
 	COMPONENT plugin)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# Finds the installed YADE and the way to compile against it.
+# Finds the installed YADE and the way to compile against it: Debian's of POLYTOPE_PRECISION, or the one whose program YADE_EXECUTABLE names.
 #
 # YADE ships no headers and no CMake package. Its source tree of exactly the installed version serves instead, compiled
 # with exactly the macros of the binary: a macro missing or too many changes the layout of classes, and the first contact
@@ -16,7 +16,7 @@ set(YADE_FOUND FALSE)
 
 # ends the search: an error where the plug-in was asked for, else a message
 macro(yade_not_usable)
-	if(POLYTOPE_YADE STREQUAL "AUTO")
+	if(POLYTOPE_YADE STREQUAL "AUTO" AND NOT YADE_EXECUTABLE)
 		message(STATUS "Plug-in: not built, the core alone is. ${ARGN}")
 		return()
 	endif()
@@ -33,6 +33,24 @@ if(NOT Python3_FOUND)
 	yade_not_usable("Python with its headers was not found.")
 endif()
 
+if(YADE_EXECUTABLE)
+	# the program is a script in Python: PREFIX/bin/yade<suffix>, with its libraries in PREFIX/<libPATH>/yade<suffix>
+	file(REAL_PATH "${YADE_EXECUTABLE}" yade_program)
+	set(line)
+	if(EXISTS "${yade_program}" AND NOT IS_DIRECTORY "${yade_program}")
+		file(STRINGS "${yade_program}" line REGEX "^libPATH='[^']+'$" LIMIT_COUNT 1)
+	endif()
+	if(NOT line)
+		yade_not_usable("YADE_EXECUTABLE=${YADE_EXECUTABLE} is not YADE's program. Name the file that you start YADE with, for example $ENV{HOME}/yade/install/bin/yade-2025.2.0.")
+	endif()
+	string(REGEX REPLACE "^libPATH='(.+)'$" "\\1" path "${line}")
+	get_filename_component(name "${yade_program}" NAME)
+	get_filename_component(folder "${yade_program}/../../${path}/${name}" ABSOLUTE)
+	if(NOT EXISTS "${folder}/py/yade/config.py")
+		yade_not_usable("The libraries of YADE_EXECUTABLE=${YADE_EXECUTABLE} are not in ${folder}: name the program that YADE's `make install` has put beside them.")
+	endif()
+	set(YADE_LIBRARY_DIR "${folder}" CACHE PATH "YADE's library folder" FORCE)
+endif()
 find_path(
 	YADE_LIBRARY_DIR py/yade/config.py
 	PATHS /usr/lib /usr/local/lib
@@ -40,7 +58,9 @@ find_path(
 	NO_DEFAULT_PATH
 	DOC "YADE's library folder")
 if(NOT YADE_LIBRARY_DIR)
-	yade_not_usable("No YADE of precision `${POLYTOPE_PRECISION}` is installed; if it is in an unusual place, set YADE_LIBRARY_DIR.")
+	yade_not_usable(
+		"Debian's YADE of precision `${POLYTOPE_PRECISION}` is not installed. For a YADE that you built, name its program: "
+		"-DYADE_EXECUTABLE=…/bin/yade-….")
 endif()
 
 execute_process(
@@ -51,7 +71,7 @@ execute_process(
 if(NOT yade_config_result EQUAL 0)
 	message(FATAL_ERROR "Cannot read ${YADE_LIBRARY_DIR}/py/yade/config.py:\n${yade_config_error}")
 endif()
-foreach(name VERSION FEATURES REAL_BIT REAL_DEC REAL_NAME LIBRARY_PATH MPMATH)
+foreach(name VERSION FEATURES REAL_BIT REAL_DEC REAL_NAME LIBRARY_PATH MPMATH SOURCE_ROOT)
 	string(REGEX MATCH "(^|\n)${name}=([^\n]*)" line "${yade_config}")
 	set(YADE_${name} "${CMAKE_MATCH_2}")
 endforeach()
@@ -66,8 +86,24 @@ if(end LESS 1)
 endif()
 string(SUBSTRING "${YADE_LIBRARY_DIR}" 0 ${end} YADE_PREFIX)
 
+if(YADE_EXECUTABLE)
+	string(TOLOWER "${YADE_REAL_NAME}" POLYTOPE_PRECISION)
+	string(REGEX REPLACE "^precision" "" POLYTOPE_PRECISION "${POLYTOPE_PRECISION}") # PrecisionLongDouble: longdouble
+endif()
+
+if(YADE_VERSION VERSION_LESS 2025)
+	yade_not_usable("YADE ${YADE_VERSION} is in ${YADE_LIBRARY_DIR}; 2025.2.0 and newer are supported.")
+endif()
+if(NOT YADE_SOURCE_DIR AND EXISTS "${YADE_SOURCE_ROOT}/core/Scene.hpp")
+	set(YADE_SOURCE_DIR "${YADE_SOURCE_ROOT}") # where it was built
+endif()
 if(NOT EXISTS "${YADE_SOURCE_DIR}/core/Scene.hpp")
-	yade_not_usable("YADE ${YADE_VERSION} is installed, but its source tree is needed for the headers: set YADE_SOURCE_DIR (`./run build` fetches it).")
+	yade_not_usable(
+		"YADE ${YADE_VERSION} is in ${YADE_LIBRARY_DIR}, but its source tree is needed for the headers: set YADE_SOURCE_DIR "
+		"(`./run build` fetches it for Debian's YADE).")
+endif()
+if(NOT EXISTS "${YADE_SOURCE_DIR}/RELEASE")
+	yade_not_usable("${YADE_SOURCE_DIR} has no file RELEASE, as YADE's releases have: its version cannot be compared with the installed YADE ${YADE_VERSION}. Releases alone are supported.")
 endif()
 file(STRINGS "${YADE_SOURCE_DIR}/RELEASE" yade_source_version LIMIT_COUNT 1)
 if(NOT yade_source_version STREQUAL YADE_VERSION)

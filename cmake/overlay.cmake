@@ -13,7 +13,7 @@ foreach(entry IN LISTS entries)
 	endif()
 endforeach()
 file(MAKE_DIRECTORY "${folder}/polytope-py")
-yade_links("${YADE_LIBRARY_DIR}" "${folder}" "${PROGRAMS}") # without an installed plug-in: this one takes its place
+yade_links("${YADE_PREFIX}" "${YADE_LIBRARY_DIR}" "${folder}" "${PROGRAMS}") # without an installed plug-in: this one takes its place
 
 file(CREATE_LINK "${GATE}" "${folder}/libpolytope.so" SYMBOLIC)
 file(CREATE_LINK "${CLASSES}" "${folder}/polytope-py/_polytope.so" SYMBOLIC)

@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 #
-# yade_links(<YADE's library folder> <folder> <folder of programs>): the folder gets symbolic links to all of YADE's library folder, save a plug-in
+# yade_links(<YADE's prefix> <its library folder> <folder> <folder of programs>): the folder gets symbolic links to all of YADE's library folder, save a plug-in
 # that is installed there; the other one links to the programs of this precision. With YADE_PREFIX set to where they lie, YADE runs from there.
 # Files that are no links stay.
-function(yade_links yade folder programs)
+function(yade_links prefix yade folder programs)
 	get_filename_component(name "${yade}" NAME)
 	# yade-batch runs the program in the folder bin of YADE_PREFIX
-	find_program(program NAMES "${name}" NO_CACHE)
-	if(program)
-		foreach(kind "" -batch)
-			if(EXISTS "${program}${kind}")
-				yade_link("${program}${kind}" "${programs}")
-			endif()
-		endforeach()
-	endif()
+	foreach(kind "" -batch)
+		if(EXISTS "${prefix}/bin/${name}${kind}")
+			yade_link("${prefix}/bin/${name}${kind}" "${programs}")
+		endif()
+	endforeach()
 	file(GLOB entries "${yade}/*")
 	list(FILTER entries EXCLUDE REGEX "/(libpolytope\\.so|polytope-py)$")
 	foreach(entry IN LISTS entries)

@@ -360,8 +360,10 @@ def testTheFolderOfExtensions(name, joint, tmp_path):
 	assert known == [True, True] and 'broken.so is not loaded: it is no extension' in warning
 	own = libraries / 'polytope-py/mine.txt'
 	own.write_text('mine')
+	installed = pathlib.Path(yade.__file__).resolve().parents[3]
 	arguments = {
-		'YADE_LIBRARY_DIR': pathlib.Path(yade.__file__).resolve().parents[3],
+		'YADE_PREFIX': str(installed).removesuffix(f'/{libraries.relative_to(prefix)}'),
+		'YADE_LIBRARY_DIR': installed,
 		'OVERLAY': libraries.parent,
 		'PROGRAMS': prefix / 'bin',
 	}
