@@ -66,7 +66,7 @@ def animate(
 	:param fixed: how bodies are drawn that cannot move: 'auto', 'solid', 'glass', 'wire', 'hidden' or a function of the body
 	:param view: direction from the scene to the camera
 	:param up: direction that is up in the film
-	:param frame: points (n, 3) the film must hold; default all vertices drawn in any frame, without bodies drawn as edges. Give it if a body falls out of the scene
+	:param frame: points (n, 3) the film must hold; default all vertices drawn in any frame. Give it if a body falls out of the scene
 	:param float zoom: above 1 to come nearer than the frame requires
 	:param size: (width, height) in pixels
 	:param background: RGB

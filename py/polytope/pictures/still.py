@@ -67,8 +67,8 @@ def picture(
 	:param view: direction from the scene to the camera; default from the front, above and a little from the left, for scenes
 	    of polygons along z
 	:param up: direction that is up in the picture; default against gravity, without any z, for polygons y
-	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn, but for those of
-	    bodies drawn as edges where others are drawn, too. Give the same for a series.
+	:param frame: points (n, 3) the picture must hold; default all vertices that are drawn. Give it where a container is far
+	    larger than what it holds, and the same for a series.
 	:param float zoom: above 1 to come nearer than the frame requires
 	:param size: (width, height) in pixels
 	:param background: RGB
@@ -107,9 +107,9 @@ def isFlat(bodies):
 
 
 def shownPoints(meshes, frame=None):
-	"""What the camera must show: the frame that was asked for, or all vertices (of bodies drawn as edges only if there are no others)."""
+	"""What the camera must show: the frame that was asked for, or all vertices that are drawn."""
 	if frame is None:
-		frame = np.concatenate([mesh['points'] for style, mesh in meshes.items() if style != 'wire' or len(meshes) == 1])
+		frame = np.concatenate([mesh['points'] for mesh in meshes.values()])
 	return np.asarray(frame, float)
 
 

@@ -93,6 +93,21 @@ def testFixedBodiesInFrontDoNotHideTheOthers(tmp_path):
 	assert shareLike(drawn(tmp_path / 'hidden.png', fixed='hidden', view=(0, -1, 0)), 0) > 0.1
 
 
+def testNothingIsCutOffWhateverItsStyle(tmp_path):
+	"""A body twenty times as wide as the other one is in the picture as edges, too; a frame of one's own is what it says."""
+	O.bodies.append(polytope.regular(12, 0.1, color=red))
+	O.bodies.append(polytope.cuboid((0, -1, 0), (2, 0.1, 1), fixed=True, color=(0.5, 0.5, 0.5)))
+
+	def drawnAtTheRim(**options):
+		image = drawn(tmp_path / 'a.png', view=(0, -1, 0.2), **options).min(axis=2) < 0.95
+		assert image.any()
+		return image[:, [0, -1]].any() or image[[0, -1]].any()
+
+	for style in ('solid', 'glass', 'wire', 'auto'):
+		assert not drawnAtTheRim(fixed=style), style
+	assert drawnAtTheRim(fixed='wire', frame=[(-0.1, -0.1, -0.1), (0.1, 0.1, 1)])
+
+
 def testPolygonsAreSeenAlongZ(tmp_path):
 	O.bodies.append(polytope.polygon([(0, 0), (2, 0), (0, 1)], color=red))
 	image = drawn(tmp_path / 'a.png')
