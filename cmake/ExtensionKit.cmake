@@ -65,7 +65,7 @@ install(
 	EXCLUDE_FROM_ALL)
 install(DIRECTORY "${kit_include}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT extension EXCLUDE_FROM_ALL)
 install(FILES "${kit_build}" DESTINATION "${kit_cmake}/${POLYTOPE_PRECISION}" COMPONENT extension EXCLUDE_FROM_ALL)
-set(modules Extension.cmake yadePolytopeExtension.cpp.in Eigen.cmake Yade.cmake YadeFeatures.cmake YadeHeaders.cmake yadeConfig.py)
+set(modules Extension.cmake yadePolytopeExtension.cpp.in Eigen.cmake Yade.cmake YadeFeatures.cmake YadeHeaders.cmake YadeProgram.cmake yadeConfig.py)
 list(TRANSFORM modules PREPEND "${PROJECT_SOURCE_DIR}/cmake/")
 install(
 	FILES ${modules} "${PROJECT_BINARY_DIR}/cmake/yade-polytope-config.cmake" "${PROJECT_BINARY_DIR}/cmake/yade-polytope-config-version.cmake"

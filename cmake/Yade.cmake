@@ -28,29 +28,14 @@ if(NOT POLYTOPE_YADE)
 	return()
 endif()
 
+if(YADE_EXECUTABLE)
+	include(YadeProgram)
+endif()
 find_package(Python3 COMPONENTS Interpreter Development.Module)
 if(NOT Python3_FOUND)
 	yade_not_usable("Python with its headers was not found.")
 endif()
 
-if(YADE_EXECUTABLE)
-	# the program is a script in Python: PREFIX/bin/yade<suffix>, with its libraries in PREFIX/<libPATH>/yade<suffix>
-	file(REAL_PATH "${YADE_EXECUTABLE}" yade_program)
-	set(line)
-	if(EXISTS "${yade_program}" AND NOT IS_DIRECTORY "${yade_program}")
-		file(STRINGS "${yade_program}" line REGEX "^libPATH='[^']+'$" LIMIT_COUNT 1)
-	endif()
-	if(NOT line)
-		yade_not_usable("YADE_EXECUTABLE=${YADE_EXECUTABLE} is not YADE's program. Name the file that you start YADE with, for example $ENV{HOME}/yade/install/bin/yade-2025.2.0.")
-	endif()
-	string(REGEX REPLACE "^libPATH='(.+)'$" "\\1" path "${line}")
-	get_filename_component(name "${yade_program}" NAME)
-	get_filename_component(folder "${yade_program}/../../${path}/${name}" ABSOLUTE)
-	if(NOT EXISTS "${folder}/py/yade/config.py")
-		yade_not_usable("The libraries of YADE_EXECUTABLE=${YADE_EXECUTABLE} are not in ${folder}: name the program that YADE's `make install` has put beside them.")
-	endif()
-	set(YADE_LIBRARY_DIR "${folder}" CACHE PATH "YADE's library folder" FORCE)
-endif()
 find_path(
 	YADE_LIBRARY_DIR py/yade/config.py
 	PATHS /usr/lib /usr/local/lib

@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 
 import pytest
 import yade
@@ -35,7 +36,8 @@ def ownYade(prefix, libraries='lib64/dem', name='yade-2025.2.0', **config):
 		assert found == 1, key
 	(folder / 'py/yade/config.py').write_text(text)
 	program = prefix / 'bin' / name
-	program.write_text(f"#!/usr/bin/python3\nlibPATH='{libraries}'\n")
+	(prefix / 'bin/python').symlink_to(sys.executable)
+	program.write_text(f"#!{prefix}/bin/python\nlibPATH='{libraries}'\n")
 	(prefix / f'bin/{name}-batch').write_text(program.read_text())
 	return program
 
@@ -48,12 +50,13 @@ def configured(program, build, *options):
 
 
 def testWhatTheProgramTells(tmp_path):
-	"""Folder, version, features, macros and sources; the default place to install to. A link to the program will do."""
+	"""Folder, Python, version, features, macros and sources; the default place to install to. A link to the program will do."""
 	prefix = tmp_path / 'install'
 	link = tmp_path / 'yade'
 	link.symlink_to(ownYade(prefix, highPrecisionMpmath=False))
 	said, good = configured(link, tmp_path / 'build')
 	assert good and f'YADE 2025.2.0 in {prefix}/lib64/dem/yade-2025.2.0: LOGGER VTK OPENMP GTS' in said, said
+	assert f'Found Python3: {prefix}/bin/python' in said
 	commands = (tmp_path / 'build/compile_commands.json').read_text()
 	macros = {name for name in re.findall(r'-D(YADE_\w+)', next(line for line in commands.splitlines() if 'unit_1.cpp.o' in line))}
 	assert {'YADE_BOOST_LOG', 'YADE_VTK', 'YADE_OPENMP', 'YADE_GTS', 'YADE_DISABLE_REAL_MULTI_HP'} <= macros
