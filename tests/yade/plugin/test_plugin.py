@@ -2,6 +2,8 @@
 """The plug-in is loaded with YADE, is the one compiled for it, and refuses with a message where it is not."""
 
 import os
+import pathlib
+import re
 import subprocess
 import sys
 
@@ -13,7 +15,13 @@ def testCompiledForThisYade():
 	info = polytope.buildInfo()
 	assert info['yadeVersion'] == yade.config.version
 	assert info['yadeFeatures'] == yade.config.features
-	assert yade.config.libDir.endswith('yade-' + info['precision'])
+	assert yade.config.highPrecisionName.lower() == 'precision' + info['precision']
+
+
+def testItsVersionIsTheOneToCite():
+	"""tests/tools/test_package.py compares that of the sources, the package and the changes."""
+	text = (pathlib.Path(__file__).resolve().parents[3] / 'CITATION.cff').read_text()
+	assert re.search(r'^version: (.*)$', text, re.MULTILINE)[1] == polytope.__version__
 
 
 def yadeWithout(missing, folder, script):
