@@ -7,12 +7,17 @@ starts MPI and sets yade.mpy right for polytopes (division.py): `from yade.polyt
 
 from numbers import Integral
 
-from yade import O, mpy
+from yade import O, config, mpy
 
 from ..scene.ranks import eraseRanks
 from . import bonds, clumps, division, meeting, recorders
 from .division import shareTimeStep
 from .fields import arrays, stats
+
+if 'MPI' not in config.features:
+	raise ImportError(
+		f'YADE {config.version} in {config.libDir} was built without MPI; build it with -DENABLE_MPI=ON, and yade-polytope again for it'
+	)
 
 __all__ = ['arrays', 'divide', 'leastOfRanks', 'merge', 'rank', 'run', 'shareTimeStep', 'size', 'stats', 'sumOfRanks']
 

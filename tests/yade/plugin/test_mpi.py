@@ -40,6 +40,13 @@ ownLaws = ['rough', 'yielding']
 moving = ['smooth', 'wet', 'joints', *ownLaws, 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
 
+def testAYadeWithoutMpiIsRefused():
+	"""It would fail at the first function of the package, on one rank alone."""
+	code = "import yade\nyade.config.features.remove('MPI')\nfrom yade.polytope import mpi"
+	run = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=hangs)
+	assert run.returncode == 1 and 'ImportError: YADE ' in run.stderr and 'was built without MPI; build it with' in run.stderr
+
+
 def launch(ranks, *command):
 	"""A command on this number of ranks, 0: without MPI."""
 	run = ['mpirun', '--oversubscribe', '-np', str(ranks)] if ranks else []
