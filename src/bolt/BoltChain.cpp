@@ -100,7 +100,7 @@ void BoltChain::newtonStep()
 	}
 }
 
-/// Of the energy along the step, at the last evaluated slips.
+/// How fast the energy falls along the step, at the last evaluated slips.
 Real BoltChain::descent() const
 {
 	Real sum = 0;
@@ -193,7 +193,7 @@ Real BoltChain::strainOf(std::size_t index) const
 	return force / axialStiffness + (now - force / element.stiffness) / element.length;
 }
 
-/// Of the elements longer than the steel bears the one that is strained most.
+/// Breaks the most strained of the elements that are longer than the steel bears, and returns whether there was one.
 bool BoltChain::breakLongest()
 {
 	BoltElement* longest = nullptr;

@@ -4,8 +4,8 @@
 /// Thresholds of bolts: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// Of its stiffness, what grout keeps where it slips: where a bolt slides as a whole its place stays unique. At a slip of a thousand times that at
-/// which slipping begins, it adds a millionth to the bond's strength.
+/// Stiffness that grout keeps where it slips, as a part of its elastic stiffness: with it the place of a bolt that slides as a whole stays unique. At a slip
+/// of a thousand times that at which slipping begins, it adds a millionth to the bond's strength.
 constexpr double keptStiffness = 1e-9;
 
 /// × the largest force in a bolt: residual of a node that counts as balanced. A thousand times what rounding of the displacements leaves.
@@ -30,7 +30,7 @@ constexpr double longestElement = 10;
 /// Elements of the grouted part in one block: at least, so that slip can spread, and at most, for the time that a step takes.
 constexpr int leastElements = 10, mostElements = 400;
 
-/// Of a block's part of a bolt, what a joint's free length takes at most, so that the rest is grouted.
+/// Largest part of a bolt's length in a block that the free length at a joint takes at each end, so that the rest is grouted.
 constexpr double mostOfPassage = 0.25;
 
 /// × the bolt's length: shorter passages through a block are rounding where the bolt runs along a face or an edge. An anchor may lie so far outside the

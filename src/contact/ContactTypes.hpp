@@ -21,7 +21,7 @@ enum class ContactPoint : int {
 	Centroid,           ///< of the overlap's volume (area in 2-D), highest cost
 };
 
-/// Of the analytic centre.
+/// The solver for the analytic centre.
 enum class CentreSolver : int {
 	Newton = 0, ///< AnalyticCentre.hpp; where it does not converge, Ipopt if the build has it
 	Ipopt,      ///< IpoptCentre.hpp for every contact: a hundred to a thousand times slower, independent of Newton
@@ -116,7 +116,7 @@ struct PairMemory {
 	std::array<Vector3, 2> point { Vector3::Zero(), Vector3::Zero() }; ///< last contact point in each body's frame
 	/// Last n_λ, world axes.
 	Vector3 dualDirection { Vector3::Zero() };
-	/// Of the models with a surface.
+	/// What the models with a contact surface remember.
 	KeptVertices surface;
 };
 

@@ -57,7 +57,7 @@ template <class R> struct FaceLoops {
 
 template <class R, int W> class Overlap<R, 3, W> {
 public:
-	/// Of the planes' inside, within `halfWidth` of the frame's origin along each axis. x: a point inside.
+	/// The space inside all planes, and within `halfWidth` of the frame's origin along each axis. x: a point inside.
 	POLYTOPE_INLINE Overlap(const PairPlanes<R, 3>& planes, const R* x, R halfWidth, ContactWorkspace& workspace)
 	        : Overlap(planes, halfWidth, x, workspace)
 	{

@@ -10,7 +10,7 @@
 /// The contact surface of a touching pair, from the optimum of its linear program.
 namespace polytope {
 
-/// Of a pair: what its surface is found from, and the surface.
+/// What the contact surface of a pair is found from, and the surface.
 template <class R, int D> struct PairSurface {
 	SurfaceSums<R, D>     sums;
 	SurfaceOnPiece<R, D>* on = nullptr; ///< if internal faces are left out

@@ -69,7 +69,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput&
 		placePlanes<R, D, W>(in, f, body, planes);
 }
 
-/// As placePair() in the smaller body's own frame, where its planes stay as they are.
+/// Does the same as placePair(), but in the smaller body's own frame, where its planes stay as they are.
 template <class R, int D, int W>
 POLYTOPE_INLINE void placePairAtHome(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {

@@ -29,7 +29,7 @@ template <int D> POLYTOPE_INLINE void failUnlessFinite(PairMemory& memory, Conta
 	if (!isfinite(all)) fail(memory, out);
 }
 
-/// Of a pair that is apart; `weights`: of its basis, which is in the memory.
+/// For a pair that is apart: remembers the weights of its basis. The basis itself is in the memory already.
 template <int D, class Weights> POLYTOPE_INLINE void rememberWeights(const Weights& weights, PairMemory& memory)
 {
 	memory.hasBasis = true;

@@ -14,7 +14,7 @@
 ///
 ///     dilation angle d = JRC_mob log₁₀(JCS/σ)/M,     M = JRC/(12 log₁₀(JCS/σ)) + 0.7, from 1 to 2                  (1985)
 ///
-/// Of a joint of the length Lₙ in the field, with JRC₀ and JCS₀ of a sample of the length L₀ (1985):
+/// JRC and JCS of a joint of the length Lₙ in the field follow from JRC₀ and JCS₀ of a sample of the length L₀ (1985):
 ///
 ///     JRC = JRC₀ (Lₙ/L₀)^(−0.02 JRC₀),     JCS = JCS₀ (Lₙ/L₀)^(−0.03 JRC₀),     δ_peak = Lₙ/500 (JRC/Lₙ)^0.33   (lengths in metres)
 ///

@@ -30,7 +30,7 @@ struct POLYTOPE_API NormalLaw {
 	NormalLaw& operator=(const NormalLaw&) = delete;
 	/// Refuses (std::runtime_error) a name that there is none of.
 	static const NormalLaw& named(const std::string& name);
-	/// Those that were made, in this order; of several with one name the first has it.
+	/// All laws that were made, in this order; a name that several have means the first of them.
 	static std::vector<const NormalLaw*>& all();
 	/// Says that it has no name, not all functions, or the name of another law that was made before it; an empty text: none of these.
 	std::string fault() const;

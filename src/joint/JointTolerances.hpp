@@ -4,8 +4,8 @@
 /// Thresholds of joint laws, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// Of the maximum closure: from there on a closing joint goes on with the stiffness that it has there, 10 000 times the initial one. Its pressure is 99 times
-/// initial stiffness × maximum closure there, more than rock bears; without an end a single step could leave it beyond the pole.
+/// Closure from which on a closing joint keeps the stiffness that it has there, 10 000 times the initial one; as a part of the maximum closure. Its pressure
+/// there is 99 times initial stiffness × maximum closure, more than rock bears; without an end a single step could leave it beyond the pole.
 constexpr double closureEnd = 0.99;
 
 /// Steps of the search for the closure of a program's own law at a pressure: halving alone needs as many as the numbers have digits.
@@ -16,7 +16,7 @@ constexpr int mostClosureSteps = 200;
 constexpr double leastClosure   = 1e-7;
 constexpr int    closureOctaves = 24;
 
-/// Of that closure: one that counts as none, below all roundings of closed forms.
+/// Closure that counts as none, as a part of leastClosure: below all roundings of closed forms.
 constexpr double noClosure = 1e-20;
 
 /// Relative difference of what grows to the integral of what it should be that is not called a fault: what a law that was written down wrong is off by is more, and
@@ -26,8 +26,8 @@ constexpr double closureAgreement = 1e-3;
 /// Halvings of an octave by which its integrals are found: a bend or jump of the tangent is then within a 30 000th of it.
 constexpr unsigned mostClosureHalvings = 15;
 
-/// Of the maximum closure: the energy's closed form loses digits with the square of closures below this; a series takes its place, whose terms fall
-/// by this factor.
+/// Closure below which the energy is computed by a series, as a part of the maximum closure: the closed form loses digits there with the square of the
+/// closure. The terms of the series fall by this factor.
 constexpr double smallClosure = 0.05;
 
 /// Growth of a closing joint's stiffness from which on the time step is computed anew: with the default safety coefficient of 0.4 the step is then still

@@ -28,7 +28,7 @@ namespace {
 		return is;
 	}
 
-	/// Of the middle level's cells: the widest of the boxes up to twice the median one. Most boxes of a sample are in it.
+	/// Width of the middle level's cells: that of the widest box among those up to twice the median width. Most boxes of a sample are in this level.
 	double middleWidth(const std::vector<BoxGrid::Box>& boxes)
 	{
 		std::vector<double> widths;

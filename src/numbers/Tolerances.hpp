@@ -91,7 +91,7 @@ constexpr Real leastShare = 1e-3;
 /// this in the local (Dikin) norm, that is, as a fraction of the overlap's own size in each direction.
 constexpr Real newton = 1e-10 * finer;
 
-/// Range of `newtonTolerance` that a script may set: from `rounding`, finer than which no centre can be, to this. A coarser one is
+/// Range of `newtonTolerance` that a script may set: from `rounding`, since no centre can be finer, to this. A coarser one is
 /// anywhere in the overlap.
 constexpr Real coarsestNewton = 0.1;
 

@@ -162,7 +162,7 @@ template <class R, int D> DifferenceOrder<D> differenceOrder(const R (&a)[D + 1]
 	return result;
 }
 
-/// As solveBasis(), for a basis that has nearly parallel planes. Out of line, for it is rare.
+/// Does what solveBasis() does, for a basis that has nearly parallel planes. Not inlined, since it is rare.
 template <class R, int D>
 __attribute__((noinline)) bool solveNearlyParallel(const R (&a)[D + 1][D], const R (&d)[D + 1], LpBasis<R, D>& basis)
 {

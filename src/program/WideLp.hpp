@@ -201,7 +201,7 @@ private:
 	}
 };
 
-/// As solveLp(), to the optimum.
+/// Finds the optimum as solveLp() does.
 template <class R, int D>
 __attribute__((noinline)) bool solveWide(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis, R size, int pivotLimit, int& pivots)
 {

@@ -42,7 +42,7 @@ namespace {
 		}
 	}
 
-	/// Of a quotient, with all digits of Real.
+	/// The value of a quotient, with all digits of Real.
 	template <class Quotient> Real toReal(const Quotient& quotient)
 	{
 		if constexpr (isDouble) {

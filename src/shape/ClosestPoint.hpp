@@ -16,7 +16,7 @@ struct ClosestPoint {
 /// Detection, section 5.1.5, with polygons for triangles). Inside: the nearest face's plane. Exact up to rounding.
 POLYTOPE_API ClosestPoint closestPoint(const ConvexShape& shape, const Vector3& query);
 
-/// The same of a segment.
+/// The point of a segment that is nearest to a shape, or deepest in it.
 struct ClosestOnSegment {
 	Real         along;   ///< place on the segment, 0 to 1
 	ClosestPoint nearest; ///< of that place

@@ -76,7 +76,7 @@ namespace {
 
 		const Vector3& at(int i) const { return points_[std::size_t(i)]; }
 
-		/// Of the point above the plane of a, b, c: positive only if it is so exactly.
+		/// Height of point p above the plane of the triangle's corners: positive only if the exact one is.
 		Real above(const Triangle& t, int p) const
 		{
 			bool       certain = false;

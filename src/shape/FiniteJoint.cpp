@@ -11,7 +11,7 @@
 namespace polytope {
 namespace {
 
-	/// Of the sector of a circle between two rays from its centre, less than half a turn apart.
+	/// Area of the sector of a circle between two rays from its centre, less than half a turn apart.
 	Real sector(const Vector3& from, const Vector3& to, const Vector3& normal, const Real& radius)
 	{
 		using std::atan2;

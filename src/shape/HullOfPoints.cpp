@@ -99,7 +99,7 @@ namespace {
 		Real    width;  ///< root of the second largest moment of the points: near zero for points on a line
 	};
 
-	/// Of a triangle that is no sliver: its plane by a cross product.
+	/// The plane of a triangle by a cross product. False if the triangle is a sliver.
 	bool fitOfTriangle(const std::vector<Vector3>& points, const Indices& members, Fit& fit)
 	{
 		const Vector3 &a = points[std::size_t(members[0])], &b = points[std::size_t(members[1])],

@@ -29,7 +29,7 @@ public:
 		return bool(held);
 	}
 
-	/// Of two that were made at the same time from the same numbers, the first stays: returns the one that is in the table.
+	/// Puts a shape into the table and returns the one that is there: if two were made from the same numbers at the same time, the first stays.
 	template <class Pointer> Pointer keep(Key key, const Value& value, const Pointer& held)
 	{
 		const std::lock_guard<std::mutex> lock(mutex_);

@@ -29,7 +29,7 @@ template <class Corner> Vector3 areaVector(std::size_t count, const Corner& corn
 	return twice / 2;
 }
 
-/// Of face k of a polyhedron, outwards.
+/// Area vector of face k of a polyhedron, outward.
 inline Vector3 faceArea(const Polyhedron& hull, std::size_t k)
 {
 	const std::vector<int>& face = hull.faces[k];

@@ -30,7 +30,7 @@ struct LocalPolyhedron {
 	Real       unit; ///< a power of two that brings the inradius to between 1 and 2
 };
 
-/// As polyhedron(), of planes that have passed normalised().
+/// Builds the same as polyhedron(), from planes that have passed normalised().
 LocalPolyhedron localPolyhedron(const HalfSpaces& unit, const Real& thickness);
 
 /// Puts the vertices of a shape where these planes meet: of a shape whose faces are known, so that equal planes have equal vertices

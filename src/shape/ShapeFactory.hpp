@@ -31,7 +31,7 @@ struct CentralShape {
 /// origin, and axes that are principal to rounding stay: such planes are taken over unchanged. Thread-safe.
 POLYTOPE_API CentralShape centralShape(const HalfSpaces& planes, const ShapeOptions& options);
 
-/// Of the convex hull of points, as hullOf(). Refuses what that refuses, besides.
+/// The shape that is the convex hull of points, as hullOf() finds it. Refuses also what hullOf() refuses.
 POLYTOPE_API CentralShape centralHull(const std::vector<Vector3>& points, int dimension, const Real& coplanar, const ShapeOptions& options);
 
 } // namespace polytope

@@ -8,8 +8,8 @@
 namespace polytope {
 namespace {
 
-	/// Of the body's radius: how far corners of a face may be from a plane on which it lies. Above the rounding of turns and of places some thousand radii from the origin; the pressure is
-	/// the same on both sides, so that it does not matter which one a face in between is given to.
+	/// How far corners of a face may be from a plane on which the face lies, as a part of the body's radius. Above the rounding of turns and of places
+	/// some thousand radii from the origin; the pressure is the same on both sides, so that it does not matter to which one a face in between is given.
 	constexpr double onSide = 1e-9;
 
 	/// Keeps the part of the polygon where value + slope·x ≥ 0.

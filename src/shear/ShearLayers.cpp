@@ -29,7 +29,7 @@ void ShearLayers::setArea(Real present)
 	}
 }
 
-/// Of the layers, the neighbours whose union loses the least energy.
+/// Unites the two neighbouring layers whose union loses the least energy.
 void ShearLayers::mergeLeastDifferent()
 {
 	int  least = 0;

@@ -11,14 +11,14 @@
 /// came last are at the rim and leave first, almost unstrained, while the core keeps its force. A bed that has one displacement for all of
 /// its springs loses force in each cycle, and the body creeps for ever.
 ///
-/// So the bed is a stack of layers of the springs that came at about the same time, the core first. Motion strains all alike. Where there is no room
-/// for one more layer, the two neighbours that differ least are made one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁ − e₂|² of energy.
-/// No change of area ever adds energy.
+/// For this reason the bed is a stack of layers, each of the springs that came at about the same time, with the core first. Motion strains all layers alike.
+/// Where there is no room for one more layer, the two neighbours that differ least become one with their mean displacement, which loses ½ k a₁a₂/(a₁ + a₂) |e₁
+/// − e₂|² of energy. No change of area ever adds energy.
 namespace polytope {
 
 class ShearLayers {
 public:
-	/// Of the whole area, with one displacement.
+	/// One layer over the whole area, with one displacement.
 	ShearLayers(Real area, const Vector3& displacement) : count_(1) { layer_[0] = { area, displacement }; }
 	/// No springs.
 	ShearLayers() = default;
@@ -61,7 +61,7 @@ public:
 		for (int k = 0; k < count_; ++k)
 			map(layer_[k].displacement);
 	}
-	/// Of each layer's springs this part stays: those of a part of the bed.
+	/// Keeps this part of each layer's springs: those of a part of the bed.
 	void keepPart(Real part)
 	{
 		for (int k = 0; k < count_; ++k)

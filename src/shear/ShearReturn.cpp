@@ -46,7 +46,8 @@ namespace {
 	/// Looks for a motion in which the load does more work than the strength takes, and returns whether there is one; if not, the load is within the limit
 	/// surface.
 	///
-	/// Of all motions in which the load does the same work it is the one that takes the least: a convex function of two variables.
+	/// The motion sought is the one that takes the least work of the strength, among all in which the load does the same work: it minimises a convex
+	/// function of two variables.
 	bool findMotionBeyond(const ShearStrength& strength, const Matrix3& stiffness, const Vector3& load, Motion& motion)
 	{
 		motion.lengthen(1 / load.dot(motion.slip)); // the load gives 1

@@ -33,7 +33,7 @@ struct GaussLegendre {
 			{ light, heavy, Real(64) / 225, heavy, light } };
 		return rule;
 	}
-	/// As few as are exact to rounding along a line that the centre of rotation sees from so many times its length.
+	/// The rule with the fewest points that is exact to rounding on a line whose distance from the centre of rotation is so many times its length.
 	static const GaussLegendre& seenFrom(Real lengths)
 	{
 		return lengths > Real(tolerance::shearTwoPoints) ? two() : lengths > Real(tolerance::shearThreePoints) ? three() : five();

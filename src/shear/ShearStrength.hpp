@@ -29,7 +29,7 @@ public:
 	ShearStrength(const Vector2* corner, int count, const OutlineMoments& moments, Real total, const Vector2& centre);
 
 	Real total() const { return total_; }
-	/// Of the strength. Moments are about it [m].
+	/// Centre of the strength, about which moments are taken [m].
 	const Vector2& centre() const { return centre_; }
 	/// Mean distance of the strength from its centre [m]: turned on the spot, the face resists with total × this.
 	Real meanRadius() const;

@@ -6,11 +6,11 @@
 /// Thresholds of the shear bed, as Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// Of the larger principal second moment of an outline: below this the outline is a line, and how its strength varies across it is not known. The square
-/// of the least width over length whose moments keep half of their digits.
+/// Ratio of the smaller to the larger principal second moment of an outline below which the outline is a line: how its strength varies across it is not known.
+/// This is the square of the smallest ratio of width to length at which the moments keep half of their digits.
 constexpr double shearSliver = 1e-14;
 
-/// Of an edge's length: a centre of rotation nearer to the edge's line sees no triangle between them.
+/// Distance of a centre of rotation from an edge's line, as a part of the edge's length, below which it sees no triangle between them.
 constexpr double shearPole = 1e-14;
 
 /// Times the outline's size: for a centre of rotation farther than this the resistance is summed at points, since the sums over edges lose digits with the
@@ -34,18 +34,19 @@ constexpr double shearShort = 8;
 constexpr double shearThreePoints = 200;
 constexpr double shearTwoPoints   = 10000;
 
-/// Of the slip, by the energy: a step of Newton's method from this near leaves what rounding leaves, but where the centre of rotation lies on the outline.
+/// Length of a Newton step, as a part of the slip and measured by the energy, that counts as short: a step of this length leaves what rounding leaves, except
+/// where the centre of rotation lies on the outline.
 constexpr double shearReturn = 1e-9;
 
-/// Of the load, by the energy: what a step from that near may leave between the load that stays and the limit surface; more calls for another step. Some times
-/// what sums over edges round.
+/// Distance between the load that stays and the limit surface, as a part of the load and measured by the energy, that a short Newton step may leave; more
+/// calls for another step. It is some times the rounding of the sums over edges.
 constexpr double shearOff = 1e-13;
 
-/// Of the least work that the strength takes in a motion: whether the load gives more is known to this. A load that is beyond the limit surface by less
-/// is taken as within it.
+/// Precision to which the least work of the strength in a motion is found, as a part of that work, when it is compared with the work of the load. A load that
+/// is beyond the limit surface by less is taken as within it.
 constexpr double shearMotion = 1e-12;
 
-/// Of the work of a slip: what its sums round.
+/// Rounding of the sums for the work of a slip, as a part of that work.
 constexpr Real sumsOfWork = 100 * rounding;
 
 /// Newton steps of the return to the limit surface; five are usual, more where the centre of rotation lies on a corner.
@@ -54,7 +55,7 @@ constexpr int shearReturnSteps = 40;
 /// Halvings of a Newton step whose energy rises.
 constexpr int shearHalvings = 30;
 
-/// Of an area: one that differs by less is the same; what sums of layers round.
+/// Relative difference of two areas up to which they are the same: the rounding of sums over layers.
 constexpr Real sameArea = 1000 * rounding;
 
 /// Layers in which a bed remembers when its springs came under load. Two hold a load cycle, more hold cycles within cycles; at four, a block shaken

@@ -188,7 +188,7 @@ private:
 		}
 	}
 
-	/// Of `met` more planes, from edge[3] on.
+	/// Adds all pairs of the planes that meet in an edge: the piece's two, the edge's own, and `met` more, which are in edge[3] and after.
 	POLYTOPE_INLINE void meetAll(const SurfacePiece<R, D>& piece, int tag, int* edge, int met)
 	{
 		const int own[3] = { piece.i, piece.j, tag };
@@ -249,9 +249,9 @@ private:
 	R                           faceArea_   = 0;
 };
 
-/// Of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller body's
-/// circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre, and the digits there: best at the optimum. Offsets of
-/// the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
+/// The contact surface of a pair that overlaps. `basis`: planes of the linear program's optimal basis, in any number; `deepest`: −s*; `size`: the smaller
+/// body's circumradius. The planes' frame has its origin within √2 sizes of the smaller body's centre; it has most digits at its origin, which is best at the
+/// optimum. Offsets of the planes are changed meanwhile. Where planes of both bodies coincide the force is the mean of the energy's derivatives to both sides.
 /// `on`: a piece of a larger solid, or null.
 template <class R, int D, int W>
 POLYTOPE_INLINE SurfaceStatus contactSurface(PairPlanes<R, D>& planes, const int* basis, int count, R size, R deepest, SurfaceParts parts,

@@ -269,7 +269,8 @@ private:
 
 	// --------------------------------------------------------------------------------------------------------------------------------- exploring
 
-	/// Of 0 … 1, different for each plane and the same in each step. Mixed, for sums of those of a regular body's planes must differ, too.
+	/// A number from 0 to 1, different for each plane and the same in each step. Its bits are mixed, since sums of such numbers must differ, too, for the
+	/// planes of a regular body.
 	static R shareOf(int row)
 	{
 		std::uint32_t mixed = 2654435761u * std::uint32_t(row + 1);

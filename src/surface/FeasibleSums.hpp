@@ -55,14 +55,14 @@ private:
 	static constexpr int unknown = 255, most = FeasibleBuffers<R>::mostPlanes, rows = FeasibleBuffers<R>::pieceRows;
 	static_assert(FeasibleBuffers<R>::mostPieces < unknown);
 
-	/// Of a piece: four numbers each.
+	/// Where the sums of a piece begin in its row: four numbers for each.
 	enum Row { Sums = 0, Moment = 4, SquareMoment = 8, Normal = 12 };
 	/// Among its sums.
 	enum Sum { Area = 0, Pressure, Square };
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
 
-	/// Of planes of both bodies.
+	/// Whether planes i and j belong to different bodies.
 	bool isBetween(int i, int j) const { return buffers_.bodyOf[i] + buffers_.bodyOf[j] == 1; }
 	/// Whether a cone from the cell's first vertex over its piece with plane j is to be added.
 	bool hasCone(int cell, int j) const { return (coned_[cell] & bit(j)) != 0; }
@@ -95,7 +95,7 @@ private:
 			}
 	}
 
-	/// Of a plane at a vertex; that of no pressure has the slack s.
+	/// Slack of a plane at a vertex; the plane of no pressure has the slack s.
 	POLYTOPE_INLINE R slackAt(int v, int plane) const
 	{
 		const R *const x = buffers_.point + 4 * v, *const a = buffers_.plane + 4 * plane;

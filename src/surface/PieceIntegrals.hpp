@@ -16,7 +16,7 @@ template <class R, int D> struct PieceIntegrals {
 	R pressureThere   = 0;
 };
 
-/// Of a polygon, as a fan of triangles from its first vertex: with the values f, g, h of linear functions at a triangle's corners,
+/// Integrals over a polygon, as a fan of triangles from its first vertex: with the values f, g, h of linear functions at a triangle's corners,
 ///
 ///     ∫ f g = A/12 (Σf Σg + Σfg),     ∫ f g h = A/60 (Σf Σg Σh + Σf Σgh + Σg Σfh + Σh Σfg + 2 Σfgh).
 template <class R, class Cut> POLYTOPE_INLINE PieceIntegrals<R, 3> integrate(const SurfacePiece<R, 3>& piece, const Cut& cut)

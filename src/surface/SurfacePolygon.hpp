@@ -15,8 +15,8 @@ template <class R, int D, int W> class SurfaceCut;
 
 template <class R, int W> class SurfaceCut<R, 3, W> {
 public:
-	/// Of the piece whose planes are in the buffers' rows, which do not outlast it. `reach`: half the square's width; `deepest`: the largest p; `known`:
-	/// planes that meet the piece, as far as is known.
+	/// The polygon of the piece whose planes are in the buffers' rows; it uses these rows up. `reach`: half the square's width; `deepest`: the largest p;
+	/// `known`: planes that meet the piece, as far as is known.
 	POLYTOPE_INLINE SurfaceCut(const SurfaceBuffers<R, 3>& buffers, R reach, R deepest, const int* known)
 	        : buffers_(buffers), deepest_(deepest)
 	{

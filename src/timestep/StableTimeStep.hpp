@@ -117,7 +117,7 @@ private:
 
 	using Motion = Eigen::Matrix<Real, 3, 6>;
 
-	/// Of a point of the body.
+	/// The motion of a point of the body.
 	Motion motionAt(const Vector3& arm) const
 	{
 		Motion motion;

@@ -23,11 +23,11 @@ constexpr double potentialSizes = 1.02;
 /// checks, and where a script changes stiffnesses or masses.
 constexpr unsigned potentialUpdates = 10;
 
-/// Of a body's ω²: from this share on, the rocking of its contacts is named as what limits the time step.
+/// Part of a body's ω² from which on the rocking of its contacts is named as what limits the time step.
 constexpr double rockingShare = 0.5;
 
-/// Of the period after which an engine is called again: the time step of a scene in which nothing can move. What the engine puts into it then falls
-/// for that much less, or more, until the next call.
+/// Time step of a scene in which nothing can move, as a part of the period after which an engine is called again. What the engine puts into the scene then
+/// falls for a time that is shorter or longer by up to this part, until the next call.
 constexpr double periodStep = 0.01;
 
 } // namespace polytope::tolerance
