@@ -6,8 +6,8 @@
 
 namespace yade {
 
-/// One bolt: what it is made of, the state of steel and grout along it, and where it crosses from block to block. Of a pattern for
-/// PolytopeBolts::make() only what a script gives is read.
+/// One bolt: what it is made of, the state of steel and grout along it, and where it crosses from block to block. For a pattern,
+/// PolytopeBolts::make() reads only what a script gives.
 class PolytopeBolt : public Serializable {
 public:
 	virtual ~PolytopeBolt() = default;
@@ -26,7 +26,7 @@ public:
 	const Loss& loss() const { return loss_; }
 	bool        acts() const;
 
-	/// Of the stations in the world; empty where the block that carries one is gone.
+	/// Places of the stations in the world; empty where the block that carries a station is gone.
 	std::vector<boost::optional<Vector3r>> stationPoints(const BodyContainer& bodies) const;
 
 	boost::python::list crossingList() const;

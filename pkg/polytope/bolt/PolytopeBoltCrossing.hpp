@@ -32,7 +32,7 @@ public:
 	}
 	/// A place of the bolt in the world, as one of the bodies carries it [m].
 	Vector3r placeOn(const BodyContainer& bodies, bool second, const Real& place) const;
-	/// As a body feels it.
+	/// The springs that one of the bodies feels here.
 	SpringsAtPoint springsOn(const Body& body) const;
 
 	// clang-format off

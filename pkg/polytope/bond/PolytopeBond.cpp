@@ -61,7 +61,8 @@ Real PolytopeBond::meanLastingOpening() const
 	return sum / area;
 }
 
-/// As the springs', but for the normal stresses, which are those of fibres. (Bending and normal stiffness of a joint are the same.)
+/// Force and moment of a bond that yields: those of the springs, except for the normal stresses, which are those of fibres. (Bending and normal stiffness of a
+/// joint are the same.)
 polytope::BondForce PolytopeBond::yieldingForce(const polytope::BondMotion& motion)
 {
 	const Vector3r &         d = motion.displacement, turn = motion.rotation;
@@ -76,7 +77,7 @@ polytope::BondForce PolytopeBond::yieldingForce(const polytope::BondMotion& moti
 	return polytope::bondForce(motion, force, moment, elastic + fibres.energy);
 }
 
-/// Of a displacement and rotation (src/bond/BondSprings.hpp).
+/// Sets the stresses that belong to a displacement and rotation (src/bond/BondSprings.hpp).
 void PolytopeBond::setStresses(const Vector3r& displacement, const Vector3r& rotation)
 {
 	Real bending = -std::numeric_limits<Real>::infinity(), farthest = 0;

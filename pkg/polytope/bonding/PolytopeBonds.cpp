@@ -14,7 +14,7 @@ POLYTOPE_CLASSES((PolytopeBonds));
 
 namespace {
 
-	/// Of the process that computes a body, and of this one: 0 where YADE is built without MPI.
+	/// Numbers of the process that computes a body, and of this process: 0 where YADE is built without MPI.
 #ifdef YADE_MPI
 	int rankOf(const Body& body) { return body.subdomain; }
 	int rankOf(const Scene& scene) { return scene.subdomain; }
@@ -23,7 +23,7 @@ namespace {
 	int rankOf(const Scene&) { return 0; }
 #endif
 
-	/// Of the second body, in the period of the first.
+	/// Shift of the second body into the period of the first.
 	Vector3r shiftOf(const PolytopeBond& bond, const Scene& scene)
 	{
 		return scene.isPeriodic ? scene.cell->intrShiftPos(bond.cellDist) : Vector3r(Vector3r::Zero());
@@ -148,8 +148,8 @@ void PolytopeBonds::endErased(const Scene& where)
 	}
 }
 
-/// Of the bonds that acted for the last time in the step before: what they had stored and have not given to the bodies. Where a joint has taken
-/// over, its law does it for the force.
+/// Books for the bonds that acted for the last time in the step before what they had stored and have not given to the bodies. Where a joint has taken over,
+/// its law accounts for the force.
 void PolytopeBonds::bookFailed()
 {
 	for (int k : failed_) {

@@ -26,7 +26,7 @@ public:
 	static const Ig2_Polytope_Polytope_PolytopeGeom& orDefault(const Ig2_Polytope_Polytope_PolytopeGeom* found);
 	static const Ig2_Polytope_Polytope_PolytopeGeom& orDefault(const Scene& scene) { return orDefault(of(scene)); }
 
-	/// Of a contact whose stiffness has this unit.
+	/// The options for a contact whose stiffness has this unit.
 	polytope::ContactOptions options(StiffnessRule rule) const;
 	/// What the normal force of a contact depends on, whose stiffness has this unit.
 	polytope::FaceForce faceForce(StiffnessRule rule) const;
@@ -71,7 +71,7 @@ contacts of the scene: functors of other pairs have none of their own. Nothing i
 private:
 	/// Options from the attributes. Refuses unknown names and numbers out of range with std::invalid_argument naming the attribute.
 	polytope::ContactOptions checkedOptions() const;
-	/// Of a contact whose stiffness has this unit.
+	/// The contact model for a contact whose stiffness has this unit.
 	polytope::ContactModel modelFor(StiffnessRule rule) const;
 
 	polytope::ContactOptions options_     = checkedOptions();

@@ -57,7 +57,7 @@ private:
 	Vector3r            normal_; ///< on side +1
 	Real                size_;   ///< longest edge
 	std::vector<Other>& others_;
-	/// Of the neighbours beyond each edge, over the facet's plane, to side +1 [rad]: the lowest and the highest.
+	/// Angles of the neighbours beyond each edge over the facet's plane, towards side +1 [rad]: the lowest and the highest.
 	Real lowest_[3], highest_[3];
 	bool known_[3] = { false, false, false };
 };

@@ -57,7 +57,7 @@ public:
 
 	/// Made when first needed; not saved.
 	Seldom<StandIn> standIn;
-	/// Of the contact area, for rock joints between polyhedra.
+	/// Outline of the contact area, for rock joints between polyhedra.
 	StoredOutline outline;
 
 	polytope::PairMemory memory() const;
@@ -70,7 +70,7 @@ public:
 	/// Corners of the outline in the world.
 	std::vector<Vector3r> cornersOfOutline() const;
 	boost::python::list   outlineCorners() const;
-	/// The joint acts as a bond of its faces in this step (RockJointBond.cpp). Of the law's, this alone is written into a geometry: until the next query
+	/// The joint acts as a bond of its faces in this step (RockJointBond.cpp). This is the law's only value in a geometry: until the next query
 	/// all who ask a contact where its force acts, and with what energy (window, files, arrays, time step), have the bond's answer. Depth, area and
 	/// status stay the overlap's.
 	void actAsBond(const Vector3r& bondNormal, const Vector3r& bondPoint, Real bondEnergyPerStiffness)
@@ -166,7 +166,7 @@ class Ig2_Polytope_Polytope_PolytopeGeom;
 /// What makes the geometry of contacts with a Polytope. Its settings are those of the scene's one Ig2_Polytope_Polytope_PolytopeGeom (ContactOptions.hpp).
 class PolytopeGeomFunctor : public IGeomFunctor {
 public:
-	/// Of the scene, for a contact whose stiffness has this unit.
+	/// The scene's settings for a contact whose stiffness has this unit.
 	polytope::ContactSettings settings(StiffnessRule rule) const;
 	boost::python::dict       stats() const;
 	void                      resetStats();

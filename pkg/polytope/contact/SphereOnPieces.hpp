@@ -27,8 +27,8 @@ struct NearestOfSphere {
 
 NearestOfSphere nearestOfSphere(const polytope::ConvexShape& solid, const Vector3r& centre, const Quaternionr& orientation);
 
-/// Of the contact of a sphere with a piece, both in reach: replaces what is nearest of the piece by what is nearest of the pieces that meet there.
-/// Returns the contact's share of the stiffness.
+/// For a sphere in contact with a piece: replaces the nearest point of the piece by that of all pieces that meet there. Returns the contact's share of the
+/// stiffness.
 Real shareOfSphere(
         const Body& sphere, const Real& radius, const Body& piece, const Vector3r& centre, Scene& scene, NearestOfSphere& nearest);
 

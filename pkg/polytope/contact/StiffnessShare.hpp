@@ -5,7 +5,7 @@
 
 namespace yade {
 
-/// Of a contact that begins: its physics are made after its geometry.
+/// The rule for the stiffness of a contact that begins: its physics are made after its geometry.
 StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Interaction& contact);
 
 /// Gives a touching contact its share of a stiffness, where a body lies on several pieces: PolytopeGeom::share, which rock joints read in their law.

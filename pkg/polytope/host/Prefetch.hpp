@@ -16,7 +16,8 @@ namespace prefetch {
 	/// tenth in a heap of 10 000 cubes.
 	constexpr int pair = 6, parts = 4, bodyParts = 2;
 
-	/// Of a contact's parts, as far as they are read in each step. Those of joints are held to it where they are defined.
+	/// Bytes of a contact's physics that are fetched: what is read in each step. Where the physics of joints are defined, it is checked that they keep to
+	/// this.
 	constexpr std::size_t physicsBytes = 96 * sizeof(Real);
 
 	/// Does not read at that address: another thread may be deleting the pair's geometry.

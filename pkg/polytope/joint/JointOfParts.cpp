@@ -112,7 +112,7 @@ namespace {
 		last.stored = phys.bond ? phys.bond->energy : Real(normal + phys.shearEnergy());
 	}
 
-	/// Of the pair that the collider has made, whose bodies may be the other way round.
+	/// Puts a contact in the place of the pair that the collider has made, whose bodies may be in the other order. False if that pair is a real contact.
 	bool takePlace(Scene& scene, const shared_ptr<Interaction>& made)
 	{
 		const shared_ptr<Interaction> pair = scene.interactions->find(made->getId1(), made->getId2());

@@ -108,7 +108,7 @@ public:
 	bool bearsTension(Real force) const;
 	/// Largest shear force at a normal force (positive in compression) [N].
 	Real shearStrength(Real normal) const;
-	/// Of the springs of the shear bed [J].
+	/// Energy of the springs of the shear bed [J].
 	Real shearEnergy() const;
 
 	/// NormPhys' and NormShearPhys' attributes; of a joint with stiffness per contact they are set for good.
@@ -138,8 +138,8 @@ friction, peak or residual.)""",
 		((Real, tensileStrength, 0, , "Tensile strength while :yref:`intact<RockJointPhys.intact>` [Pa]; from where it was reached on the "
 		        "residual one."))
 		((Real, residualTensileStrength, 0, , "Tensile strength once it was reached, or the joint has failed [Pa]."))
-		((Real, lastingOpening, 0, Attr::readonly, "By which a joint with residual tensile strength has been torn open [m]: within it, it "
-		        "bears nothing. Of a :yref:`bond<RockJointPhys.bond>` fibres have their own."))
+		((Real, lastingOpening, 0, Attr::readonly, "Opening by which a joint with residual tensile strength has been torn open [m]: within it, "
+		        "it bears nothing. The fibres of a :yref:`bond<RockJointPhys.bond>` have their own."))
 		((Real, tangensOfResidualFrictionAngle, -1, , "Becomes :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` when the "
 		        "joint fails [-]; negative: friction does not change."))
 		((Real, tangensOfDilationAngle, 0, , "Widening over slip $\\tan\\psi$ [-]."))

@@ -12,7 +12,7 @@ namespace yade {
 
 namespace {
 
-	/// Of a clump; 1: of a body alone.
+	/// Number of parts of a clump; 1 for a body alone.
 	std::size_t countOfParts(const Body& mover) { return mover.isClump() ? static_cast<const Clump&>(*mover.shape).members.size() : 1; }
 
 	/// s of a contact that was in no sum.

@@ -9,7 +9,7 @@ POLYTOPE_CLASSES((Law2_PolytopeGeom_RockJointPhys_MohrCoulomb));
 
 namespace {
 
-	/// So far that a joint does not remember what it was.
+	/// Whether the bodies are so far apart that the joint does not remember what it was.
 	bool isFarApart(const PolytopeGeom& geom) { return !(-geom.penetrationDepth < math::min(geom.refR1, geom.refR2)); }
 
 	/// Energy of the normal spring; the geometry of a contact surface has the energy whose gradient its force is.

@@ -16,18 +16,19 @@ class Ip2_RockJointMat_RockJointMat_RockJointPhys : public IPhysFunctor, public 
 public:
 	void go(const shared_ptr<Material>& material1, const shared_ptr<Material>& material2,
 	        const shared_ptr<Interaction>& contact) override;
-	/// Of these materials, whatever those of the faces.
+	/// Makes the physics from these materials, whatever those of the faces are.
 	void          make(const RockJointMat& m1, const RockJointMat& m2, const shared_ptr<Interaction>& contact);
 	StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const override;
 	FUNCTOR2D(RockJointMat, RockJointMat);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ip2_RockJointMat_RockJointMat_RockJointPhys, IPhysFunctor,
 	R"""(Creates a :yref:`RockJointPhys` from two :yref:`RockJointMats<RockJointMat>`. Stiffnesses are those of the joint, so equal materials give
-exactly their value; of two different ones each contributes half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of friction angles, cohesions,
-tensile strengths, dilation angles and limits the smaller holds (the residual angle of a material without one is its friction angle). A closure or a
-shear law of its own (:yref:`RockJointMat.closure`, :yref:`RockJointMat.strength`) the joint has if both materials have one of the same kind, else it
-is a linear spring, and Mohr-Coulomb: of hyperbolas the mean of the maximum closures, of powers of the stress the means; of roughness (each scaled to
-its joint's length), wall strength, friction angles and exponents the smaller, of peak displacements and reference stresses the larger.
+exactly their value; two different ones each contribute half of the joint's compliance, $k=2k_1k_2/(k_1+k_2)$. Of the friction angles, cohesions,
+tensile strengths, dilation angles and limits, the smaller ones hold (the residual angle of a material without one is its friction angle). The joint
+has a closure or a shear law of its own (:yref:`RockJointMat.closure`, :yref:`RockJointMat.strength`) if both materials have one of the same kind,
+else it is a linear spring, and Mohr-Coulomb. Hyperbolas are combined by the mean of the maximum closures, powers of the stress by the means; of
+roughness (each scaled to its joint's length), wall strength, friction angles and exponents the smaller ones hold, of peak displacements and reference
+stresses the larger ones.
 
 Where faces have materials of their own (:yref:`faceMaterials<Polytope.faceMaterials>`), that of the face which lies closest to the plane of the
 contact is the joint's; of two faces that lie on each other both count, like two materials. A contact that ends and is made again is one of the face

@@ -56,7 +56,7 @@ void Shear::adapt(const RockJointPhys& phys)
 	twistingStiffness_ = twisting;
 }
 
-/// As adapt(), for a stiffness per area.
+/// Does what adapt() does, for a stiffness per area.
 void Shear::setArea(const RockJointPhys& phys)
 {
 	const Real present = phys.ks / phys.contactArea;

@@ -17,16 +17,16 @@ namespace yade {
 
 class Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Shear {
 public:
-	/// As at the end of the last step; `turnedForce`: its elastic shear force, turned to this step's normal.
+	/// Begins with the bed as it was at the end of the last step; `turnedForce`: its elastic shear force, turned to this step's normal.
 	Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turnedForce);
 
 	/// Springs join and leave with the area, and stiffnesses become the present ones, after phys.setStiffnesses().
 	void adapt(const RockJointPhys& phys);
 	/// The motion of this step strains all springs: `increment`, of body 2 along the joint at the contact point.
 	void move(const Vector3r& increment);
-	/// Slip by this, without turning, whatever the strength: of a joint that yields before it.
+	/// Slips by this, without turning, whatever the strength: for a joint that yields before its strength is reached.
 	void yield(const Vector3r& slip);
-	/// Of body 2 along the joint at the area's centroid, in this step.
+	/// Motion of body 2 along the joint at the area's centroid, in this step.
 	const Vector3r& motion() const { return motion_; }
 	/// The force before the motion of this step.
 	Vector3r forceBefore() const { return trialForce_ + stiffness_ * motion_; }
@@ -49,7 +49,7 @@ public:
 	Real energy() const;
 	/// What the springs lost in this step by slip, and with springs that left or joined [J].
 	Real loss() const { return before_ - energy() - workOn(lastForce_ + force_, lastTwist_ + twist_); }
-	/// Of the dampers, as energy lost [J]; `lastForce`, `lastMoment`: viscous, at the end of the last step.
+	/// Energy that the dampers lost in this step [J]; `lastForce`, `lastMoment`: viscous, at the end of the last step.
 	Real dampingLoss(const Vector3r& lastForce, Real lastMoment) const
 	{
 		return -workOn(lastForce + viscous_, lastMoment + viscousTwist_);

@@ -53,7 +53,7 @@ class PowerClosure : public JointClosure {
 public:
 	virtual ~PowerClosure() = default;
 
-	/// As HyperbolicClosure::postLoad().
+	/// Checks the attributes as HyperbolicClosure::postLoad() does.
 	void                 postLoad(PowerClosure&);
 	polytope::ClosureLaw law(Real stiffness) const override;
 
@@ -85,7 +85,7 @@ class BartonBandisStrength : public JointStrength {
 public:
 	virtual ~BartonBandisStrength() = default;
 
-	/// As HyperbolicClosure::postLoad().
+	/// Checks the attributes as HyperbolicClosure::postLoad() does.
 	void postLoad(BartonBandisStrength&);
 	/// \param residualFriction angle [rad]
 	polytope::BartonBandis law(Real residualFriction) const;
@@ -115,7 +115,7 @@ class ContinuouslyYieldingStrength : public JointStrength {
 public:
 	virtual ~ContinuouslyYieldingStrength() = default;
 
-	/// As HyperbolicClosure::postLoad().
+	/// Checks the attributes as HyperbolicClosure::postLoad() does.
 	void postLoad(ContinuouslyYieldingStrength&);
 	/// \param friction intrinsic angle [rad]
 	polytope::ContinuouslyYielding law(Real friction) const;

@@ -22,7 +22,7 @@ public:
 		postLoad(*this);
 	}
 
-	/// These name the argument where it is a law of the wrong kind, as the properties that YADE makes of attributes would not.
+	/// The setters name the argument if it is a law of the wrong kind; the properties that YADE makes of attributes would not.
 	shared_ptr<JointClosure>  getClosure() const { return closure; }
 	shared_ptr<JointStrength> getStrength() const { return strength; }
 	void                      setClosure(const boost::python::object& given);

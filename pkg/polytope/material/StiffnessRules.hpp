@@ -16,7 +16,7 @@ enum class StiffnessRule : int {
 	PerContact,  ///< depth, shared by pieces of one support
 };
 
-/// Of a contact [N/m].
+/// Stiffnesses of a contact [N/m].
 struct ContactStiffness {
 	Real normal = 0, shear = 0;
 };
@@ -37,7 +37,7 @@ public:
 	virtual StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const = 0;
 };
 
-/// Of a contact of two materials whose physics are made now.
+/// The rule for the stiffness of a contact of two materials whose physics are made now.
 inline StiffnessRule stiffnessRuleOfNew(const Scene& scene, const Material& material1, const Material& material2)
 {
 	for (const auto& engine : scene.engines)

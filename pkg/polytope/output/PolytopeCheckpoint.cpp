@@ -67,7 +67,7 @@ namespace {
 		}
 	};
 
-	/// As Omega::saveSimulation, which does not notice when the end of a file cannot be written, and changes what O.reload() loads.
+	/// Writes the scene. Omega::saveSimulation would not notice if the end of a file cannot be written, and would change what O.reload() loads.
 	/// \returns whether the system has taken all of it
 	bool writeScene(const string& name)
 	{

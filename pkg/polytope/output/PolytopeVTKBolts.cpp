@@ -28,7 +28,7 @@ namespace {
 		});
 	}
 
-	/// Of the crossing that an element is, zero of others.
+	/// Shear force of the crossing that an element is; zero if it is none.
 	Vector3r shearOf(const PolytopeBolt& bolt, std::size_t element)
 	{
 		for (const auto& crossing : bolt.crossings)

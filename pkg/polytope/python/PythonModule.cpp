@@ -81,7 +81,7 @@ template <class Number> py::object bytesOf(const std::vector<Number>& numbers)
 	        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(numbers.data()), Py_ssize_t(numbers.size() * sizeof(Number)))));
 }
 
-/// Of any shape with faces to be drawn; empty: it has none.
+/// Faces of a shape that are drawn; empty if it has none.
 std::shared_ptr<const polytope::Polyhedron> facesOf(const yade::Shape& shape)
 {
 	const auto surface = yade::familyOf(shape).surface(shape);
@@ -198,7 +198,7 @@ struct Contact {
 	std::string status() const { return polytope::statusName(result.status); }
 };
 
-/// Of a contact of two bodies in the scene; without engines that say so, by the materials.
+/// The rule for the stiffness of a contact of two bodies in the scene: what its engines say, or, without such engines, the materials.
 yade::StiffnessRule ruleOf(const yade::Body& body1, const yade::Body& body2)
 {
 	const auto &material1 = body1.material, &material2 = body2.material;

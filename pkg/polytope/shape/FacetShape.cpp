@@ -22,7 +22,7 @@ namespace {
 			extendBy(cornersOf(shape), state, low, high);
 		}
 
-		/// As deep as necessary, on the side away from the other body.
+		/// The support is as deep as necessary, on the side away from the other body.
 		void addSupport(const Shape& shape, const Placing& placing, Solid& solid) const override
 		{
 			Vector3r corners[3];

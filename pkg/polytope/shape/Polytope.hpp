@@ -33,7 +33,7 @@ public:
 	/// The planes for pickling, which takes attributes from here.
 	boost::python::dict pyDictCustom() const override;
 
-	/// Of a shape that is built already: nothing is constructed. Refuses as postLoad().
+	/// A Polytope with a shape that is built already: nothing is constructed. Refuses what postLoad() refuses.
 	static shared_ptr<Polytope> of(const std::shared_ptr<const polytope::ConvexShape>& convex);
 
 	/// Null until planes are given.

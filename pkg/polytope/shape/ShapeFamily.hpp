@@ -21,7 +21,7 @@
 ///
 ///     const FamilyOf<MyShape, MyFamily> family; // in the library that has MyShape, at namespace level
 ///
-/// The functions' own answers are those for a shape of which nothing is known. They are called by several threads at once, and must not throw. What is not
+/// The functions of this class itself answer for a shape about which nothing is known. They are called by several threads at once, and must not throw. What is not
 /// asked here: other contacts, which have functors for each pair of classes, and boxes, which have bound functors (FamilyBound.hpp has one by the bounding radius).
 namespace yade {
 
@@ -55,7 +55,7 @@ struct CoreOfBody {
 	Vector3r origin;
 	Matrix3r rotation;
 	Vector3r way = Vector3r::Zero(); ///< zero: the origin alone [m]
-	/// Of the segment's ends, where these are bodies of their own that move it, as nodes do a beam; null: it moves as its body.
+	/// States of the segment's ends, where these are bodies of their own that move it, as nodes do a beam; null: it moves as its body.
 	const State *end1 = nullptr, *end2 = nullptr;
 };
 
@@ -100,7 +100,7 @@ public:
 	virtual std::shared_ptr<const polytope::Polyhedron> surface(const Shape&) const { return nullptr; }
 };
 
-/// Of this class, or of the nearest of its bases that has one.
+/// The family that is registered for this class, or for the nearest of its bases that has one.
 const ShapeFamily& familyOf(const Shape& shape);
 
 /// Before a scene has such a shape. \param classIndex YADE's, Shape::getClassIndex()

@@ -24,7 +24,7 @@ inline const polytope::ConvexShape* convexShapeOf(const Body& body)
 	return shape ? shape->convex().get() : nullptr;
 }
 
-/// As the body stands. `shift`: of its place, by its period or to another origin.
+/// The shape placed as the body stands. `shift`: what is added to its place, by its period or to another origin.
 inline polytope::PlacedShape placed(const polytope::ConvexShape& shape, const State& state, const Vector3r& shift = Vector3r::Zero())
 {
 	return { shape, state.pos + shift, state.ori.toRotationMatrix() };

@@ -22,7 +22,7 @@ namespace {
 
 	using HalfSpace = std::shared_ptr<const polytope::ConvexShape>;
 
-	/// Of walls along each axis, to the negative and to the positive side: made once, so that a contact allocates nothing.
+	/// The half-spaces of walls along each axis, to the negative and to the positive side: made once, so that a contact allocates nothing.
 	std::array<HalfSpace, 6> madeHalfSpaces()
 	{
 		std::array<HalfSpace, 6> all;

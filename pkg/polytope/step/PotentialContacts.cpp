@@ -70,7 +70,8 @@ namespace {
 		return sum.stiffness();
 	}
 
-	/// As the scene's contacts have it. YADE's own physics, whose stiffness may be any: not less than at the analytic centre.
+	/// What the normal force depends on in the scene's contacts. With YADE's own physics, whose stiffness may be any, it is the depth at the analytic
+	/// centre in place of a pressure, so that no less stiffness is taken than there.
 	polytope::FaceForce faceForce(const Scene& scene, StiffnessRule rule)
 	{
 		using polytope::FaceForce;

@@ -126,7 +126,7 @@ namespace {
 		return force * polytope::rockingArms(body1, body2, geom.normal, geom.penetrationDepth);
 	}
 
-	/// Of an intact joint that acts as a bond.
+	/// Rotational stiffness of an intact joint that acts as a bond.
 	Matrix3r rotationStiffness(const PolytopeBond& bond, const Body& body1)
 	{
 		const Matrix3r axes    = (body1.state->ori * bond.frame1).toRotationMatrix();
