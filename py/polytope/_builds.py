@@ -10,7 +10,7 @@ import yade.config
 __all__ = ['available', 'environment', 'finest', 'precisions', 'present']
 
 precisions = ('double', 'longdouble', 'float128', 'mpfr150')
-"""As Debian names its builds: 53, 64 and 113 bits, and 150 decimal digits."""
+"""Precisions by the names of Debian's builds: 53, 64 and 113 bits, and 150 decimal digits."""
 
 
 def present():

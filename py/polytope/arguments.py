@@ -136,7 +136,7 @@ def rotation(orientation):
 
 
 def materialOf(material):
-	"""As YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
+	"""The material, given as YADE's own builders take it: a Material, its index or label in O.materials, or a function that makes one."""
 	if isinstance(material, int) and material < 0 and len(O.materials) == 0:
 		O.materials.append(utils.defaultMaterial())
 	if isinstance(material, (int, str)):

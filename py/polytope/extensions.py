@@ -57,7 +57,7 @@ def load(path):
 
 
 def _makeKnown(classes):
-	"""As names of the script, which has YADE's classes from its start."""
+	"""Makes these classes names of the script, which has YADE's own classes from its start."""
 	script = vars(sys.modules['__main__'])
 	for name in classes:
 		made = getattr(yade.wrapper, name)

@@ -223,7 +223,7 @@ class MotionRecord:
 
 
 def _springsOf(contact):
-	"""As `_springs`. The geometry has the energy over the stiffness, or it is that of a linear spring."""
+	"""The values named in `_springs`. Either the geometry has the energy over the stiffness, or the energy is that of a linear spring."""
 	geom, phys = contact.geom, contact.phys
 	depth = max(geom.penetrationDepth, 0)
 	perStiffness = geom.energyPerStiffness if geom.energyPerStiffness >= 0 else depth**2 / 2

@@ -28,8 +28,8 @@ strengths = 'friction', 'cohesion', 'tension'
 def divideStrengths(factor, reduce=strengths):
 	"""Divides the strengths of all rock joints at once: of contacts that exist, through their materials of those to come, and of bonds.
 
-	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are. Of a shear law of its own
-	(RockJointMat.strength) tan φ at each stress and displacement is divided.
+	tan φ, tan φᵣ, cohesion, tensile strength and the residual values of both; stiffnesses and dilation stay as they are. In a shear law of its own
+	(RockJointMat.strength), tan φ at each stress and displacement is divided.
 
 	:param float factor: above 0; 2 halves them
 	:param reduce: which: of 'friction', 'cohesion' and 'tension', residual values with the peak's

@@ -11,8 +11,8 @@ from .polytopes import defaultCornerFraction, isotropyTolerance
 __all__ = ['pieceOf']
 
 samePlane = 1e-6
-"""Of the body's size: by how much rounding may move or turn a plane of a piece, also far from the origin. A cut is farther from a face that is parallel to it,
-by the least piece that is cut off."""
+"""How far rounding may move a plane of a piece, as a part of the body's size, or turn it [rad], also far from the origin. A cut that is parallel to a face
+is farther from it, by the least piece that is cut off."""
 
 
 def pieceOf(body, cuts):

@@ -202,7 +202,7 @@ def boltArrays():
 
 
 def _given(value, name):
-	"""As PolytopeBolt has it: -1 where none is given."""
+	"""The number for an attribute of PolytopeBolt, which has -1 where none is given."""
 	if value is None:
 		return -1
 	if number(value, name) == -1:  # what stands for no value

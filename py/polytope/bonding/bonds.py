@@ -102,7 +102,7 @@ def removedBonds():
 
 
 def _value(given, name):
-	"""As PolytopeBond has it: -1 where the bodies' materials decide."""
+	"""The number for an attribute of PolytopeBond, which has -1 where the bodies' materials decide."""
 	if given is None:
 		return -1
 	if not isNumber(given) or isinstance(given, bool):

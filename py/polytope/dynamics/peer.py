@@ -14,7 +14,7 @@ standardGravity = 9.80665
 decimal = r'[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?'
 counts = re.compile(rf'NPTS\s*=\s*(\d+)\D*?\bDT\s*=\s*({decimal})', re.IGNORECASE)
 countsBefore = re.compile(rf'^\s*(\d+)\s+({decimal})\s+NPTS\s*,\s*DT', re.IGNORECASE)
-"""As files had it until 2013: 4000 0.0050 NPTS, DT."""
+"""The line as files had it until 2013: 4000 0.0050 NPTS, DT."""
 units = {
 	'acceleration': {'g': standardGravity, 'cm/s2': 0.01, 'cm/s/s': 0.01, 'm/s2': 1.0},
 	'velocity': {'cm/s': 0.01, 'cm/sec': 0.01, 'm/s': 1.0},

@@ -94,7 +94,7 @@ class Sample:
 		return _isThere(self.ids[0], self._first)
 
 	def hold(self, ids):
-		"""These bodies are its walls or plates."""
+		"""Takes these bodies as the sample's walls or plates."""
 		self._boundary.update((k, O.bodies[k]) for k in ids)
 
 	def mustBePresent(self):

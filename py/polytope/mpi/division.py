@@ -54,7 +54,7 @@ def assign(ranks):
 
 
 def _own():
-	"""On rank 0, after a merge: YADE leaves out contacts of which no body is this rank's."""
+	"""Makes all bodies those of rank 0, after a merge: YADE leaves out contacts neither of whose bodies belongs to the rank that it runs on."""
 	for body in O.bodies:
 		if body.subdomain != 0 and not body.isSubdomain:
 			_ranksOfBodies[body.id] = body.subdomain
@@ -62,7 +62,7 @@ def _own():
 
 
 def _disown():
-	"""Before the scene is divided again."""
+	"""Gives the bodies back to their ranks, before the scene is divided again."""
 	for k, rank in _ranksOfBodies.items():
 		if O.bodies[k] is not None:
 			O.bodies[k].subdomain = rank
@@ -285,7 +285,7 @@ def _endAll(kind, fault, trace):
 
 
 def _exit(status=None):
-	"""As sys.exit, but one that says that something has failed ends all ranks: the program yade calls it after an exception."""
+	"""Exits as sys.exit does, but a status that says that something has failed ends all ranks: the program yade calls it after an exception."""
 	if status not in (None, 0):
 		sys.stdout.flush()
 		sys.stderr.flush()

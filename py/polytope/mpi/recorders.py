@@ -46,7 +46,7 @@ def _all():
 
 
 def _isDue(engine):
-	"""As PeriodicEngine::isActivated in YADE, which only the engine's own loop calls."""
+	"""Whether the engine is due, by the rule of YADE's PeriodicEngine::isActivated, which only the engine's own loop calls."""
 	if O.iter < engine.iterLast:
 		engine.nDone = 0
 	first = engine.nDone == 0

@@ -36,7 +36,7 @@ class CommonFace:
 
 
 def commonFaces(chosen=None):
-	"""Those of pairs of bodies of which one is chosen and one can move. They touch, or overlap.
+	"""The common faces of pairs of bodies of which one is chosen and one can move. The bodies touch, or overlap.
 
 	:param chosen: set of ids; default all
 	"""
@@ -82,6 +82,6 @@ def planeOf(face, k):
 
 
 def materialOf(face, k):
-	"""Of body k's side of the joint: that of its face, if it has one of its own (*Polytope.faceMaterials*)."""
+	"""Material on body k's side of the joint: that of its face, if the face has one of its own (*Polytope.faceMaterials*)."""
 	body = O.bodies[k]
 	return materialOfPlane(body, planeOf(face, k) if len(getattr(body.shape, 'faceMaterials', [])) else -1)

@@ -55,7 +55,7 @@ def faceMaterials(joints, sets, chosen):
 
 
 def materialOfPlane(body, plane):
-	"""Of the body's plane of this index, if it has one of its own (*Polytope.faceMaterials*); else, and of −1, the body's."""
+	"""Material of the body's plane of this index, if the plane has one of its own (*Polytope.faceMaterials*); else, and for −1, that of the body."""
 	own = getattr(body.shape, 'faceMaterials', [])
 	return O.materials[own[plane]] if 0 <= plane < len(own) and own[plane] >= 0 else body.material
 

@@ -9,7 +9,7 @@ from ..arguments import numbersOf, vectors
 __all__ = ['areaOfFace', 'shapeOf']
 
 onPlane = 1e-9
-"""Of the block's extent: how far from a plane its corners may be computed."""
+"""Tolerance on the corners of a block's face, as a part of the block's extent: how far from the face's plane they may be computed."""
 
 
 def shapeOf(normals, offsets):

@@ -251,7 +251,7 @@ class _Search:
 		return trial
 
 	def _outcome(self, trial, parts, motion, unrest):
-		"""As of now: 'creeping' where it is neither."""
+		"""How the trial stands now: 'failed', 'stable', or 'creeping' where it is neither."""
 		if not parts.max() <= 1 or motion.runsAway():  # not a number counts as failed
 			return 'failed'
 		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0

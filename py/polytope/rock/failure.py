@@ -11,7 +11,7 @@ from ..scene.movers import moverOf
 __all__ = ['Failure', 'inMode', 'noMode', 'partOfMode', 'told']
 
 partOfMode = 0.1
-"""Of the largest displacement: bodies that move more are part of the mode."""
+"""Part of the largest displacement from which on a body is part of the mode."""
 
 
 @dataclasses.dataclass

@@ -19,7 +19,7 @@ module = "__import__('yade.polytope.rock.history', fromlist=['record']).record"
 axes = 'xyz'
 components = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 within = 1e-9
-"""Of a body's size: how far outside a point may be that is on its surface."""
+"""Tolerance on a point at a body's surface, as a part of the body's size: how far outside it may be."""
 
 
 @namedArguments

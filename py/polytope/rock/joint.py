@@ -15,9 +15,9 @@ __all__ = ['Cut', 'Joint', 'areasOf', 'asArguments', 'checkedAngles', 'finite', 
 oneRounding = 1e-12
 """[rad]: a dip this much above π/2 is vertical."""
 planar = 1e-3
-"""Of a polygon's extent: how far its corners may be from their mean plane. Files have three digits or more."""
+"""Tolerance on a polygon's corners, as a part of its extent: how far they may be from their mean plane. Files have three digits or more."""
 convex = 1e-3
-"""Of a polygon's extent: how far a corner may lie inside the hull of the others, for the same reason."""
+"""Tolerance on a polygon's corners, as a part of its extent: how far a corner may lie inside the hull of the others, for the same reason."""
 outside = 1.001
 """Radius of the disc that stands for a polygon, over that of the circle about its corners: its edges bound it."""
 
@@ -115,7 +115,7 @@ class Cut:
 	"""Rows a·x ≤ d of half-spaces that bound it."""
 	persistence: float = 1.0
 	entry: int = 0
-	"""Of the joints that the script gave: the set or joint that it belongs to."""
+	"""The set or joint that it belongs to, among the joints that the script gave."""
 
 	@property
 	def offset(self):

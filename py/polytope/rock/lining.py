@@ -100,7 +100,7 @@ def lining(
 	:param float thickness: of the section, in the plane of the line [m]
 	:param float youngsModulus: E [Pa]; for a long tunnel of which a slice is computed E/(1 - ν²)
 	:param float poissonsRatio: of the shear modulus G = E/(2 (1 + ν)) [-]
-	:param float width: of the section, along *axis*; half of it lies on each side of the points [m]. Of a lining of polygons their thickness
+	:param float width: of the section, along *axis*; half of it lies on each side of the points [m]. For a lining of polygons it is their thickness
 	:param Vector3 axis: across the plane of the line, needed for (n, 3) points: seen against it, the left of the line is on the left
 	:param side: where the thickness lies, seen along the line: 'left', 'right' or 'middle'. The inside of a tunnel whose points go round anticlockwise is left
 	:param bool closed: the last point is joined to the first one by a segment, as in a ring
@@ -175,7 +175,7 @@ def _stiffnesses(modulus, ratio, thickness, width, length, cosine):
 
 
 def _torsionConstant(a, b):
-	"""Of Saint-Venant for a rectangle, to 0.5 % (Roark's Formulas for Stress and Strain)."""
+	"""Saint-Venant's torsion constant of a rectangle, to 0.5 % (Roark's Formulas for Stress and Strain)."""
 	b, a = sorted((a, b))
 	return a * b**3 * (1 / 3 - 0.21 * b / a * (1 - b**4 / (12 * a**4)))
 

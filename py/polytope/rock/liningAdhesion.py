@@ -19,9 +19,9 @@ class Adhesion:
 	those of the joint between the two RockJointMats."""
 
 	tensileStrength: float
-	"""Of the stress normal to the face, bending included [Pa]; infinity: does not fail."""
+	"""Strength against the stress normal to the face, bending included [Pa]; infinity: does not fail."""
 	shearStrength: float
-	"""Of the shear stress without normal stress, the cohesion [Pa]; infinity: does not fail."""
+	"""Strength against the shear stress without normal stress, the cohesion [Pa]; infinity: does not fail."""
 	gap: float | None = None
 	"""Largest distance of lining and block [m]; None: they touch."""
 

@@ -25,13 +25,14 @@ dust = 1e-12
 gap = 1e-3
 """How far the winding number of a closed mesh may be from a whole one."""
 missed = 1e-5
-"""Of the mesh's volume: how far the parts' may be from it. Beyond, faces cross."""
+"""Tolerance on the volume of the parts, as a part of the mesh's: how far they may differ. Beyond it, faces cross."""
 flat = 1e-6
-"""Of the mesh's extent: triangles that lie in one plane to this are put there. In a file they miss it by the last digit, and parts as thin as this would be cut."""
+"""Distance as a part of the mesh's extent: triangles that lie in one plane to within it are put into that plane. In a file they miss it by the last digit,
+and parts as thin as this would be cut."""
 around = 0.1
-"""Of the mesh's extent: how far the box that is cut reaches beyond it, so that none of its faces is near one of the mesh's."""
+"""Margin as a part of the mesh's extent: how far the box that is cut reaches beyond the mesh, so that none of its faces is near one of the mesh's."""
 needle = 1e-12
-"""Of a triangle, its area over the square of its longest edge, below which it has no plane and is left out."""
+"""Area of a triangle over the square of its longest edge below which it has no plane and is left out."""
 mostParts = 100000
 """Parts that a surface may cut a region into."""
 

@@ -18,7 +18,7 @@ outside = 1e-3
 """Part of a line that may lie outside the rock: ends on its faces, to rounding, and along joints."""
 
 formats = ('.png', '.svg', '.pdf')
-"""Of pictures."""
+"""Endings of the names of pictures."""
 colours = ('tab:blue', 'tab:orange', 'tab:green', 'tab:red', 'tab:purple', 'tab:brown', 'tab:pink', 'tab:olive')
 
 

@@ -20,7 +20,7 @@ class Earlier:
 		self.radii = np.array([cut.radius or np.inf for cut in cuts])
 
 	def end(self, cut, probability, random):
-		"""Gives a disc an edge at each joint that it meets, with this probability. Of a disc that crosses one, the side with its centre is left."""
+		"""Gives a disc an edge at each joint that it meets, with this probability. If a disc crosses one, the side with its centre is left."""
 		if not self.cuts:
 			return
 		ends = [k for k in self._met(cut) if random.random() < probability]

@@ -19,7 +19,7 @@ __all__ = ['Face', 'water']
 
 
 class Face(NamedTuple):
-	"""Of a body as it is now: what *faces* of *polytope.water* is asked for."""
+	"""A face of a body as it is now: what *faces* of *polytope.water* is asked for."""
 
 	body: int
 	"""Its id."""
@@ -36,7 +36,7 @@ class Face(NamedTuple):
 least = 100.0
 """Density [kg/m³] below which it is taken for one in t/m³: no liquid in rock has it."""
 sameMass = 1e-6
-"""Of a clump: more than its parts' rounding, less than any overlap that is seen."""
+"""Tolerance on a clump's mass, as a part of it: more than the rounding of its parts, less than any overlap that is seen."""
 
 
 @namedArguments
@@ -170,7 +170,7 @@ def _points(given, name):
 
 
 def _attributes(pieces):
-	"""As PolytopeWater has them: three sides for each piece."""
+	"""The attributes of PolytopeWater: three sides for each piece."""
 	sides = [[*piece.sides, *[(np.zeros(3), 0.0)] * (3 - len(piece.sides))] for piece in pieces]
 	return dict(
 		points=[Vector3(*piece.point) for piece in pieces],
@@ -196,7 +196,7 @@ def _chosen(faces, bodies):
 
 
 def _facesOf(body):
-	"""Those on half-spaces, without the caps of polygons, each with its corners."""
+	"""The faces on half-spaces, without the caps of polygons, each with its corners."""
 	corners = worldVertices(body)
 	_, counts, rings = _polytope.packedFaces(body.shape)
 	rings = np.split(np.frombuffer(rings, np.int32), np.cumsum(np.frombuffer(counts, np.int32))[:-1])

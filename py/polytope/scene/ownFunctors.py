@@ -14,7 +14,7 @@ def ownClasses(base):
 
 
 def ownFunctors(base):
-	"""Those of them that are made for classes of their own: not what several have in common."""
+	"""Functors of extensions that are made for classes of their own: not those that only serve several as their base."""
 	made = []
 	for functor in ownClasses(base):
 		try:
@@ -60,8 +60,8 @@ def ownContacts(shapes, functors):
 
 
 def ownBounds(shapes, functors):
-	"""Bound functors of extensions for these classes of shapes (names), and those that YADE has for shapes of its own that extensions have contacts for. Of several
-	for one class the first."""
+	"""Bound functors of extensions for these classes of shapes (names), and those that YADE has for shapes of its own that extensions have contacts for. If there are
+	several for one class, the first."""
 	taken = {base for functor in functors for base in functor.bases}
 	made = [own() for own in ownFunctors(BoundFunctor)]
 	touched = {base for own in ownContacts(shapes, []) for base in own.bases}

@@ -38,15 +38,15 @@ named = 3
 def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices, as a body at its centroid; or with *parts* a list of convex bodies.
 
-	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). Of a mesh of volumes the surface is
+	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). For a mesh of volumes, the surface is
 	taken. Warned of: a mesh that is not closed, not convex, or several bodies; a file whose numbers have too few digits where the mesh is. A container
 	(funnel, cup, drum) is read by *facets*.
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres
 	:param parts: 'objects': the file's bodies, as a list: its objects (lines ``o`` of OBJ, solids of STL, geometries of GLB and 3MF, volumes of Gmsh), and in
-	    each of these the pieces that are closed by themselves, which may share corners, edges and faces. Of one that is not convex or
-	    not closed the hull is taken, with a warning; a single one is refused.
+	    each of these the pieces that are closed by themselves, which may share corners, edges and faces. For one that is not convex or
+	    not closed, the hull is taken, with a warning; a single one is refused.
 	    Or the number of convex parts at most, into which CoACD cuts the mesh, approximately: ``polytope.clump(polytope.fromMesh('horse.obj', parts=20))``.
 	    CoACD is optional: ``pip install --no-deps --target ~/coacd coacd``, and PYTHONPATH=~/coacd. *center* and *orientation* are of the whole. A mesh is cut once: further calls, also
 	    with another *scale*, make copies of the same parts.

@@ -20,7 +20,7 @@ names = {
 }
 """Names of columns, in small letters with underscores."""
 turnRounding = 1e-3
-"""Of angles with three digits or more [°]."""
+"""Rounding of angles that have three digits or more [°]."""
 ofPlanes, ofRectangles = 11, 16
 """BlockGen's columns; those of rectangles end with a comment."""
 
