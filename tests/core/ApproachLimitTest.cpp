@@ -82,7 +82,7 @@ namespace {
 		EXPECT_DOUBLE_EQ(double(limitOf({ blade, box({ 0, 0, Real(2.5) }, 1, { 0, 0, 0 }, 1) }).step), 0.1 / 20);
 	}
 
-	/// Of all pairs, one by one, at many times.
+	/// The limit of all pairs, looked at one by one, at many times.
 	Real slowly(const std::vector<MovingBox>& bodies, const Real& fraction, const Real& horizon)
 	{
 		Real best = infinite;

@@ -120,7 +120,7 @@ TEST(ClosestPoint, OfTwoSegments)
 	}
 }
 
-/// Of a wall: the nearer end, or the middle of a segment along it.
+/// The segment's point that is nearest to a wall is an end, or the middle of a segment along the wall.
 TEST(ClosestPoint, OfAHalfSpaceIsOnItsPlane)
 {
 	const auto wall = ConvexShape::halfSpace({ 0, 0, 1 }, 3);

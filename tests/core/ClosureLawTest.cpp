@@ -154,7 +154,7 @@ TEST(ClosureLaw, ATangentThatJumpsIsNoFault)
 	NormalLaw::all().pop_back();
 }
 
-/// The same hyperbola with one of its functions, or its end, written down wrong.
+/// The hyperbola from above, with one of its functions, or its end, written down wrong.
 TEST(ClosureLaw, WhatDoesNotBelongTogetherIsNamed)
 {
 	const auto said = [](NormalLaw::Function pressure, NormalLaw::Function tangent, NormalLaw::Function energy, Real p = 2e-4) {

@@ -101,7 +101,8 @@ template <int D> void expectSums(const SurfaceOfPair<D>& own, const ExactCells<D
 	EXPECT_EQ(own.status, exact.pieces > 0 || own.sums.pieces > 0 ? SurfaceStatus::Found : SurfaceStatus::None);
 }
 
-/// Of pairs that overlap by more than rounding. `byVertices`: so many in a hundred at least have a surface from the vertices of the feasible set, too.
+/// Compares surfaces with exact ones, of pairs that overlap by more than rounding. `byVertices`: least number, in a hundred, that have a surface from the
+/// vertices of the feasible set, too.
 template <int D> void expectExact(const Maker& make, int trials, int least, int byVertices = 0)
 {
 	std::mt19937_64 random(71 + D);

@@ -16,7 +16,7 @@ using namespace polytope::samples;
 
 namespace {
 
-/// Of a set of pairs: means, then the largest.
+/// Numbers of steps for a set of pairs: means, then the largest.
 struct Counts {
 	double meanPivots = 0, meanIterations = 0;
 	int    mostPivots = 0, mostIterations = 0;

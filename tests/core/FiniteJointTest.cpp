@@ -213,7 +213,7 @@ TEST(RockBridges, RefusesMoreBlocksThanAllowed)
 	EXPECT_TRUE(says(refusal([&] { cutByJoints({ box(1, 1, 1) }, joints, { 0, -1, 7 }); }), "jointSets: they cut more than 7 blocks"));
 }
 
-/// Of 20 slabs, each cut by 50 joints: 1000 trials.
+/// Twenty slabs, each cut by 50 joints, are 1000 trials.
 TEST(RockBridges, PersistenceIsTheShareOfBlocksThatAreCut)
 {
 	std::vector<FiniteJoint> joints;

@@ -57,7 +57,7 @@ void expectSameFoundation(const Pair& pair, const Kernel kernel)
 	EXPECT_NEAR(result.energy * result.area, other.energy * other.area, 1e-4 * result.energy * result.area + allowed * thickness);
 }
 
-/// Of the same pair as query() gives, from another kernel: those of 2-D and 3-D for the models without a surface, then for those with one.
+/// Expects the same of a pair from another kernel as from query(). `kernels`: those of 2-D and 3-D for the models without a surface, then for those with one.
 void expectSameFrom(const Kernel* kernels)
 {
 	std::mt19937_64 random(600);

@@ -51,7 +51,7 @@ TEST(OverlapFootprint, OfABoxIsItsFace)
 	}
 }
 
-// Of a corner cut off the positive octant, seen along the diagonal: a triangle with its corners on the axes.
+// The tetrahedron is a corner cut off the positive octant, seen along the diagonal: a triangle with its corners on the axes.
 TEST(OverlapFootprint, OfATetrahedronIsATriangle)
 {
 	const Real         side = Real(0.6);

@@ -17,7 +17,7 @@ struct Errors {
 	Real median, largest, steps;
 };
 
-/// Of the energy over the largest elastic energy, of those that are over.
+/// Errors of the energy over the largest elastic energy, of those collisions that are over.
 Errors errors(std::vector<Collision> collisions, ContactModel model, int steps, bool turning)
 {
 	ContactSettings settings;

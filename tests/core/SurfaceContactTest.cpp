@@ -104,7 +104,7 @@ TEST(SurfaceContact, WorkOfTheForceIsWhatTheEnergyFallsBy)
 		}
 }
 
-/// The same for joints that stiffen as they close: nearly linear ones, some half closed, and some beyond the end of the curve, where it bends within a
+/// The test above for joints that stiffen as they close: nearly linear ones, some half closed, and some beyond the end of the curve, where it bends within a
 /// hundredth of the depth.
 TEST(SurfaceContact, WorkOfAClosingJointIsWhatTheEnergyFallsBy)
 {

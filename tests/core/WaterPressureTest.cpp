@@ -12,7 +12,7 @@ namespace {
 
 const Real weight = 9810;
 
-/// Of water that stands at z = 0, in one piece.
+/// The pressure of water that stands at z = 0, in one piece.
 PressurePiece table()
 {
 	PressurePiece piece;
@@ -22,7 +22,7 @@ PressurePiece table()
 	return piece;
 }
 
-/// The same in two pieces that meet in the plane direction·x = at.
+/// The pressure of table(), in two pieces that meet in the plane direction·x = at.
 std::vector<PressurePiece> halves(const Vector3& direction, Real at)
 {
 	std::vector<PressurePiece> both(2, table());

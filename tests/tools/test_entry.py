@@ -14,7 +14,7 @@ project = pathlib.Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def tmp_path(tmp_path):
-	"""Of clone, cache and all else: a path with what a shell would take apart or expand."""
+	"""A folder for clone, cache and all else, whose path has what a shell would take apart or expand."""
 	folder = tmp_path / 'with spaces, "quotes", it\'s $HOME & *'
 	folder.mkdir()
 	return folder

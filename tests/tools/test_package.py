@@ -22,7 +22,7 @@ source, plain, withIpopt, documentation, headers, library = control.split('\n\n'
 
 
 def testVersionsAgree():
-	"""Of CMake's project, the package and the citation."""
+	"""The versions of CMake's project, the package and the citation are the same."""
 	version = re.search(r'project\(yade-polytope VERSION ([\d.]+)', (project / 'CMakeLists.txt').read_text())[1]
 	assert (project / 'debian/changelog').read_text().startswith(f'yade-polytope ({version}-1) ')
 	assert re.search(r'^version: (.*)$', (project / 'CITATION.cff').read_text(), re.MULTILINE)[1] == version
@@ -49,7 +49,8 @@ def testDocumentationNeedsNoYade():
 
 
 def testHeadersComeWithWhatTheyInclude():
-	"""Of the very version of plug-in and core: all that the plug-in is built from but what it alone needs. The library's package has its number in its name."""
+	"""The headers need the very version of plug-in and core, and all that the plug-in is built from but what it alone needs. The library's package has
+	its number in its name."""
 	assert {'libpolytope-core1', 'yade-polytope'} <= field(headers, 'Depends')
 	included = {name for name in field(source, 'Build-Depends') if name.endswith('-dev') or 'qt5' in name or name == 'qtbase5-dev'}
 	ofOurOwn = {'coinor-libipopt-dev', 'dpkg-dev', 'libcgal-dev', 'libdeflate-dev', 'libgmp-dev'}
@@ -60,7 +61,8 @@ def testHeadersComeWithWhatTheyInclude():
 
 
 def testEveryModuleThatIsImportedHasItsPackage():
-	"""Of other projects, by the rule of Debian's names; trials of tests/yade/project/test_layers.py have the list of what may be imported."""
+	"""Modules of other projects have packages by the rule of Debian's names; trials of tests/yade/project/test_layers.py have the list of what may be
+	imported."""
 	named = re.search(r"ofTheProduct = set\('([^']*)'", (project / 'tests/yade/project/test_layers.py').read_text())[1].split()
 	packages = {name: f'python3-{name}' for name in named if name != 'coacd'} | {'vtkmodules': 'python3-vtk9', 'PIL': 'python3-pil'}
 	assert 'numpy' in packages and set(packages.values()) <= field(plain, 'Depends') | field(plain, 'Recommends')

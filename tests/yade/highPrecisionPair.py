@@ -40,7 +40,7 @@ def cuboid(centre, half, turn):
 
 
 def hull(points):
-	"""Of integer points, no four in a plane: planes from exact cross products."""
+	"""The hull of integer points, no four in a plane: planes from exact cross products."""
 	planes = []
 	middle = [mpf(sum(p[k] for p in points)) / len(points) for k in range(3)]
 	for corners in ConvexHull(points).simplices:

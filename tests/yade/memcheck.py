@@ -54,7 +54,7 @@ for model in ('boon2012', 'foundation'):
 
 
 def errors(path):
-	"""Of valgrind's report: kind and stacks of each different error, a stack being (object, function, file, line). The report may be long."""
+	"""Each different error in valgrind's report: kind and stacks, a stack being (object, function, file, line). The report may be long."""
 	for _, element in ElementTree.iterparse(path):
 		# XML brings a search for leaks along, whatever is asked for: what classes and Python hold until the process ends
 		if element.tag == 'error' and element.findtext('kind').startswith('Leak_'):

@@ -24,7 +24,7 @@ def load(name='start'):
 
 
 def state():
-	"""Of the merged scene."""
+	"""What the merged scene holds."""
 	if not master:
 		return None
 	whole = lambda vector: [float(x).hex() for x in vector]

@@ -247,7 +247,7 @@ def yielding():
 
 
 def ownLaws(**laws):
-	"""The same on one piece, so that joints keep what they have from one rank to the other; how far each has slipped in all."""
+	"""What sliding() gives, on one piece, so that joints keep what they have from one rank to the other; and how far each has slipped in all."""
 	found = sliding(1, 250, **laws)
 	if master:
 		found['slipped'] = {f'{i.id1} {i.id2}': float(i.phys.slipLength).hex() for i in O.interactions if i.isReal}

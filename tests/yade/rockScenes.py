@@ -9,7 +9,7 @@ from yade import O, RockJointMat, polytope
 gravity = 9.81
 dip, friction = math.radians(40), math.radians(30)
 weight = 1000 * gravity
-"""Of a block of 1 × 1 × 0.2 m, and its parts across and along a plane of that dip [N]."""
+"""Weight of a block of 1 × 1 × 0.2 m, and its parts across and along a plane of that dip [N]."""
 across, along = weight * math.cos(dip), weight * math.sin(dip)
 
 

@@ -34,7 +34,7 @@ gravity = 9.81
 density = 2600.0
 
 bounds = (Bo1_Polytope_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Bo1_Facet_Aabb, Bo1_Box_Aabb)
-"""Of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on, with its functor."""
+"""Bound functors of all shapes that touch polytopes; withPolytopes: their contact functors; supports: one of each for a block to stand on, with its functor."""
 withPolytopes = (
 	Ig2_Polytope_Polytope_PolytopeGeom,
 	Ig2_Sphere_Polytope_PolytopeGeom,

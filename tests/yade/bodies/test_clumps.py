@@ -129,7 +129,7 @@ def testPartsDoNotTouchEachOtherAndTheClumpKeepsItsMotion():
 
 
 def testLRestsWithItsTrueWeight():
-	"""Of overlapping parts, on a floor: the floor bears the union's weight."""
+	"""An L of overlapping parts stands on a floor: the floor bears the union's weight."""
 	floor = O.bodies.append(box((-5, -5, -1), (5, 5, 0), fixed=True))
 	number, _ = polytope.clump([box((0, 0, 0), (3, 1, 1)), box((0, 0, 0), (1, 2, 1))])
 	loop(True, gravity=(0, 0, -gravity), normalDamping=0.3, damping=0.2)
@@ -271,7 +271,7 @@ def testCoacdsPartsMakeAClump(mesh, monkeypatch):
 
 
 def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):
-	"""Of a mesh with three vertices for each triangle, as STL has, it gets the joined ones. What is nearest to the volume is taken."""
+	"""CoACD gets joined vertices, though the mesh has three for each triangle, as STL has. What is nearest to the volume is taken."""
 	import trimesh
 
 	asked, lengths = [], {0.05: (1.5, 0.7), 0.02: (0.7, 0.7, 0.02), 0.01: (0.7, 0.7, 3)}

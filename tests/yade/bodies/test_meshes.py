@@ -24,7 +24,7 @@ def box(extents=(1, 1, 1), place=(0, 0, 0)):
 
 
 def rock(seed=1):
-	"""Of 40 points on an ellipsoid: 76 triangles."""
+	"""The hull of 40 points on an ellipsoid: 76 triangles."""
 	directions = np.random.default_rng(seed).normal(size=(40, 3))
 	return trimesh.convex.convex_hull(directions / np.linalg.norm(directions, axis=1)[:, None] * (0.5, 0.4, 0.3))
 
@@ -189,7 +189,7 @@ def testHolesBelongToTheBodyAroundThem(tmp_path):
 
 
 def testTrianglesThatFaceEitherWay(tmp_path):
-	"""As some programs write them: the volume is that of the body all the same."""
+	"""Some programs write such files: the volume is that of the body all the same."""
 	turned = box((1, 2, 3))
 	turned.faces[::3] = turned.faces[::3, ::-1]
 	trimesh.util.concatenate([turned, box(place=(5, 0, 0))]).export(tmp_path / 'two.ply')
@@ -204,7 +204,7 @@ bricks = np.array([(0, 1, 4, 3, 6, 7, 10, 9), (1, 2, 5, 4, 7, 8, 11, 10)])
 
 
 def tetrahedra(cells):
-	"""Of bricks, which share the diagonals of their faces."""
+	"""Six tetrahedra for each brick; neighbours share the diagonals of their faces."""
 	six = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
 	return np.array([[cell[k] for k in one] for cell in cells for one in six])
 

@@ -29,7 +29,7 @@ def corners(body):
 
 
 def farthest(points, others):
-	"""Of the points from the nearest of the others; there must be as many."""
+	"""Largest distance of the points from the nearest of the others; there must be as many."""
 	assert len(points) == len(others)
 	return np.linalg.norm(np.asarray(points, float)[:, None] - others, axis=2).min(axis=1).max()
 
@@ -59,7 +59,8 @@ def testWhatIsWrittenIsReadAgain(tmp_path):
 
 
 def testYadesOwnReaderTakesTheFile(tmp_path):
-	"""As YADE's ymport.textPolyhedra reads it, which itself needs YADE's Polyhedra: header of three words, vertices, faces are skipped."""
+	"""The file is read by the rules of YADE's ymport.textPolyhedra, which itself needs YADE's Polyhedra: header of three words, vertices, faces are
+	skipped."""
 	O.bodies.append([polytope.regular(12, 1), polytope.cuboid((3, 0, 0), (1, 1, 1))])
 	polytope.writeShapes(tmp_path / 'two.txt')
 	lines = (tmp_path / 'two.txt').read_text().splitlines()
@@ -86,7 +87,7 @@ def testCellsOfNeperShareTheirFace():
 
 
 def testEmptyCellsOfNeperAreLeftOut(tmp_path):
-	"""As Neper writes them: without faces or, in 2-D, without vertices."""
+	"""Neper writes empty cells without faces or, in 2-D, without vertices."""
 	path = tmp_path / 'a.tess'
 	path.write_text(cell(' **polyhedron\n 2\n', ' **polyhedron\n 3\n   3 0\n'))
 	assert [body.shape.volume for body in polytope.readShapes(path)] == pytest.approx([0.75, 1.25])

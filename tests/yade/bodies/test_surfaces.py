@@ -203,7 +203,7 @@ def testAStepStopsOrLifts(perArea):
 
 
 def testAStepIsSeenAtAll():
-	"""The same without a step: nothing stops the body, nothing lifts it."""
+	"""Without a step nothing stops the body and nothing lifts it."""
 	past, lowest, _ = onStep(perArea=True, height=0.0)
 	assert past > 0.05 and abs(lowest) < 3e-4
 
@@ -298,8 +298,8 @@ def testBodiesLieOnAFace(kind):
 
 
 def foundationDepth(scene, corners):
-	"""Of the centroid of a body that lies on a face, on springs spread over that face: the mean depth times 1 + e·r⁻²·e, e: from the middle of
-	the face, r²: of its radii of gyration."""
+	"""Depth of the centroid of a body that lies on a face, on springs spread over that face: the mean depth times 1 + e·r⁻²·e, where e is its place from
+	the middle of the face, and r² are the squares of the face's radii of gyration."""
 	low = corners[corners[:, 2] < -scene.depth + 1e-9]
 	if scene.planar:
 		ends = low[:, 0].min(), low[:, 0].max()

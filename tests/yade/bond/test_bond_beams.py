@@ -37,7 +37,7 @@ def settle(body, force, periods=10):
 
 
 def deflectionOfChain(number, force):
-	"""Of the last block's centre: rotation of each bond times its distance, and slip."""
+	"""Deflection of the last block's centre: rotation of each bond times its distance, and slip."""
 	h = length / number
 	arms = h * (np.arange(number) + 0.5)
 	return force * h * (arms**2).sum() / (modulus * inertia) + force * length / (shearModulus * area)
@@ -79,7 +79,7 @@ def testDeflection(number):
 
 @pytest.mark.parametrize('number, misses', [(1, 0.12), (2, 0.04), (4, 0.01)])
 def testFirstNaturalFrequency(number, misses):
-	"""Of a beam as long as from the fixed block's centre to the last one's end."""
+	"""The frequency is that of a beam as long as from the fixed block's centre to the last one's end."""
 	h = length / (number + 0.5)
 	tip = cantilever(number, h)
 	settle(tip, 1e3)

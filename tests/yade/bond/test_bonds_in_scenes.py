@@ -18,7 +18,8 @@ def row(number, **bond):
 
 
 def testABlockHangsFromARoofWithoutTilting():
-	"""Of a strength of 40 times its weight's stress; the ordinary joint's force moves to an edge across a gap, and it swings off."""
+	"""The bond's strength is 40 times the stress by the block's weight; with an ordinary joint, whose force moves to an edge across a gap, the block
+	swings off."""
 	joint(normalStiffness=kn, shearStiffness=kn)
 	O.bodies.append(polytope.cuboid((0, 0, 1.5), (3, 3, 0.5), fixed=True))
 	block = O.bodies[O.bodies.append(polytope.cuboid((0.1, 0.2, 0.5), (1, 0.5, 0.5)))]

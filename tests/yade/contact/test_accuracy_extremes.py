@@ -255,7 +255,7 @@ def testRunnerTakesTheScriptsThatAreThere(studies, capsys):
 
 
 def testPartsOfSeveralCallsAreInOneReport(studies, capsys):
-	"""As long as source and options are the same."""
+	"""They are in one report if source and options are the same."""
 	out = studies / 'out'
 
 	def shown(*options):

@@ -159,7 +159,7 @@ def testFixedObliqueBodyDoesNotKeepTheColliderBusy():
 
 
 def testTwoThousandFixedObliqueBodiesDoNotKeepTheColliderBusy():
-	"""Of any orientation, and far from the origin, too; some of them are changed by the normalisation in each step."""
+	"""The bodies have any orientation, and are far from the origin, too; some of them are changed by the normalisation in each step."""
 	joint()
 	loop()
 	random = np.random.default_rng(5)

@@ -45,7 +45,7 @@ def functors(**settings):
 
 
 def blocksOnFloors(geometry, perArea=False):
-	"""The same tilted block on a floor of each kind, far from each other; none moves."""
+	"""Puts equal tilted blocks, one on a floor of each kind, far from each other; none moves."""
 	O.reset()
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.5, stiffnessPerArea=perArea))
 	for k, floor in enumerate(floors):

@@ -173,7 +173,7 @@ def testAJointOnAWallForgetsNoFailure():
 
 @pytest.mark.parametrize('support', ['wall', 'thin plate', 'facet'])
 def testTheTimeStepBeforeTheContactIsThatOfItsStiffness(support):
-	"""Of a contact at the cube's corner: κ = k (1/m + (3/4 L²)/(m L²/6)), with the largest of normal and shear stiffness."""
+	"""The time step is that of a contact at the cube's corner: κ = k (1/m + (3/4 L²)/(m L²/6)), with the largest of normal and shear stiffness."""
 	frict()
 	O.bodies.append(supports[support]())
 	cube = O.bodies[O.bodies.append(polytope.cuboid((0, 0, 3), (half, half, half)))]

@@ -46,7 +46,7 @@ def testExactPose(name):
 
 @pytest.mark.parametrize('name', poses3d)
 def testTurnedAndMovedTogetherIsTheSame(name):
-	"""Of the pair as a whole, and in either order of the bodies."""
+	"""The pair is turned and moved as a whole, with either order of the bodies."""
 	lower, orientation, height, _ = poses3d[name]
 	turn, shift = Quaternion((1, 2, 3), 0.7), Vector3(100, -20, 3)
 	joint()

@@ -49,7 +49,7 @@ class Ledger:
 	],
 )
 def testContactsHaveTheEnergyOfTheirDepthRule(perArea, ig2, error):
-	"""Of a flat contact all rules give ½ δ²; where that is the rule of the chord, the geometry says -1."""
+	"""For a flat contact all rules give ½ δ²; where the rule is that of the chord, the geometry says -1."""
 	joint(normalStiffness=stiffness)
 	loop(perArea, ig2=ig2)
 	O.trackEnergy = True

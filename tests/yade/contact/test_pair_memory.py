@@ -176,7 +176,7 @@ def approach(begin):
 
 
 def testANewContactDoesNotDependOnWhatThePairRemembers():
-	"""So it is the same in a scene that was saved and loaded before."""
+	"""Therefore it is the same in a scene that was saved and loaded before."""
 	warm = approach(100)
 	assert warm[0] > 0
 	cold = approach(warm[0])

@@ -288,7 +288,7 @@ def sunkOnRidge(halves, perArea, length=1.0, force=2600 * 9.81 / stiffness):
 @pytest.mark.parametrize('rule', rules.args[1])
 @pytest.mark.parametrize('fall', [0.5, 1, 1.5])
 def testARidgeOfPiecesHasASurfaceOnEach(fall, rule):
-	"""Of facets, of two solids, and of four, two of which lie flush: all the same, softer per area and stiffer per contact than one solid."""
+	"""Ridges of facets, of two solids, and of four, two of which lie flush, are all the same: softer per area and stiffer per contact than one solid."""
 	found = []
 	for ridge in (lambda: bent(fall, fall), lambda: slopes(fall, fall, 2), lambda: slopes(fall, fall, 4)):
 		depth, contacts = restingDepth(ridge, lambda: polytope.cuboid((0, 0.1, 0.5), (0.5, 0.5, 0.5)), rule, steps=8000)
@@ -516,7 +516,8 @@ def testNoWallIsLeftOutBehindACornerThatPointsInwards(way):
 
 
 def energyLeft(model, pieces, tilt, speed, x):
-	"""Of a cube of 1 m that falls on a corner, without friction, damping and gravity: kinetic energy afterwards over that before, and how deep it sank in [m]."""
+	"""A cube of 1 m falls on a corner, without friction, damping and gravity. Returns the kinetic energy afterwards over that before, and how deep the
+	cube sank in [m]."""
 	O.reset()
 	perArea = model == 'foundation'
 	O.materials.append(

@@ -46,7 +46,7 @@ def testOnePairKnowsItsEnergy():
 
 
 def kineticEnergy(body):
-	"""Of YADE's default integrator, which carries the angular velocity in the body's axes."""
+	"""Kinetic energy with YADE's default integrator, which carries the angular velocity in the body's axes."""
 	state = body.state
 	spin = state.ori.conjugate() * state.angVel
 	return (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k] ** 2 for k in range(3))) / 2
@@ -137,8 +137,8 @@ def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
 
 
 def testWhatTheIntegratorDoesByItself():
-	"""The same boxes in free flight, with the same steps, for as long: YADE's rotation of unequal moments keeps energy and momentum far
-	better than a collision does. So the error of a collision is that of its steps through the contact, not of its free rotation."""
+	"""Takes equal boxes in free flight, with the same steps, for as long: YADE's rotation of unequal moments keeps energy and momentum far better than a
+	collision does. So the error of a collision is that of its steps through the contact, not of its free rotation."""
 	lost, turned = [], []
 	for step in steps:
 		energies, momenta = [], []

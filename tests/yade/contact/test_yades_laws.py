@@ -44,7 +44,7 @@ unsuited = {
 	'Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM': ('JCFpmMat', elastic, 'Ip2_JCFpmMat_JCFpmMat_JCFpmPhys'),
 }
 start = radians(18)
-"""Of the block's axis; it balances at 11.3°."""
+"""Tilt of the block's axis at the start; the block balances at 11.3°."""
 
 
 def tilt(material, values, physics, law, settings, periodic=False, seconds=0.4):

@@ -23,7 +23,7 @@ def hung(offset=0.0, half=(0.05, 0.05, 0.05), damping=0.3, **strength):
 
 
 def edgeStress(offset, half, weight):
-	"""Of a beam: the faces have a strip less in common, and the weight acts beside its middle."""
+	"""Stress at the edge as in a beam: the faces have a strip less in common, and the weight acts beside its middle."""
 	width, depth = 2 * half[0] - offset, 2 * half[1]
 	return weight / (width * depth) * (1 + 6 * (offset / 2) / width)
 
@@ -203,7 +203,7 @@ def testScriptsMayTakeItsStrength():
 
 
 def testItsTimeStepFollowsItsBending():
-	"""Of a plate in tension, whose rotation about y is faster than its motion along the pull."""
+	"""A plate in tension has a rotation about y that is faster than its motion along the pull."""
 	half = (0.1, 0.02, 0.005)
 	newton, state = hung(0, half=half, damping=0.0)
 	newton.gravity = (0, 0, -gravity)

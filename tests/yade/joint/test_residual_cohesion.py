@@ -12,7 +12,7 @@ gravity = 9.81
 
 
 def blockOnPlane(cohesion, residual, slope=radians(50), friction=radians(30), perArea=True, tensile=0.0):
-	"""Of 1 m², 1 t, too flat to topple; by gravity that leans."""
+	"""A block of 1 m² and 1 t, too flat to topple, on a plane that slopes because gravity leans."""
 	O.reset()
 	stiffness = 1e9
 	O.materials.append(

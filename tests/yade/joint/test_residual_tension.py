@@ -108,7 +108,7 @@ def testWorkOfTearingIsPlasticAndWhatThePeakLosesIsFracture(perArea, part):
 
 
 def momentOfSection(rotation, width, depth):
-	"""Of a rectangle without normal force, whose springs bear the strength in tension and any pressure, bent by this angle."""
+	"""Moment of a rectangle without normal force, whose springs bear the strength in tension and any pressure, when it is bent by this angle."""
 	k = stiffness * rotation
 	if k * width / 2 <= strength:
 		return k * depth * width**3 / 12

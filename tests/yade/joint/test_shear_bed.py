@@ -27,7 +27,7 @@ def prism(sides, radius, height, center, **body):
 
 
 def meanRadius(sides, radius):
-	"""Of a regular polygon under an even pressure."""
+	"""Mean radius of a regular polygon under an even pressure."""
 	h, t = radius * cos(pi / sides), radius * sin(pi / sides)
 	return (h * (t * hypot(t, h) + h * h * asinh(t / h)) / 3) / (h * t)
 
@@ -198,7 +198,7 @@ def testAClampedBlockDoesNotSwing():
 
 
 def stiffnessMatrix(perArea, slope):
-	"""Of a flat block at rest on a slope that cohesion holds: how its force and moment fall with a small motion, [N/m], [N], [N m]."""
+	"""Stiffness of a flat block at rest on a slope that cohesion holds: how its force and moment fall with a small motion, [N/m], [N], [N m]."""
 	halves, small, columns = (0.5, 0.5, 0.1), 1e-9, []
 	for moved in range(-1, 6):
 		O.reset()

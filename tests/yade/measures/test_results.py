@@ -321,7 +321,7 @@ def testMutantsThatSurviveAreListed(root, tmp_path):
 
 
 def testMutantsOfAnotherRunStay(root, tmp_path):
-	"""Those that the new run does not have, with their revision."""
+	"""Mutants that the new run does not have stay, with their revision."""
 	row = {'file': 'src/a/b.hpp', 'column': 5, 'kind': 'arithmetic', 'original': '+', 'mutant': '-', 'ran': ['core'], 'reachedBy': 4}
 	(root / 'docs/results/mutation.csv').unlink()
 	for revision, mutants in (('1111111', [('x = y + z', None), ('u = v + w', None)]), ('2222222', [('x = y + z', 'Sum.Quick')])):

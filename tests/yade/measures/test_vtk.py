@@ -185,7 +185,7 @@ def testContactsOfSpheresAndOfPolytopesStandInOneFile(tmp_path):
 
 
 def testBlocksOfALargeSceneComeBackBitForBit(tmp_path):
-	"""So many bodies that columns are compressed in several blocks; the file names a compressor that every reader knows."""
+	"""There are so many bodies that columns are compressed in several blocks; the file names a compressor that every reader knows."""
 	joint()
 	for k in range(4096):
 		place = (0.999 * (k % 16), 1.01 * (k // 16 % 16), k // 256)

@@ -107,7 +107,7 @@ def testCoarseLastStepIsAllowedFor(tmp_path, monkeypatch):
 
 
 def testFourJoints(tmp_path, monkeypatch):
-	"""Of dip 65°, to the four quarters."""
+	"""The joints have the dip 65° and face the four quarters."""
 	dip, blocks = radians(65), {}
 	horizontal = [np.array([np.cos(a), np.sin(a), 0]) for a in pi / 2 * np.arange(4)]
 	outward = [np.sin(dip) * away + (0, 0, np.cos(dip)) for away in horizontal]

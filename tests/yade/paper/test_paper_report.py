@@ -196,7 +196,7 @@ def testSourceHashSeesAnyFile(tmp_path):
 
 
 def testTheReportsOwnFilesAreThere():
-	"""Those that sourceHash() leaves out."""
+	"""Its own files are those that sourceHash() leaves out."""
 	assert report.ofTheReport and all((path.parents[2] / name).is_file() for name in report.ofTheReport)
 
 

@@ -82,7 +82,7 @@ def testTwoSetsOfVerticesHaveTheirContact(place, compiler, installed, tmp_path):
 
 
 def testSixteenLines():
-	"""Of the example's main(), from the shapes to what is printed."""
+	"""The example's main() has sixteen lines at most, from the shapes to what is printed."""
 	text = (example / 'coreAlone.cpp').read_text()
 	body = text[text.index('int main()') :].splitlines()[2:-1]
 	assert 0 < len(body) <= 16

@@ -263,7 +263,7 @@ def testAnExtensionForLongDoubleIsRefusedInDouble(wide):
 
 
 def testLongDoubleHasItsOwnExtensions(joint, wide, inLongDouble):
-	"""That for double is refused; its own has the closed form, with more digits than double."""
+	"""The extension for double is refused; that for long double has the closed form, with more digits than double."""
 	assert refused(joint, **inLongDouble).startswith('it was built for the precision double, and this YADE computes in longdouble;')
 	script = (
 		block
@@ -322,7 +322,7 @@ answer([said(path) for path in (None, 5, sys.argv[1], sys.argv[1] + '/none.so')]
 
 
 def testARefusalIsTheSameAgain(joint, tmp_path):
-	"""Of a copy, whose classes are there already, and which stays in the process."""
+	"""The extension is a copy, whose classes are there already, and which stays in the process."""
 	copy = tmp_path / 'copy.so'
 	shutil.copy(joint, copy)
 	script = """

@@ -18,7 +18,7 @@ from yade.polytope import _helpTexts, _sharedArguments
 markup = re.compile(r'\.\. \w+::|:y?[a-z]+:`|::\w|\$|\]_|``')
 """Roles of Sphinx, C++ names, formulas of LaTeX, citations."""
 ownMethods = {'make', 'nonFiniteForces', 'notedSignal', 'postpone', 'ratioSlidingContacts', 'resetStats', 'stats', 'watchSignals', 'write'}
-"""Of the plug-in's classes; their signatures name Python's types alone."""
+"""Methods of the plug-in's classes; their signatures name Python's types alone."""
 
 
 @pytest.mark.parametrize('name', _helpTexts.classes)
@@ -31,7 +31,7 @@ def testHelpOfClassesIsPlainText(name):
 
 
 def testAllOfThePluginsClassesAreThere():
-	"""Those whose name says so; what has been forgotten in the list would keep its markup."""
+	"""The plug-in's classes are those whose name says so; what has been forgotten in the list would keep its markup."""
 	ours = {name for name in dir(yade) if 'Polytope' in name or 'RockJoint' in name} | {'BaseMotion', 'QuietBoundary', 'VelocityHistory'}
 	ours |= {'BartonBandisStrength', 'ContinuouslyYieldingStrength', 'HyperbolicClosure', 'PowerClosure'}
 	assert ours - {'RockJointLawRelationships'} == set(_helpTexts.classes)  # that one is YADE's

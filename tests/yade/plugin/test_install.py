@@ -76,7 +76,7 @@ def testAPrefixOfOnesOwn(tmp_path):
 
 
 def testAStagingFolder(tmp_path):
-	"""As makers of packages use it: under YADE's own prefix no links are made."""
+	"""Makers of packages use one: under YADE's own prefix no links are made."""
 	where = {'DESTDIR': str(tmp_path)}
 	own = pathlib.Path(re.search(r'^YADE_LIBRARY_DIR:PATH=(.*)$', (build / 'CMakeCache.txt').read_text(), re.MULTILINE)[1])
 	prefix = str(own).removesuffix(f'/{libraries}')

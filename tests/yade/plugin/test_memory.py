@@ -64,7 +64,7 @@ print('KILOBYTES', resident() - before)
 most = 300
 """Growth over all cycles [kB] that is allowed. 160 to 200 kB were measured in two cycles of 12 000 steps each, and of 50 000: buffers as large as the largest contact surface."""
 offsets = 600
-"""Of the half-spaces that a cycle makes bodies of. One reference kept to each is 19 kB a cycle."""
+"""Number of half-spaces that a cycle makes bodies of. One reference kept to each is 19 kB a cycle."""
 
 
 def growth(folder, cycles, steps, leak=0):

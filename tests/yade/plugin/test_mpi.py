@@ -27,15 +27,15 @@ scenes = str(here / 'mpiScenes.py')
 hangs = 300
 """Time after which a run is taken for one that hangs [s]; one takes some seconds."""
 size = 0.22
-"""Of the solids of the heap [m]."""
+"""Size of the solids of the heap [m]."""
 clumpedBodies = 81
-"""Of the heap of clumps: 18 of them, their 57 members and six single ones."""
+"""Number of bodies in the heap of clumps: 18 clumps, their 57 members and six single bodies."""
 sameAsHeap = ['parts', 'divided', 'decomposed']
 """The heap's hundred steps on 3 ranks, in other ways."""
 sameAsClumped = ['clumpedParts', 'clumpedDivided', 'clumpedDecomposed']
-"""The same of the heap of clumps."""
+"""The hundred steps of the heap of clumps on 3 ranks, in other ways."""
 sessions = tempfile.TemporaryDirectory(prefix='mpi')
-"""Of the runs' own files, a folder each: mpirun names its by its process number and does not start where one that was killed left the same."""
+"""Folder of the runs' own files, one in it for each run: mpirun names its by its process number and does not start where one that was killed left the same."""
 ownLaws = ['rough', 'yielding']
 moving = ['smooth', 'wet', 'joints', *ownLaws, 'opened', 'bonded', 'clumpedSliding', 'carried', 'shaken', 'edited']
 
@@ -93,9 +93,11 @@ def farthest(one, other):
 
 
 agreement = 1e-9
-"""Of a body's size. Forces of several ranks are added up in another order, and bodies of the heap still move, at some 1 m/s: what rounding changes grows."""
+"""Largest distance of equal places, as a part of a body's size. Forces of several ranks are added up in another order, and bodies of the heap still move, at
+some 1 m/s: what rounding changes grows."""
 sameForce = 1e-8
-"""Of the largest force. Where friction slips and turns at once, a few returns to its strength in 100 000 change the force by so much for a load that differs by rounding alone."""
+"""Largest difference of equal forces, as a part of the largest force. Where friction slips and turns at once, a few returns to its strength in 100 000
+change the force by so much for a load that differs by rounding alone."""
 
 
 def same(one, several, bodies=24):

@@ -6,7 +6,7 @@ from test_extensions import built, inYade, project
 
 
 def testTheForceActsOnTheFirstBodysSurface():
-	"""Of a tilted block whose edge is in the floor: in the floor's plane, which the plug-in's own point is not; and a block rests on it."""
+	"""The force of a tilted block whose edge is in the floor acts in the floor's plane, where the plug-in's own point is not; and a block rests on it."""
 	library = built('ownPoint')
 	script = """
 from yade import polytope

@@ -144,8 +144,8 @@ answer([found, mass, *depths, max(float(2 * math.acos(min(1, abs(body.state.ori[
 
 
 def testEnginesHaveTheContactsOfTheExtension(rounded):  # noqa: F811
-	"""Those for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of functors; a sphere's are there where there is
-	a sphere; settings of the contact are kept."""
+	"""Engines have the contacts for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of
+	functors; a sphere's are there where there is a sphere; settings of the contact are kept."""
 	script = (
 		start
 		+ """

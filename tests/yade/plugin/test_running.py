@@ -67,7 +67,7 @@ def testAFunctionIsAskedEverySoManySteps(falling):
 
 
 def testAnEngineThatPausesEndsIt(falling):
-	"""As with O.run; a later run does not end where this one would have."""
+	"""Such an engine ends the run as it ends O.run; a later run does not end where this one would have."""
 	O.engines += [PyRunner(command='O.pause()', iterPeriod=50)]
 	for call in (dict(steps=10**6), dict(until=100), dict(until=lambda: False)):
 		begin = O.iter

@@ -29,7 +29,7 @@ def prose(text):
 
 
 def anchors(path):
-	"""Of all headings, as GitHub and MyST make them."""
+	"""Anchors of all headings, as GitHub and MyST make them."""
 	found = re.findall(r'^#+ +(.+?) *$', prose(path.read_text()), re.MULTILINE)
 	return [re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in found]
 

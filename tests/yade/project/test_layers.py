@@ -71,7 +71,7 @@ def testTheCoreKnowsNothingAboveIt():
 
 
 folders = 'numbers', 'program', 'shape', 'centre', 'shear', 'joint', 'surface', 'contact', 'timestep', 'bond', 'bolt', 'neighbours'
-"""Of src, in this order."""
+"""Folders of src, in this order."""
 
 
 def testEachFolderOfTheCoreIncludesToTheLeftOnly():
@@ -100,7 +100,7 @@ def testNoHeaderIncludesItselfThroughOthers(folder):
 
 
 rooms = 'host', 'material', 'shape', 'pairs', 'bond', 'bolt', 'contact', 'joint', 'bonding', 'step', 'loads', 'output', 'python'
-"""Of pkg/polytope, in this order."""
+"""Folders of pkg/polytope, in this order."""
 
 
 def testEachFolderOfThePlugInIncludesToTheLeftOnly():

@@ -90,7 +90,7 @@ def testItCanBeSearched(site):
 
 
 def testEachNameHasOneTopic(part):
-	"""Of functions here; classes are counted in the site itself."""
+	"""Names of functions only; classes are counted in the site itself."""
 	topics = re.search(r'^topics = (\{.*?^\})', (programs / 'functionPages.py').read_text(), re.MULTILINE | re.DOTALL)
 	names = [name for _, several in eval(topics[1]).values() for name in several.split()]
 	assert sorted(names) == sorted(polytope.__all__)

@@ -19,7 +19,7 @@ build = os.path.dirname(os.environ['YADE_PREFIX'])
 
 
 def inside(*arguments):
-	"""As `./run` calls it, in the place where we are."""
+	"""Calls inside.sh as `./run` does, in the place where we are."""
 	return subprocess.run(['bash', os.path.join(project, 'tools', 'inside.sh'), *arguments], capture_output=True, text=True, timeout=1800)
 
 

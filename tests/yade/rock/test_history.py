@@ -16,7 +16,7 @@ def noData():
 
 
 def column():
-	"""Of three cubes on a fixed base, under gravity."""
+	"""Builds a column of three cubes on a fixed base, under gravity."""
 	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5))
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (1, 1, 0.5), fixed=True))
 	for k in range(3):

@@ -62,7 +62,7 @@ def rock(gravity=0, without=(), **joint):
 
 
 def error(field):
-	"""Of the block that is farthest off, over the largest component of the stress in it."""
+	"""Error of the stress in the block that is farthest off, over the largest component of the stress asked for."""
 	worst = 0
 	for k, found in polytope.bodyStress().items():
 		asked = field.at(O.bodies[k].state.pos)
@@ -467,7 +467,8 @@ def testTheMaterialsOfFacesAreAskedFirst(asked):
 
 
 def testAClumpGetsIt():
-	"""Of three blocks in an L, and one that fills the corner. Parts get other centres and axes with their size, and stay where they are."""
+	"""A clump of three blocks in an L, and a block that fills the corner, get the stress. Parts get other centres and axes with their size, and stay
+	where they are."""
 	material()
 	corners = [(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)], [(1, 0), (2, 0), (2, 1), (1, 1)], [(0, 1), (1, 1), (1, 2), (0, 2)]
 	prisms = [[(x, y, z) for x, y in outline for z in (0, 1)] for outline in corners]

@@ -26,7 +26,7 @@ def expect(found, theory):
 
 
 def testPartsThatAreBondedForGoodAreOneBlock():
-	"""As of a block that excavate has cut: the mode is that of one, and both parts are named."""
+	"""The parts are as those of a block that excavate has cut: the mode is that of one block, and both parts are named."""
 	blockMaterial(cohesion=6e3)
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	parts = O.bodies.append([polytope.cuboid((x, 0, 0.1), (0.25, 0.5, 0.1)) for x in (-0.25, 0.25)])
@@ -166,7 +166,8 @@ def limitOfTranslation(load, planes):
 
 
 def testAWedge():
-	"""That of Hoek & Bray, whose limit equilibrium without shear across the line of intersection is 1.877: the most that forces within the strengths of both planes can hold."""
+	"""The wedge of Hoek & Bray, whose limit equilibrium without shear across the line of intersection is 1.877. The limit analysis gives the most that
+	forces within the strengths of both planes can hold."""
 	one, two, face, top = map(normalOf, ((45, 105), (70, 235), (65, 185), (12, 195)))
 	for label, cohesion, angle in (('A', 24e3, 20), ('B', 48e3, 30), ('W', 1e9, 80)):
 		blockMaterial(label=label, density=2600, frictionAngle=math.radians(angle), cohesion=cohesion)
@@ -216,7 +217,7 @@ def testColumnsThatToppleStandAtLessFrictionThanRealOnes():
 
 
 def cornersOf(body):
-	"""Of a polygon, counter-clockwise."""
+	"""Corners of a polygon, counter-clockwise."""
 	points = {tuple(np.round(np.array(body.state.pos + body.state.ori * vertex, float)[:2], 9)) for vertex in body.shape.vertices}
 	middle = np.mean(list(points), axis=0)
 	return sorted(points, key=lambda point: math.atan2(point[1] - middle[1], point[0] - middle[0]))

@@ -10,7 +10,7 @@ from yade.polytope.strengthReduction import StrengthReduction, divideStrengths
 
 gravity, stiffness = 9.81, 1e9
 weight = 1000 * gravity
-"""Of a block of 0.2 m³ [N]: so flat that all of its face is pressed on a slope of 40°."""
+"""Weight of a block of 0.2 m³ [N]: so flat that all of its face is pressed on a slope of 40°."""
 
 
 def rock(density=5000, **strength):
@@ -46,7 +46,7 @@ def testABlockOnASlopeWithCohesion(residual, perArea):
 
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testCohesionActsOnWhatIsPressed():
-	"""Of a block half as high as wide the weight acts outside the middle third of the base: three times the way from there to the lower edge is pressed."""
+	"""The weight of a block half as high as wide acts outside the middle third of the base: three times the way from there to the lower edge is pressed."""
 	dip, friction, cohesion = radians(40), radians(30), 6e3
 	numbers = slope(dip, [dict(frictionAngle=friction, cohesion=cohesion, residualCohesion=cohesion)], half=0.25)
 	polytope.settle()

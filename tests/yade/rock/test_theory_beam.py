@@ -42,7 +42,7 @@ def testWorkIsLessThanEnergy():
 @pytest.mark.parametrize('degrees', [0.3, 4, 11, 14.9])
 @pytest.mark.parametrize('stiffnesses', [(100e6, 50e6), (70e6, 130e6)])
 def testForcesFromTheCornersThemselves(degrees, stiffnesses):
-	"""The same load from polygons: corner points of the triangles, their centroids, chords between the points where lines cross."""
+	"""The load follows from polygons, too: corner points of the triangles, their centroids, chords between the points where lines cross."""
 	turned = math.radians(degrees)
 	model = BeamBetweenWalls(0.15, 0.05, *stiffnesses)
 	turn = np.array([[math.cos(turned), math.sin(turned)], [-math.sin(turned), math.cos(turned)]])

@@ -10,7 +10,7 @@ from yade.polytope.strengthReduction import StrengthReduction
 
 gravity, density = 9.81, 1000
 weight = density * gravity
-"""Of a cubic metre of water [N]."""
+"""Weight of a cubic metre of water [N]."""
 
 
 def rock(**values):
@@ -18,7 +18,7 @@ def rock(**values):
 
 
 def moment(load, body, about):
-	"""Of a load about a point."""
+	"""Moment of a load about a point."""
 	force, torque = load
 	return torque + (O.bodies[body].state.pos - Vector3(*about)).cross(force)
 
