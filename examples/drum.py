@@ -21,7 +21,7 @@ O.engines = [drum] + polytope.engines(integrator=NewtonIntegrator(damping=0, gra
 
 
 def inclination():
-	"""Of the heap, from its centre of mass [°]: 0 at rest in a round drum, positive where the wall carries grains to."""
+	"""Inclination of the heap, from its centre of mass [°]: 0 at rest in a round drum, positive where the wall carries grains to."""
 	weights = np.array([O.bodies[k].state.mass for k in inside])
 	x, _, z = np.average([O.bodies[k].state.pos for k in inside], axis=0, weights=weights)
 	return degrees(atan2(-x, -z))

@@ -24,7 +24,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'paper'
 from boon2012.falling.scene import FallingPolyhedra
 
 fraction = 0.02
-"""Of sqrt(mass / stiffness): the longest time step."""
+"""Longest time step, as a part of sqrt(mass / stiffness)."""
 perArea = 25.0
 """Stiffness per area of *foundation*, over that per contact of the others and the area of a cube's face."""
 conserving = 'spring', 'foundation'

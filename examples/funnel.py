@@ -37,7 +37,7 @@ O.engines = polytope.engines()
 
 
 def addPoint():
-	"""Of the curve: how many grains have left the funnel."""
+	"""Adds a point to the curve: how many grains have left the funnel."""
 	heights = [body.state.pos[2] for body in O.bodies if body.dynamic]
 	plot.addData(t=O.time, left=sum(height < 0.09 for height in heights))
 	pyplot.pause(0.01)  # lets the window draw itself

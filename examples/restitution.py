@@ -28,7 +28,7 @@ speed, shares = 1.0, (0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7)
 
 
 def theory(damping):
-	"""Of a linear spring and dashpot that do not pull, for a fraction of critical damping below 1.
+	"""Coefficient of restitution of a linear spring and dashpot that do not pull, for a fraction of critical damping below 1.
 
 	T. Schwager, T. Pöschel (2007), Coefficient of restitution and linear-dashpot model revisited, Granular Matter 9:465-469.
 	"""

@@ -50,7 +50,7 @@ def block(damping, amplitude):
 
 
 def energy(amplitude):
-	"""Of a block at this amplitude, over m g R."""
+	"""Energy of a block at this amplitude, over m g R."""
 	return cos(leans - amplitude) - cos(leans)
 
 

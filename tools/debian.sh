@@ -14,7 +14,7 @@ packages() { # PURPOSE…
 		$0 && index(wanted, " " purpose " ") && !seen[$0]++' "$project/tools/packages.txt"
 }
 
-# Those of the packages on standard input that are not installed, in the root folder $1 (default /).
+# Prints those of the packages on standard input that are not installed, in the root folder $1 (default /).
 missingPackages() {
 	local installed
 	installed=" $(dpkg-query --admindir="${1:-}/var/lib/dpkg" -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ') "

@@ -3,8 +3,8 @@
 #
 # A Debian 13 root of our own, for machines whose YADE is older or absent; and running a command in it.
 #
-# As root it is an ordinary chroot, as an ordinary user the same within a user namespace. Either way the mounts are
-# private to the command: nothing is left mounted after it. Needs `project` and debian.sh.
+# For root it is an ordinary chroot, for an ordinary user the same within a user namespace. Either way the mounts are private
+# to the command: nothing is left mounted after it. Needs `project` and debian.sh.
 # shellcheck disable=SC2154
 
 debianKeyring=/usr/share/keyrings/debian-archive-keyring.gpg

@@ -3,7 +3,8 @@
 #
 # `./run package`: Debian packages for the YADE that is installed here, of the plug-in, its documentation, its headers and its core, into output/package. Part of inside.sh. debian/ has the rules.
 
-# Of the sources: debian/changelog's, and unless this is the tagged release, before it, by time and commit. Then the YADE it is for.
+# The version: that of the sources, then the YADE it is for. The sources have the one in debian/changelog, and unless this is the tagged release, a suffix of
+# time and commit, which sorts before it.
 packageVersion() {
 	local version of=(git -c safe.directory="$project" -C "$project") commit
 	version=$(dpkg-parsechangelog -l "$project/debian/changelog" -S Version)

@@ -2,8 +2,8 @@
 # shellcheck shell=bash
 #
 # YADE's source tree: the headers to compile against. YADE has no package of headers, but its source package has them.
-# Of exactly the installed version, fetched with the machine's apt under settings of our own: nothing of the system's
-# changes and no rights are needed. Needs `root`.
+# The tree is that of exactly the installed version, fetched with the machine's apt under settings of our own: nothing in the
+# system changes and no rights are needed. Needs `root`.
 # shellcheck disable=SC2154
 
 # fetchYadeSource FOLDER VERSION ARCHIVE…: unpacks into FOLDER; an archive is a line "URI SUITE COMPONENT"

@@ -40,9 +40,9 @@ length, height = 0.138, 0.046
 abutmentStiffness, midspanStiffness = 100e6, 50e6
 """The paper's [N/m]."""
 tolerances = {'centroid': 0.005, 'analyticCentre': 0.01}
-"""Of loads and rotations against theory, and of their change with time step and stiffness."""
+"""Tolerances on loads and rotations against theory, and on their change with time step and stiffness."""
 solverTolerance = 1e-6
-"""Of Newton's loads against Ipopt's, over the peak."""
+"""Tolerance on the difference of Newton's and Ipopt's loads, over the peak."""
 pushes = {'as given': {}, 'time step halved': {'timeStep': 0.5}, 'stiffness doubled': {'stiffness': 2}}
 drives = pushes | {'rate halved': {'rate': 0.5}}
 """Runs of BeamStudy.pushed() and driven(); changes against the first one must be small."""
@@ -51,7 +51,7 @@ pushPrecision, quickPushPrecision = 2e-4, 1e-3
 points, quickPoints = 119, 31
 driveSteps, quickDriveSteps = 30000, 8000
 heights, quickHeights = (1, 1.2, 1.5, 2, 3, 5, 10, 20), (1, 1.5, 3, 10)
-"""Of the abutments in the study of their size [block heights]."""
+"""Heights of the abutments in the study of their size [block heights]."""
 lengthFactors, quickLengthFactors = (1, 3), (1,)
 """The abutments' lengths there, over --abutment-length."""
 normalWeights, radiusFactors = (0.9, 0.75, 0.5), (1, 2)

@@ -41,15 +41,15 @@ closedForm = {
 	'R_A/W': (0.673312, 1e-6),
 	'R_B/W': (0.242106, 1e-6),
 }
-"""Of limit equilibrium: values [°, -], and how exactly they are known."""
+"""Results of limit equilibrium: values [°, -], and how exactly they are known."""
 lowestAngle = (31.07, 0.01)
-"""Of any statically admissible state [°]."""
+"""Lowest angle of any statically admissible state [°], and how exactly it is known."""
 mostEdgeForce = 1e-3
-"""Of the back edge over the wedge's weight, where stiffness goes by area."""
+"""Largest force of the back edge over the wedge's weight, where stiffness goes by area."""
 angleWithEdge = 33.96
-"""Of an independent program of the paper's algorithm, its back edge having 1e7 N/m [°]."""
+"""Critical angle by an independent program of the paper's algorithm, whose back edge has 1e7 N/m [°]."""
 slide = 0.3
-"""Of the wedge, in the second picture [m]."""
+"""How far the wedge has slid in the second picture [m]."""
 steps, quickSteps = (1.0, 0.1, 0.02), (8.0, 1.0, 0.1, 0.02)
 
 mustNotCount = 'time step halved', 'stiffness doubled'

@@ -41,9 +41,9 @@ models = ('surface', 'boon2012')
 """Contact models that are compared."""
 geometry = pathlib.Path(__file__).parent / 'geometry'
 timeStep = 0.2
-"""Over sqrt(mass / stiffness), of wedges and heaps."""
+"""Time step over sqrt(mass / stiffness), of wedges and heaps."""
 columns = 4
-"""Of the heaps' starting lattice: some four layers of bodies lie on each other at the end."""
+"""Columns of the heaps' starting lattice: some four layers of bodies lie on each other at the end."""
 leastTime, mostTime, rest = 3.0, 10.0, 1e-4
 """A heap is at rest when its kinetic energy over N m g L is below *rest*, after the least time and every quarter of a second then [s]."""
 

@@ -40,7 +40,7 @@ constantNormal = (34.215, 5e-4)
 """What a constant normal force would give [°], and how exactly that is known."""
 tolerance, shareTolerance = 0.02, 1e-3
 fall = 0.25
-"""Of the wedge, in the second picture [m]."""
+"""How far the wedge has fallen in the second picture [m]."""
 steps, quickSteps = (1.0, 0.1, 0.02, 0.005), (8.0, 1.0, 0.1, 0.02, 0.005)
 prismLabel = 'prism between two joints, default contact'
 """Joints of the wedge's dip, 1 m high and long."""

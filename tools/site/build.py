@@ -24,7 +24,7 @@ mathjaxParts = (
 	*('MathJax.js', 'config/TeX-AMS_SVG.js', 'extensions', 'jax/element', 'jax/input/TeX'),
 	*(f'jax/output/SVG/{name}' for name in ('config.js', 'jax.js', 'autoload', 'fonts/TeX')),
 )
-"""Of Debian's libjs-mathjax: what shows TeX as SVG. Its glyphs are scripts, which a browser loads from a folder, too."""
+"""Parts of Debian's libjs-mathjax that show TeX as SVG. Its glyphs are scripts, which a browser loads from a folder, too."""
 
 
 def writeSources(folder):

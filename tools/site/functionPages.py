@@ -63,7 +63,7 @@ inner = (
 """Members of these that no script needs, or that lists and tuples have."""
 
 modules = ('frictionReduction', 'strengthReduction', 'motionRecord', 'mpi')
-"""Those that are imported by their own names."""
+"""Modules that are imported by their own names."""
 
 
 def entry(name):

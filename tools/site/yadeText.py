@@ -9,7 +9,7 @@ import re
 __all__ = ['attribute', 'boost', 'example', 'indented', 'links', 'object_', 'rest', 'separate', 'staticAttributes', 'title', 'wrapper']
 
 flags = {1: 'not saved', 2: 'read only'}
-"""Of YADE's attributes (its lib/serialization): those that a script notices."""
+"""Flags of YADE's attributes (its lib/serialization) that a script notices."""
 types = {
 	'Real': 'float',
 	'string': 'str',

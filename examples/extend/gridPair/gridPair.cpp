@@ -23,7 +23,7 @@ class BeamFamily : public ShapeFamily {
 		const State &start = *beam(shape).node1->state, &end = *beam(shape).node2->state;
 		return CoreOfBody { nullptr, beam(shape).radius, start.pos, Matrix3r::Identity(), end.pos - start.pos, &start, &end };
 	}
-	/// As its nodes carry it: the nearer one more.
+	/// The nodes carry the force: the nearer one more of it.
 	void addForce(const Body& body, const Vector3r& place, const Vector3r& force, ForceContainer& forces) const override
 	{
 		const Body &   start = *beam(*body.shape).node1, &end = *beam(*body.shape).node2;

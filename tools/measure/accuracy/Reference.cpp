@@ -16,7 +16,7 @@ namespace {
 	using Digits150 = boost::multiprecision::number<cpp_bin_float<150>, boost::multiprecision::et_off>;
 	using Vector    = PreciseVector<Digits150>;
 
-	/// Of the linear program, whatever the dimension.
+	/// The optimum of the linear program, whatever the dimension.
 	struct ExactOptimum {
 		Digits150 infeasibility;
 		Vector    point {};

@@ -113,9 +113,9 @@ class Collisions:
 	"""
 
 	spacing, gap = 20.0, 1e-3
-	"""Of the pairs; between the solids at the start."""
+	"""Spacing of the pairs; gap between the solids at the start."""
 	radius = (3 / (4 * math.pi)) ** (1 / 3)
-	"""Of a sphere of volume 1."""
+	"""Radius of a sphere of volume 1."""
 
 	def __init__(self, meetings, how, steps, overlap=0.02, duration=40):
 		O.reset()
@@ -214,7 +214,7 @@ class Collisions:
 
 
 def spread(found):
-	"""Of the collisions that touched and have parted, a dictionary: number, median, rms and largest error, largest gain,
+	"""How the errors of the collisions that touched and have parted are spread, a dictionary: number, median, rms and largest error, largest gain,
 	number that gained, and least, median and largest energy left over that of the start.
 
 	:param found: what Collisions.run() returned

@@ -28,7 +28,7 @@ class Limit:
 class Axis:
 	title: str
 	label: str
-	"""Of the values."""
+	"""Label of the values."""
 	limits: list
 	note: str = ''
 	unjudged: float = 0

@@ -103,7 +103,7 @@ def faults(samples):
 
 
 def unjudged(samples):
-	"""Those of which error() has nothing to say but s*: refused, with a status that is a warning, or contacts without a reference."""
+	"""Samples for which error() has nothing to say but s*: refused, with a status that is a warning, or contacts without a reference."""
 	return [
 		s
 		for s in samples

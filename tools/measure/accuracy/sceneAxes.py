@@ -240,11 +240,11 @@ class Tower:
 	sideways: float
 	"""Largest way of a block across the vertical since it was placed [m]; blocks are 1 m wide."""
 	tilt: float
-	"""Largest [rad]."""
+	"""Largest tilt [rad]."""
 	settlement: float
-	"""Of the top block less what the overlaps at rest add up to, over that."""
+	"""Settlement of the top block less what the overlaps at rest add up to, over that sum."""
 	speed: float
-	"""Largest left [m/s]."""
+	"""Largest speed left [m/s]."""
 	failures: int
 	finite: bool
 

@@ -49,7 +49,7 @@ def cubes(places, turn):
 
 
 def spheres(places):
-	"""As cubes(), of YADE's spheres of diameter 1."""
+	"""Does the same as cubes() for YADE's spheres of diameter 1."""
 	from yade import (
 		Bo1_Sphere_Aabb,
 		ForceResetter,

@@ -76,7 +76,7 @@ def build(number, yadesCollider):
 
 
 def run(steps, parts, name):
-	"""These steps, and how the time of a body's step divides among the engines."""
+	"""Runs this number of steps, and notes how the time of a body's step divides among the engines."""
 	from yade import O
 
 	O.timingEnabled = True

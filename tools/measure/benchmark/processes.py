@@ -19,7 +19,7 @@ import results
 from tabulate import tabulate
 
 stateBytes = 13 * 8
-"""Of a body that is sent in each step: position, velocity, angular velocity, orientation."""
+"""Bytes of a body's state that are sent in each step: position, velocity, angular velocity, orientation."""
 perWorker = 10000
 """Bodies on each worker where the number of bodies grows with that of the workers."""
 

@@ -52,7 +52,7 @@ def used():
 
 
 def median(call, repeats):
-	"""Of a call: 'processor' time and time by the 'clock' [s]."""
+	"""Median times of a call: 'processor' time and time by the 'clock' [s]."""
 	times = {'processor': [], 'clock': []}
 	for _ in range(repeats):
 		begin, beginUsed = time.perf_counter(), used()

@@ -14,7 +14,7 @@ here = pathlib.Path(__file__).resolve().parent
 cubes = 20000
 """On several processes."""
 repeats = 2
-"""Of each number of processes; the fastest counts, for they meet other work of the machine."""
+"""Number of runs with each number of processes; the fastest counts, for they meet other work of the machine."""
 
 
 def bodies(number, steps=200):

@@ -72,7 +72,7 @@ class Scenes:
 		return overlay
 
 	def peer(self, method, **request):
-		"""As run(); None, and a note why, where the peer cannot do it."""
+		"""Gives what run() gives; None, and a note why, where the peer cannot do it."""
 		try:
 			return self.run(method=method, **request)
 		except SceneFailed as error:

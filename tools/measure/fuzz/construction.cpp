@@ -19,7 +19,7 @@ using namespace polytope::fuzz;
 
 namespace {
 
-/// Of a plane's distance to a vertex: the lower bound for a shape that is accepted (construction::flatness).
+/// Distance of a plane to a vertex that is allowed: the lower bound for a shape that is accepted (construction::flatness).
 Real allowance(const Polyhedron& shape)
 {
 	Real size = 0;

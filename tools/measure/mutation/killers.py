@@ -17,11 +17,11 @@ memory = 4 << 30
 patience = 3
 """A test that takes so many times the processor's time without a mutant, and two seconds more, is ended: the mutant is killed."""
 asleep = 60
-"""And one that takes so many times its limit on the clock, which a process that waits for nothing does not."""
+"""A test that takes so many times its limit on the clock is ended, too: a process that waits for nothing does not take so long."""
 groups = (0.005, 0.02, 0.07, 0.2, 2, float('inf'))
 """Tests are run in these groups by their times [s], fastest first."""
 quickGroups = 4
-"""So many of them are run for all mutants before the others are run for any."""
+"""Number of groups that are run for all mutants before the others are run for any."""
 
 
 class Run:
@@ -53,7 +53,7 @@ class Run:
 
 
 class CoreTests:
-	"""Those of GoogleTest."""
+	"""The tests of GoogleTest."""
 
 	def __init__(self, program, mutants=''):
 		"""*mutants*: names those that are in the program."""
@@ -126,7 +126,7 @@ def failureOf(run):
 
 
 class PluginTests:
-	"""Those of pytest in these files, with the overlay that holds the mutants."""
+	"""The tests of pytest in these files, with the overlay that holds the mutants."""
 
 	def __init__(self, tree, files):
 		self.tree, self.files = tree, list(files)

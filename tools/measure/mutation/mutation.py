@@ -36,7 +36,7 @@ shareOfPlugin = 0.2
 
 
 def chosen(count, seed):
-	"""So many mutants, each place at most once."""
+	"""This number of mutants, each place at most once."""
 	chance = random.Random(seed)
 	places = {True: [], False: []}
 	for folder in core:

@@ -138,7 +138,7 @@ class Schemata:
 
 
 def objectOf(unit):
-	"""Of a file of src/ or tests/core/, in the build folder."""
+	"""Path of the object of a file of src/ or tests/core/, in the build folder."""
 	if unit.startswith('src/'):
 		return f'src/CMakeFiles/polytope_core.dir/{unit.removeprefix("src/")}.o'
 	return f'tests/core/CMakeFiles/polytope_core_tests.dir/{unit.removeprefix("tests/core/")}.o'

@@ -23,7 +23,7 @@ ofScenes = (
 )
 ofBodies = ('body of', 'jointedRock')
 order = ('kernels', 'shapes', 'results', 'scenes', 'sizes', 'scale', 'growth', 'threads')
-"""Of the groups of `./run bench`."""
+"""Order of the groups of `./run bench`."""
 
 
 def taken(source):

@@ -38,7 +38,7 @@ namespace {
 		{
 		}
 
-		/// Of all poses of one moving pair; clears the memory.
+		/// Begins with the poses of one moving pair: chooses the settings of all of them and clears the memory.
 		void start(Random& random)
 		{
 			paper_                   = ContactSettings();

@@ -33,7 +33,7 @@ class BeamLimits:
 		return self.overlap, min(1, self.beam.length / self.beam.height, abutmentLength) / 2
 
 	def cornerRadius(self, abutmentLength, wanted=None):
-		"""As wanted; None: 0.1, or the overlap where that is larger.
+		"""The corner radius: as wanted; None: 0.1, or the overlap where that is larger.
 
 		:raises ValueError: if it is out of `cornerRadii`
 		"""
@@ -46,7 +46,7 @@ class BeamLimits:
 		return radius
 
 	def frictionAngle(self, wanted=None):
-		"""As wanted; None: 45°, or more where the beam needs it.
+		"""The friction angle: as wanted; None: 45°, or more where the beam needs it.
 
 		:raises ValueError: if the half-beams slip at the abutments, whose shear force over normal force is 4/3 L₂/L₁ at small rotations
 		"""

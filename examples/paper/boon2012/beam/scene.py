@@ -31,7 +31,7 @@ class BeamReading:
 	"""One moment of the beam, from the forces of its contacts."""
 
 	rotation: float
-	"""Of the half-beams [rad]."""
+	"""Rotation of the half-beams [rad]."""
 	load: float
 	"""W = M/(L₁/2) with the moment M of all contact forces on one half-beam about its contact point at the abutment [N]."""
 	loadTrueArm: float
@@ -46,9 +46,9 @@ class BeamReading:
 	tilt: float
 	"""Angle of the contact normal at the abutment with the horizontal, positive upwards on the half-beam [rad]."""
 	drop: float
-	"""Of the half-beam's upper inner corner, at midspan, since it began to turn [m]."""
+	"""Way of the half-beam's upper inner corner, at midspan, downwards since it began to turn [m]."""
 	rise: float
-	"""Of the half-beam's lower outer corner since it began to turn [m]."""
+	"""Way of the half-beam's lower outer corner, upwards since it began to turn [m]."""
 	shearRatio: float
 	"""Shear over normal force at the abutment: slips where it reaches tan φ."""
 
@@ -69,15 +69,15 @@ class ThreeHingedBeam:
 	abutmentHeight: float = 0.138
 	"""The abutments' middle is at the height of the half-beams' middle. [m]"""
 	abutmentLength: float = 0.046
-	"""Of the abutments away from the beam [m]."""
+	"""Length of the abutments away from the beam [m]."""
 	abutmentStiffness: float = 100e6
-	"""Of the contact of half-beam and abutment [N/m]."""
+	"""Stiffness of the contact of half-beam and abutment [N/m]."""
 	midspanStiffness: float = 50e6
-	"""Of the contact of both half-beams [N/m]."""
+	"""Stiffness of the contact of both half-beams [N/m]."""
 	abutmentNormalWeight: float = 1.0
-	"""Of the abutment's face against the half-beam's planes in their contact's normal, 0.5 to 1. At 1, a rigid abutment, the normal
-	is that of its face and all forces are horizontal, as in Appendix A. (A joint of stiffness 50 between equal blocks is one of
-	100 against a rigid one: the paper's two values.)"""
+	"""Weight of the abutment's face against the half-beam's planes in their contact's normal, 0.5 to 1. At 1, a rigid abutment, the normal is that of
+	its face and all forces are horizontal, as in Appendix A. (A joint of stiffness 50 between equal blocks is one of 100 against a rigid one: the
+	paper's two values.)"""
 	cornerRadius: float = 0.0046
 	"""Must be larger than the overlaps: a point deeper than that in a body gets no normal from it. [m]"""
 	contactModel: str = 'boon2012'
@@ -122,7 +122,7 @@ class ThreeHingedBeam:
 
 	@property
 	def mass(self):
-		"""Of one half-beam, 1 m thick [kg]."""
+		"""Mass of one half-beam, 1 m thick [kg]."""
 		return self.density * self.length * self.height
 
 	def build(self):

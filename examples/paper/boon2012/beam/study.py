@@ -32,7 +32,7 @@ class BeamCurve:
 	peak: object
 	"""BeamReading at the largest load."""
 	work: float
-	"""Of the imposed moment on one half-beam, up to the peak [J]."""
+	"""Work of the imposed moment on one half-beam, up to the peak [J]."""
 	exhaustion: float
 	"""Rotation beyond the peak at which the load is zero [rad]."""
 
@@ -50,7 +50,7 @@ class DrivenBeam:
 	deviation: float
 	"""Largest difference from theory at the same rotation, over theory's peak [-]."""
 	rise: float
-	"""Of the hinge at the abutment up to the peak [m]."""
+	"""Rise of the hinge at the abutment up to the peak [m]."""
 
 
 @dataclasses.dataclass
@@ -88,9 +88,9 @@ class TiltedNormal:
 
 	contactPoint: str
 	weight: float
-	"""Of the abutment's face in the normal."""
+	"""Weight of the abutment's face in the normal."""
 	radius: float
-	"""Of the bodies' corners [block heights]."""
+	"""Radius of the bodies' corners [block heights]."""
 	peak: object
 	"""BeamReading at the largest load, rotation imposed, statics."""
 

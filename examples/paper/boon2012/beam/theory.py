@@ -24,9 +24,9 @@ class _Beam:
 	height: float = 0.046
 	"""L₂ [m]."""
 	abutmentStiffness: float = 100e6
-	"""Of the contact of half-beam and abutment: thrust over chord, whatever the contact's area [N/m]."""
+	"""Stiffness of the contact of half-beam and abutment: thrust over chord, whatever the contact's area [N/m]."""
 	midspanStiffness: float = 50e6
-	"""Of the contact of both half-beams [N/m]."""
+	"""Stiffness of the contact of both half-beams [N/m]."""
 
 	def __post_init__(self):
 		for field in dataclasses.fields(self):
@@ -49,7 +49,7 @@ class _Beam:
 		return self.length * (np.cos(rotation) - 1) + self.height * np.sin(rotation)
 
 	def drop(self, rotation):
-		"""Of the upper corner at midspan, the lower corner at the abutment staying at its height [m]."""
+		"""How far the upper corner at midspan goes down, while the lower corner at the abutment stays at its height [m]."""
 		return self.height * (1 - np.cos(rotation)) + self.length * np.sin(rotation)
 
 	def load(self, rotation, trueArm=False):
@@ -122,7 +122,7 @@ class BeamBetweenWalls(_Beam):
 
 @dataclasses.dataclass
 class BeamOfTwoBlocks(_Beam):
-	"""The same beam with the contact point at the analytic centre of all planes of both bodies (Eq. 10 of the paper), numerically.
+	"""The beam with the contact point at the analytic centre of all planes of both bodies (Eq. 10 of the paper), numerically.
 
 	The abutments are blocks with their middle at the height of the half-beams' middle. Independent of the plug-in: planes in
 	exact symmetry, Newton's method to rounding.

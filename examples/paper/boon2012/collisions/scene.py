@@ -28,9 +28,9 @@ class Block:
 	"""A rectangular block and where it stands."""
 
 	halfLengths: tuple = (0.5, 0.5, 0.5)
-	"""Along its own axes [m]."""
+	"""Half lengths along its own axes [m]."""
 	position: tuple = (0, 0, 0)
-	"""Of its centre [m]."""
+	"""Position of its centre [m]."""
 	orientation: tuple = (1, 0, 0, 0)
 	"""Unit quaternion (w, x, y, z)."""
 
@@ -61,13 +61,13 @@ class Collision:
 	free: Block
 	density: float = 2000
 	normalStiffness: float = 1e8
-	"""Of the contact [N/m]."""
+	"""Normal stiffness of the contact [N/m]."""
 	shearStiffness: float = 1e8
 	frictionCoefficient: float = 1
 	contactDamping: float = 1
-	"""Of the contact, normal and shear, fraction of critical."""
+	"""Damping of the contact, normal and shear, fraction of critical."""
 	shearDamping: float = None
-	"""Of the contact's shear alone, where it differs from *contactDamping*."""
+	"""Damping of the contact's shear alone, where it differs from *contactDamping*."""
 	damping: float = 0.3
 	"""YADE's own: NewtonIntegrator.damping."""
 	dampGravity: bool = True

@@ -194,7 +194,7 @@ class CollisionReport:
 	heightTolerance, energyTolerance = 1e-5, 0.01
 	"""[m], [J]"""
 	restingPlace, restingDistance = (0.472, 0.518), 0.1
-	"""Of F1, by an independent small program of the paper's algorithm [m]; another contact model (overlap volume) gave (0.482, 0.531)."""
+	"""Where F1 comes to rest, by an independent small program of the paper's algorithm [m]; another contact model (overlap volume) gave (0.482, 0.531)."""
 	independent = {
 		'vertexFace': 'vertex 0.018 s, edge 1.02 s, face 1.76…2.03 s',
 		'edgeEdge': 'edge–edge 0.018 s, edge on face 1.01 s, parting ≈ 1.7 s',
@@ -452,7 +452,7 @@ class CollisionReport:
 
 
 def largestFall(values):
-	"""Of a quantity that ought never to fall."""
+	"""Largest fall of a quantity that ought never to fall."""
 	return float((np.maximum.accumulate(values) - values).max())
 
 

@@ -21,7 +21,7 @@ curves = {
 
 
 class ContactCostReport:
-	"""Of those runs that have one solid each and states to time; with none of them it reports nothing.
+	"""Reports the costs of those runs that have one solid each and states to time; with none of them it reports nothing.
 
 	:param Findings findings: where it goes
 	:param given: the options *output* and *no_pictures*

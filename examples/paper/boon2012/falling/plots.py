@@ -12,7 +12,7 @@ styles = {
 	'lpColdMicroseconds': ('#1d4e79', '-'),
 	'lpMicroseconds': ('#1d4e79', ':'),
 }
-"""Of the curves: colour and line style."""
+"""Colour and line style of the curves."""
 band = '#e9ecf1'
 """Colour of the ranges of paper and reference."""
 

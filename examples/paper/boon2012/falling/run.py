@@ -20,7 +20,7 @@ from .scene import FallingPolyhedra, solids
 __all__ = ['FallingRun', 'halfStep', 'quantities', 'save']
 
 halfStep = 4000
-"""Of energyHalf, and of the second picture."""
+"""Step of energyHalf, and of the second picture."""
 energyEvery = 20
 """Steps between two points of the energy curve."""
 

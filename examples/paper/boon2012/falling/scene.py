@@ -53,19 +53,19 @@ class FallingPolyhedra:
 	"""Numbers of faces (4, 6, 8, 12, 20) of the solids, used in turn; an int for one solid alone."""
 	number: int = 200
 	seed: int = 1
-	"""Of the orientations: the same seed gives the same scene."""
+	"""Seed of the orientations: the same seed gives the same scene."""
 	columns: int = 6
 	"""Lattice points along each side of the floor; the number of layers follows from the number of solids."""
 	size: float = 0.1
 	"""L, edge of the cube of each solid's volume [m]."""
 	density: float = 2600
 	normalStiffness: float = 1.25e6
-	"""Of each contact [N/m]."""
+	"""Normal stiffness of each contact [N/m]."""
 	stiffnessRatio: float = 2 / 3
 	"""Shear over normal stiffness."""
 	frictionAngle: float = math.radians(30)
 	contactDamping: float = 0.3
-	"""Of each contact, fraction of critical."""
+	"""Damping of each contact, fraction of critical."""
 	damping: float = 0.1
 	"""YADE's own: NewtonIntegrator.damping."""
 	gravity: float = 9.81
@@ -90,17 +90,17 @@ class FallingPolyhedra:
 
 	@property
 	def mass(self):
-		"""Of one particle [kg]."""
+		"""Mass of one particle [kg]."""
 		return self.density * self.size**3
 
 	@property
 	def spacing(self):
-		"""Of the lattice: the largest of the solids, the tetrahedron, fits with any orientation. [m]"""
+		"""Spacing of the lattice: the largest of the solids, the tetrahedron, fits with any orientation. [m]"""
 		return 2.02 * 1.249 * self.size
 
 	@property
 	def width(self):
-		"""Of the square floor between the walls [m]."""
+		"""Width of the square floor between the walls [m]."""
 		return self.columns * self.spacing
 
 	@property

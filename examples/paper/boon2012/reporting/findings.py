@@ -125,7 +125,7 @@ def _range(low, high):
 
 
 def _number(x):
-	"""As JSON can hold it: NumPy's numbers as Python's, what is not finite as text."""
+	"""The number as JSON can hold it: NumPy's numbers as Python's, what is not finite as text."""
 	if x is None or isinstance(x, str):
 		return x
 	if isinstance(x, bool) or float(x).is_integer() and abs(x) < 2**53:

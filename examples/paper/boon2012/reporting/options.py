@@ -39,7 +39,7 @@ __all__ = [
 
 contactPoints = ('analyticCentre', 'chebyshevCentre', 'centroid')
 contactModels = ('boon2012', 'surface', 'foundation', 'spring')
-"""Of Ig2_Polytope_Polytope_PolytopeGeom; the first is the paper's."""
+"""Contact models of Ig2_Polytope_Polytope_PolytopeGeom; the first is the paper's."""
 
 ofTheRun = ('quick', 'output', 'no_pictures')
 """What paperParser() adds: how a script is run, not what it computes."""

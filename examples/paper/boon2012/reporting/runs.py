@@ -19,7 +19,7 @@ sourceFolders = ('src', 'pkg', 'py', 'examples')
 
 
 def sourceHash(project, without=(), folders=sourceFolders):
-	"""Of all that a result may depend on: any change makes every simulation run again.
+	"""Hash of all that a result may depend on: any change makes every simulation run again.
 
 	:param pathlib.Path project: the folder in which src, pkg, py and examples are
 	:param without: paths in it that no result depends on

@@ -200,7 +200,7 @@ class RoofWedgeReport(WedgeReport):
 		)
 
 	def jointForces(self):
-		"""Those of the base case, as set, and how that was done."""
+		"""Reports the joint forces of the base case, as set, and how that was done."""
 		normal, shear = jointForces(self.given.horizontal_stress, self.base.area, self.base.inclination)
 		for name, ours, closed in zip(('normal', 'shear'), self.base.forces[0], (normal, shear), strict=True):
 			self.findings.row(f'{name} force of a joint as set', ours, 'N', theory=closed, accept=self.must(closed, 1e-6 * normal))
@@ -241,7 +241,7 @@ class RoofWedgeReport(WedgeReport):
 		)
 
 	def closure(self):
-		"""Of the joints under boundary stress."""
+		"""Reports the closure of the joints under boundary stress."""
 		scene = self.base.scene
 		case = next(case for case in self.ways if case.way == boundaryStress and case.scene.gravity == scene.gravity)
 		if scene.stiffnessTimes == 'face':

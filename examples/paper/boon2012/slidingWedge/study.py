@@ -18,7 +18,7 @@ from ..wedges.theory import SlidingWedge
 __all__ = ['SlidingWedgeCase', 'SlidingWedgeReport', 'limitEquilibrium', 'plotLockedShear']
 
 leastEdgeForce = 1e-2
-"""Of the back edge, over W, from which two faces alone no longer explain the critical angle."""
+"""Force of the back edge, over W, from which on two faces alone no longer explain the critical angle."""
 faceColors = {'A': '#1d4e79', 'B': '#f2a541'}
 
 

@@ -95,19 +95,19 @@ class SlumpingSlope:
 	"""Corners of the blocks that can move [m]."""
 	fixed: list
 	dip: float = None
-	"""Of the face and the bedding [rad], for distinguishing layers; the face points to the left."""
+	"""Dip of the face and the bedding [rad], for distinguishing layers; the face points to the left."""
 	spacing: float = None
-	"""Of the bedding [m]."""
+	"""Spacing of the bedding [m]."""
 	density: float = 2500
 	normalStiffness: float = 1e9
-	"""Of the joints, per area [Pa/m]."""
+	"""Normal stiffness of the joints, per area [Pa/m]."""
 	shearStiffness: float = 1e9
 	stiffnessPerArea: bool = True
 	"""False: stiffnesses are those of each contact [N/m]."""
 	frictionAngle: float = math.radians(40)
-	"""At the start; high enough for the blocks to settle."""
+	"""Friction angle at the start; high enough for the blocks to settle."""
 	contactDamping: float = 0.1
-	"""Of each contact, normal and shear, fraction of critical."""
+	"""Damping of each contact, normal and shear, fraction of critical."""
 	damping: float = 0.3
 	"""YADE's own: NewtonIntegrator.damping."""
 	gravity: float = 10

@@ -168,11 +168,12 @@ class SlopeReport:
 	"""
 
 	acceptedAngles = (19, 22.5)
-	"""Of the reference geometry [°]: independent programs with vertex springs and of the paper's algorithm failed from 19.5° to 21.5°."""
+	"""Critical angles that are accepted for the reference geometry [°]: independent programs with vertex springs and of the paper's algorithm failed
+	from 19.5° to 21.5°."""
 	mostInnerMotion = 0.02
-	"""Of the inner layers when the slope has failed [m]."""
+	"""Largest motion of the inner layers when the slope has failed [m]."""
 	limitAngle, limitTolerance, limitTogether = 19.75, 0.005, 5
-	"""Of the reference geometry [°], by an independent linear program; so many outer blocks turn as one."""
+	"""Critical angle of the reference geometry [°], by an independent linear program; so many outer blocks turn as one."""
 
 	def __init__(self, findings, given, layers):
 		self.findings, self.given, self.layers = findings, given, layers

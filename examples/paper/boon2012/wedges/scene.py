@@ -40,7 +40,7 @@ class Joint:
 	normal: np.ndarray
 	"""Unit normal out of the fixed block, into the wedge."""
 	area: float
-	"""Of the wedge's face [m²]."""
+	"""Area of the wedge's face [m²]."""
 
 
 @dataclasses.dataclass
@@ -66,9 +66,9 @@ class WedgeScene:
 	damping: float = 0.7
 	"""YADE's own: NewtonIntegrator.damping."""
 	contactDamping: float = 0.0
-	"""Of each contact, normal and shear, fraction of critical."""
+	"""Damping of each contact, normal and shear, fraction of critical."""
 	rockingDamping: float = 0.0
-	"""Of each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
+	"""Damping of rocking at each contact, fraction of critical: without it one contact point leaves rocking on a face to YADE's own damping."""
 	contactModel: str = 'boon2012'
 	"""Or 'surface', 'foundation', 'spring', which do not read *contactPoint*."""
 	contactPoint: str = 'analyticCentre'
@@ -122,7 +122,8 @@ class WedgeScene:
 		return self
 
 	def _contactModel(self):
-		"""That of a contact surface goes by the unit of the stiffness, which _fixStiffness makes one per contact after the contact has begun."""
+		"""The contact model. That of a contact surface goes by the unit of the stiffness, which _fixStiffness makes one per contact after the
+		contact has begun."""
 		return 'spring' if (self.contactModel, self.stiffnessTimes) == ('surface', 'face') else self.contactModel
 
 	def establishContacts(self):
@@ -175,7 +176,7 @@ class WedgeScene:
 
 	@property
 	def weight(self):
-		"""Of the wedge [N]."""
+		"""Weight of the wedge [N]."""
 		return O.bodies[self.wedgeId].state.mass * self.gravity
 
 	def forceFrom(self, name):
@@ -216,7 +217,7 @@ class WedgeScene:
 		return [Joint(name, normal, self._faceArea(normal)) for name, normal in normals.items()]
 
 	def _faceArea(self, normal):
-		"""Of the wedge's face whose outward normal is opposite to *normal*."""
+		"""Area of the wedge's face whose outward normal is opposite to *normal*."""
 		body = O.bodies[self.wedgeId]
 		corners = np.array([body.state.ori * v for v in body.shape.vertices], float)
 		for face in body.shape.faces:

@@ -65,12 +65,12 @@ class SlidingWedge:
 
 	@property
 	def plunge(self):
-		"""Of the line of intersection, below the horizontal."""
+		"""Plunge of the line of intersection, below the horizontal."""
 		return math.asin(-self.direction[2])
 
 	@property
 	def trend(self):
-		"""Of the line of intersection, clockwise from north."""
+		"""Trend of the line of intersection, clockwise from north."""
 		return math.atan2(self.direction[0], self.direction[1]) % (2 * math.pi)
 
 	def transverse(self):

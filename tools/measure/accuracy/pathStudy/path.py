@@ -31,14 +31,14 @@ __all__ = ['Scan', 'Smoothness', 'Zoom', 'change', 'forceUnit', 'halvings', 'qua
 
 quantities = ('point', 'normal', 'force')
 halvings = 24
-"""Of a step of the path, by default: to motions of some 1e-10 edges."""
+"""Number of times that a step of the path is halved, by default: to motions of some 1e-10 edges."""
 
 rounding = 1e-9
 """Changes below this are not told from rounding."""
 
 
 def change(a, b):
-	"""Of point [edges], normal [rad] and force between two answers."""
+	"""Change of point [edges], normal [rad] and force between two answers."""
 	point, normal, force = np.linalg.norm(b - a, axis=1)
 	return np.array([point, 2 * math.asin(min(normal / 2, 1)), force])
 
@@ -114,9 +114,9 @@ class Zoom:
 
 @dataclasses.dataclass
 class Smoothness:
-	"""Of one quantity on one path.
+	"""Smoothness of one quantity on one path.
 
-	:ivar float jump: the largest; 0 without
+	:ivar float jump: the largest jump; 0 without any
 	:ivar float rate: largest change per motion; infinite with a jump
 	:ivar Zoom worst: where it was found
 	"""
@@ -127,7 +127,7 @@ class Smoothness:
 
 
 def smoothness(zooms):
-	"""Of the zooms of one quantity."""
+	"""Smoothness of one quantity, from its zooms."""
 	jump = max(zooms, key=lambda one: one.jump)
 	if jump.jump > 0:
 		return Smoothness(jump.jump, math.inf, jump)

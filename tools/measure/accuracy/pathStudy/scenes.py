@@ -16,7 +16,7 @@ from yade.polytope.bodies.polytopes import cuboid
 __all__ = ['Pair', 'Placing', 'deep', 'fixedHalf', 'movingHalf', 'paths', 'planeSets', 'variants']
 
 fixedHalf, movingHalf = 0.8, 0.5
-"""Of the cubes' edges."""
+"""Half the edge of the fixed and of the moving cube."""
 deep = 0.005
 """Radius of the largest ball in the overlap: half the overlap of faces."""
 variants = {

@@ -11,7 +11,7 @@ __all__ = ['Lying', 'lyingBody', 'bodyKinds', 'planarBodies']
 
 
 def _hull(material):
-	"""Of 24 random points on an ellipsoid."""
+	"""The hull of 24 random points on an ellipsoid."""
 	points = np.random.default_rng(3).normal(size=(24, 3))
 	return fromVertices(points / np.linalg.norm(points, axis=1)[:, None] * (0.32, 0.28, 0.22), material=material)
 
@@ -105,7 +105,7 @@ def _faceDown(shape, up, planar):
 
 
 def _area(body, lowest, up, planar):
-	"""Of the face with these corners; 0 for an edge or a vertex."""
+	"""Area of the face with these corners; 0 for an edge or a vertex."""
 	if planar:
 		return float(np.ptp(lowest[:, 0])) * body.shape.thickness
 	if len(lowest) < 3:

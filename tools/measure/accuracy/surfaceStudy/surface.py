@@ -81,7 +81,7 @@ class SurfaceScene:
 	held: bool = False
 	"""The body does not turn: tilted, it slides on an edge or a vertex."""
 	turn: Quaternion = dataclasses.field(default_factory=lambda: Quaternion.Identity)
-	"""Of the whole scene, gravity included: nothing is then along the axes. Not for walls; polygons about z alone."""
+	"""Rotation of the whole scene, gravity included: nothing is then along the axes. Not for walls; polygons turn about z alone."""
 	at: tuple = (0.0, 0.13)
 	"""x and y of the body's centroid [m]; polygons read x alone."""
 	depth: float = 2.5e-4
@@ -127,7 +127,7 @@ class SurfaceScene:
 		return self
 
 	def _referenceArea(self):
-		"""Of the body's lowest face; where an edge or a vertex is lowest, of the face it would lie on."""
+		"""Area of the body's lowest face; where an edge or a vertex is lowest, that of the face it would lie on."""
 		return self.lying.area or lyingBody(self.body).area
 
 	def _start(self):
@@ -198,7 +198,7 @@ class SurfaceScene:
 
 	@property
 	def position(self):
-		"""Of the centroid: along the motion from the origin, to its left, up [m]."""
+		"""Place of the centroid: along the motion from the origin, to its left, up [m]."""
 		return self._components(self.turn.conjugate() * self.moving.state.pos)
 
 	@property
@@ -221,7 +221,7 @@ class SurfaceScene:
 		return math.acos(max(-1.0, min(1.0, float(now.dot(up)))))
 
 	def corners(self):
-		"""Of the body, in the same axes as the position [m]."""
+		"""Corners of the body, in the same axes as the position [m]."""
 		state = self.moving.state
 		return np.array([self._components(self.turn.conjugate() * (state.pos + state.ori * v)) for v in self.moving.shape.vertices])
 

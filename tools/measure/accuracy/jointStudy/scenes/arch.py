@@ -17,10 +17,10 @@ class MasonryArch:
 	"""Blocks on two fixed springers. `MasonryArch(...).build()`. The arch stands in the xz plane, polygons in the xy plane."""
 
 	thickness: float = 0.15
-	"""Over the mean radius."""
+	"""Thickness over the mean radius."""
 	blocks: int = 32
 	radius: float = 1.0
-	"""Of the middle of the arch [m]."""
+	"""Radius of the middle of the arch [m]."""
 	dimension: int = 2
 	frictionAngle: float = math.radians(89)
 	stiffness: float = 4e10
@@ -94,7 +94,7 @@ class MasonryArch:
 
 	@property
 	def speed(self):
-		"""Of the fastest block [m/s]."""
+		"""Speed of the fastest block [m/s]."""
 		return max(s.vel.norm() for s in self.states)
 
 	def settle(self, duration=1.5, growing=0.3):

@@ -22,9 +22,9 @@ class Verdict:
 	mode: str
 	"""'stands', 'slides' or 'topples'."""
 	turn: float
-	"""Of the block since the start [rad]."""
+	"""Rotation of the block since the start [rad]."""
 	way: float
-	"""Of its centre along the base, less what turning about the toe gives [m]."""
+	"""Way of its centre along the base, less what turning about the toe gives [m]."""
 
 	@property
 	def stands(self):
@@ -108,7 +108,7 @@ class BlockOnBase:
 
 	@property
 	def turn(self):
-		"""Of the block towards its toe, from upright, [rad]: where its own upward edge points."""
+		"""Rotation of the block towards its toe, from upright, [rad]: where its own upward edge points."""
 		# the body's own axes are principal ones: what is turned is what was there at the start
 		state = self.block.state
 		turned = state.ori * (state.refOri.conjugate() * self._builtUpward)

@@ -85,11 +85,11 @@ class FacetGrains:
 	"""Common to both containers."""
 
 	number: int = 60
-	"""Of grains."""
+	"""Number of grains."""
 	volume: float = 1.3e-5
-	"""Of a grain [m³]."""
+	"""Volume of a grain [m³]."""
 	segments: int = 24
-	"""Of the container's circumference."""
+	"""Number of segments of the container's circumference."""
 	frictionAngle: float = math.radians(25)
 	stiffness: float = None
 	"""[N/m], or [Pa/m] where perArea; default 1e5 N/m, 1e9 Pa/m."""
@@ -148,7 +148,7 @@ class FacetFunnel(FacetGrains):
 	width: float = 0.44
 	"""Diameter of the cylinder above [m]."""
 	height: float = 2.0
-	"""Of the cylinder [m]."""
+	"""Height of the cylinder [m]."""
 	gated: bool = True
 
 	def build(self):
@@ -260,7 +260,7 @@ class FacetDrum(FacetGrains):
 
 	@property
 	def driveWork(self):
-		"""Of the drum on the grains [J]: speed times what moment of momentum it gave them, beside gravity's."""
+		"""Work of the drum on the grains [J]: speed times the moment of momentum that it gave them, without what gravity gave."""
 		return self.speed * (self._momentum() - self._begun - self._impulse)
 
 	@property

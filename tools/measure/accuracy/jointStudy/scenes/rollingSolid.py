@@ -19,23 +19,23 @@ class RollingSolid:
 
 	faces: int = 12
 	plates: int = 10
-	"""Of equal length, flush."""
+	"""Number of plates of equal length, which lie flush."""
 	slope: float = math.radians(25)
 	frictionAngle: float = math.radians(35)
 	radius: float = 0.1
 	"""Circumradius [m]."""
 	length: float = 4.0
-	"""Of the whole slope [m]."""
+	"""Length of the whole slope [m]."""
 	seamAngle: float = 0.0
-	"""Of the seams against the slope's strike [rad]."""
+	"""Angle of the seams with the slope's strike [rad]."""
 	stiffness: float = None
 	"""[N/m], or [Pa/m] where perArea."""
 	perArea: bool = False
 	ig2: dict = dataclasses.field(default_factory=dict)
 	speed: float = 1.0
-	"""At the start, along the slope [m/s]; it rolls with it."""
+	"""Speed at the start, along the slope [m/s]; the solid rolls at this speed."""
 	yaw: float = 0.0
-	"""Of the solid about the slope's normal [rad]; 0: an edge of the face that it lies on is level, and its motion symmetric."""
+	"""Rotation of the solid about the slope's normal [rad]; 0: an edge of the face that it lies on is level, and its motion symmetric."""
 	contactDamping: float = 0.3
 	density: float = 2600
 	timeStepFraction: float = 0.1

@@ -52,7 +52,7 @@ class ElasticArch:
 		return self.stiffness * self.thickness * squares / 2 + load * self.weight * moved[:, 1].sum()
 
 	def gradient(self, moved, load):
-		"""Of the energy (n, 3): minus the forces and moments on the blocks."""
+		"""Gradient of the energy (n, 3): minus the forces and moments on the blocks."""
 		arm1, arm2, apart, n, depth, slip = self._joints(moved)
 		along = _across(n)
 		# forces at the two edges that do the work of the pressure, and the shear's, half at each: on the block behind
