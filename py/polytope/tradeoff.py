@@ -160,7 +160,7 @@ def _checked(build, setting, changes):
 
 
 def _run(task):
-	"""One process: attributes of its row."""
+	"""What one process does: it returns the attributes of its row."""
 	kind = task['changes'].get('precision', _builds.present())
 	if not _builds.available(kind):
 		return {'note': f'not built for {kind}: YADE_POLYTOPE_PRECISION={kind} ./run build'}

@@ -36,7 +36,7 @@ BoltChain::Answer BoltChain::grout(const BoltNode& node, const Real& slip) const
 	return { clamped(elastic, node.strength) + kept * slip, kept };
 }
 
-/// By opening and slips.
+/// Elongation of an element by its opening and the slips at both ends.
 Real BoltChain::elongation(std::size_t element, const std::vector<Real>& slips) const
 {
 	const long before = nodeBefore(element), after = before + 1;
@@ -184,7 +184,7 @@ bool BoltChain::commit()
 	return flowed;
 }
 
-/// At the present slips: of the tension, and of what is beyond it or plastic already.
+/// Strain at the present slips: that of the tension, and what is beyond it or plastic already.
 Real BoltChain::strainOf(std::size_t index) const
 {
 	const BoltElement& element = elements[index];

@@ -19,8 +19,8 @@ struct BoltPassage {
 std::optional<BoltPassage> passageThrough(
         const PlacedShape& body, int block, const Vector3& head, const Vector3& direction, const Real& length);
 
-/// In their order from the head. Where two overlap, each gets half of what they share; what is shorter than `least`, or lies within another one, is
-/// left out; neighbours of one block are one.
+/// The passages in their order from the head. Where two overlap, each gets half of what they share; what is shorter than `least`, or lies within another one,
+/// is left out; neighbours of one block are one.
 std::vector<BoltPassage> inOrder(std::vector<BoltPassage> passages, const Real& least);
 
 struct BoltDesign {

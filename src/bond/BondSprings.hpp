@@ -43,7 +43,7 @@ inline BondMotion bondMotion(const Quaternion& q1, const Quaternion& q2, const V
 	return motion;
 }
 
-/// On body 2, world axes; energy stored.
+/// Force and moment on body 2, world axes; energy stored.
 struct BondForce {
 	Vector3 force, moment;
 	Real    energy;

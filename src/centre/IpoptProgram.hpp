@@ -56,7 +56,7 @@ public:
 	        Ipopt::IpoptCalculatedQuantities*) override;
 
 private:
-	/// From x₀ along an axis to the nearest planes.
+	/// Distances from x₀ to the nearest planes along an axis, ahead and back.
 	struct Chord {
 		Real ahead, back;
 	};

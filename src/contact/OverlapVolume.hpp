@@ -109,7 +109,7 @@ public:
 		return true;
 	}
 
-	/// Over the faces that are turned to n.
+	/// The overlap's footprint along n: a sum over the faces that are turned to n.
 	POLYTOPE_INLINE Footprint<R> footprint(const R* p, const R* n) const
 	{
 		const Rotation<R, 3> axes = axesAround<R, 3>(n);

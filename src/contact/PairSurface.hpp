@@ -28,7 +28,8 @@ template <class R, int D> struct PairSurface {
 	POLYTOPE_INLINE R share() const { return !on ? R(1) : sums.pressure > 0 ? on->pressure / sums.pressure : R(0); }
 };
 
-/// From the vertices of the pair's feasible set, its planes tight as in the last step, or found anew. False if they do not say what it is.
+/// Finds the surface from the vertices of the pair's feasible set, whose tight planes are those of the last step or are found anew. False if they do not say
+/// what the surface is.
 template <class R, int W, class Spare>
 POLYTOPE_INLINE bool surfaceOfVertices(const PairPlanes<R, 3>& all, NearPlanes<R, 3, W>* near, const int* basis, FeasibleBuffers<R>& set,
         const Spare& spare, PairSurface<R, 3>& surface)

@@ -5,7 +5,7 @@ namespace polytope {
 
 namespace {
 
-	/// In the order of ContactStatus.
+	/// Names in the order of ContactStatus.
 	constexpr const char* statusNames[]
 	        = { "separated", "contact", "normalFromOneBody", "normalFromDual", "roundingLimited", "centreByIpopt", "centreNotConverged",
 		          "ipoptNotAvailable", "lpNotConverged", "noDirection", "failed", "surfaceIncomplete" };

@@ -46,7 +46,7 @@ template <class R, int D> struct SurfaceLoad {
 	}
 
 private:
-	/// From the energy of a linear spring to that of a joint which has closed by h.
+	/// Turns the energy of a linear spring, and the factors of its force, into those of a joint which has closed by h.
 	POLYTOPE_APART void close(const ClosureLaw& law, bool spring, R h, R& plain, R& deeper)
 	{
 		// g = 2 u/h², and h g' from σ = h g + ½ h² g'
@@ -91,14 +91,15 @@ template <class R, int D> POLYTOPE_INLINE bool directionOfForce(const SurfaceLoa
 	return some;
 }
 
-/// By how much s* of bodies that are `apart` (s*) is negative when they are grown for a contact: so that it moves with their tilt as that of bodies which
-/// overlap as far as these are apart, and not with rounding.
+/// How far s* is below zero for bodies that are `apart` (s*) when they are grown for a contact: it is chosen so that it moves with their tilt as s* does for
+/// bodies which overlap as far as these are apart, and not with rounding.
 template <class R> POLYTOPE_INLINE R skinAcrossGap(R apart, R size)
 {
 	return maxOf<R>(R(tolerance::gapSkin) * size, minOf<R>(apart, R(tolerance::widestSkin) * size));
 }
 
-/// After the linear program, whose point is x. `across`: of a pair that does not touch, whose bodies were grown by `grown` until it does.
+/// Finds the contact by its surface after the linear program, whose point is x. `across`: the pair does not touch, and its bodies were grown by `grown` until
+/// it does.
 template <class R, int D, int W> POLYTOPE_INLINE void surfaceContact(const PairQuery<R, D>& q, bool optimal, bool across, R grown)
 {
 	const ContactSettings&    settings = q.settings;

@@ -14,7 +14,7 @@
 namespace polytope {
 namespace {
 
-	/// At one closure; double: more digits say no more here.
+	/// The law's values at one closure; in double, since more digits say no more here.
 	struct Values {
 		double closure, pressure, tangent, energy;
 
@@ -26,7 +26,7 @@ namespace {
 		return { closure, double(law.pressure(closure)), double(law.tangent(closure)), double(law.energy(closure)) };
 	}
 
-	/// By halves where there is a bend.
+	/// Integral of a function; the interval is halved where the function has a bend.
 	template <class Function> double integral(const Function& function, double from, double to)
 	{
 		return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(

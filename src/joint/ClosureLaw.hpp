@@ -50,14 +50,14 @@ public:
 	/// \param exponent e
 	/// \param length   σ₀/k [m], above 0
 	static ClosureLaw power(Real exponent, Real length);
-	/// One of a program's own. Refuses (std::invalid_argument) a law whose name another one has. \param p, q its parameters
+	/// A program's own law. Refuses (std::invalid_argument) a law whose name another one has. \param p, q its parameters
 	static ClosureLaw own(const NormalLaw& law, Real p = 0, Real q = 0);
 	/// Joint of two sides, each of which closes by half of its own law: of the same kind; parameters are the means, which is exact
 	/// for hyperbolas at low and at high stress, and for powers with the same exponent and reference stress.
 	static ClosureLaw between(const ClosureLaw& one, const ClosureLaw& other);
 
 	bool isLinear() const { return most_ == 0 && length_ == 0 && !own_; }
-	/// Both hyperbolas, both powers, or both the same law of a program's own.
+	/// Whether both are hyperbolas, both powers, or both the same law of a program's own.
 	bool isLike(const ClosureLaw& other) const
 	{
 		return own_ == other.own_ && (most_ > 0) == (other.most_ > 0) && (length_ > 0) == (other.length_ > 0);

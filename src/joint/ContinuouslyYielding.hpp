@@ -25,9 +25,9 @@ public:
 	};
 
 	explicit ContinuouslyYielding(const Values& values) : values_(values), bounding_(values.initialFriction) { }
-	/// Without friction.
+	/// A joint without friction.
 	ContinuouslyYielding() : ContinuouslyYielding(Values()) { }
-	/// Joint of two different sides: of friction angles, roughness and exponent the lesser, of reference stresses the greater.
+	/// Joint of two different sides: it has the lesser of the friction angles, roughnesses and exponents, and the greater of the reference stresses.
 	static ContinuouslyYielding between(const ContinuouslyYielding& one, const ContinuouslyYielding& other);
 
 	/// φₘ.
@@ -38,7 +38,7 @@ public:
 	Real elasticPart(const Vector3& direction, Real stressRatio);
 	/// Wears the asperities by this plastic displacement [m].
 	void wear(Real slip);
-	/// At this τ/σ; at least 0.
+	/// Dilation angle at this τ/σ; at least 0.
 	Real dilationAngle(Real ratio) const;
 	/// The contact has turned.
 	template <class Turn> void turn(const Turn& turn) { turn(direction_); }

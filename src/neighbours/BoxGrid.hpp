@@ -37,7 +37,7 @@ public:
 	/// Boxes whose corners are no numbers, or in the wrong order, are left out.
 	void reset(std::vector<Box> boxes);
 
-	/// In the order of their cells.
+	/// The boxes, in the order of their cells.
 	const std::vector<Box>& boxes() const { return boxes_; }
 
 	/// The box at this place overlaps with none any more.

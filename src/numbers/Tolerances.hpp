@@ -213,7 +213,8 @@ constexpr double cellRoom = 1 + powerOfTwo(-10);
 /// into overlap, so that its point is an analytic centre that continues the touching one's.
 constexpr Real gapSkin = 1e-6;
 
-/// × size: the same of contact surfaces at most, which else take what the bodies are apart: of joints that dilation holds open that is more than enough.
+/// × size: largest length by which bodies are grown for a contact surface; otherwise they are grown by their distance. For joints that dilation holds open
+/// that is more than enough.
 constexpr Real widestSkin = 0.1;
 
 } // namespace polytope::tolerance

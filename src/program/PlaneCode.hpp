@@ -8,7 +8,7 @@ namespace polytope {
 constexpr int planeCode(int body, int plane) { return 2 * plane + body; }
 constexpr int bodyOfCode(int code) { return code & 1; }
 constexpr int planeOfCode(int code) { return code >> 1; }
-/// With the two bodies exchanged.
+/// The code with the two bodies exchanged.
 constexpr int exchangedCode(int code) { return code ^ 1; }
 
 constexpr int rowOfCode(int code, int first) { return planeOfCode(code) + (bodyOfCode(code) ? first : 0); }

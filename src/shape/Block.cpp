@@ -63,7 +63,7 @@ namespace {
 			else crossings.push_back({ std::min(a, b), std::max(a, b), { face, face }, Vector3::Zero() });
 		}
 
-		/// Along the edge, and, where the three planes determine it accurately, on these: so errors do not add up.
+		/// Places a crossing on the edge, and, where the three planes determine it accurately, on these: so errors do not add up.
 		void place(Crossing& crossing, const Real& on) const
 		{
 			const std::size_t a = std::size_t(crossing.low), b = std::size_t(crossing.high);

@@ -29,8 +29,8 @@ struct HalfSpaces {
 /// normal that leaves the xy plane, a dimension other than 2 or 3.
 POLYTOPE_API HalfSpaces normalised(const HalfSpaces& input);
 
-/// Without planes that repeat another one (same normal and offset to rounding; of parallel planes that differ in offset
-/// both are kept: the looser is redundant, not duplicate). Order of first appearance kept.
+/// The set without planes that repeat another one (same normal and offset to rounding; parallel planes that differ in offset are both kept: the looser is
+/// redundant, not duplicate). Order of first appearance kept.
 POLYTOPE_API HalfSpaces withoutDuplicates(const HalfSpaces& unit);
 
 /// The set moved by the rigid motion x ↦ rotation·x + translation.

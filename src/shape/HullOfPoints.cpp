@@ -134,7 +134,7 @@ namespace {
 		return abs(c.dot(ab)) - rounded > 2 * tolerance * largest * (1 + construction::minorRounding);
 	}
 
-	/// By QR and the singular values of its 3 × 3 factor: the scatter matrix would square the condition and lose thin facets.
+	/// Fits a plane by QR and the singular values of its 3 × 3 factor: the scatter matrix would square the condition and lose thin facets.
 	Fit planeFit(const std::vector<Vector3>& points, const Indices& members)
 	{
 		Fit fit;

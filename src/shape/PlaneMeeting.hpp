@@ -70,7 +70,7 @@ inline bool meetingFromThree(const std::vector<Vector3>& normals, const std::vec
 	return true;
 }
 
-/// By orthogonal elimination, whatever the planes.
+/// Where planes meet, by orthogonal elimination, whatever the planes are.
 template <int AtMost>
 Vector3 leastSquaresMeeting(const std::vector<Vector3>& normals, const std::vector<Real>& slacks, const Indices& planes)
 {

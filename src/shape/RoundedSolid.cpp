@@ -172,7 +172,7 @@ namespace {
 		}
 		int parts(const Real& angle) const { return std::max(1, int(std::ceil(double(angle / angle_)))); }
 
-		/// Along an edge; its arcs at both ends, as vertices from the one face to the other, are kept for the patches there.
+		/// Adds the strips along an edge; its arcs at both ends, as vertices from the one face to the other, are kept for the patches there.
 		void addStrips(const Edge& edge)
 		{
 			const Arc         arc(of_.normal(edge.left), of_.normal(edge.right));

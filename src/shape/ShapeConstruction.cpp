@@ -164,7 +164,7 @@ namespace {
 		return shape;
 	}
 
-	/// Each edge shared by two faces that run through it in opposite directions, and Euler's V − E + F = 2.
+	/// Whether each edge is shared by two faces that run through it in opposite directions, and Euler's V − E + F = 2 holds.
 	bool isClosed(const Polyhedron& shape)
 	{
 		std::vector<std::pair<int, int>> edges;

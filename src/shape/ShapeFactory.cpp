@@ -54,7 +54,7 @@ namespace {
 		return result;
 	}
 
-	/// Without the planes that own no face.
+	/// The set without the planes that own no face.
 	HalfSpaces facesOnly(const HalfSpaces& set, Polyhedron& shape)
 	{
 		HalfSpaces kept;

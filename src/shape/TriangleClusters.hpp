@@ -53,7 +53,7 @@ public:
 			        [](const Edge& a, const Edge& b) { return a.to < b.to; });
 	}
 
-	/// In ascending order of (from, to).
+	/// The edges, in ascending order of (from, to).
 	std::vector<Edge>::const_iterator begin() const { return edges_.begin(); }
 	std::vector<Edge>::const_iterator end() const { return edges_.end(); }
 
@@ -73,7 +73,7 @@ struct Clusters {
 	Indices              of;      ///< triangle → the number of its cluster
 	std::vector<Indices> members; ///< cluster → its corners, ascending; empty for numbers not in use
 
-	/// Each triangle on its own.
+	/// Begins with each triangle on its own.
 	explicit Clusters(const Triangles& triangles) : of(triangles.size())
 	{
 		std::iota(of.begin(), of.end(), 0);

@@ -34,7 +34,7 @@ public:
 	/// Mean distance of the strength from its centre [m]: turned on the spot, the face resists with total × this.
 	Real meanRadius() const;
 
-	/// Not above it, and known without any roots [m].
+	/// A bound of the mean distance from below, known without any roots [m].
 	Real leastRadius() const { return leastRadius_; }
 
 	/// Force [N] and moment about the centre [N m] by which the face resists a slip (s₁, s₂ [m], φ [rad]) of its centre, and their derivatives.

@@ -139,7 +139,7 @@ private:
 		queue_.add(low, high, a, b, c);
 	}
 
-	/// All pairs of planes that meet; and of each with the plane of no pressure, if it does too.
+	/// Adds all pairs of planes that meet, and each of these with the plane of no pressure, if that meets them, too.
 	POLYTOPE_INLINE void meet(int* edge, int count, bool noPressure)
 	{
 		for (int a = 0; a < count; ++a)
@@ -169,7 +169,7 @@ private:
 
 	bool left(int k) const { return k < planes_.total && planes_.offset[k] >= R(padOffset) / 2; }
 
-	/// Beyond edge t.
+	/// Goes on beyond edge t.
 	POLYTOPE_INLINE void goOn(const SurfacePiece<R, D>& piece, const SurfaceCut<R, D, W>& cut, int t)
 	{
 		int       edge[tolerance::planesInAnEdge];

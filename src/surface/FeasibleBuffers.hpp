@@ -40,7 +40,7 @@ template <class R> struct FeasibleBuffers {
 	}
 	static int indicesNeeded(int total) { return total + padWidth; }
 
-	/// In memory of numbersNeeded() and indicesNeeded(), whatever is in it.
+	/// Lays the buffers into memory of numbersNeeded() and indicesNeeded(), whatever is in it.
 	FeasibleBuffers(int total, R* numbers, int* indices)
 	{
 		plane = take(numbers, 4 * mostPlanes);

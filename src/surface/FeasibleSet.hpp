@@ -27,7 +27,7 @@ public:
 	{
 	}
 
-	/// With the tight planes of the last step. False if they do not make this step's vertices.
+	/// Finds the vertices with the tight planes of the last step. False if they do not make this step's vertices.
 	POLYTOPE_INLINE bool recall(const KeptVertices& kept, int rowsOfBody1)
 	{
 		const int planes = kept.planes, vertices = kept.vertices;
@@ -89,7 +89,7 @@ public:
 				kept.edge[std::size_t(e)][std::size_t(k)] = buffers_.edge[e][k];
 	}
 
-	/// From the vertex at which these planes are tight. False if the set is not simple.
+	/// Finds the vertices, beginning with the one at which these planes are tight. False if the set is not simple.
 	POLYTOPE_INLINE bool explore(const int* basis)
 	{
 		buffers_.planes = buffers_.edges = 0;
@@ -152,7 +152,7 @@ private:
 		return product[0] + product[1] + product[2];
 	}
 
-	/// Where a vertex' planes cross: three less the `last`, and the cross products of two of those in turn.
+	/// Where the planes of a vertex cross: three of them less the `last`, and the cross products of two of those in turn.
 	struct Crossing {
 		Four row[3], across[3], last;
 		R    volume, lengths; ///< of the three; the product of the squares of their lengths, or what that cannot exceed
@@ -340,7 +340,7 @@ private:
 		return false;
 	}
 
-	/// Along the edges of vertex v that have not been followed from their other end.
+	/// Follows the edges of vertex v that have not been followed from their other end.
 	POLYTOPE_INLINE bool goOn(int v)
 	{
 		Crossing c;
@@ -401,7 +401,7 @@ private:
 		return first[best] < R(padOffset) / 2 ? int(row[best]) : -1;
 	}
 
-	/// At the vertex that has plane `next` in place of v's in `slot`.
+	/// Arrives at the vertex that has plane `next` in place of v's in `slot`.
 	POLYTOPE_INLINE bool arrive(int v, int slot, int next)
 	{
 		const std::uint64_t left = bit(buffers_.tight[v][slot]), mask = (buffers_.mask[v] & ~left) | bit(next);

@@ -57,7 +57,7 @@ private:
 
 	/// Where the sums of a piece begin in its row: four numbers for each.
 	enum Row { Sums = 0, Moment = 4, SquareMoment = 8, Normal = 12 };
-	/// Among its sums.
+	/// Where each sum is among those of a piece.
 	enum Sum { Area = 0, Pressure, Square };
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }

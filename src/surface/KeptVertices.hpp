@@ -24,7 +24,7 @@ struct KeptVertices {
 	std::array<std::uint16_t, mostPlanes> plane;
 	/// Places of four planes in that list; the plane of no pressure comes last.
 	std::array<std::array<std::uint8_t, 4>, mostVertices> tight;
-	/// Both vertices.
+	/// The two vertices of each edge.
 	std::array<std::array<std::uint8_t, 2>, 2 * mostVertices> edge;
 
 	/// Row of a plane among all of a pair, that of no pressure being `total`; −1 if there is none.

@@ -51,7 +51,7 @@ template <class R, int D> struct SurfaceBuffers {
 	}
 	static int indicesNeeded(int planes) { return 3 * vertexRoom(planes) + planes + (queued + 4) * (slots(planes) / 4); }
 
-	/// In memory of numbersNeeded() and indicesNeeded(), whatever is in it.
+	/// Lays the buffers into memory of numbersNeeded() and indicesNeeded(), whatever is in it.
 	SurfaceBuffers(int total, R* numbers, int* indices)
 	        : planes(total), length(paddedLength(total)), room(vertexRoom(total)), pieces(slots(total) / 4)
 	{

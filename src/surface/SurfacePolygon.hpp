@@ -67,7 +67,7 @@ private:
 		setCloseness();
 	}
 
-	/// Within which slack a plane meets a vertex.
+	/// Sets the slack within which a plane meets a vertex.
 	void setCloseness()
 	{
 		const R *u = buffers_.vertex[now_][U], *v = buffers_.vertex[now_][Y];
@@ -135,7 +135,7 @@ private:
 		if (least < 0 && lines_ < buffers_.room) split(makeLine(plane));
 	}
 
-	/// By the line, whose slacks at the vertices are known. A convex polygon is left and entered once, but for rounding.
+	/// Splits the polygon by the line, whose slacks at the vertices are known. A convex polygon is left and entered once, but for rounding.
 	void split(int line)
 	{
 		const int      count = count_, room = buffers_.room;

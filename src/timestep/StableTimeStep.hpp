@@ -91,7 +91,7 @@ public:
 	/// γ [1/s].
 	Real damping() const { return damped_ ? largestEigenvalue(damping_) : Real(0); }
 
-	/// Not below κ and γ, at most 6^(1/8) = 1.25 of them, and cheap.
+	/// Bounds of κ and γ from above: at most 6^(1/8) = 1.25 times as large, and cheap.
 	Real stiffnessAtMost() const
 	{
 		Matrix6 sum = stiffness_;
@@ -149,7 +149,7 @@ inline Real reachOf(const Mobility& mobility, const Vector3& arm)
 	return Eigen::SelfAdjointEigenSolver<Matrix3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-/// At least that of every point of a ball about the centre of a part: √reach is a norm of the arm's part of the motion.
+/// A bound from above of the reach of all points in a ball about the centre of a part: √reach is a norm of the arm's part of the motion.
 inline Real reachOfBall(const Mobility& mobility, const Vector3& centre, Real radius)
 {
 	const Matrix3 inverse = mobility.rotation * mobility.rotation.transpose();

@@ -22,7 +22,7 @@ public:
 	}
 	/// Area, moments and corners of the face.
 	void takeArea(const polytope::CommonFace& face);
-	/// Its point and its axes are these in the world, where body `which`, 1 or 2, is now, moved by `shift`.
+	/// Sets point and axes on the side of body `which`, 1 or 2: they are these in the world, where the body is now, moved by `shift`.
 	void attach(int which, const State& state, const Vector3r& shift, const Vector3r& point, const Quaternionr& axes);
 	/// Sets force, moment, energy, their arms and the stresses from where the bodies are, body 2 in the period of body 1 by `shift`.
 	polytope::BondMotion follow(const State& state1, const State& state2, const Vector3r& shift);

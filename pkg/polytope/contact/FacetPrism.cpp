@@ -51,7 +51,7 @@ FacetInMesh::FacetInMesh(const Body& facet, const Body& body2, const Vector3r& s
 	});
 }
 
-/// In the facet's plane, normal to edge k and away from it.
+/// Direction in the facet's plane that is normal to edge k and points away from the facet.
 Vector3r FacetInMesh::outward(int k) const
 {
 	return outwardOfEdge([this](int corner) -> const Vector3r& { return *corner_[corner]; }, normal_, k);

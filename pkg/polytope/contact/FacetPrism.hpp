@@ -28,8 +28,8 @@ public:
 	/// `shift2`: to where body 2, which meets the facet, is in the period of body 1.
 	FacetInMesh(const Body& facet, const Body& body2, const Vector3r& shift2, Scene& scene);
 
-	/// On which side of the facet a point lies, +1: its normal's. Beyond an edge that another facet shares, the two decide together: a body that
-	/// overhangs the edge of a box stands on its top, and the box's side is seen from outside.
+	/// The side of the facet on which a point lies; +1 is the side of the normal. Beyond an edge that another facet shares, the two decide together: a
+	/// body that overhangs the edge of a box stands on its top, and the box's side is seen from outside.
 	int sideOf(const Vector3r& point) const;
 
 	struct Prism {

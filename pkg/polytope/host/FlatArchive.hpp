@@ -49,7 +49,7 @@ private:
 
 } // namespace yade
 
-/// After the class of one of our objects, of which there are many.
+/// To be written after the class of those of our objects of which there are many.
 #define POLYTOPE_SAVED_FLAT(Class)                                                                                                         \
 	namespace boost::serialization {                                                                                                   \
 		template <class Archive> void serialize(Archive& archive, yade::Class& object, const unsigned int version)                 \

@@ -25,7 +25,7 @@ namespace {
 		return geom.penetrationDepth > 0 && geom.statusCode != int(polytope::ContactStatus::Separated);
 	}
 
-	/// With its geometry alone; null where the parts are apart, and `force` does not ask for it all the same.
+	/// A contact with its geometry alone; null where the parts are apart, unless `force` asks for one all the same.
 	shared_ptr<Interaction> contactOf(
 	        Scene& scene, const shared_ptr<Body>& part1, const shared_ptr<Body>& part2, const PolytopeGeom& whole, bool force)
 	{

@@ -55,11 +55,11 @@ public:
 	void setStiffnesses(Real share);
 	/// Whether the joint has a peak strength above the residual one.
 	bool hasPeak() const { return cohesion > residualCohesion || tensileStrength > 0 || tangensOfResidualFrictionAngle >= 0; }
-	/// At present [Pa].
+	/// Cohesion of the joint as it is now [Pa].
 	Real presentCohesion() const { return intact ? cohesion : residualCohesion; }
 	/// Whether an open joint differs from one that is made anew when it closes.
 	bool hasHistory() const { return hasPeak() || (tangensOfDilationAngle > 0 && slip != Vector3r::Zero()) || ownHistory(); }
-	/// At present [Pa].
+	/// Tensile strength of the joint as it is now [Pa].
 	Real presentTensileStrength() const { return intact ? tensileStrength : residualTensileStrength; }
 	/// Force of the normal spring at this overlap [N], negative in tension.
 	Real normalSpring(Real overlap) const

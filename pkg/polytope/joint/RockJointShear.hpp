@@ -34,7 +34,7 @@ public:
 	bool limit(const RockJointPhys& phys, Real normal);
 	/// Viscous force and moment of these dampers [N s/m], [N m s/rad], as far as the strength goes.
 	void damp(const RockJointPhys& phys, Real normal, Real damper, Real twistingDamper);
-	/// Along the joint, at the area's centroid [m/s].
+	/// Velocity along the joint, at the area's centroid [m/s].
 	Vector3r velocity() const;
 	Real     gyrationSquared() const { return gyration_; }
 	/// No force and no moment.

@@ -69,7 +69,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::Pair {
 		const Vector3r ofShear = phys.momentAbout(geom.contactPoint, geom.normal);
 		return phys.bond ? ofShear : Vector3r(ofShear + phys.normalMoment(geom.turningArm));
 	}
-	/// From where body 2 is to where it is in the period of body 1.
+	/// Shift from where body 2 is to where it is in the period of body 1.
 	Vector3r shift2() const { return centre2 - state2.pos; }
 };
 

@@ -61,7 +61,7 @@ public:
 		return *this;
 	}
 
-	/// Before a contact reads or adds: the first one of a step begins a new sum. Allocates where bodies were added.
+	/// To be called before a contact reads or adds: the first call in a step begins a new sum. Allocates where bodies were added.
 	void begin(const Scene& scene)
 	{
 		if (begun_.load(std::memory_order_acquire) != scene.iter) beginStep(scene);

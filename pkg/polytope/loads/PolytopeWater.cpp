@@ -16,7 +16,7 @@ POLYTOPE_CLASSES((PolytopeWater));
 
 namespace {
 
-	/// In a divided scene each rank loads its own bodies, of which it hands on the forces; otherwise all.
+	/// Whether this rank loads the body: in a divided scene each rank loads its own bodies, and hands their forces on; otherwise all bodies are loaded.
 	bool isOwn(const Body& body, const Scene& scene)
 	{
 #ifdef YADE_MPI

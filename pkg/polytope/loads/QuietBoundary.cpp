@@ -19,7 +19,7 @@ namespace {
 		return gravity;
 	}
 
-	/// By the forces that act already; zero along what is blocked.
+	/// Acceleration by the forces that act already; zero along what is blocked.
 	Vector3r accelerationOf(const Body& body, Scene& scene, const Vector3r& force, const Vector3r& gravity)
 	{
 		const State& state = *body.state;

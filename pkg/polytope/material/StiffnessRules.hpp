@@ -33,7 +33,7 @@ public:
 	{
 		return std::nullopt;
 	}
-	/// At present; Unknown for materials that it is not for.
+	/// The rule at present; Unknown for materials that the functor is not for.
 	virtual StiffnessRule stiffnessRule(const Material& material1, const Material& material2) const = 0;
 };
 

@@ -281,7 +281,7 @@ py::dict timeStepLimits()
 	return result;
 }
 
-/// By id; None for bodies that nothing limits.
+/// Time steps of bodies, by id; None for bodies that nothing limits.
 py::list timeStepsOfBodies()
 {
 	const auto              scene = yade::Omega::instance().getScene();

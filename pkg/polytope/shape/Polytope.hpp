@@ -135,7 +135,7 @@ class Bo1_Polytope_Aabb : public BoundFunctor {
 public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
 
-	/// By body id, the displacement of the farthest vertex by rotation that the box allows for: from a collider that follows rotation
+	/// The displacement of the farthest vertex by rotation that the box of a body allows for, by body id: set by a collider that follows rotation
 	/// (PolytopeCollider), while it runs.
 	const std::vector<Real>* rooms = nullptr;
 

@@ -11,7 +11,7 @@ namespace yade {
 
 namespace {
 
-	/// By class index.
+	/// The families, by class index.
 	using Families = std::vector<std::unique_ptr<const ShapeFamily>>;
 
 	void keep(Families& all, int classIndex, std::unique_ptr<const ShapeFamily> family)

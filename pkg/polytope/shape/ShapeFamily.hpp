@@ -103,7 +103,7 @@ public:
 /// The family that is registered for this class, or for the nearest of its bases that has one.
 const ShapeFamily& familyOf(const Shape& shape);
 
-/// Before a scene has such a shape. \param classIndex YADE's, Shape::getClassIndex()
+/// Registers a family; to be called before a scene has such a shape. \param classIndex YADE's, Shape::getClassIndex()
 void registerFamily(int classIndex, std::unique_ptr<const ShapeFamily> family);
 
 template <class Kind, class Family> struct FamilyOf {

@@ -36,7 +36,7 @@ namespace {
 		return box;
 	}
 
-	/// By which each body alone may move, whatever the others do.
+	/// Time step in which each body alone moves no farther than it may, whatever the others do.
 	TimeStepLimit absoluteLimit(const std::vector<polytope::MovingBox>& boxes, Real fraction, const polytope::MovingBox& smallest)
 	{
 		TimeStepLimit limit;

@@ -79,7 +79,7 @@ namespace {
 		return found == FaceForce::Pressure && rule == StiffnessRule::Unknown ? FaceForce::AtCentre : found;
 	}
 
-	/// To the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.
+	/// The size, rounded up to the next power of tolerance::potentialSizes: a functor is then called once for all sizes in between.
 	Real roundedUp(Real size)
 	{
 		if (!(size > 0)) return size;

@@ -60,7 +60,7 @@ namespace {
 		{
 			return geom.contactPoint + scene.dt / 2 * (mover(body1).state->vel + mover(body2).state->vel + shiftVelocity);
 		}
-		/// From the centre of what moves to the contact point.
+		/// Vector from the centre of what moves to the contact point.
 		Vector3r arm(const Body& body) const
 		{
 			return point() - mover(body).state->pos - (&body == &body2 ? shift2 : Vector3r(Vector3r::Zero()));
@@ -162,7 +162,7 @@ namespace {
 		return has;
 	}
 
-	/// All bonds or bolts of a body, or a member of a clump, whose moving centre is there.
+	/// Adds all bonds or bolts of a body, or of a member of a clump. `centre`: that of what moves.
 	void addSprings(polytope::BodyStiffness& sum, const Body& part, const Vector3r& centre, const HasSprings& other)
 	{
 		other.forSpringsOf(part, [&](const SpringsAtPoint& at) {

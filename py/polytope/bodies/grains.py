@@ -124,7 +124,7 @@ def _meanCube(least, largest):
 
 
 def _notTooMany(sizes, passing, mass, density):
-	"""Each as heavy as a cube of the fraction's upper sieve: there are more of them."""
+	"""Refuses a mass of too many grains. They are counted as if each were as heavy as a cube of the fraction's upper sieve: there are more of them."""
 	expected = sum(mass * (high - low) / (density * size**3) for size, low, high in zip(sizes[1:], passing, passing[1:], strict=False))
 	if expected > mostGrains:
 		raise ValueError(

@@ -68,7 +68,7 @@ def _ofMesh(path):
 
 
 def _looksUp(points, triangles):
-	"""Which triangles of a closed mesh have the outside above them; of another one all."""
+	"""Which triangles have the outside above them; all of them if the mesh is not closed."""
 	import trimesh
 
 	solid = trimesh.Trimesh(points, triangles)  # joins equal points, which files as STL repeat

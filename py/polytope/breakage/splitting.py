@@ -112,7 +112,7 @@ def _idOf(id):
 
 
 def _piece(body, normal, offset, least):
-	"""Below a plane, from the body's centre, world axes; and its planes as *pieceOf* has them."""
+	"""The piece of a body below a plane, which is given from the body's centre in world axes; and its planes as *pieceOf* has them."""
 	try:
 		piece, planes = pieceOf(body, [(normal, offset)])
 	except ValueError as error:

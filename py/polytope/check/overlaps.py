@@ -186,7 +186,7 @@ def _withOthers(scene, thrown):
 
 
 def _gaps(other, places):
-	"""From points to a ball that holds it [m], for a wall to its plane."""
+	"""Distances from points to a ball that holds the body [m]; for a wall, to its plane."""
 	shape, place = other.shape, np.array(other.state.pos, float)
 	if isinstance(shape, Sphere) and not math.isfinite(shape.radius):  # of classes derived from it that were given none
 		return np.full(len(places), math.inf)

@@ -14,7 +14,7 @@ sideBySide = 0.5
 prisms may touch from above and below."""
 
 flat = 1e-9
-"""Up to which a normal counts as in the plane, or normal to it."""
+"""Deviation up to which a normal counts as in the plane, or normal to it."""
 rounding = 1e-9
 """Motion out of the plane, over that in it, that rounding accounts for: it accumulates over the steps, but stays far below this."""
 alongALine, towardsAPlace = ('gravity', 'force'), ('accel', 'acceleration')

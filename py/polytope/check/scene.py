@@ -25,7 +25,7 @@ Member = collections.namedtuple('Member', 'mask moving clump')
 densities = 50.0, 3e4
 """Densities of what can be a body [kg/m³], from foam to heavy metals. In t and mm, g and cm, t and m … the same bodies have 1e-12 to 1e-3 of it."""
 gravities = 1.0, 30.0
-"""On Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
+"""Gravity on Moon and planets [m/s²]; in mm and s, cm and s, mm and ms … it is a hundredth or a hundred times that."""
 
 
 class SceneToCheck:

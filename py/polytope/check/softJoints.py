@@ -36,11 +36,11 @@ beside = 0.5
 most = 1000
 """Bodies that are looked at: of more so many, evenly, for what one of them loses others of its kind lose too."""
 looks = 20
-"""Bodies of which is found out what they touch, those first that lose most."""
+"""Number of bodies for which it is found out what they touch; those that lose most come first."""
 leastTurn, mostTurn, turns = 1e-6, 0.5, 400
-"""Angles of a leaning block, among which the largest tangent is looked for [rad]: of joints so stiff that it is below them the loss is far below *lost*."""
+"""Angles of a leaning block, among which the largest tangent is looked for [rad]: for joints so stiff that it is below them, the loss is far below *lost*."""
 rounds = 20
-"""To find N, whose slope is sought; each makes the error several times smaller."""
+"""Number of rounds to find N, whose slope is sought; each makes the error several times smaller."""
 
 
 def stableTilt(ratio, softness):
@@ -127,7 +127,7 @@ class Base(NamedTuple):
 
 
 def _bases(body, down):
-	"""Its lowest face, if that is nearly level."""
+	"""The body's lowest face, if that is nearly level."""
 	shape, place = body.shape, np.array([float(x) for x in body.state.pos])
 	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
 	normals = np.array([list(normal) for normal in shape.normals], float) @ turn.T

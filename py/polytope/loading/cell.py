@@ -69,7 +69,7 @@ class PeriodicSample(Sample):
 		return float(gradient[0, 2] / gradient[2, 2])
 
 	def shearStress(self):
-		"""On the planes z along x [Pa], positive where it resists shear()."""
+		"""Shear stress on the planes z along x [Pa], positive where it resists shear()."""
 		return -float(self.stress()[0, 2])
 
 	def shear(self, rate):

@@ -35,7 +35,8 @@ def eased(now, goal):
 
 
 def actOn(boundary):
-	"""From now on its move() is called in each step, between InteractionLoop and NewtonIntegrator, where forces are known; None: nothing is moved."""
+	"""Has the boundary's move() called in each step from now on, between InteractionLoop and NewtonIntegrator, where forces are known; None: nothing is
+	moved."""
 	if boundary is not None and not any(isinstance(engine, NewtonIntegrator) for engine in O.engines):
 		raise ValueError('engines: O.engines must have a NewtonIntegrator, as those of polytope.engines() do')
 	known, acting[0] = acting[0], boundary

@@ -56,7 +56,7 @@ class ShearFrame(Sample):
 		return self.displacement / self.height
 
 	def shearStress(self):
-		"""On the upper plate along x [Pa], positive where it resists shear()."""
+		"""Shear stress on the upper plate along x [Pa], positive where it resists shear()."""
 		return -float(force(self.top)[0]) / (self.length * self.width)
 
 	def shear(self, rate):

@@ -13,7 +13,7 @@ __all__ = ['SplitBox']
 
 
 gap = 0.05
-"""Between the halves, over the mean size of the bodies: what slides over the lower half's rim must not lean on it, as in the apparatus; no grain falls
+"""Gap between the halves, over the mean size of the bodies: what slides over the lower half's rim must not lean on it, as in the apparatus; no grain falls
 through."""
 
 

@@ -20,7 +20,7 @@ class Coordination:
 	mean: float
 	"""Mean over all bodies, rattlers included."""
 	mechanical: float
-	"""Over bodies with two contacts or more, counting contacts on these alone: Thornton's mechanical coordination number (2000,
+	"""Mean over bodies with two contacts or more, counting contacts between such bodies alone: Thornton's mechanical coordination number (2000,
 	Géotechnique 50:43), (2C − N₁)/(N − N₀ − N₁). NaN if there is no such body."""
 	rattlers: int
 	"""N₀ + N₁: bodies with no or one contact. They carry at most their own weight."""

@@ -16,7 +16,7 @@ def divide(divided):
 
 
 def check():
-	"""After steps, on every rank.
+	"""To be called after steps, on every rank.
 
 	:raises RuntimeError: a bond did not act, for its other body was not on its rank
 	"""
@@ -36,13 +36,13 @@ def share():
 
 
 def states():
-	"""On rank 0 what each worker has found, before a merge; every rank has to call it."""
+	"""What each worker has found, on rank 0, before a merge; every rank has to call it."""
 	engine = bonding.bonds()
 	return mpy.comm.gather(engine._states() if mpy.rank > 0 and engine else [])
 
 
 def takeStates(states):
-	"""On rank 0, after a merge."""
+	"""Takes over what the workers have found, on rank 0, after a merge."""
 	engine = bonding.bonds()
 	if engine:
 		for state in states:

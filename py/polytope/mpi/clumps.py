@@ -35,7 +35,7 @@ def followClumps():
 
 
 def check():
-	"""On rank 0, where ranks of bodies were not given by polytope.mpi.
+	"""To be called on rank 0, where ranks of bodies were not given by polytope.mpi.
 
 	:raises RuntimeError: a member is with another rank than its clump
 	"""
@@ -47,21 +47,23 @@ def check():
 
 
 def giveMaterials():
-	"""On rank 0, before the scene is handed out: when it is merged, YADE looks up the material of each body that a worker has moved, and a clump has none."""
+	"""Gives each clump a material, on rank 0, before the scene is handed out: when it is merged, YADE looks up the material of each body that a worker
+	has moved, and a clump has none."""
 	for body in O.bodies:
 		if body.isClump and body.dynamic:
 			body.material = O.bodies[body.shape.ids[0]].material
 
 
 def takeMaterials():
-	"""On rank 0, after a merge."""
+	"""Takes the materials from the clumps again, on rank 0, after a merge."""
 	for body in O.bodies:
 		if body.isClump:
 			body.material = None
 
 
 def wholeClumps(genLocalIntersections):
-	"""Where this rank's bodies are listed that another rank needs: of a clump all that belongs to it, in place of the members that are near."""
+	"""Wraps the function that lists this rank's bodies that another rank needs: of a clump it lists all that belongs to it, in place of the members that
+	are near."""
 
 	@functools.wraps(genLocalIntersections)
 	def generate(subdomains):

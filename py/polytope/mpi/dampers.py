@@ -13,7 +13,7 @@ _tag = 7302
 
 
 def share():
-	"""Before the contacts of each step, on every rank."""
+	"""Exchanges sums with other ranks, before the contacts of each step, on every rank."""
 	if not O.splitted or mpy.rank == 0:
 		return
 	sent = [
@@ -39,13 +39,13 @@ def passOn(moved):
 
 
 def states():
-	"""On rank 0 the sums of each worker's bodies, before a merge; every rank has to call it."""
+	"""The sums of each worker's bodies, on rank 0, before a merge; every rank has to call it."""
 	own = [body.id for body in O.bodies if body.subdomain == mpy.rank and not body.isSubdomain] if mpy.rank > 0 else []
 	return mpy.comm.gather((own, _polytope.stiffnessSums(own)))
 
 
 def takeStates(states):
-	"""On rank 0, after a merge."""
+	"""Takes over the workers' sums, on rank 0, after a merge."""
 	for ids, sums in states:
 		if ids:
 			_polytope.takeStiffnessSums(ids, sums)

@@ -127,7 +127,7 @@ def _handOutScene(splitScene):
 
 
 def _sharing(engines):
-	"""With one time step on all ranks, and dampers that know all contacts; without what writes the whole scene (recorders.py)."""
+	"""The engines with one time step on all ranks, and with dampers that know all contacts; without what writes the whole scene (recorders.py)."""
 	made = []
 	for engine in engines:
 		if ofWholeScene(engine):
@@ -209,7 +209,7 @@ def _withNeighboursOfBoth(genLocalIntersections):
 
 
 def _refuseErased():
-	"""On a worker, before a merge: yade.mpy would send a body that is not there."""
+	"""Refuses bodies that were erased, on a worker, before a merge: yade.mpy would send a body that is not there."""
 	erased = [k for k in O.subD.ids if O.bodies[k] is None]
 	if erased:
 		raise RuntimeError(

@@ -12,7 +12,7 @@ __all__ = ['arrays', 'stats']
 
 
 def arrays():
-	"""On rank 0 `polytope.arrays()` of the whole scene, which stays divided; None on the others. Every rank has to call it.
+	"""`polytope.arrays()` of the whole scene on rank 0, while it stays divided; None on the other ranks. Every rank has to call it.
 
 	Each body is taken from the rank that computes it, a contact of two workers from the lower one. Sums over rows, as ½ m v² for the kinetic
 	energy, count each once. Contacts are in the order of their ids.

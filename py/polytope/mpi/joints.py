@@ -16,7 +16,8 @@ _partners = []
 
 
 def remember():
-	"""Before a search for pairs, on every rank: the contacts that are now. Returns them, for the first search after the scene was divided deletes them."""
+	"""Remembers the present contacts before a search for pairs, on every rank. Returns them, since the first search after the scene was divided deletes
+	them."""
 	global _partners
 	contacts = _polytope.WorkerContacts() if mpy.rank > 0 else None
 	_partners = contacts.partners() if contacts else []
@@ -24,7 +25,7 @@ def remember():
 
 
 def keptByRanks(genLocalIntersections):
-	"""Where this rank's bodies are listed that another rank needs: also those it has asked for."""
+	"""Wraps the function that lists this rank's bodies that another rank needs: it lists also those that the other rank has asked for."""
 
 	@functools.wraps(genLocalIntersections)
 	def generate(subdomains):

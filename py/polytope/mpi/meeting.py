@@ -13,7 +13,7 @@ __all__ = ['at', 'install']
 
 
 def at(name):
-	"""On every rank, before what all of them have to do.
+	"""To be called on every rank, before what all of them have to do.
 
 	:param str name: of the function
 	:raises RuntimeError: other ranks are somewhere else; it ends all of them
@@ -42,7 +42,7 @@ def _atEnd():
 
 
 def _endingWith(function):
-	"""After a script the program yade calls it."""
+	"""The function that the program yade calls after a script."""
 
 	@functools.wraps(function)
 	def end():

@@ -7,7 +7,7 @@ __all__ = ['ofAll', 'passOn', 'take']
 
 
 def ofAll():
-	"""On rank 0: (id, force, torque) of all bodies; none where none is set."""
+	"""(id, force, torque) of all bodies, on rank 0; nothing where no load is set."""
 	if not O.forces.getPermForceUsed():
 		return []
 	O.forces.f(0, sync=True)  # else those set since the last step are not seen
@@ -15,7 +15,7 @@ def ofAll():
 
 
 def take(loads):
-	"""Each rank those of its own bodies; every rank has to call it, with what rank 0 has."""
+	"""Each rank takes the loads of its own bodies; every rank has to call it, with what rank 0 has."""
 	loads = mpy.comm.bcast(loads)
 	if mpy.rank == 0:
 		return

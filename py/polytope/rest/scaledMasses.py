@@ -99,7 +99,7 @@ class _Scaled:
 		self.target = self.gain = None
 
 	def adapt(self):
-		"""To the present contacts."""
+		"""Adapts the masses to the present contacts."""
 		steps = _polytope.timeStepsOfBodies()
 		own = {key: float(steps[key]) / math.sqrt(self.factors[key]) for key in self.before if key < len(steps) and steps[key] is not None}
 		if not own:

@@ -70,7 +70,7 @@ def resultants(masses=None):
 
 
 def _owners(bodies):
-	"""By id the body itself, or the clump that it is part of, which moves as one."""
+	"""What each body moves with, by id: the body itself, or the clump that it is part of, which moves as one."""
 	owner = np.arange(len(O.bodies))
 	owner[bodies.ids] = np.where(bodies.clumpIds >= 0, bodies.clumpIds, bodies.ids)
 	return owner

@@ -88,7 +88,7 @@ class Unrest:
 		self.fallsAt = firstSpan
 
 	def look(self, steps):
-		"""After so many steps more; returns the largest unbalanced force."""
+		"""To be called after so many more steps; returns the largest unbalanced force."""
 		forces = unbalancedForces(self.watched, self.masses)
 		self.sum, self.looks, self.steps = _ofLength(self.sum, len(forces)) + forces, self.looks + 1, self.steps + steps
 		self.mean = self.sum / self.looks
@@ -124,7 +124,7 @@ class Unrest:
 		return lost
 
 	def moving(self, atLeast=0.0):
-		"""All that are not at rest, and what they do; of those that have moved by this part of their size."""
+		"""All bodies that are not at rest, and what they do; only those that have moved by at least this part of their size."""
 		ways = _ways(self.origin, self.last)
 		span, path = (self.span, self.path) if self.looks else (self.spanBefore, self.pathBefore)
 		there = [int(k) for k in np.flatnonzero(self.mean > self.bound) if k < len(O.bodies) and O.bodies[int(k)] is not None]

@@ -23,7 +23,7 @@ class CommonFace:
 	id1: int
 	id2: int
 	normal: np.ndarray
-	"""From body 1 to body 2."""
+	"""Normal, from body 1 to body 2."""
 	centroid: np.ndarray
 	area: float
 	"""[m²]"""
@@ -32,7 +32,7 @@ class CommonFace:
 	second: np.ndarray
 	"""(3, 3) ∫ r ⊗ r over the area, r from the centroid [m⁴]; zero of a polygon, whose line does not turn in its plane."""
 	overlap: float
-	"""By which the faces overlap already [m]"""
+	"""Depth by which the faces overlap already [m]"""
 
 
 def commonFaces(chosen=None):

@@ -40,7 +40,7 @@ def materialsOfFaces(given, entries, own):
 
 
 def _index(material):
-	"""In O.materials, where it is appended if it is not there."""
+	"""Index of the material in O.materials, to which it is appended if it is not there."""
 	listed = 0 <= material.id < len(O.materials) and O.materials[material.id] is material
 	return material.id if listed else O.materials.append(material)
 

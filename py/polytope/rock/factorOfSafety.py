@@ -141,9 +141,9 @@ class _Search:
 		self.watched, self.reduce, self.steps, self.tolerance = watched, tuple(reduce), steps, tolerance
 		self.bound = min(atRest * tolerance, loosest)
 		self.loads = permanentLoads()
-		"""With those that scaled masses come with."""
+		"""Permanent loads, with those that scaled masses come with."""
 		self.masses = scaled and scaled[1]
-		"""True ones by id, where those of the scene are scaled."""
+		"""True masses by id, where those of the scene are scaled."""
 		self.limits = np.array([partOfSize * sizeOf(k) for k in watched])
 		self.trials, self.mode = [], None
 		# what bears only after some motion: slack bolts, joints whose roughness slip mobilises
@@ -175,7 +175,7 @@ class _Search:
 		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)
 
 	def _begun(self, most):
-		"""With the scene's own strengths; where it fails with these, from the same state with strengths so large that it stands."""
+		"""Begins with the scene's own strengths; where the scene fails with these, with strengths so large that it stands, from the same state."""
 		bracket = Bracket(self.tolerance, most)
 		self.origin = self._places()
 		O.saveTmp(standing, quiet=True)
@@ -195,7 +195,7 @@ class _Search:
 		return bracket
 
 	def _refuseUnsettled(self, bracket):
-		"""Where it failed with its own strengths, but only since it was not at rest: from the last state that stood it does not."""
+		"""Refuses a scene that failed with its own strengths only because it was not at rest: from the last state that stood it does not fail."""
 		if bracket.failed == 1 and self._trialFromRest(1.0).outcome == 'stable':
 			raise RuntimeError(
 				'the scene stands with its own strengths from a state at rest, and fails from the one that it is in; polytope.settle() first'

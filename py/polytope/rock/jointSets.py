@@ -14,7 +14,7 @@ from .radii import radiiOf
 __all__ = ['JointSet']
 
 scatterReach = 3
-"""Over the region's radius: how far from its centre, along the mean normal, scattered joints still start that may cross it."""
+"""Distance over the region's radius: how far from its centre, along the mean normal, scattered joints still start that may cross it."""
 mostJoints = 1e6
 """Joints to be drawn for one set: more are refused, as more blocks than can be run; a radius or P32 in a wrong unit is more likely."""
 drawnAtOnce = 256

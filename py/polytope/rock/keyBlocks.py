@@ -28,7 +28,7 @@ class KeyBlock:
 	"""A block that moves if friction and cohesion do not hold it."""
 
 	body: int
-	"""Its number in *JointedRock.bodies*."""
+	"""The block's number in *JointedRock.bodies*."""
 	mode: str
 	"""'falls', 'slides on one face' or 'slides on two faces'"""
 	joints: tuple

@@ -161,8 +161,8 @@ def _isFlat(points):
 
 
 def _stiffnesses(modulus, ratio, thickness, width, length, cosine):
-	"""Per area, of a bond as stiff as this length of the beam. At a corner of the line the joint is cut slanted, by half the angle, whose cosine is given: its
-	area is larger than the section by 1/cosine and its second moment by 1/cosine³."""
+	"""Stiffnesses per area of a bond as stiff as this length of the beam. At a corner of the line the joint is cut slanted, by half the angle, whose
+	cosine is given: its area is larger than the section by 1/cosine and its second moment by 1/cosine³."""
 	shearModulus = modulus / (2 * (1 + ratio))
 	slanted = thickness / cosine
 	polar = width * slanted * (width**2 + slanted**2) / 12

@@ -66,7 +66,7 @@ def _steps(along, name, remedy):
 
 
 def _strips(points, values, direction, along, gradients):
-	"""Before the first point, between two, behind the last one."""
+	"""Pieces of pressure before the first point, between each two, and behind the last one."""
 	pieces = [Piece(points[0], values[0], gradients[0], [(direction, 0.0)])]
 	for k, step in enumerate(np.diff(along)):
 		pieces.append(Piece(points[k], values[k], gradients[k + 1], [(-direction, 0.0), (direction, step)]))

@@ -15,7 +15,7 @@ __all__ = ['radiiOf']
 
 
 class Constant:
-	"""All equal."""
+	"""Radii that are all equal."""
 
 	def __init__(self, radius):
 		self.radius = radius

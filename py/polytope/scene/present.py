@@ -142,7 +142,7 @@ class EngineOfScene:
 		self.kind, self.holding, self.last = kind, holding, None
 
 	def present(self):
-		"""None where there is none."""
+		"""The engine that is in O.engines; None where there is none."""
 		found = next((engine for engine in O.engines if isinstance(engine, self.kind)), None)
 		if found is not None:
 			self.last = found
@@ -165,6 +165,6 @@ class EngineOfScene:
 		return engine, made
 
 	def removed(self):
-		"""One that is no longer in O.engines and would hold bodies of this scene; None where there is none."""
+		"""The engine, if it is no longer in O.engines and would hold bodies of this scene; else None."""
 		lost = self.present() is None and self.last is not None and getattr(self.last, self.holding)
 		return self.last if lost else None

@@ -7,7 +7,7 @@ __all__ = ['eraseRanks', 'forgetDivision', 'refuseDivided']
 
 
 def refuseDivided():
-	"""Before bodies are erased or made: yade.mpy ends with an error of its own if one rank does so alone.
+	"""To be called before bodies are erased or made: yade.mpy ends with an error of its own if one rank does so alone.
 
 	:raises RuntimeError: the scene is divided on several processes
 	"""

@@ -78,12 +78,12 @@ def _extent(points):
 
 
 def _noise(points, error):
-	"""Over the extent, how far points of a plane may lie apart, each coordinate of which may be off by *error*."""
+	"""How far points of a plane may lie apart, over the extent, if each of their coordinates may be off by *error*."""
 	return facetNoise * error / (_extent(points) or 1)
 
 
 def _lacking(points, error):
-	"""Part of the hull's volume that a convex mesh may lack, each coordinate of which may be off by *error*."""
+	"""Part of the hull's volume that a convex mesh may lack, if each of its coordinates may be off by *error*."""
 	return max(notConvex, min(_noise(points, error), 1))
 
 

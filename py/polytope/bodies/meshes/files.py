@@ -24,7 +24,7 @@ readers = {
 	**dict.fromkeys(('.msh', '.ele', '.node', '.inp', '.mesh', '.meshb', '.med', '.bdf', '.nas', '.fem'), readByMeshio),
 	**dict.fromkeys(('.vol', '.e', '.exo', '.xdmf', '.avs', '.ugrid', '.su2', '.f3grid', '.dat', '.tec'), readByMeshio),
 }
-"""By the ends of file names; trimesh may know others."""
+"""Readers by the ends of file names; trimesh may know others."""
 textOfOthers = {'.tess': 'a tessellation of Neper', '.shp': 'a library of Rockable'}
 """Files that readShapes reads."""
 

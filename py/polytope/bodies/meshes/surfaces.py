@@ -31,7 +31,7 @@ def readByTrimesh(path):
 
 
 def readObj(path):
-	"""With its lines ``o``, which trimesh does not keep apart from those of materials."""
+	"""Reads an OBJ file with its lines ``o``, which trimesh does not keep apart from those of materials."""
 	points, triangles, objects, present = [], [], [], 0
 	with open(path, encoding='utf-8', errors='replace') as file:
 		lines = file.read().replace('\\\n', ' ').splitlines()

@@ -15,7 +15,7 @@ from . import compas, neper, rockable, yadeText
 __all__ = ['readShapes', 'writeShapes']
 
 formats = {'.tess': neper.bodies, '.shp': rockable.bodies, '.json': compas.bodies}
-"""By the ends of file names; all others are YADE's text."""
+"""Readers by the ends of file names; all others are YADE's text."""
 
 
 @builder(lacks=('center', 'orientation'))
