@@ -45,7 +45,7 @@ def factor(*given):
 
 
 def limitEquilibrium(dip):
-	"""All friction along the line of intersection."""
+	"""Factor of safety by limit equilibrium, with all friction along the line of intersection."""
 	(block,) = polytope.keyBlocks(rock(dip), [surface, (1, 0, 0), (-1, 0, 0)], frictionAngle=friction)
 	return block.factorOfSafety
 

@@ -58,9 +58,9 @@ byChance = 'energyHalf', 'energyEnd', 'deepestOverlap'
 paperFailures = 'no difficulty'
 paperTimes = {'ipoptMicroseconds': 'a few ms', 'centreColdMicroseconds': 'tens of µs', 'lpColdMicroseconds': 'tens of µs'}
 paperGrowth = {'lpColdMicroseconds': 'O(N)', 'ipoptMicroseconds': 'almost none'}
-"""With N, the planes of both bodies."""
+"""How the paper's times grow with N, the planes of both bodies."""
 paperBands = (1e3, 1e4, 'paper: IPOPT, “a few ms”'), (1e1, 1e2, 'paper: LP and log-barrier centre, “tens of µs”')
-"""In Fig. 6: from, to [µs]."""
+"""The paper's times in Fig. 6: from, to [µs]."""
 paperText = 'tens of µs (linear program by CPLEX, log-barrier centre) and a few ms (IPOPT)'
 
 wholeNotNegative = number(least=0, whole=True)

@@ -55,7 +55,7 @@ heights, quickHeights = (1, 1.2, 1.5, 2, 3, 5, 10, 20), (1, 1.5, 3, 10)
 lengthFactors, quickLengthFactors = (1, 3), (1,)
 """The abutments' lengths there, over --abutment-length."""
 normalWeights, radiusFactors = (0.9, 0.75, 0.5), (1, 2)
-"""In the study of normals: besides --normal-weight, over --corner-radius."""
+"""Values in the study of normals: weights besides --normal-weight, radii over --corner-radius."""
 
 
 def options():

@@ -57,7 +57,7 @@ Real sampledDistance(const ConvexShape& shape, const Vector3& start, const Vecto
 
 } // namespace
 
-/// Over a face, beside an edge, with an end at a corner, through the body.
+/// The segments lie over a face, beside an edge, with an end at a corner, through the body.
 TEST(ClosestPoint, OfASegmentIsTheMiddleOfWhereItIsNearest)
 {
 	const auto shape = ConvexShape::shared(cuboid(1, 2, 3), Real(0.1));

@@ -142,7 +142,7 @@ TEST(ClosureLaw, LawsWhoseFunctionsBelongTogetherHaveNoFault)
 		EXPECT_EQ(ClosureLaw::own(hyperbola, most).fault(), "") << most;
 }
 
-/// One that stiffens at a closure p to q times its stiffness: the tangent jumps.
+/// The law stiffens at a closure p to q times its stiffness: the tangent jumps.
 TEST(ClosureLaw, ATangentThatJumpsIsNoFault)
 {
 	const NormalLaw twoSlopes(

@@ -72,7 +72,7 @@ TEST(ConvexHull, latticePointsWithManyInOnePlane)
 	EXPECT_GT(hulls, 250);
 }
 
-/// Where rounding decides no sign: points within a few roundings of common planes, far from the origin and near it.
+/// Rounding decides no sign: points lie within a few roundings of common planes, far from the origin and near it.
 TEST(ConvexHull, pointsThatMissCommonPlanesByRounding)
 {
 	std::mt19937_64                        random(52);

@@ -144,7 +144,7 @@ TEST(IpoptCentre, AcrossAGap)
 	}
 }
 
-// One application a thread, threads that come and go.
+// Each thread has one application, and threads come and go.
 TEST(IpoptCentre, ThreadsGiveTheSame)
 {
 	NEEDS_IPOPT();

@@ -179,7 +179,7 @@ inline HalfSpaces randomPlanes(int planes, std::mt19937_64& random, int dimensio
 	return set;
 }
 
-/// With copies of some planes, turned by 1e-16 … 1e-3 and moved by as much or not at all: faces of a mesh that are flat but
+/// The set with copies of some planes, turned by 1e-16 … 1e-3 and moved by as much or not at all: faces of a mesh that are flat but
 /// for rounding.
 inline HalfSpaces withNearCopies(HalfSpaces set, int copies, std::mt19937_64& random)
 {

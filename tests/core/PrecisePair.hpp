@@ -183,7 +183,7 @@ public:
 		return true;
 	}
 
-	/// From x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.
+	/// The way from x along n to the body's surface; `rate` is how fast it comes nearer: a plane off by δ moves the exit by δ/rate.
 	struct Exit {
 		Number distance = std::numeric_limits<Number>::max();
 		Number rate     = 1;

@@ -103,7 +103,7 @@ TEST(StableTimeStep, ArmsMassesAndSprings)
 	EXPECT_FALSE(Mobility().moves());
 }
 
-/// About another point than the body's centre: the farthest point of the ball, straight on, is as far as the bound says.
+/// The ball lies about another point than the body's centre: its farthest point, straight on, is as far as the bound says.
 TEST(StableTimeStep, ReachOfABallBesideTheCentre)
 {
 	const Real     mass = 2, side = Real(0.5), inertia = mass * side * side / 6, radius = Real(0.3);
@@ -148,7 +148,7 @@ TEST(RockingStiffness, OfASquareFace)
 	EXPECT_LT(double((onLarge - reversed).norm()), double(depth / side * expected.norm()));
 }
 
-/// Where sides lean and the point is beside the middle: |g| [n]× H⁻¹ [n]×ᵀ with H of all three directions, inverted as a whole.
+/// Sides lean and the point is beside the middle: |g| [n]× H⁻¹ [n]×ᵀ with H of all three directions, inverted as a whole.
 TEST(RockingStiffness, OfLeaningSides)
 {
 	const ConvexShape solid(regularSolid(4, 1), 0);

@@ -37,7 +37,7 @@ template <int D> struct SurfaceOfPair {
 
 	Vector3 force() const { return vectorOf(sums.force, D); }
 	Vector3 deeper() const { return vectorOf(sums.deeper, D); }
-	/// About body 1's centre.
+	/// Moment about body 1's centre.
 	Vector3 moment() const { return about(sums.moment, force()); }
 	Vector3 deeperTurn() const { return about(sums.deeperTurn, deeper()); }
 

@@ -28,7 +28,7 @@ from test_entry import call, clone, shell, tmp_path  # noqa: F401, the fixtures
 	],
 )
 def testUnknownArgumentsAreRefusedFirst(clone, tmp_path, arguments, named):
-	"""Before the cache is even made, so before anything is installed, built or formatted."""
+	"""They are refused before the cache is even made, so before anything is installed, built or formatted."""
 	cache = tmp_path / 'cache'
 	done = call(clone, cache, *arguments)
 	assert done.returncode == 1 and named in done.stderr.splitlines()[1] and not done.stdout
@@ -57,7 +57,7 @@ def testKnownArgumentsPass(clone, tmp_path):
 
 
 def testWaitingForAnotherBuildIsSaid(clone, tmp_path):
-	"""One line, and then it builds."""
+	"""It says so in one line, and then it builds."""
 	functions = (clone / 'tools/inside.sh').read_text()
 	functions = functions[functions.index('# Builds one precision') : functions.index('# The plug-in of the precision in use')]
 	stubs = 'buildFolder() { echo "$cache"; }; configure() { :; }; setDevelop() { :; }; step() { echo built; }; measuringPrograms=\n'

@@ -62,7 +62,7 @@ def testCleanAllRemovesWhatWasMade(clone, tmp_path):
 
 
 def testCleanAllWithTheParentAsCacheLeavesTheClone(clone):
-	"""Its name begins as those of YADE's sources do; a folder `logs` and a lock may be the user's own."""
+	"""The clone's name begins as those of YADE's sources do; a folder `logs` and a lock may be the user's own."""
 	parent = clone.parent
 	(parent / 'logs').mkdir()
 	for lock in (False, True):
@@ -118,7 +118,7 @@ def testCleanRefusesAFolderOfOthersBeforeItRemovesAnything(clone, tmp_path):
 
 
 def testARootInUseStays(clone, tmp_path):
-	"""By its lock, as long as a process holds it; then it is removed. The build folder stays with --root."""
+	"""Its lock keeps it as long as a process holds it; then it is removed. The build folder stays with --root."""
 	cache = filled(tmp_path / 'cache')
 	root = cache / 'debian13'
 	root.mkdir()
@@ -177,7 +177,7 @@ def testAnotherPurposeAddsToTheRoot(clone, tmp_path):
 
 
 def testArchivesOfTheRoot(clone, tmp_path):
-	"""With and without further files of sources."""
+	"""There are archives with and without further files of sources."""
 	functions = (clone / 'run').read_text()
 	functions = functions[functions.index('rootArchives()') : functions.index('# Everything before')]
 	apt = tmp_path / 'root/etc/apt'
@@ -285,7 +285,7 @@ def testCoalIsPinned():
 
 
 def testBuildsFromOtherSourcesArePutAway(clone, tmp_path):
-	"""Another precision's overlay and the programs of the tests: kept while the sources are those they were built from."""
+	"""Builds are another precision's overlay and the programs of the tests: they are kept while the sources are those they were built from."""
 	for name in ('src', 'pkg', 'cmake', 'tests/core'):
 		(clone / name).mkdir(parents=True)
 	(clone / 'CMakeLists.txt').touch()

@@ -24,13 +24,13 @@ def _volumes(h, sides):
 
 
 def faceForce(h, sides=(1.0, 1.0), perArea=False):
-	"""Over the stiffness: [m³] per area, [m] per contact. *sides*: of the face [m]; one for polygons, of unit thickness."""
+	"""Force over the stiffness: [m³] per area, [m] per contact. *sides*: of the face [m]; one for polygons, of unit thickness."""
 	v, vGrows, w, wGrows = _volumes(float(h), sides)
 	return 2 * vGrows if perArea else 36 * w / v * (wGrows * v - w * vGrows) / v**2
 
 
 def faceEnergy(h, sides=(1.0, 1.0), perArea=False):
-	"""Over the stiffness: [m⁴] per area, [m²] per contact."""
+	"""Energy over the stiffness: [m⁴] per area, [m²] per contact."""
 	v, _, w, _ = _volumes(float(h), sides)
 	return 2 * v if perArea else 18 * (w / v) ** 2
 

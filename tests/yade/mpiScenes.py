@@ -99,7 +99,7 @@ def clumpedDivided():
 
 
 def decomposed(start='start'):
-	"""By yade.mpy's own decomposition."""
+	"""The scene is divided by yade.mpy's own decomposition."""
 	mpi.mpy.DOMAIN_DECOMPOSITION = True
 	load(start)
 	mpi.run(steps)

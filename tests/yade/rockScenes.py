@@ -18,7 +18,7 @@ def blockMaterial(**joint):
 
 
 def gravityOnSlope(dip, flat=False):
-	"""In the axes of a plane of this dip."""
+	"""Gravity in the axes of a plane of this dip."""
 	return (gravity * math.sin(dip), -gravity * math.cos(dip), 0) if flat else (gravity * math.sin(dip), 0, -gravity * math.cos(dip))
 
 

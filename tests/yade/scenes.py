@@ -123,7 +123,7 @@ def blockOnFloor(overlap=0.0, half=(0.5, 0.5, 0.5), turn=Quaternion.Identity, **
 
 
 def driven(body, velocity=(0, 0, 0), angularVelocity=(0, 0, 0)):
-	"""From now on the body's motion is prescribed, whatever the forces."""
+	"""Prescribes the body's motion from now on, whatever the forces."""
 	body.state.blockedDOFs = 'xyzXYZ'
 	body.state.vel = velocity
 	body.state.angVel = angularVelocity

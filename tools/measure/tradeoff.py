@@ -204,7 +204,7 @@ def roofAngle():
 # ------------------------------------------------------------------------------------------------ F: undamped collisions; the cube of F1 at rest
 
 fall, partings, restAfter = 1e-3, 4, 2.6
-"""Before the first touch [m], collisions after which the energy is taken, time of rest [s]."""
+"""Fall before the first touch [m], number of collisions after which the energy is taken, time of rest [s]."""
 
 
 def buildCollision(model, stiffness=1, kind='edgeEdge'):

@@ -58,7 +58,7 @@ public:
 		return dynamic_cast<const OwnJointMat*>(&a) && dynamic_cast<const OwnJointMat*>(&b) ? StiffnessRule::PerArea
 		                                                                                    : StiffnessRule::Unknown;
 	}
-	/// Before the first contact: the slope of the hyperbola at the largest stress, k (1 + σ/(k V))².
+	/// Stiffnesses before the first contact: the slope of the hyperbola at the largest stress, k (1 + σ/(k V))².
 	std::optional<ContactStiffness> stiffnesses(const Material& a, const Material& b, Real area, Real, Real) const override
 	{
 		const auto &one = static_cast<const OwnJointMat&>(a), &other = static_cast<const OwnJointMat&>(b);

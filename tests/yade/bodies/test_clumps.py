@@ -243,7 +243,7 @@ def testObjectsOfAFileAreItsParts(objects):
 
 
 def testCoacdsPartsMakeAClump(mesh, monkeypatch):
-	"""With a stand-in for CoACD that cuts the L in two: what it is asked, and what is made of its answer."""
+	"""A stand-in for CoACD cuts the L in two: what it is asked, and what is made of its answer."""
 	asked = {}
 
 	def run(given, **settings):
@@ -304,7 +304,7 @@ def testCoacdIsAskedFinerWhereItsPartsAreTooLarge(tmp_path, monkeypatch):
 
 
 def testCoacdItself(mesh):
-	"""Where it is installed."""
+	"""Runs where CoACD is installed."""
 	pytest.importorskip('coacd', reason='CoACD is optional: pip install coacd')
 	number, members = polytope.clump(polytope.fromMesh(mesh, scale=0.01, parts=4))
 	mass, centre, tensor = sums([(1, (0, 0, 0), (3, 1, 1)), (1, (0, 1, 0), (1, 2, 1))])

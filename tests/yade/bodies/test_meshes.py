@@ -49,7 +49,7 @@ def warningsOf(*arguments, **named):
 
 @pytest.mark.parametrize('place', [(0, 0, 0), (1400, 0, 0), (0, 14000, 0), (1e5, -1e5, 0), utm], ids=str)
 def testRocksKeepTheirFacesWhereverTheyAre(place, tmp_path):
-	"""At UTM coordinates, too, where a sum over the surface about the origin has lost all digits of the volume."""
+	"""They keep them at UTM coordinates, too, where a sum over the surface about the origin has lost all digits of the volume."""
 	mesh = rock()
 	made, told = warningsOf(writeObj(tmp_path / 'rock.obj', mesh.copy().apply_translation(place)))
 	assert len(made.shape.normals) == 76 and not told
@@ -367,7 +367,7 @@ def testGtsHasTwoSignsForCommentsAndEdgesThatAreThere(tmp_path):
 
 
 def testAFileWithTooFewDigitsForAnyBodySaysSo(tmp_path):
-	"""Its corners fall together far from the origin: the remedy is that of the file, not of the shape."""
+	"""The body's corners fall together far from the origin: the remedy is that of the file, not of the shape."""
 	corners = [(x, y, z) for x in (0, 0.3) for y in (0, 0.3) for z in (0, 0.3)]
 	faces = ['1 2 4 3', '5 7 8 6', '1 5 6 2', '3 4 8 7', '1 3 7 5', '2 6 8 4']
 	lines = ['v ' + ' '.join(f'{4e6 + x:.6g}' for x in corner) for corner in corners] + ['f ' + face for face in faces]

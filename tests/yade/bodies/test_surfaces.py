@@ -71,7 +71,7 @@ surfaceRows = [
 @rules
 @pytest.mark.parametrize('floor, body, tilt', surfaceRows)
 def testTheContactSurfaceSlidesOverPieces(floor, body, tilt, perArea):
-	"""By faces, edges and vertices, rows that the default misses among them."""
+	"""It slides on faces, edges and vertices; among the rows are some that the default misses."""
 	held = {'tilt': Quaternion(Vector3(0, 1, 0), math.radians(tilt)), 'held': True} if tilt else {}
 	keeps(cross(floor, body, {'contactModel': 'surface'}, perArea, **held))
 

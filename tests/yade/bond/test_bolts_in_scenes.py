@@ -107,7 +107,7 @@ def testABoltedBlockOnASlope(flat, bolt):
 
 
 def testABoltedRoofWedge():
-	"""Between joints at i to the vertical that a horizontal force H presses: it falls at φ = i + arctan((W − T)/2H)."""
+	"""The wedge lies between joints at i to the vertical that a horizontal force H presses: it falls at φ = i + arctan((W − T)/2H)."""
 	lean, horizontal, pull = radians(20), 8e3, 5e3
 	joint(density=2500.0, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(50))
 	width = tan(lean)

@@ -114,7 +114,7 @@ def testTheCheckKnowsBonds():
 
 
 def testBondsThatAreLeftOutOfTheEnginesAreMissed():
-	"""By check, until engines() puts them back; not in another scene, and not once they are broken or their bodies are gone."""
+	"""check() misses them until engines() puts them back; not in another scene, and not once they are broken or their bodies are gone."""
 	assert row(3) == 2
 	stepper()
 	lone = [engine for engine in O.engines if engine is not polytope.bonds() and type(engine).__name__ != 'PolytopeBonds']

@@ -527,7 +527,7 @@ def testGravityAwayFromTheFloor(gravity):
 
 
 def testABodyThatFellPastTheFloor():
-	"""After a run, too; its speed does not make the joint too soft."""
+	"""After a run check() finds such a body; its speed does not make the joint too soft."""
 	scene(lambda: [polytope.cuboid((5, 0, 0.5), (0.1, 0.1, 0.1))])
 	assert not polytope.check(O)
 	while O.time < 2:
@@ -824,7 +824,7 @@ def testASphereInAPolytope(height, found):
 
 
 def testASphereBesideAnEdgeIsInNoFace():
-	"""Its ball crosses both planes of the edge and touches nothing."""
+	"""The sphere's ball crosses both planes of the edge and touches nothing."""
 	O.reset()
 	O.materials.append(rock())
 	O.bodies.append(supports['polytope']())
@@ -1002,7 +1002,7 @@ def testPolytopeThatAnEngineTurnsUnnoticed():
 
 
 def testBodyLargerThanHalfOfAPeriodicCell():
-	"""And YADE's collider ends the run, as soon as it meets another one."""
+	"""YADE's collider ends the run, too, as soon as the body meets another one."""
 	for length, wrong in ((0.9, False), (1.1, True)):
 		O.reset()
 		O.materials.append(rock())
@@ -1052,7 +1052,7 @@ def testSmallBodiesNeedNoCloserLook(monkeypatch):
 
 
 def testAllFaultsOfALoneBodyAreListed():
-	"""Without a collider, a loop, or a resetter; none hides another."""
+	"""The engines have no collider, no InteractionLoop and no ForceResetter; no fault hides another."""
 	O.materials.append(FrictMat(density=2600, young=1e8, frictionAngle=35, label='basalt'))
 	O.materials.append(FrictMat(density=2600, young=1e8, frictionAngle=40, label='granite'))
 	O.bodies.append(polytope.cuboid((0, 0, 0), (60, 1, 1), material='basalt'))

@@ -202,7 +202,7 @@ def testWhatIsNotJudgedIsCounted():
 
 
 def testACoordinateCostsItsOwnRoundingOnly():
-	"""Up to 1e9 sizes from the origin: the contact is that of the positions as stored, its point rounded where it stands."""
+	"""The pair is up to 1e9 sizes from the origin: the contact is that of the positions as stored, its point rounded where it stands."""
 	turn = Quaternion((1, 2, 3), 0.4)
 	for distance in (0, 1e3, 1e6, 1e9):
 		far = Vector3(0.6, -0.48, 0.64) * distance

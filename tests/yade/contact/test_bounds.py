@@ -40,7 +40,7 @@ def testRodTurningInPlaceIsSeen(kind, verletDist):
 
 @pytest.mark.parametrize('kind', colliders)
 def testBodyTurnedByTheScriptIsSeen(kind):
-	"""Its angVel stays zero; the other collider notices only a translation."""
+	"""The body's angVel stays zero; the other collider notices only a translation."""
 	joint()
 	loop()
 	collider(kind, 0.05)
@@ -348,7 +348,7 @@ def testFewBoxesAreMadeAnew():
 
 
 def testShapeChangedInPlaceIsSeen():
-	"""At once if the collider is told; else when boxes of all bodies are made anew, while one of them moves."""
+	"""The collider sees it at once if it is told; else when boxes of all bodies are made anew, while one of them moves."""
 	for told in (True, False):
 		O.reset()
 		joint()

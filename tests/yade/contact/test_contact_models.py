@@ -88,7 +88,7 @@ def testSlopeAndCollisions(tmp_path):
 
 
 def testRoofWedgeWithAContactSurface(tmp_path, monkeypatch):
-	"""With blocks that touch as well."""
+	"""It is tested with blocks that touch as well."""
 	assert paperScripts.runHere('d_roof_wedge', tmp_path, monkeypatch, '--quick', '--no-pictures', '--contact-model', 'spring') == 0
 	_, rows = paperScripts.results(tmp_path)
 	assert rows['critical friction angle, way 1, joint forces set']['ours'] == pytest.approx(34.402, abs=0.02)

@@ -215,7 +215,7 @@ def testCubeWithoutRockingDampingRidesOnItsLeadingEdge(dampers):
 
 @pytest.mark.parametrize('dampers', [dict(normalDamping=1, shearDamping=1), dict(normalDamping=0, shearDamping=0)])
 def testCubeWithoutRockingDampingSlidesWithTheDefaultContact(dampers):
-	"""Its normal stays the floor's."""
+	"""The contact's normal stays the floor's."""
 	_, acceleration, theory = tiltTest(40, rockingDamping=0, **dampers)
 	print(f'cube without rocking damping {dampers}, 40° with φ = 30°: acceleration over theory {acceleration / theory:.4f}')
 	assert acceleration == pytest.approx(theory, rel=0.02)
@@ -277,7 +277,7 @@ def testFreeFlightConservesMomentaAndEnergy(half):
 
 @pytest.mark.parametrize('half', [(0.5, 0.5, 0.5), (0.5, 0.35, 0.25)])
 def testCollisionConservesMomenta(half):
-	"""To rounding, with YADE's integrator that keeps angular momentum by construction (Fincham1992)."""
+	"""It does so to rounding, with YADE's integrator that keeps angular momentum by construction (Fincham1992)."""
 	bodies = twoFreeBlocks(half, 1.6)
 	O.step()
 	linear, angular = momenta(bodies)

@@ -86,7 +86,8 @@ def testSceneWithoutIntegratorIsRefused():
 
 @pytest.mark.parametrize('physics', ['frictMat', 'perContact', 'perArea'])
 def testABlockThatRocksOnItsFaceKeepsItsEnergy(physics):
-	"""Without damping: the peaks of its kinetic energy stay the same over 50 swings, whatever the physics, all of which have the same stiffness."""
+	"""There is no damping: the peaks of the block's kinetic energy stay the same over 50 swings, whatever the physics, all of which have the same
+	stiffness."""
 	half, stiffness = 0.5, 1e7
 	if physics == 'frictMat':
 		O.materials.append(FrictMat(density=2500, young=1, poisson=0.5, frictionAngle=0.6))

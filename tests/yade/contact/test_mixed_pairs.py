@@ -260,7 +260,7 @@ print('ANSWERS', json.dumps([answers, counted]))
 
 
 def testStrangeBoxesAndFacetsAreCountedNotFatal():
-	"""In YADE's loop: extents and corners that are no solid, too thin, too far, or no numbers. Afterwards all is as before."""
+	"""YADE's loop has extents and corners that are no solid, too thin, too far, or no numbers. Afterwards all is as before."""
 	where = os.path.dirname(os.path.abspath(__file__))
 	done = subprocess.run(
 		[sys.executable, '-c', strange, where], env={**os.environ, 'OMP_NUM_THREADS': '1'}, capture_output=True, text=True, timeout=600

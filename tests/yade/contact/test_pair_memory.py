@@ -130,7 +130,7 @@ def testPairsApartAreDismissedByTheirMemory():
 
 
 def testAPairThatMovesInTheListStartsAnewOnce():
-	"""Another one's memory is never taken for its own: those of deleted pairs, whose places are filled from the end."""
+	"""A pair never takes another one's memory for its own, though places of deleted pairs in the list are filled from its end."""
 	diamonds(20)
 	O.run(2, True)
 	for body in range(0, len(O.bodies), 5):
@@ -145,7 +145,7 @@ def testAPairThatMovesInTheListStartsAnewOnce():
 
 
 def testMemoryOfAnExchangedShapeIsNotRead():
-	"""Its planes may be fewer than the pair remembers."""
+	"""The exchanged shape may have fewer planes than the pair remembers."""
 	diamonds(3)
 	for body in O.bodies:
 		body.shape = polytope.regular(20, 0.5).shape

@@ -124,7 +124,7 @@ def testABallAtTheEndOfAPlateKeepsItsSpring():
 @pytest.mark.parametrize('clumped', [True, False])
 @pytest.mark.parametrize('rule', ['perArea', 'perContact'])
 def testFreePlatesShareABall(clumped, rule):
-	"""On a floor, both carry half of it."""
+	"""Both plates lie on a floor, and carry half of the ball."""
 
 	def pieces():
 		floor = [polytope.cuboid((0, 0, -2), (3, 3, 1), fixed=True)]
@@ -151,7 +151,7 @@ def testFreePlatesShareABall(clumped, rule):
 
 
 def testHertzianSpringsAreShared():
-	"""With k √depth for a stiffness, too; one plate with its centre as far away as those of two, which YADE takes for its size."""
+	"""So they are with a stiffness of k √depth, too; one plate has its centre as far away as those of two, which YADE takes for its size."""
 	depths = []
 	for pieces in ([(1.5, 0, -0.5)], [(-1.5, 0, -0.5), (1.5, 0, -0.5)]):
 		O.reset()
@@ -299,7 +299,7 @@ def testARidgeOfPiecesHasASurfaceOnEach(fall, rule):
 
 @pytest.mark.parametrize('left, right', [(0.2, 1), (2, 2)])
 def testALopsidedRidgeOfFacetsIsPartedInTheMiddle(left, right):
-	"""By the plane that has the same angle to both slopes."""
+	"""The plane that parts it has the same angle to both slopes."""
 	down = [
 		sum(parts)
 		for parts in zip(*((x / math.hypot(1, fall), -fall / math.hypot(1, fall)) for x, fall in ((-1, left), (1, right))), strict=True)
@@ -439,7 +439,7 @@ def testAClumpOfFlushPartsSettlesOnPieces(ground, rule):
 @pytest.mark.parametrize('rule', ['perArea', 'perContact'])
 @pytest.mark.parametrize('beyond', [-0.25, 0.02])
 def testABlockThatOverhangsAFloorOfPieces(beyond, rule):
-	"""Its centre before the floor's end or beyond it: it comes to rest, or falls, as on one piece."""
+	"""The block's centre is before the floor's end or beyond it: the block comes to rest, or falls, as on one piece."""
 	found = []
 	for edges in ([-3, 0], [-3, -0.25, 0], [-3, -0.3, -0.1, 0]):
 		O.reset()

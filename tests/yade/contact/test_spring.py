@@ -53,7 +53,7 @@ def kineticEnergy(body):
 
 
 def angularMomentum(body):
-	"""About the origin, of the moment half a step before the present positions: that of the velocities."""
+	"""Angular momentum about the origin, half a step before the present positions: that of the velocities."""
 	state, half = body.state, O.dt / 2
 	spin = state.ori.conjugate() * state.angVel
 	turn = state.ori * Quaternion(state.angVel.norm() and spin.normalized(), -half * spin.norm())
@@ -127,7 +127,7 @@ def rms(errors):
 
 @pytest.mark.parametrize('cubes', [False, True])
 def testErrorOfCollisionsFallsWithTheSquareOfTheTimeStep(cubes):
-	"""With YADE's own integrator; boxes have three different moments of inertia."""
+	"""The runs have YADE's own integrator; boxes have three different moments of inertia."""
 	errors = [np.array([collide(seed, step, 'spring', cubes) for seed in meetings]) for step in steps]
 	paper = np.array([collide(seed, steps[0], 'boon2012', cubes) for seed in meetings])
 	for step, found in zip((*steps, 'boon2012'), (*errors, paper), strict=True):
@@ -172,7 +172,7 @@ def testWhatTheIntegratorDoesByItself():
 
 @pytest.mark.parametrize('cubes', [False, True])
 def testAngularMomentumIsKept(cubes):
-	"""To rounding of cubes; of unequal moments to what YADE's integrator does with a torque, which it takes in axes of the step's start."""
+	"""It is kept to rounding for cubes; for unequal moments, to what YADE's integrator does with a torque, which it takes in axes of the step's start."""
 	errors = []
 	for step in steps:
 		meet(3, 'spring', cubes)

@@ -149,7 +149,7 @@ def testAcrossAPeriodicBoundary():
 
 
 def loopWith(functor):
-	"""With the law's engines, and the functor of a mixed pair beside that of two polytopes, which has the settings."""
+	"""A loop with the law's engines, and with the functor of a mixed pair beside that of two polytopes, which has the settings."""
 	loop(ig2=spring, gravity=(0, 0, -gravity))
 	O.engines[1].boundDispatcher.functors = [one() for one in bounds]
 	O.engines[2].geomDispatcher.functors = [*O.engines[2].geomDispatcher.functors, functor]

@@ -103,7 +103,7 @@ def testShearDampersAddUpToOne():
 
 
 def slab(n=20, perArea=True):
-	"""All defaults: falls by 1 cm on n × n plates. Highest speed upwards and place."""
+	"""A slab with all defaults falls by 1 cm on n × n plates. Returns the highest speed upwards and the highest place."""
 	O.reset()
 	joint(density=2600, normalStiffness=1e9 if perArea else 1e9 / n**2, shearStiffness=1e9 if perArea else 1e9 / n**2, frictionAngle=0.5)
 	h = 2 / n
@@ -194,7 +194,7 @@ def testNoDamperTakesMoreThanTheMotionThereIs(tilt):
 
 
 def testALoadedRunGoesOnAsIfItHadNotBeenInterrupted(tmp_path):
-	"""To the last bit: a fall on 3 × 3 pieces, saved while it is pressed in."""
+	"""It goes on the same to the last bit: a fall on 3 × 3 pieces, saved while the body is pressed in."""
 	joint(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.3)
 	pavement(3)
 	cube = O.bodies.append(polytope.cuboid((0, 0, half + 1e-4), (half, half, half), Quaternion((1, 0.3, 0), 1e-3), velocity=(0, 0, -1)))

@@ -34,7 +34,7 @@ def wedgeFoot(depth=overlap, **material):
 
 
 def moved(body, way, steps=100):
-	"""By this way, at rest at the end."""
+	"""Moves the body by this way; it is at rest at the end."""
 	body.state.vel = Vector3(way) / (steps * dt)
 	O.run(steps, True)
 	body.state.vel = (0, 0, 0)
@@ -166,7 +166,7 @@ def testSlipOfABlockThatTipsOntoItsEdge(model, psi):
 
 @pytest.mark.parametrize('limit', [5e-3, inf])
 def testSlipOfABlockThatRocksOnASlope(limit):
-	"""Its area shrinks to nothing in some steps. Slip and dilation stay within what the block has moved."""
+	"""The contact's area shrinks to nothing in some steps. Slip and dilation stay within what the block has moved."""
 	slope, psi = radians(35), radians(5)
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(30), dilationAngle=psi, dilationLimit=limit)
 	loop(perArea=True, normalDamping=0.3, shearDamping=0.3, rockingDamping=0.5, gravity=(gravity * sin(slope), 0, -gravity * cos(slope)))
@@ -271,7 +271,7 @@ def testBlockThatSlidesAndDilatesDownASlope(perArea):
 
 
 def testStiffnessSetByTheScript():
-	"""Per contact it stays as it is; per area it follows from the joint's own values."""
+	"""A stiffness per contact stays as it is; one per area follows from the joint's own values."""
 	for perArea in (False, True):
 		O.reset()
 		joint(normalStiffness=stiffness, shearStiffness=stiffness)

@@ -495,7 +495,7 @@ dip = math.radians(35)
 
 
 def blockOnASlope(**material):
-	"""At rest; returns the normal stress under it."""
+	"""A block on a slope at rest; returns the normal stress under it."""
 	joint(normalStiffness=1e9, shearStiffness=1e9, **material)
 	turn = Quaternion((0, 1, 0), dip)
 	O.bodies.append(polytope.cuboid(turn * Vector3(0, 0, -1), (5, 5, 1), orientation=turn, fixed=True))
@@ -513,7 +513,7 @@ def testFactorOfSafetyOfAContinuouslyYieldingSlope():
 
 
 def testFactorOfSafetyOfARoughSlope():
-	"""By small steps, in which the roughness is mobilised: tan φ of the peak at this stress over tan 35°."""
+	"""Strengths are reduced in small steps, in which the roughness is mobilised: the factor is tan φ of the peak at this stress over tan 35°."""
 	stress = blockOnASlope(**rough)
 	closed = math.tan(residual + math.radians(10 * math.log10(wall / stress))) / math.tan(dip)
 	assert polytope.factorOfSafety(tolerance=0.02).factor == pytest.approx(closed, rel=0.03)

@@ -152,7 +152,7 @@ def testAnEdgeThatPartsLeavesCohesionOnWhatIsPressed():
 
 
 def testMotionOfAHungBlockKeepsItsEnergy():
-	"""Without dampers, also in the step in which it fails: all that it had stored is the energy of fracture."""
+	"""There are no dampers; the energy is kept also in the step in which the joint fails: all that it had stored is the energy of fracture."""
 	newton, state = hung(2e-2, damping=0.0, tensileStrength=3e4)
 	O.trackEnergy = True
 	newton.gravity = (0, 0, -gravity)

@@ -120,7 +120,7 @@ def momentOfSection(rotation, width, depth):
 
 @pytest.mark.parametrize('times', [0.8, 1.5, 4, 40])
 def testABentJointHasTheMomentOfItsElasticPlasticSection(times):
-	"""Up to three times that at which its edge yields, T b h²/6, for T b h²/2 with all of it torn open."""
+	"""The moment rises to three times the one at which the joint's edge yields: from T b h²/6 to T b h²/2, where all of it is torn open."""
 	body, area = hung(damping=0.5)
 	limit = strength / (stiffness * half)  # rotation at which the edge yields
 	body.state.blockedDOFs = 'yXYZ'
@@ -139,7 +139,7 @@ def testABentJointHasTheMomentOfItsElasticPlasticSection(times):
 @pytest.mark.parametrize('two', [False, True])
 @pytest.mark.parametrize('factor, holds', [(0.97, True), (1.03, False)])
 def testABrickHungBesideItsMiddleFallsWhenAllOfItsFaceYields(two, factor, holds):
-	"""At W = T A/(1 + 2 e/h), e from the face's middle: moments about the edge that is still pressed. A brittle joint: T A/(1 + 6 e/h)."""
+	"""It falls at W = T A/(1 + 2 e/h), e from the face's middle: moments about the edge that is still pressed. A brittle joint: T A/(1 + 6 e/h)."""
 	offset = 0.02
 	body, area = hung(offset=offset, two=two, damping=0.4)
 	width = 2 * half - offset

@@ -358,7 +358,7 @@ def testAJointThatIsPulledOpenKeepsASmallShearForce():
 
 
 def testOpenJointKeepsTheAreaOfItsLastTouch():
-	"""Also where rounding decides whether the bodies touch; the section of bodies apart is that of bodies grown."""
+	"""It does so also where rounding decides whether the bodies touch; the section of bodies apart is that of bodies grown."""
 	floor, block, i = pressed(dict(tensileStrength=1e6, cohesion=1e5), perArea=True)
 	touching = float(i.phys.contactArea)
 	assert touching == pytest.approx(1, rel=1e-12)

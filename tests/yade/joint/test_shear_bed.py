@@ -244,7 +244,7 @@ def testStiffnessOfABlockOnASlopeIsSymmetric(perArea):
 
 @pytest.mark.parametrize('feet', ['edge', 'flat'])
 def testLoadCyclesDoNotLetABlockCreepDownASlope(feet):
-	"""On two edges, or two faces, on a slope of 20° with friction of 35°, the weight across the slope up and down by 30 %."""
+	"""The block stands on two edges, or two faces, on a slope of 20° with friction of 35°; the weight across the slope goes up and down by 30 %."""
 	slope = radians(20)
 	joint(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=radians(35))
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))

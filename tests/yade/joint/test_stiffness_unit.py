@@ -27,7 +27,7 @@ def heightAfter(steps):
 
 @pytest.mark.parametrize('gap', [-1e-4, 1e-3])
 def testTheMaterialSaysWhatTheFunctorSaid(gap):
-	"""To the last bit, the time step before contact included."""
+	"""Both are the same to the last bit, the time step before contact included."""
 	blockOnFloor(rock(), rock(), Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False), gap)
 	before = heightAfter(1), float(O.dt)
 	byFunctor = before, heightAfter(400)

@@ -51,7 +51,7 @@ def middles(images, channel):
 
 
 def testABlockMovesAsItShould(tmp_path):
-	"""In pixels: it moves by v t over the width of the frame that was asked for, while the one at rest stays."""
+	"""The motion is looked at in pixels: the block moves by v t over the width of the frame that was asked for, while the one at rest stays."""
 	movingBlock()
 	frame = [(x, 0, z) for x in (-1, 3) for z in (-2, 0)]
 	with polytope.animate(tmp_path / 'folder' / 'a.gif', every=200, frame=frame, zoom=1.04, **look) as film:
@@ -72,7 +72,7 @@ def testABlockMovesAsItShould(tmp_path):
 
 
 def testViewAndScaleHoldForAllFrames(tmp_path):
-	"""Without a frame the film holds the whole way of the block; colours have one scale, from the least to the greatest value of all."""
+	"""Without a given frame the film holds the whole way of the block; colours have one scale, from the least to the greatest value of all."""
 	movingBlock()
 	with polytope.animate(tmp_path / 'a.gif', every=500, colorBy='displacement', fps=10, **look):
 		O.run(1000, wait=True)

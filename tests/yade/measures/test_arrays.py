@@ -139,7 +139,7 @@ def testTypesShapesAndAnEmptyScene():
 
 
 def testLargeColumnsHaveAllRows():
-	"""Each begins with a large page of memory of its own; arrays that are kept stay as they are when the scene goes on."""
+	"""Each column begins with a large page of memory of its own; arrays that are kept stay as they are when the scene goes on."""
 	O.materials.append(RockJointMat(density=2600))
 	O.bodies.append([polytope.cuboid((2 * k, 0.5 * k, -k), (0.5, 0.5, 0.5), velocity=(0, k, 1)) for k in range(25000)])
 	first = polytope.arrays().bodies
@@ -189,7 +189,7 @@ def testAfterLoading(tmp_path):
 
 
 def testARunInTheBackgroundIsRefused():
-	"""Its contacts would come and go while they are read; from an engine of the run it works."""
+	"""The contacts would come and go while they are read; from an engine of the run it works."""
 	mixed()
 	found = []
 	builtins.found = found

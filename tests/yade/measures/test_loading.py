@@ -45,7 +45,7 @@ packings = {}
 
 
 def packed(periodic=False, mass=0.008):
-	"""At 100 kPa."""
+	"""A sample packed at 100 kPa."""
 	loose = grains(mass)
 	if (periodic, mass) not in packings:
 		length = (sum(body.shape.volume for body in loose) / 0.16) ** (1 / 3)
@@ -413,7 +413,7 @@ def testAShearTestThatIsLoadedIsNotReplacedUnasked(tmp_path, kind):
 
 
 def testASampleWhoseWallsWereReplacedIsToldOf():
-	"""By the plates of a shear test: its servos moved walls that were not there, until bodies had been pressed into each other."""
+	"""The plates of a shear test had replaced them: its servos moved walls that were not there, until bodies had been pressed into each other."""
 	sample = packed()
 	test = polytope.simpleShear(sample, stress=1e5, inertialNumber=2e-2)
 	for make in (polytope.triaxial, polytope.shearBox, polytope.simpleShear):

@@ -198,7 +198,7 @@ print(count[0])
 
 
 def testEveryPictureIsDrawnOnceInEachSize(tmp_path, monkeypatch):
-	"""In full, and small with and without the shading; it was drawn anew to read each of them."""
+	"""It is drawn in full, and small with and without the shading; it used to be drawn anew to read each of them."""
 	run, said = subprocess.run, []
 
 	def counted(command, **options):

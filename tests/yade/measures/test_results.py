@@ -46,7 +46,7 @@ def testAFigureChangedAloneIsFound(root):
 
 
 def testNewResultsAreTakenOverWithAllTheirFigures(root, tmp_path):
-	"""And a defect in them is said."""
+	"""A defect in them is said, too."""
 	log = tmp_path / 'log.txt'
 	shutil.copy(root / 'docs/results/search.txt', log)
 	changed(log, 'defects:      miss 0,', 'defects:      miss 3,')
@@ -298,7 +298,7 @@ def testTheTradeOffIsWritten(root, tmp_path):
 
 
 def testMutantsThatSurviveAreListed(root, tmp_path):
-	"""One that is killed, one that is not and that nobody has judged."""
+	"""One mutant is killed, one is not and nobody has judged it."""
 	row = {
 		'id': 1,
 		'file': 'src/a/b.hpp',
@@ -334,7 +334,7 @@ def testMutantsOfAnotherRunStay(root, tmp_path):
 
 
 def testEveryResultIsShown():
-	"""And every file in the folder is one that a figure comes from."""
+	"""Every file in the folder is one that a figure comes from, too."""
 	sys.path.insert(0, str(program.parent))
 	try:
 		import results as figures

@@ -31,7 +31,7 @@ def module(monkeypatch):
 	],
 )
 def testOptionsAreReadBeforeAnythingIsBuilt(arguments, code, word, tmp_path):
-	"""In a folder where building fails: only good options get as far as that."""
+	"""The program is started in a folder where building fails: only good options get as far as that."""
 	for name in ('examples', 'tools'):
 		(tmp_path / name).symlink_to(project / name)
 	own = {name: str(tmp_path / name) for name in ('cache', 'logs', 'yadeSource')}

@@ -154,7 +154,7 @@ def testThinSpacingLeavesAnOutermostLayer():
 
 
 def testReportKnowsOuterBlocksFromBelow(tmp_path):
-	"""In whatever order the file has them; without params there are no rows on outer and inner blocks."""
+	"""The blocks may be in any order in the file; without params there are no rows on outer and inner blocks."""
 	slope = readSlope(geometry)
 	slope['free'] = slope['free'][::-1]
 	for params, others in (({}, 1), ({'dip': None}, 0)):

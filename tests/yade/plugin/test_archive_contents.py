@@ -82,7 +82,7 @@ def testPlanesOfAShapeAreNotChanged():
 
 @pytest.mark.skipif(polytope.buildInfo()['precision'] != 'double', reason='bytes of a double')
 def testBytesOfASavedContact(tmp_path):
-	"""Its numbers take 0.6 kB; what the archive notes (classes, bases, addresses) little more."""
+	"""The contact's numbers take 0.6 kB; what the archive notes (classes, bases, addresses) little more."""
 	sizes = []
 	for gap in (-1e-3, 0.5):
 		columns(200, gap)

@@ -251,7 +251,7 @@ def testGarbledFileGivesWayToTheOneBefore(tmp_path):
 
 @pytest.mark.parametrize('missing', [1, 500, 5000])
 def testFullDiskKeepsTheLastState(tmp_path, missing):
-	"""Where the system takes no more bytes, at the end of the file or before: in a process that may not write larger files."""
+	"""The system takes no more bytes, at the end of the file or before: in a process that may not write larger files."""
 	scene(polytope.checkpoint(tmp_path / 'run', iterPeriod=1, onSignal=False))
 	for _ in range(3):
 		O.step()

@@ -212,7 +212,7 @@ def testAnExtensionBuiltWithAnotherInterfaceIsRefused(otherAbi):
 
 
 def testTheSumOfTheHeadersChangesWithThem(tmp_path):
-	"""By which an extension is compared with the plug-in: the same for the same headers, another one where one of them, or the configuration, has another line."""
+	"""The sum by which an extension is compared with the plug-in is the same for the same headers, another one where one of them, or the configuration, has another line."""
 	source, into = tmp_path / 'source', tmp_path / 'into'
 	name = 'host/FlatArchive.hpp'
 	(source / 'host').mkdir(parents=True)
@@ -293,7 +293,7 @@ def testWhatIsNoExtensionIsRefused(tmp_path):
 
 @pytest.mark.parametrize('part', [0.5, 0.9, 0.9999])
 def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
-	"""With the text that it has about itself: the dynamic linker would end the process."""
+	"""The message has the text that it has about itself: the dynamic linker would end the process."""
 	whole = joint.read_bytes()
 	library = tmp_path / 'part.so'
 	library.write_bytes(whole[: int(part * len(whole))])
@@ -302,7 +302,7 @@ def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
 
 
 def testWhatIsNoFileIsRefused(joint, tmp_path):
-	"""By polytope.load, and at the start in YADE_POLYTOPE_EXTENSIONS, where the others are loaded."""
+	"""polytope.load refuses it, and so does the start for YADE_POLYTOPE_EXTENSIONS, where the others are loaded."""
 	script = """
 from yade import polytope
 def said(path):
@@ -338,7 +338,7 @@ answer([said(), said()])
 
 
 def testAPrecisionThatIsNotThereIsNamed(tmp_path):
-	"""By CMake, before anything is compiled."""
+	"""CMake names it, before anything is compiled."""
 	text = 'cmake_minimum_required(VERSION 3.22)\nproject(other C CXX)\nset(YADE_POLYTOPE_PRECISION mpfr151)\nfind_package(yade-polytope 0.1 REQUIRED)\n'
 	(tmp_path / 'CMakeLists.txt').write_text(text)
 	command = ['cmake', '-S', str(tmp_path), '-B', str(tmp_path / 'build'), f'-DCMAKE_PREFIX_PATH={overlay}']

@@ -68,7 +68,7 @@ def testHelpOfFunctionsIsPlainText(name):
 	'fromHalfSpaces fromVertices regular cuboid polygon prism frustum fromMesh readShapes randomGrain grains plates tube terrain'.split(),
 )
 def testHelpOfBodiesHasTheSharedArguments(name):
-	"""Each once, before what is returned and raised."""
+	"""The help has each of them once, before what is returned and raised."""
 	text = getattr(polytope, name).__doc__
 	for argument in ('material', 'fixed', 'color', 'cornerRadius', 'velocity'):
 		assert len(re.findall(rf'^:param (?:\w+ )?{argument}: ', text, re.MULTILINE)) == 1, argument

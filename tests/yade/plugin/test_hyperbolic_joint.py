@@ -94,7 +94,7 @@ answer([before, [[one.what, one.seen] for one in polytope.check(O)]])
 
 
 def testANameThatALawHasIsRefused(hyperbola, wrong):
-	"""By polytope.load and at the start, after which YADE goes on with the law that was there."""
+	"""polytope.load refuses it, and so does the start, after which YADE goes on with the law that was there."""
 	script = """
 from yade import polytope
 polytope.load(sys.argv[1])

@@ -101,7 +101,7 @@ change the force by so much for a load that differs by rounding alone."""
 
 
 def same(one, several, bodies=24):
-	"""To *agreement*, and what contacts remember."""
+	"""Asserts that both are the same to *agreement*, and in what contacts remember."""
 	assert one['iter'] == several['iter'] and one['engines'] == several['engines']
 	assert one['coordination'] == several['coordination'] > 1 and one['mass'] == pytest.approx(several['mass'], rel=1e-12)
 	assert one['time'] == pytest.approx(several['time'], rel=1e-13)
@@ -128,7 +128,7 @@ def testMergedSceneOfClumpsIsThatOfOneProcess(found, name, ranks):
 
 @pytest.mark.parametrize('start, end', [('settled', 'heap'), ('clumpedSettled', 'clumped')])
 def testTheSceneMovesAndContactsRemember(found, start, end):
-	"""Else the comparison above would say nothing."""
+	"""Otherwise the comparison above would say nothing."""
 	before, after = found(start, 1), found(end, 1)
 	assert max(farthest(before['bodies'][k][:3], after['bodies'][k][:3]) for k in before['bodies']) > 1e-7
 	contacts = after['contacts'].values()

@@ -144,7 +144,7 @@ except KeyboardInterrupt:
 
 
 def testCtrlCIsHeard():
-	"""In a run that would take years; the scene goes on afterwards."""
+	"""The run would take years; the scene goes on afterwards."""
 	start = 'import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n'  # a shell's programs in the background ignore it
 	done = subprocess.run([sys.executable, '-c', start + interrupted], capture_output=True, text=True, timeout=300)
 	assert done.returncode == 0, done.stderr

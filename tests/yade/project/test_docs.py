@@ -24,7 +24,7 @@ fence = re.compile(r'^( *)```(.*?)\n(.*?)^\1```$', re.MULTILINE | re.DOTALL)
 
 
 def prose(text):
-	"""Without blocks of code."""
+	"""The text without blocks of code."""
 	return fence.sub('', text)
 
 
@@ -69,7 +69,7 @@ def testFilesThatAreNamedExist(name):
 
 
 def testPagesThatAreNamedElsewhereExist():
-	"""In help texts, doc strings and messages."""
+	"""They are named in help texts, doc strings and messages."""
 	for folder in ('src', 'pkg', 'py', 'examples', 'tests', 'tools'):
 		for path in (project / folder).rglob('*'):
 			if path.suffix in ('.py', '.hpp', '.cpp', '.sh', '.md') and path != pathlib.Path(__file__).resolve():

@@ -54,7 +54,7 @@ def mutants(tmp_path_factory):
 
 
 def testPlacesAreFoundInCodeAlone(mutants):
-	"""Not in comments, messages and loops over indices."""
+	"""There are none in comments, messages and loops over indices."""
 	_, found = mutants
 	assert [f'{mutant.original} {mutant.mutant}' for mutant in found if mutant.line == 8] == []
 	assert {f'{mutant.original} {mutant.mutant}' for mutant in found if mutant.line < arrays} == set(kinds)
@@ -86,7 +86,7 @@ def testEachMutantIsTheProgramThatItsNameSays(mutants, tmp_path):
 
 
 def testMutantsThatDoNotCompileAreNamedByTheMessages():
-	"""On the line of the error, beside it, or where a template was asked for."""
+	"""Messages are on the line of the error, beside it, or where a template was asked for."""
 
 	def mutant(number, line):
 		return Mutant(number, 'src/a.hpp', line, 0, 'arithmetic', '+', '-', '')

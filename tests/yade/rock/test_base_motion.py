@@ -13,7 +13,7 @@ gravity = 9.81
 
 
 def blockOnBase(friction=math.atan(0.3), stiffness=1e10, two=False):
-	"""At rest, without damping; (number of the base, the block)."""
+	"""A block on its base, at rest, without damping; returns (number of the base, the block)."""
 	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=friction))
 	if two:
 		base = O.bodies.append(polytope.polygon([(-5, -1), (5, -1), (5, 0), (-5, 0)], fixed=True))
@@ -121,7 +121,7 @@ def column():
 
 @pytest.mark.parametrize('part', [0.5, 0.8, 1.3])
 def testAColumnOfBlocksAmplifiesTheMotionOfItsBase(part):
-	"""Below and above its first frequency."""
+	"""The base moves below and above the column's first frequency."""
 	stiffness, mass = columnMatrices()
 	omega = part * math.sqrt(min(np.linalg.eigvals(np.linalg.solve(mass, stiffness)[2:, 2:]).real))
 	base = column()
@@ -147,7 +147,7 @@ def testAColumnOfBlocksAmplifiesTheMotionOfItsBase(part):
 
 
 def testARecordOfAFileMovesTheBaseAsItTells(tmp_path):
-	"""In g, with an offset of its zero: the base comes to rest, and its way is the integral of the velocity."""
+	"""The record is in g, with an offset of its zero: the base comes to rest, and its way is the integral of the velocity."""
 	random, interval = np.random.default_rng(1), 0.01
 	times = 5 + interval * np.arange(200)
 	accelerations = np.convolve(random.normal(size=200), np.hanning(9), 'same') * 0.1 + 0.02

@@ -60,7 +60,7 @@ def above(height, flat):
 
 @pytest.mark.parametrize('flat', [False, True])
 def testWhatIsLeftOfAColumnWeighsOnTheFloorAsMuchAsItIs(flat):
-	"""Its upper half is cut off gradually: the floor bears all of the weight first, half of it at last, and never more or less."""
+	"""The column's upper half is cut off gradually: the floor bears all of the weight first, half of it at last, and never more or less."""
 	weight = onFloor(flat=flat)
 	undamped()
 	O.step()
@@ -180,7 +180,7 @@ def bondsNow(bonded):
 @pytest.mark.parametrize('flat', [False, True])
 @pytest.mark.parametrize('bonded', [False, True])
 def testBondsAreSharedByTheirArea(flat, bonded):
-	"""In tension, shear, bending and twist at once: stresses are linear over the area, so those of the parts are known from the whole."""
+	"""The bond has tension, shear, bending and twist at once: stresses are linear over the area, so those of the parts are known from the whole."""
 	hanging(flat, bonded)
 	whole = bondsNow(bonded)[1]
 	area, moments, point, stored = whole.area, whole.secondMoments, Vector3(whole.point), whole.energy

@@ -14,7 +14,7 @@ from yade.polytope.strengthReduction import divideStrengths
 
 
 def onSlope(dip, half, flat=False, **joint):
-	"""At rest."""
+	"""A block on a slope, at rest."""
 	block = blockOnSlope(dip, half, flat, **joint)
 	for k in (0, 1):
 		O.bodies[k].state.pos -= Vector3(*gravityOnSlope(dip, flat)) * (k * 1e-9)  # in touch
@@ -321,7 +321,7 @@ def besideAStop(gap):
 
 @pytest.mark.parametrize('gap', [0.008, 0.012])
 def testABlockThatMovesAndIsStoppedBeforeItsLimitStands(gap):
-	"""Its limit is 0.02 m. It would have failed without the wall, and has moved faster and faster."""
+	"""The block's limit is 0.02 m. It would have failed without the wall, and has moved faster and faster."""
 	besideAStop(gap)
 	assert polytope.factorOfSafety(most=2).factor == math.inf
 
@@ -390,7 +390,7 @@ def onAThinPlate(ownStep):
 
 
 def testBodiesThatLimitTheStepAreHeavierInTrials():
-	"""Where the scene's step is the script's own they are not: the same factor in more steps."""
+	"""Where the scene's step is the script's own, they are not: the factor is the same in more steps."""
 	steps = {}
 	for ownStep in (False, True):
 		theory = onAThinPlate(ownStep)

@@ -103,7 +103,7 @@ def testTheErrorIsAboutThreeTimesTheClosureOverTheWidth():
 
 
 def testBlocksOfTwoMaterials():
-	"""In turns; each has the closure of its own."""
+	"""The blocks have the materials in turns; each has the closure of its own."""
 	material(label='hard', normalStiffness=4e10)
 	material(label='soft', normalStiffness=1e10)
 	for i, j, k in np.ndindex(3, 3, 3):
@@ -115,7 +115,7 @@ def testBlocksOfTwoMaterials():
 
 
 def testPlanesWithoutAFaceStayWhereTheyAre():
-	"""One before the face's own among the planes, one behind it."""
+	"""One such plane is before the face's own among the planes, one behind it."""
 	material()
 	far, near = [(1, 0, 0), (0, 1, 0)], [1.3, 1.2]
 	O.bodies.append(polytope.fromHalfSpaces([far[0], *sides, far[1]], [near[0], 1, 0, 1, 0, 1, 0, near[1]]))
@@ -138,7 +138,7 @@ def testObliqueJoints():
 
 @pytest.mark.parametrize('without', [(), (4,)])
 def testGravityWithK0(without):
-	"""With a plate on the ground's surface, which bears nothing, and without."""
+	"""There are scenes with a plate on the ground's surface, which bears nothing, and without it."""
 	rock(gravity=9.81, without=without)
 	polytope.inSitu(np.zeros((3, 3)), upwards)
 	assert staysAtRest(StressField(np.zeros((3, 3)), upwards), steps=1000)

@@ -55,7 +55,7 @@ def testNeighboursTouchWithoutOverlap():
 
 
 def testJointsStartFromTheCentroid():
-	"""Not from the mean of the corners: a corner that is cut off by very little leaves them where they are."""
+	"""They do not start from the mean of the corners: a corner that is cut off by very little leaves them where they are."""
 	(whole,), (cut,) = (
 		polytope.jointedRock(normals, offsets, [JointSet(0, 0, 100)]).joints
 		for normals, offsets in ((box, [10, 0, 8, 0, 6, 0]), ([*box, (1, 1, 1)], [10, 0, 8, 0, 6, 0, 24 - 1e-3]))

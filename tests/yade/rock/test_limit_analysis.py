@@ -224,7 +224,7 @@ def cornersOf(body):
 
 
 def rotated(point):
-	"""By 30°, the dip of their base."""
+	"""The point, rotated by 30°, the dip of the blocks' base."""
 	(x, y), c, s = point, math.cos(math.radians(30)), math.sin(math.radians(30))
 	return x * c - y * s, x * s + y * c
 
@@ -332,7 +332,7 @@ def testAClumpMovesAsOne():
 
 
 def testUnitsAndPlaceDoNotMatter():
-	"""In millimetres, far from the origin."""
+	"""The scene is in millimetres, far from the origin."""
 	blockMaterial(density=5e-6, cohesion=6e-3 * 1e-6 * 1e6)
 	far = Vector3(3e5, -2e5, 1e5)
 	O.bodies.append(polytope.cuboid(far + Vector3(0, 0, -500), (3000, 2000, 500), fixed=True))
@@ -457,7 +457,8 @@ def testThatOfStrengthReduction():
 
 
 def testABlockThatTwistsOnItsBase():
-	"""About its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the face, as the page says."""
+	"""The block twists about its middle, which cannot move: cohesion at the four corners bears c b³/√2, 1.85 times what it would over the face, as the
+	page says."""
 	block = blockOnSlope(0.0, (0.5, 0.5, 0.5), frictionAngle=0, cohesion=1e5)
 	O.bodies[block].state.blockedDOFs = 'xyzXY'
 	O.forces.setPermT(block, (0, 0, 4e4))

@@ -148,7 +148,7 @@ def column():
 
 @pytest.mark.parametrize('loaded', [False, True])
 def testWhatTheBoundaryBearsAtRestIsHeld(loaded, tmp_path):
-	"""Also right after O.load, before forces are computed again."""
+	"""It is held also right after O.load, before forces are computed again."""
 	base = column()
 	if loaded:
 		O.save(str(tmp_path / 'state.yade'))
@@ -167,7 +167,7 @@ def testWhatTheBoundaryBearsAtRestIsHeld(loaded, tmp_path):
 
 
 def testAColumnThatWasStruckComesToRestThroughItsBase(tmp_path):
-	"""Its momentum goes into the dashpot: all of it moves by m v/(ρ c_p A)."""
+	"""The column's momentum goes into the dashpot: all of it moves by m v/(ρ c_p A)."""
 	base = column()
 	polytope.quietBoundary(base, (0, 0, -1), pWave, sWave)
 	top = O.bodies[len(O.bodies) - 1]

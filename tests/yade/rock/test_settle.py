@@ -111,7 +111,7 @@ def testWithoutAnIntegratorItIsRefused():
 
 
 def testFixedBodiesThatOverlapDoNotCount():
-	"""Their contact bears any force, and would make all others small beside it."""
+	"""The contact of such bodies bears any force, and would make all others small beside it."""
 	block = slope(1.02)
 	for x in (30, 30.9):
 		O.bodies.append(polytope.cuboid((x, 0, 0), (1, 1, 1), fixed=True))

@@ -72,7 +72,7 @@ def testTheWeakestOfSeveralMaterialsFails():
 @pytest.mark.parametrize('bonded', [False, True])
 @pytest.mark.filterwarnings('ignore:gravity at once')
 def testABlockThatHangs(bonded):
-	"""By its joint's tensile strength or by a bond: σ A / W."""
+	"""The block hangs by its joint's tensile strength or by a bond: σ A / W."""
 	strength = 25e3
 	rock(**({} if bonded else dict(tensileStrength=strength, cohesion=1e6)))
 	O.bodies.append(polytope.cuboid((0, 0, 0.5), (1, 1, 0.5), fixed=True))

@@ -115,7 +115,7 @@ def testConstantNormalForceIsAnotherAnswer():
 
 @pytest.mark.parametrize('ratio', [0.2, 0.5, 1, 2])
 def testSettlementUnderWeight(ratio):
-	"""Against the forces on a face, summed up the long way."""
+	"""The settlement is compared with the forces on a face, summed up the long way."""
 	normal, shear = (3 * force for force in wedges.jointForces(5e4, roofArea, inclination))
 	kn, ks = 1e7, ratio * 1e7
 	settlement = roofWeight / (kn * sin(inclination) ** 2 + ks * cos(inclination) ** 2)

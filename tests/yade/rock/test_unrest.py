@@ -54,7 +54,7 @@ def testWhatFallsIsToldAtOnce(flat):
 
 @pytest.mark.parametrize('flat', [False, True])
 def testWhatCouldHangByABondIsToldSo(flat):
-	"""Its tensile strength would hold it, but it only touches what it hangs from."""
+	"""The block's tensile strength would hold it, but it only touches what it hangs from."""
 	joint(normalStiffness=1e9, shearStiffness=1e9, tensileStrength=1e5, cohesion=1e6)
 	if flat:
 		O.bodies.append(polytope.polygon([(-2, 0), (2, 0), (2, 1), (-2, 1)], fixed=True))

@@ -221,7 +221,7 @@ def testADamSlidesAtItsFactorWithUplift(drained, margin):
 
 @pytest.mark.parametrize('flat', [False, True])
 def testABlockUnderWaterPressesWithItsEffectiveWeight(flat):
-	"""On a slope of 25° it is still held by friction of 26°, for water takes its share of both; the joint below is as wet as the rest."""
+	"""The block is still held on a slope of 25° by friction of 26°, since water takes its share of both; the joint below is as wet as the rest."""
 	dip = radians(25)
 	rock(frictionAngle=radians(26))
 	if flat:

@@ -9,7 +9,7 @@ from scenes import contactOf, joint, loop
 from yade import O, Quaternion, Vector3, _polytope, polytope
 
 depth = 1e-6
-"""Over the size [m]: the weight that presses so deep turns a body on a vertex much more slowly than its springs do."""
+"""Depth over the size [m]: the weight that presses so deep turns a body on a vertex much more slowly than its springs do."""
 disturbance, growth, steps = 1e-5 * depth, 100, 300
 halfCube, halfPlate = (0.5, 0.5, 0.5), (0.5, 0.5, 0.02)
 

@@ -61,7 +61,7 @@ def testAStreamThatHasLeftLimitsNothing():
 
 
 def testOnTheWayToOthersItDoes():
-	"""Until it has struck: a tenth of its inscribed radius in a step."""
+	"""The motion limits the step until the body has struck: a tenth of its inscribed radius in a step."""
 	O.reset()
 	joint(normalStiffness=1e8, shearStiffness=1e8)
 	floor()

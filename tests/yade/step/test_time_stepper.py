@@ -93,7 +93,7 @@ def testBodiesPutInLaterCountAtOnce():
 
 
 def testAnErasedBodyLimitsNothing():
-	"""Neither in flight, by what its material would give, nor by its contact."""
+	"""It limits the step neither in flight, by what its material would give, nor by its contact."""
 	for height in (8, 0.049):
 		O.reset()
 		joint()

@@ -11,7 +11,7 @@ namespace {
 
 	Matrix3 about(const Vector3& axis, Real angle) { return Eigen::AngleAxis<Real>(angle, axis.normalized()).toRotationMatrix(); }
 
-	/// With corners rounded by a tenth of the inscribed ball, as bodies in a scene are unless told otherwise.
+	/// The shape with corners rounded by a tenth of the inscribed ball, as bodies in a scene are unless told otherwise.
 	Shape rounded(const HalfSpaces& set, Real part = 0.1)
 	{
 		const Real inscribed = ConvexShape(set, 0).inscribedRadius();
@@ -151,7 +151,7 @@ namespace {
 	}
 
 	Pair placedPair(Real, const std::string& kind, Random& random) { return features(kind, Real(1e-3), random); }
-	/// Both centres rounded where the scene has them.
+	/// The pair with both centres rounded where the scene has them.
 	Pair roundedPlaces(Real distance, const std::string& kind, Random& random)
 	{
 		Pair          pair  = placedPair(distance, kind, random);

@@ -176,7 +176,7 @@ class Collisions:
 		return body
 
 	def run(self):
-		"""Until `duration` is over. Returns a dictionary of lists, a number a pair:
+		"""Runs until `duration` is over. Returns a dictionary of lists, a number a pair:
 
 		error: change of the kinetic energy over that of the start; touched, parted: whether the two have met, and are free again at the
 		end; momentum, angularMomentum: size of their change (mass × speed is 1); and contactTime: mean time under force of those that

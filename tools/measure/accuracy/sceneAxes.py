@@ -187,7 +187,7 @@ def collide(model, massRatio, lightMoves=True, turn=(0.3, -0.5, 0.8)):
 @dataclasses.dataclass
 class Vibration:
 	timeStep: float
-	"""Over 2 √(m/k), the limit of the central difference scheme for the block on its contact."""
+	"""Time step over 2 √(m/k), the limit of the central difference scheme for the block on its contact."""
 	growth: float
 	"""Largest distance from rest over that at the start, in all steps."""
 	energyGrowth: float

@@ -157,7 +157,7 @@ class SurfaceStudy:
 		self.worst(f'{title}: spin × half length / speed', [(n, r, c.spin) for n, r, c in found], sliding)
 
 	def speeds(self):
-		"""From creeping to fast."""
+		"""Speeds from creeping to fast."""
 		found = []
 		floors = ('plates',) if self.quick else ('slab', 'plates', 'facets')
 		slow = ((1e-3, 0.005), (0.1, 0.08)) if self.quick else ((1e-3, 0.02), (1e-2, 0.08), (0.1, 0.08))

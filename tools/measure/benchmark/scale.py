@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 here = pathlib.Path(__file__).resolve().parent
 cubes = 20000
-"""On several processes."""
+"""Number of cubes on several processes."""
 repeats = 2
 """Number of runs with each number of processes; the fastest counts, for they meet other work of the machine."""
 

@@ -97,7 +97,7 @@ def shapeRows(found):
 
 
 def resultRows(found):
-	"""In processor time; that of the clock is in results.json."""
+	"""Rows of results in processor time; that of the clock is in results.json."""
 	size = f"{found['bodies']} bodies, {found['contacts']} contacts"
 	ours, spheres = found, found['spheres']
 

@@ -106,7 +106,7 @@ Pair readPair(Bytes& bytes, bool& rigid)
 	return pair;
 }
 
-/// Within the documented range, or (`proper` false) anything that a script might set.
+/// Settings within the documented range, or (`proper` false) anything that a script might set.
 ContactSettings readSettings(Bytes& bytes, bool& proper)
 {
 	ContactSettings settings;

@@ -10,7 +10,7 @@ relations = ('<', '<=', '>', '>=')
 others = {'+': ['-'], '-': ['+'], '*': ['/'], '/': ['*'], '==': ['!='], '!=': ['==']}
 others.update({op: [other for other in relations if other != op] for op in relations})
 precedence = {**{op: '<' for op in relations}, '+': '+', '-': '+', '*': '*', '/': '*', '==': '==', '!=': '=='}
-"""Which operator of Switch.hpp binds as this one."""
+"""For each operator, the one of Switch.hpp that binds as it does."""
 
 binary = re.compile(r'(?<=\s)([+\-*/<>]|[<>=!]=)(?=\s)')
 sign = re.compile(r'(?<=[(\[{])-(?=[A-Za-z_(])|(?<=[,=?:*<>&|] )-(?=[A-Za-z_(])|(?<=return )-(?=[A-Za-z_(])|(?<=[,=?:] )-(?=[A-Za-z_(])')

@@ -11,7 +11,7 @@ def thousands(number):
 
 
 def paragraph(text):
-	"""In lines as long as those of the pages."""
+	"""The text in lines as long as those of the pages."""
 	return textwrap.fill(' '.join(text.split()), width, break_long_words=False, break_on_hyphens=False)
 
 

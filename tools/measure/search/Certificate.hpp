@@ -61,7 +61,7 @@ public:
 		if (!(lower <= upper) || !(sum > 0)) lower = -std::numeric_limits<Extended>::infinity();
 	}
 
-	/// Both bounds by rational arithmetic.
+	/// Finds both bounds by rational arithmetic.
 	void solveExactly()
 	{
 		const auto s = dimension_ == 3 ? samples::ExactLp<3>(pair_).infeasibility : samples::ExactLp<2>(pair_).infeasibility;

@@ -116,7 +116,7 @@ Options optionsOf(int count, char** arguments)
 
 std::string cannotWrite(const std::string& path) { return "--log: cannot write to " + path + ": " + std::strerror(errno); }
 
-/// Before the search, which may take hours. What the file holds stays until then.
+/// Checks that the log can be written, before the search, which may take hours. What the file holds stays until then.
 void checkLog(const std::string& path)
 {
 	std::FILE* file = std::fopen(path.c_str(), "a");
@@ -124,7 +124,7 @@ void checkLog(const std::string& path)
 	std::fclose(file);
 }
 
-/// All trials, distributed to the threads one by one; each has its own random numbers.
+/// Runs all trials, distributed to the threads one by one; each has its own random numbers.
 void run(const Options& options, std::vector<Tally>& tallies, std::vector<Finding>& findings)
 {
 	const long        first     = options.family < 0 ? 0 : options.family;

@@ -46,7 +46,7 @@ class DrivenBeam:
 	peak: float
 	"""Largest load [N]."""
 	rotation: float
-	"""At the largest load [rad]."""
+	"""Rotation at the largest load [rad]."""
 	deviation: float
 	"""Largest difference from theory at the same rotation, over theory's peak [-]."""
 	rise: float
@@ -122,7 +122,7 @@ class BeamStudy:
 		self.appendixA = BeamBetweenWalls(**shape)
 		self.twoBlocks = BeamOfTwoBlocks(**shape, **abutment)
 		self.theory = {'centroid': self.appendixA, 'analyticCentre': self.twoBlocks}
-		"""By contact point."""
+		"""Theories by contact point."""
 		self.first, self.last = map(math.radians, given.rotations)
 		self.queries = self.failures = 0
 

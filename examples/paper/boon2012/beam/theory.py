@@ -98,7 +98,7 @@ class BeamBetweenWalls(_Beam):
 		return self.abutmentStiffness * self._of(rotation)[0] * self.penetrations(rotation)[0]
 
 	def lever(self, rotation):
-		"""Between both thrusts, l = L₂ cos θ − L₁ sin θ − 2 y_c [m]."""
+		"""Lever between both thrusts, l = L₂ cos θ − L₁ sin θ − 2 y_c [m]."""
 		return self.height * np.cos(rotation) - self.length * np.sin(rotation) - self._of(rotation)[1] * self.shortening(rotation)
 
 	def load(self, rotation, trueArm=False):

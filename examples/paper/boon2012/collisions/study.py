@@ -204,7 +204,7 @@ class CollisionReport:
 	independentTolerance = 1e-4
 	"""Measured 2e-5: orientations in the geometry's file have ten digits."""
 	gap = 1e-3
-	"""Through which the reference blocks fall until they touch [m]."""
+	"""Height through which the reference blocks fall until they touch [m]."""
 
 	def __init__(self, findings, given):
 		self.findings, self.given = findings, given

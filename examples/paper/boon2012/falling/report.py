@@ -15,7 +15,7 @@ from .run import halfStep, quantities
 __all__ = ['FallingPolyhedraReport', 'rounded']
 
 fewestSeeds = 5
-"""With fewer, chance and cause cannot be distinguished."""
+"""Least number of seeds: with fewer, chance and cause cannot be distinguished."""
 
 
 class FallingPolyhedraReport:
@@ -141,5 +141,5 @@ class FallingPolyhedraReport:
 
 
 def rounded(value):
-	"""To the digits that mean something here."""
+	"""The value, rounded to the digits that mean something here."""
 	return float(f'{value:.4g}')

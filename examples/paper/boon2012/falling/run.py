@@ -32,7 +32,7 @@ quantities = {
 	'deepestOverlap': 'deepest overlap / L, whole run',
 	'overlap': 'deepest overlap / L, end',
 }
-"""By which a heap is judged: name in the results → label."""
+"""Quantities by which a heap is judged: name in the results → label."""
 
 
 class FallingRun:

@@ -73,7 +73,7 @@ def number(above=-math.inf, least=-math.inf, most=math.inf, below=math.inf, whol
 positive = number(above=0)
 notNegative = number(least=0)
 fraction = number(least=0, below=1)
-"""Such as NewtonIntegrator's damping: with 1 nothing would move."""
+"""A fraction such as NewtonIntegrator's damping: with 1 nothing would move."""
 angle = number(above=0, below=90)
 """[°]"""
 count = number(least=1, whole=True)

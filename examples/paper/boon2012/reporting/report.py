@@ -55,5 +55,5 @@ def report(planned, given, template, base=None):
 
 
 def endOnTerm():
-	"""On a signal to end, stops the processes that perform() started."""
+	"""Stops, on a signal to end, the processes that perform() started."""
 	signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))

@@ -43,7 +43,7 @@ class Run:
 	script: pathlib.Path
 	folder: pathlib.Path
 	options: list
-	"""Besides --output."""
+	"""Options besides --output."""
 	source: str
 	"""sourceHash()."""
 

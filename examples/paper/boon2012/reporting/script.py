@@ -8,7 +8,7 @@ __all__ = ['conclude', 'scriptFile']
 
 
 def scriptFile():
-	"""Its path. `__file__` is that of YADE's own program when YADE executes a script."""
+	"""Path of the script. `__file__` is that of YADE's own program when YADE executes a script."""
 	return pathlib.Path(sys.argv[0]).resolve()
 
 

@@ -58,7 +58,7 @@ class SlidingWedgeCase(WedgeCase):
 		self.settled, self.atFailure = self.result.stages[0].measured, self.lastStage(self.result.stable).measured
 
 	def forces(self):
-		"""On the wedge now: {normal: (A, B), transverse: (A, B), edge: of the back edge, section: contact sections over faces (A, B)}."""
+		"""Forces on the wedge now: {normal: (A, B), transverse: (A, B), edge: of the back edge, section: contact sections over faces (A, B)}."""
 		scene = self.scene
 		normal, transverse, section = [], [], []
 		for joint, direction in zip(scene.joints, self.given.theory.transverse(), strict=True):
@@ -159,7 +159,7 @@ class SlidingWedgeReport(WedgeReport):
 			self.findings.row(f'change of the critical angle: {label}', change, '°', theory=0, accept=must, note=note)
 
 	def backEdge(self, most):
-		"""Its force in the base case, which must not exceed *most*."""
+		"""Reports the back edge's force in the base case, which must not exceed *most*."""
 		force = self.base.atFailure['edge']
 		note = 'almost zero where stiffness is per area'
 		self.findings.row('force of the back edge over W', force, '-', theory=0, accept=self.ofReference((0, most)), note=note)

@@ -24,7 +24,7 @@ __all__ = ['SlumpingSlope', 'readSlope']
 
 layerColors = [(0.78, 0.31, 0.16), (0.93, 0.64, 0.29), (0.93, 0.86, 0.66), (0.55, 0.76, 0.75), (0.35, 0.60, 0.72), (0.16, 0.42, 0.58)]
 dipTolerance = math.radians(5)
-"""Between the dip that a file states and the edges that have it."""
+"""Tolerance on the angle between the dip that a file states and the edges that have it."""
 
 
 def readSlope(path):

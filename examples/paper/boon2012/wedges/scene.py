@@ -75,7 +75,7 @@ class WedgeScene:
 	timeStepFraction: float = 0.2
 	"""Time step over sqrt(wedge's mass / sum of its faces' normal stiffnesses)."""
 	frictionAngle: float = math.radians(70)
-	"""To begin with."""
+	"""Friction angle at the start."""
 
 	# what build() made
 	ids: dict = dataclasses.field(default_factory=dict, init=False)

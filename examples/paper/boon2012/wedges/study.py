@@ -154,7 +154,7 @@ class WedgeCase:
 
 	@property
 	def critical(self):
-		"""In the middle between them."""
+		"""Critical friction angle [°]: the middle between the two."""
 		return math.degrees(self.result.critical)
 
 	@property

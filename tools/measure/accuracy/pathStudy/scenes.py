@@ -129,7 +129,7 @@ class Pair:
 		return np.array([found.point, found.normal, self.force(found.depth, found.area) * found.normal])
 
 	def force(self, depth, area):
-		"""Over the stiffness, which is per area for *foundation*: the force then comes as if that of 1 m² were 1."""
+		"""Force over the stiffness, which is per area for *foundation*: the force then comes as if that of 1 m² were 1."""
 		return max(depth, 0) * (area if self.variant['contactModel'] == 'foundation' else 1)
 
 

@@ -36,7 +36,7 @@ bodyKinds = {
 """Name → function of the material. About half a metre wide."""
 
 planarBodies = ('square', 'polygon')
-"""In the xy plane, where y is up."""
+"""Bodies in the xy plane, where y is up."""
 
 
 class Lying:

@@ -25,7 +25,7 @@ class Floor:
 
 	seams: int = 3
 	spacing: float = 1.0
-	"""Between joints along x [m]."""
+	"""Spacing of joints along x [m]."""
 	before: float = 3.0
 	"""Length of the first piece, before x = spacing [m]; `after` is that of the last."""
 	after: float = 3.0
@@ -201,4 +201,4 @@ floorKinds = {
 """Name → function of a Floor. slab and wall are one piece."""
 
 planarFloors = ('polygon', 'polygons', 'obliquePolygons')
-"""In the xy plane, for polygons."""
+"""Floors in the xy plane, for polygons."""

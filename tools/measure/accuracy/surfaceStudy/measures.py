@@ -160,7 +160,7 @@ class Way:
 	"""A distance for which there is a closed form."""
 
 	distance: float
-	"""Over the closed form's; 1 in theory."""
+	"""Distance over the closed form's; 1 in theory."""
 	direction: float
 	"""Way across the motion over the closed form's along it; 0 in theory."""
 	turned: float

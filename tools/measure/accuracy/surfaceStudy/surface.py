@@ -85,7 +85,7 @@ class SurfaceScene:
 	at: tuple = (0.0, 0.13)
 	"""x and y of the body's centroid [m]; polygons read x alone."""
 	depth: float = 2.5e-4
-	"""At rest on one piece [m]."""
+	"""Depth at rest on one piece [m]."""
 	law: dict = dataclasses.field(default_factory=lambda: {'normalDamping': 0.3})
 	"""Attributes of Law2_PolytopeGeom_RockJointPhys_MohrCoulomb; rocking is undamped by default."""
 	shearRatio: float = 2 / 3

@@ -70,7 +70,7 @@ class MasonryArch:
 
 	@property
 	def breadth(self):
-		"""Out of the plane [m]."""
+		"""Breadth out of the plane [m]."""
 		return 1.0 if self.dimension == 2 else self.thickness * self.radius
 
 	@property
@@ -98,7 +98,7 @@ class MasonryArch:
 		return max(s.vel.norm() for s in self.states)
 
 	def settle(self, duration=1.5, growing=0.3):
-		"""Its weight comes on slowly, within *growing* seconds, and is left to act, well damped."""
+		"""The arch's weight comes on slowly, within *growing* seconds, and is left to act, well damped."""
 		end = O.time + duration
 		while O.time < end:
 			part = min(O.time / growing, 1)

@@ -38,7 +38,7 @@ class BlockOnBase:
 	width: float = 0.4
 	height: float = 1.0
 	depth: float = 0.5
-	"""Along the third axis [m]; of polygons their thickness."""
+	"""Depth along the third axis [m]; for polygons it is their thickness."""
 	dimension: int = 2
 	frictionAngle: float = math.radians(35)
 	stiffness: float = 1e11
@@ -115,7 +115,7 @@ class BlockOnBase:
 		return math.atan2(turned[0], turned[self.upward])
 
 	def _toe(self):
-		"""Where the toe is along the base [m]."""
+		"""Place of the toe along the base [m]."""
 		turn = self.turn
 		centre = self.block.state.pos[0] - self.base.state.pos[0]
 		return centre + (self.width * math.cos(turn) - self.height * math.sin(turn)) / 2

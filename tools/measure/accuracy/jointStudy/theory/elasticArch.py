@@ -46,7 +46,7 @@ class ElasticArch:
 		return arm1, arm2, apart, n, -np.einsum('jek,jk->je', apart, n), slip
 
 	def energy(self, moved, load):
-		"""With *load* times the weight, from where the blocks were cut."""
+		"""Energy with *load* times the weight, from where the blocks were cut."""
 		*_, depth, slip = self._joints(moved)
 		squares = (depth * _edgeForces(depth)).sum() + (slip**2).sum()
 		return self.stiffness * self.thickness * squares / 2 + load * self.weight * moved[:, 1].sum()
