@@ -79,9 +79,9 @@ namespace {
 
 		void takeEdge(const CoreInPlace& core, const Vector3& outward)
 		{
-			const Polyhedron& hull = core.shape->polyhedron();
-			const Vector3     own  = core.rotation.transpose() * outward;
-			Real              most = -std::numeric_limits<Real>::infinity();
+			const Polyhedron& hull    = core.shape->polyhedron();
+			const Vector3     own     = core.rotation.transpose() * outward;
+			Real              most    = -std::numeric_limits<Real>::infinity();
 			int               best[2] = { -1, -1 };
 			for (const auto& loop : hull.faces)
 				for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -176,7 +176,8 @@ namespace {
 	/// All pairs of features of two cores that a normal joins.
 	class Spread {
 	public:
-		Spread(const CoreInPlace& core1, const CoreInPlace& core2, const Vector3& normal, const Vector3& nearest, const Real& deepest)
+		Spread(const CoreInPlace& core1, const CoreInPlace& core2, const Vector3& normal, const Vector3& nearest,
+		        const Real& deepest)
 		        : one_(core1, normal), other_(core2, -normal), normal_(normal), nearest_(nearest), deepest_(deepest)
 		{
 			const Real n[3] = { normal[0], normal[1], normal[2] };
@@ -284,7 +285,9 @@ namespace {
 		{
 			const Real left = 1 - edge.face.value, weight = left * edge.edge.value * face.face.value;
 			if (!(weight > 0)) return;
-			std::vector<Place> ends { { across(edge.ends[0]), height(edge.ends[0]) }, { across(edge.ends[1]), height(edge.ends[1]) } }, buffer;
+			std::vector<Place> ends { { across(edge.ends[0]), height(edge.ends[0]) },
+				{ across(edge.ends[1]), height(edge.ends[1]) } },
+			        buffer;
 			clipByFace(ends, buffer, face, -sense);
 			if (ends.size() < 2) return;
 			for (Place& place : ends)
@@ -308,7 +311,8 @@ namespace {
 			const Real    parallel = parallelism(along.cross(way2.normalized()).squaredNorm(), change);
 			if (!(parallel > 0)) return;
 			// places of both by their way along edge 1
-			const Real length = way1.norm(), start = along.dot(other_.ends[0] - one_.ends[0]), end = along.dot(other_.ends[1] - one_.ends[0]);
+			const Real length = way1.norm(), start = along.dot(other_.ends[0] - one_.ends[0]),
+			           end = along.dot(other_.ends[1] - one_.ends[0]);
 			const Real low = std::max(Real(0), std::min(start, end)), high = std::min(length, std::max(start, end));
 			if (!(low < high)) return;
 			const auto apart = [&](const Real& place) -> Vector3 {
@@ -316,21 +320,23 @@ namespace {
 			};
 			// the square of the distance is a parabola along them: the part where it is less than δ more than its least
 			const Vector3 first = apart(low), rate = (apart(high) - first) / (high - low);
-			const Real    turn  = rate.squaredNorm();
-			const Real    least = turn > 0 ? std::min(std::max(Real(-first.dot(rate) / turn), Real(0)), Real(high - low)) : Real(0);
-			const Real    nearest = (first + least * rate).norm(), most = nearest + deepest_;
-			const auto    until   = [&](const Real& bound) {
-                                // (first + t rate)² = most²
-                                const Real middle = -first.dot(rate) / turn;
-                                const Real room   = most * most - (first + middle * rate).squaredNorm();
-                                const Real far    = room > 0 ? Real(sqrt(room / turn)) : Real(0);
-                                return bound > least ? std::min(bound, Real(middle + far)) : std::max(bound, Real(middle - far));
+			const Real    turn = rate.squaredNorm();
+			const Real    least
+			        = turn > 0 ? std::min(std::max(Real(-first.dot(rate) / turn), Real(0)), Real(high - low)) : Real(0);
+			const Real nearest = (first + least * rate).norm(), most = nearest + deepest_;
+			const auto until = [&](const Real& bound) {
+				// (first + t rate)² = most²
+				const Real middle = -first.dot(rate) / turn;
+				const Real room   = most * most - (first + middle * rate).squaredNorm();
+				const Real far    = room > 0 ? Real(sqrt(room / turn)) : Real(0);
+				return bound > least ? std::min(bound, Real(middle + far)) : std::max(bound, Real(middle - far));
 			};
 			const Real from = turn > 0 ? until(0) : Real(0), to = turn > 0 ? until(high - low) : high - low;
 			Sums       sums;
 			// Gauss with four places
-			static constexpr double places[] = { 0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629 },
-			                        weights[] = { 0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693 };
+			static constexpr double places[]
+			        = { 0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629 },
+			        weights[] = { 0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693 };
 			for (int k = 0; k < 4; ++k) {
 				const Real    place = from + Real(places[k]) * (to - from);
 				const Vector3 way   = first + place * rate;

@@ -46,7 +46,7 @@ struct OnFloor {
 	{
 		const Matrix3 rotation = turned(turn);
 		const Vector3 foot(shift[0], shift[1], shift[2] + 2 * margin - depth), centre = foot + rotation * Vector3(0, 0, half[2]);
-		const auto    way = pairDistance(*floor, Matrix3::Identity(), *block, rotation, centre);
+		const auto    way  = pairDistance(*floor, Matrix3::Identity(), *block, rotation, centre);
 		const Real    most = 2 * margin - way.distance;
 		if (deepest) *deepest = most;
 		return spreadContact({ floor.get(), Vector3::Zero(), Matrix3::Identity(), Vector3::Zero() },
@@ -59,10 +59,7 @@ struct OnFloor {
 	}
 };
 
-OnFloor onHalfSpace(Real a, Real b, Real c)
-{
-	return { ConvexShape::halfSpace(Vector3(0, 0, 1), 3), cuboid(a, b, c), { a, b, c } };
-}
+OnFloor onHalfSpace(Real a, Real b, Real c) { return { ConvexShape::halfSpace(Vector3(0, 0, 1), 3), cuboid(a, b, c), { a, b, c } }; }
 
 TEST(SpreadContact, OfAFlushFaceActsInItsMiddle)
 {
@@ -78,7 +75,7 @@ TEST(SpreadContact, OfAFlushFaceActsInItsMiddle)
 
 TEST(SpreadContact, OfFacesThatShareAPartActsInTheMiddleOfThat)
 {
-	const OnFloor bricks { cuboid(1, 1, 1), cuboid(0.5, 0.5, 0.5), { 0.5, 0.5, 0.5 } };
+	const OnFloor       bricks { cuboid(1, 1, 1), cuboid(0.5, 0.5, 0.5), { 0.5, 0.5, 0.5 } };
 	const SpreadContact found = bricks.contact(1e-3, Vector3::Zero(), Vector3(0.75, 0, 1));
 	EXPECT_NEAR((found.point - Vector3(0.625, 0, 1)).norm(), 0, 1e-12);
 	EXPECT_EQ(found.outline.size(), 4u);
@@ -116,17 +113,20 @@ void expectGradient(const OnFloor& pair, Real depth, const Vector3& turn, const 
 {
 	const SpreadContact found = pair.contact(depth, turn, shift);
 	const Real          force = found.closure * found.slope, step = 1e-8;
-	const auto energy = [&](const Vector3& more, const Vector3& moved) {
-		// turned in the world about the middle of the foot
-		const Eigen::AngleAxis<Real> all(turned(more) * turned(turn));
-		return pair.energy(depth, all.angle() * all.axis(), shift + moved);
+	const auto          energy = [&](const Vector3& more, const Vector3& moved) {
+                // turned in the world about the middle of the foot
+                const Eigen::AngleAxis<Real> all(turned(more) * turned(turn));
+                return pair.energy(depth, all.angle() * all.axis(), shift + moved);
 	};
-	const Vector3 from = found.point - Vector3(shift[0], shift[1], found.point[2]);
+	const Vector3 from   = found.point - Vector3(shift[0], shift[1], found.point[2]);
 	const Vector3 moment = from.cross(Vector3(0, 0, force));
-	EXPECT_NEAR((energy(Vector3::Zero(), Vector3(0, 0, -step)) - energy(Vector3::Zero(), Vector3(0, 0, step))) / (2 * step) / force, 1, 1e-5);
+	EXPECT_NEAR((energy(Vector3::Zero(), Vector3(0, 0, -step)) - energy(Vector3::Zero(), Vector3(0, 0, step))) / (2 * step) / force, 1,
+	        1e-5);
 	for (int k = 0; k < 2; ++k) {
 		const Vector3 more = step * Vector3::Unit(k);
-		EXPECT_NEAR((energy(-more, Vector3::Zero()) - energy(more, Vector3::Zero())) / (2 * step) / force, moment[k] / force, within) << "axis " << k;
+		EXPECT_NEAR(
+		        (energy(-more, Vector3::Zero()) - energy(more, Vector3::Zero())) / (2 * step) / force, moment[k] / force, within)
+		        << "axis " << k;
 	}
 }
 
@@ -157,8 +157,8 @@ SpreadContact ofSegments(const Vector3& way2, const Vector3& shift, Real depth)
 {
 	const CoreInPlace one { nullptr, Vector3::Zero(), Matrix3::Identity(), Vector3(1, 0, 0) };
 	const CoreInPlace other { nullptr, Vector3(Vector3(0.25, 0, 0.2 - depth) + shift), Matrix3::Identity(), way2 };
-	const Vector2     along   = closestOnSegments(one.origin, one.way, other.origin, other.way);
-	const Vector3     from    = along[0] * one.way, way = other.origin + along[1] * other.way - from;
+	const Vector2     along = closestOnSegments(one.origin, one.way, other.origin, other.way);
+	const Vector3     from = along[0] * one.way, way = other.origin + along[1] * other.way - from;
 	const Real        deepest = 2 * margin - way.norm();
 	return spreadContact(one, other, way.normalized(), from, deepest);
 }
@@ -171,7 +171,7 @@ TEST(SpreadContact, OfParallelSegmentsActsWhereTheyLieBesideEachOther)
 	EXPECT_NEAR((flush.point - Vector3(0.625, 0, 0)).norm(), 0, 1e-10);
 	EXPECT_TRUE(flush.outline.empty());
 	// tilted by θ about their middle: of springs along 0.75 m the moment is 4 k L²/12 θ
-	const Real          tilt = 1e-5;
+	const Real          tilt    = 1e-5;
 	const SpreadContact leaning = ofSegments(Vector3(2, 0, 2 * tilt), Vector3(0, 0, -0.375 * tilt), depth);
 	EXPECT_NEAR(leaning.closure * leaning.slope * (leaning.point[0] - 0.625) / (-4 * 0.75 * 0.75 / 12 * tilt), 1, 1e-3);
 	// crossed at a right angle

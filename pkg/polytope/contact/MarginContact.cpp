@@ -115,12 +115,13 @@ bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr
 			auto settings              = this->settings(StiffnessRule::PerContact);
 			settings.geometryAcrossGap = settings.section = settings.outline = true;
 			polytope::PairMemory memory;
-			contactQuery(*one->convex, one->rotation, *other->convex, other->rotation, other->origin - one->origin, settings, memory,
-			        workspace, result);
+			contactQuery(*one->convex, one->rotation, *other->convex, other->rotation, other->origin - one->origin, settings,
+			        memory, workspace, result);
 			if (!result.inContact) result.depth = 0; // they just touch
 			if (margins > 0) {
 				const Real size = math::min(one->convex->boundingRadius(), other->convex->boundingRadius());
-				way = betweenHalfSpaces(*one, *other, Vector3r((2 * result.depth + polytope::tolerance::gapSkin * size) * result.normal));
+				way             = betweenHalfSpaces(
+                                        *one, *other, Vector3r((2 * result.depth + polytope::tolerance::gapSkin * size) * result.normal));
 			}
 			const Real depth = result.depth + margins;
 			if (!way && margins > 0) publish(depth, depth * depth / 2, result.normal, result.point, result);
@@ -151,7 +152,7 @@ bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr
 	} else if (way) publish(way->deepest, 0, way->normal, way->foot + (one->margin - way->deepest / 2) * way->normal, result);
 	if (!math::isfinite(result.depth + result.point.sum())) return failed(c);
 
-	State       foot1, foot2;
+	State        foot1, foot2;
 	const State &moving1 = one->end1 ? foot1 : state1, &moving2 = other->end1 ? foot2 : state2;
 	if (one->end1) moveWithEnds(*one, placeOn(*one, one->origin + result.point), foot1);
 	if (other->end1) moveWithEnds(*other, placeOn(*other, one->origin + result.point), foot2);

@@ -18,9 +18,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <dlfcn.h>
 #include <elf.h>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

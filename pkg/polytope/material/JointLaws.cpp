@@ -20,7 +20,8 @@ std::string JointClosure::fault(Real stiffness) const
 	const polytope::ClosureLaw given = law(stiffness);
 	if (given.isLinear())
 		return "a " + getClassName()
-		        + " has no normal law; take a class whose law() gives one, HyperbolicClosure for example, or None for a linear spring";
+		        + " has no normal law; take a class whose law() gives one, HyperbolicClosure for example, or None for a linear "
+		          "spring";
 	return given.fault();
 }
 

@@ -413,6 +413,8 @@ def testWithoutStiffnessesCheckSaysSo():
 def testAConstructorThatThrowsIsRefused(constructor, reason):
 	"""Of a static object, while the library is loaded, where no exception can be caught."""
 	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
-	changed = text + f'\n#include <cstdlib>\n#include <stdexcept>\nstruct Thrower {{ Thrower() {{ {constructor}; }} }};\nconst Thrower thrower;\n'
+	changed = (
+		text + f'\n#include <cstdlib>\n#include <stdexcept>\nstruct Thrower {{ Thrower() {{ {constructor}; }} }};\nconst Thrower thrower;\n'
+	)
 	library = built('hyperbolicJoint', f'thrower{len(reason)}{len(constructor)}', hyperbolicJoint=changed)
 	assert refused(library) == reason

@@ -144,8 +144,8 @@ answer([found, mass, *depths, max(float(2 * math.acos(min(1, abs(body.state.ori[
 
 
 def testEnginesHaveTheContactsOfTheExtension(rounded):  # noqa: F811
-	"""Engines have the contacts for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of
-	functors; a sphere's are there where there is a sphere; settings of the contact are kept."""
+	"""Those for pairs of the scene's shapes, beside the plug-in's own: a body rests on a wall at its closed form without a list of functors; a sphere's are there where there is
+	a sphere; settings of the contact are kept."""
 	script = (
 		start
 		+ """
@@ -323,8 +323,7 @@ def scene(below, radius, slope=0, tilt=(0.003, 0.002, 0), half=(h, h, h), **more
 	O.bodies.append(polytope.withShape(body, RoundedPolytope(radius=radius)))
 	O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False), **more)
 	return q
-def rest(q, steps):
-	"""Largest kinetic energy, that at the end over it, way of the last fifth, and tilt and turn against the ground at the end."""
+def rest(q, steps):  # largest kinetic energy, that at the end over it, way of the last fifth, tilt against the ground, corners of the outline, push
 	most = 0
 	for part in range(5):
 		start = Vector3(O.bodies[1].state.pos)
@@ -376,7 +375,8 @@ answer(seen)
 
 
 def testItRocksWithoutGainOrLoss(rounded):  # noqa: F811
-	"""On faces, edges and corners in turn, without friction and dampers: the energy stays as the time step lets it."""
+	"""On faces, edges and corners in turn, without friction and dampers: whenever it is in the air it has the energy of the start, but for the error of the time step. A point that jumps from corner to
+	corner, or a depth that does not belong to the point, gains or loses a tenth and more (of the energy above rest, which is a hundredth of a body's height)."""
 	script = (
 		resting
 		+ """
@@ -384,19 +384,28 @@ seen = []
 for half in ((h, h, h), (0.2, 0.2, 0.7)):
 	scene('sharp', 0.1, tilt=(0.03, 0.02, 0), half=half, damping=0)
 	O.materials[0].frictionAngle = 0
-	total = lambda: energy() + 9.81 * float(O.bodies[1].state.mass * O.bodies[1].state.pos[2]) + sum(float(i.phys.kn * i.geom.energyPerStiffness) for i in O.interactions if i.isReal)
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
+	for engine in O.engines:
+		if isinstance(engine, PolytopeTimeStepper): engine.timestepSafetyCoefficient = 0.1
+	state, low = O.bodies[1].state, half[2] + 0.1
+	def total():
+		kept = state.vel
+		state.vel = kept - Vector3(0, 0, 9.81 * O.dt / 2)  # YADE's velocities are those of half a step before
+		sum = energy() + 9.81 * float(state.mass * (state.pos[2] - low))
+		state.vel = kept
+		return sum
 	O.run(1, True)
-	first, depth = total(), 9.81 * float(O.bodies[1].state.mass) / 1e8
-	errors = []
-	for k in range(100):
-		O.run(200, True)
-		errors.append(abs(total() - first) / first)
-	seen.append([max(errors), O.time])
+	first, flights = total(), []
+	while O.time < 3:
+		O.run(50, True)
+		if not O.interactions.countReal(): flights.append(abs(total() / first - 1))
+	seen.append([max(flights), len(flights)])
 answer(seen)
 """
 	)
 	seen, _ = inYade(script, rounded)
-	assert max(error for error, _ in seen) < ROCKING, seen
+	for error, count in seen:
+		assert count > 20 and error < 5e-3, seen
 
 
 def testTwoBodiesOfRockableSettle(rounded):  # noqa: F811

@@ -405,7 +405,11 @@ answer([seen, ways, found])
 	)
 	(seen, ways, found), _ = inYade(script, plane)
 	for (depth, normal, point), near in zip(seen, (1e-12, 1e-3, 1e-12), strict=True):  # that without a margin is less at the rim
-		assert depth == pytest.approx(0.01, abs=near) and normal == pytest.approx(0, abs=near) and point == pytest.approx(0, abs=max(near, 1e-9))
+		assert (
+			depth == pytest.approx(0.01, abs=near)
+			and normal == pytest.approx(0, abs=near)
+			and point == pytest.approx(0, abs=max(near, 1e-9))
+		)
 	assert ways[0] < 1e-9 and ways[1] > 0.01
 	assert found.splitlines()[0] == 'nothing was found that is wrong', found
 
