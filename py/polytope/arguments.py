@@ -81,7 +81,7 @@ def maskOf(value):
 
 
 def randomOf(seed):
-	"""A generator of random numbers; of others at each call, for None."""
+	"""A generator of random numbers; for None, it gives others at each call."""
 	try:
 		if not isinstance(seed, bool):
 			return np.random.default_rng(seed)

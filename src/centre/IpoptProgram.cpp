@@ -176,7 +176,7 @@ bool IpoptProgram::eval_jac_g(Index, const Number*, bool, Index m, Index, Index*
 bool IpoptProgram::eval_h(
         Index n, const Number* z, bool, Number factor, Index, const Number*, bool, Index, Index* rows, Index* columns, Number* values)
 {
-	// the constraints are linear: of the Lagrangian only the objective's own diagonal is left
+	// the constraints are linear: only the objective's own diagonal of the Lagrangian is left
 	for (Index j = dimension_; j < n; ++j) {
 		const Index i = j - dimension_;
 		if (values) values[i] = factor / (z[j] * z[j]);

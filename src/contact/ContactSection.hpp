@@ -120,7 +120,7 @@ POLYTOPE_INLINE Section<R, 2> clipPlane(const PairPlanes<R, 2>& planes, const R*
 }
 
 /// Area (2-D: times the smaller thickness), centroid and, seen from `point` along the contact normal, outline of the section through `origin`, normal to
-/// n, of what the planes bound. `buffer`: of sectionNumbers().
+/// n, of what the planes bound. `buffer`: room for sectionNumbers().
 template <class R, int D>
 POLYTOPE_INLINE void contactSection(
         const PairQuery<R, D>& q, const PairPlanes<R, D>& planes, const R* origin, const R* n, const R* point, R* buffer)

@@ -99,7 +99,7 @@ struct ContactSettings : ContactOptions {
 	const InternalPlanes* internal = nullptr;
 	/// Models with a surface: where the planes that bound a touching pair's overlap are written to, or null.
 	BoundingPlanes* bounding = nullptr;
-	/// Models with a surface: of a joint that stiffens as it closes, or null.
+	/// Models with a surface: the law of a joint that stiffens as it closes, or null.
 	const ClosureLaw* closure = nullptr;
 
 	ContactSettings() = default;

@@ -314,7 +314,7 @@ private:
 		close(i, vertices);
 	}
 
-	/// The vertex where the edge from the inner to the outer one meets the plane: of both faces that share it.
+	/// The vertex where the edge from the inner to the outer one meets the plane; both faces that share the edge have it.
 	POLYTOPE_INLINE int meeting(int inner, int outer)
 	{
 		for (int k = 0; k < cutVertices_; ++k)

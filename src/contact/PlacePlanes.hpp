@@ -4,7 +4,7 @@
 #include "contact/ContactFrame.hpp"
 #include "program/PairPlanes.hpp"
 
-/// Planes of the bodies, given in their own axes, in the frame of the contact: of one, or all into the rows of the pair.
+/// Planes of the bodies, given in their own axes, in the frame of the contact: one plane, or all into the rows of the pair.
 namespace polytope {
 
 /// Planes of a body into its rows: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes the frame's `centre` (of the smaller

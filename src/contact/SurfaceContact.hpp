@@ -25,7 +25,7 @@
 /// energy is over the stiffness that the joint has at this depth.
 namespace polytope {
 
-/// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: of unit thickness where per area.
+/// Force and moment on body 2 over the stiffness, about the frame's origin, and energy over it; 2-D: for unit thickness where the stiffness is per area.
 template <class R, int D> struct SurfaceLoad {
 	R force[D];
 	R moment[SurfaceSums<R, D>::turns];

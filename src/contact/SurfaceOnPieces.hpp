@@ -90,7 +90,7 @@ template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const In
 	return size;
 }
 
-/// The program of the extended piece, from the ball of the body that has no internal face: its optimum. `size`: of a body that the overlap lies in.
+/// The optimum of the program of the extended piece, from the ball of the body that has no internal face. `size`: that of a body in which the overlap lies.
 /// False where it has no optimum to find a surface from.
 template <class R, int D, int W> POLYTOPE_APART bool programOnPieces(PairQuery<R, D> q, R size, LpBasis<R, D>& optimum)
 {

@@ -52,7 +52,7 @@ public:
 	static ClosureLaw power(Real exponent, Real length);
 	/// A program's own law. Refuses (std::invalid_argument) a law whose name another one has. \param p, q its parameters
 	static ClosureLaw own(const NormalLaw& law, Real p = 0, Real q = 0);
-	/// Joint of two sides, each of which closes by half of its own law: of the same kind; parameters are the means, which is exact
+	/// Joint of two sides, each of which closes by half of its own law. The laws are of the same kind; parameters are the means, which is exact
 	/// for hyperbolas at low and at high stress, and for powers with the same exponent and reference stress.
 	static ClosureLaw between(const ClosureLaw& one, const ClosureLaw& other);
 

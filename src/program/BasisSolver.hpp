@@ -34,7 +34,7 @@ template <class R, int D> POLYTOPE_INLINE R cofactors(const R (&e)[D][D], R (&c)
 	return dot<R, D>(e[0], c[0]);
 }
 
-/// Inverse, noise, weights and point of the basis from D differences of normals: of planes order[1] … order[D] to plane
+/// Inverse, noise, weights and point of the basis from D differences of normals: those of planes order[1] … order[D] to plane
 /// order[0], or (`chained`) of the last one to the last but one. Returns the largest noise; infinite where the volume the
 /// differences span is, over their lengths, no more than `leastVolume`.
 ///
@@ -255,7 +255,7 @@ template <class R, int D> POLYTOPE_INLINE bool solveBasis(const PairPlanes<R, D>
 	return solveBasis<R, D>([&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA { planes.plane(basis.plane[k], a, d); }, basis);
 }
 
-/// refineBasis() for a basis of little noise, which solveBasis() leaves as it is. Also s. Out of line, for it is rare.
+/// refineBasis() for a basis of little noise, which solveBasis() leaves as it is. Also s. Not inlined, since it is rare.
 template <class R, int D> __attribute__((noinline)) bool refineBasis(const PairPlanes<R, D>& planes, LpBasis<R, D>& basis)
 {
 	R a[D + 1][D], d[D + 1];

@@ -96,7 +96,7 @@ inline const Real outOfPlane = 64 * rounding;
 inline const Real touching = 1e-9;
 
 /// Difference of two unit normals, and × extent of two offsets: joints whose planes differ by less may cover a face together, where they pass it
-/// within `touching`. Triangles of one flat face in a file of eight digits do; of fewer digits, they cut each other.
+/// within `touching`. Triangles of one flat face in a file with eight digits do; with fewer digits, they cut each other.
 inline const Real nearPlane = 1e-6;
 
 /// Sides of the regular polygon that stands for a disc where several joints in one plane cover a face together: it is larger than the disc by

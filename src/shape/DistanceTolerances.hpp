@@ -4,8 +4,9 @@
 /// Thresholds of distances from segments, as numbers/Tolerances.hpp has those of the contact path: meaning, scale, reason.
 namespace polytope::tolerance {
 
-/// × its length: how much farther than the nearest a place of a segment may be and still count as near, of one that lies along a face. Its place is the middle of those: a beam on
-/// a face that rounding tilts does not jump to one of its ends. Beyond the face's edge the distance grows with the square, so that the place is off by up to a millionth.
+/// × the segment's length: how much farther than the nearest a place of a segment that lies along a face may be and still count as near. The place found is the
+/// middle of those: a beam on a face that rounding tilts does not jump to one of its ends. Beyond the face's edge the distance grows with the square, so that
+/// the place is off by up to a millionth.
 constexpr double alongSegment = 1e-12;
 
 /// Thirds, and halves, by which that place is found: the last is 3e-11 of the segment.

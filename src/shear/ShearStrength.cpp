@@ -250,7 +250,7 @@ void ShearStrength::addStrip(const Vector2& from, const Vector2& to, const Vecto
 }
 
 /// The sums of (1) at points in the triangles between the centre and the edges, several triangles at once: the direction of slip changes little over the
-/// outline. So little that it is a polynomial of low degree; `precise`: of a higher one.
+/// outline. So little that it is a polynomial of low degree; `precise`: of one of higher degree.
 Vector3 ShearStrength::byPoints(const Vector3& slip, bool precise, Matrix3* slope) const
 {
 	constexpr int width          = isVector<Real, 4> ? 4 : 1;

@@ -15,7 +15,7 @@
 /// The overlap consists of cells, in each of which one plane is the nearest. Moving body 2 changes V by Σ over its planes of a_j·(velocity) over the
 /// cell, and by the divergence theorem that is an integral over the surface between the cells of body 1 and those of body 2, where both have
 /// the same least slack: −∂V/∂(centre 2) = ∫ p n dS, −∂W/∂(centre 2) = ∫ ½ p² n dS, moments likewise. The surface consists of convex pieces (i of
-/// body 1, j of body 2). Both bodies have the same force to rounding, for it is one sum.
+/// body 1, j of body 2). Both bodies have the same force to rounding, since it is one sum.
 ///
 /// The pieces are found from one to the next: where at an edge plane k is as near as i and j, the surface goes on between two of the three. It begins
 /// at the optimum's basis, whose planes all have a cell. The overlap's own faces (between a cell and s = 0) are walked too, for the surface may have

@@ -21,7 +21,7 @@ template <class R, int W> class FeasibleSet {
 public:
 	using Buffers = FeasibleBuffers<R>;
 
-	/// `size`: of the smaller body. The planes may be all of a pair, or those that are near.
+	/// `size`: that of the smaller body. The planes may be all of a pair, or those that are near.
 	POLYTOPE_INLINE FeasibleSet(const PairPlanes<R, 3>& planes, R size, Buffers& buffers)
 	        : planes_(planes), size_(size), buffers_(buffers)
 	{
@@ -68,7 +68,7 @@ public:
 		return right && everyEdgeOnce() && placeAll();
 	}
 
-	/// What recall() needs in the next step; `rowOfAll`: of a row its number among all planes of the pair.
+	/// What recall() needs in the next step; `rowOfAll`: gives a row's number among all planes of the pair.
 	template <class Rows> POLYTOPE_INLINE void keep(KeptVertices& kept, int rowsOfBody1, const Rows& rowOfAll) const
 	{
 		kept.exchanged = 0;
@@ -299,8 +299,8 @@ private:
 		buffers_.dropped[v] = 0;
 	}
 
-	/// The edge on which the plane in `slot` is not tight: of the planes that are the differences stay zero, and of one of them d − a·x − s. Returns how
-	/// s changes on it.
+	/// The edge on which the plane in `slot` is not tight: for the planes that are tight, the differences stay zero, and so does d − a·x − s of one of
+	/// them. Returns how s changes on it.
 	POLYTOPE_INLINE R edge(int v, const Crossing& c, int slot, Four& way) const
 	{
 		const Four out = broadcast<R, 4>(c.volume > 0 ? R(1) : R(-1));

@@ -37,7 +37,7 @@ public:
 		uv[0] = at(U, t);
 		uv[1] = at(Y, t);
 	}
-	/// Plane of edge t, or −1: of the square.
+	/// Plane of edge t, or −1: it is an edge of the square.
 	int tag(int t) const { return buffers_.lineTag[buffers_.edge[now_][t]]; }
 
 	/// Writes the planes other than i, j and the edge's own that meet in edge t; the plane of no pressure counts as one. Returns how many.

@@ -145,7 +145,7 @@ TEST(AnalyticCentre, KnownCentres)
 	// 1/(1−z) + 1/(2−z) = 1/(z+1) + 1/z  has the root ½ in z about the middle of −1, 0, 1, 2
 	pair.centre2 = Vector3(0, 0, 1);
 	EXPECT_NEAR(query(pair).point.z(), 0.5, 1e-15);
-	// redundant and repeated planes move the centre: of z ≤ 1 twice, z ≤ 3 and −z ≤ 1 three times
+	// redundant and repeated planes move the centre: it is that of z ≤ 1 twice, z ≤ 3 and −z ≤ 1 three times
 	HalfSpaces set = cuboid(1, 1, 1);
 	set.normals.insert(set.normals.end(), { Vector3(0, 0, 1), Vector3(0, 0, -1) });
 	set.offsets.insert(set.offsets.end(), { Real(3), Real(1) });

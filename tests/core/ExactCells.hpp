@@ -35,8 +35,8 @@ public:
 	int                              pieces   = 0;
 	Fine                             farthest = 0; ///< largest distance of a vertex of the overlap from the origin
 
-	/// Rows as they stand, as exact numbers; neutral ones are left out. Of planes whose normals differ by no more than `normal` and offsets by no
-	/// more than `offset` one is kept: of the body that goes first.
+	/// Rows as they stand, as exact numbers; neutral ones are left out. If normals of planes differ by no more than `normal` and offsets by no
+	/// more than `offset`, one is kept: that of the body that goes first.
 	template <class R>
 	explicit ExactCells(const PairPlanes<R, D>& rows, double normal = 0, double offset = 0, bool secondGoesFirst = false)
 	{

@@ -115,7 +115,7 @@ struct Expected {
 	}
 };
 
-/// `size`: of the bodies, 1e-13 of which is attainable for lengths. `roundings`: of 1e-16 × size each, between the case as
+/// `size`: that of the bodies, 1e-13 of which is attainable for lengths. `roundings`: their number, of 1e-16 × size each, between the case as
 /// the file has it and the contact frame.
 void expectAnswer(const Pair& pair, const Expected& expected, Real size, const ContactResult& result, int roundings = 1)
 {

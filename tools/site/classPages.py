@@ -40,7 +40,7 @@ own = [name for _, names in groups.values() for name in names if hasattr(yade, n
 texts = {name: (getattr(yade, name).__doc__, {key: one.__doc__ for key, one in vars(getattr(yade, name)).items()}) for name in own}
 functions = {name: getattr(_polytope, name).__doc__ for name in ('contact', 'buildInfo')}
 contact = _polytope.Contact.__doc__, {key: one.__doc__ for key, one in vars(_polytope.Contact).items() if isinstance(one, property)}
-"""What yade.polytope has from C++: texts of the functions; of the class that contact() returns, and of its attributes."""
+"""What yade.polytope has from C++: texts of the functions, of the class that contact() returns, and of its attributes."""
 
 references = """References
 ==========

@@ -18,7 +18,7 @@ public:
 	long                make(const PolytopeBolt& pattern);
 	boost::python::list boltList() const;
 	long                actingCount() const;
-	/// Acting bolts whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
+	/// Number of acting bolts whose bodies are those of the present scene. The engine may be no longer in O.engines, or of another scene.
 	long actingInScene() const;
 	/// Bolts that were loaded take the bodies of the present scene that have their ids.
 	void meetBodies();

@@ -74,8 +74,8 @@ void PolytopeBonds::action()
 	settle();
 }
 
-/// In a divided scene: a body is this rank's. Two ranks that share a bond find the same force, for they have the same states. Rank 0 has fixed bodies
-/// and does not know the others; workers send it the forces on its own.
+/// Whether, in a divided scene, a body is this rank's. Two ranks that share a bond find the same force, since they have the same states. Rank 0 has fixed
+/// bodies and does not know the others; workers send it the forces on its own.
 bool PolytopeBonds::isOurs(const PolytopeBond& bond) const
 {
 	const auto own = [&](Body::id_t id) { return scene->bodies->exists(id) && rankOf(*(*scene->bodies)[id]) == rankOf(*scene); };

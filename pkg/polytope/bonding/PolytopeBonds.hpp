@@ -24,7 +24,7 @@ public:
 	/// A bond of this engine, failed or not, goes on between parts of its two bodies (bond/BondOfParts.hpp); returns whether the parts have one.
 	bool goesOnBetween(const PolytopeBond& whole, const Body& whole1, const Body& whole2, const Body& part1, const Body& part2);
 	long intactCount() const;
-	/// Intact bonds whose bodies are those of the present scene: of an engine that is no longer in O.engines, or of another scene.
+	/// Number of intact bonds whose bodies are those of the present scene. The engine may be no longer in O.engines, or of another scene.
 	long intactInScene() const;
 
 	boost::python::list bondList() const;

@@ -77,7 +77,7 @@ public:
 	bool hasOwnStrength() const;
 	/// All slip of a joint with a shear law of its own; the length of the slip of others [m].
 	Real slipLength() const;
-	/// What tan φ of a shear law of its own is divided by; of other joints 1.
+	/// What tan φ of a shear law of its own is divided by; 1 for other joints.
 	Real getReduction() const;
 	void setReduction(Real value);
 	/// A force of the normal spring beyond the strength in tension: it keeps the residual one, and the rest becomes lasting opening; returns its work [J].
@@ -111,7 +111,7 @@ public:
 	/// Energy of the springs of the shear bed [J].
 	Real shearEnergy() const;
 
-	/// NormPhys' and NormShearPhys' attributes; of a joint with stiffness per contact they are set for good.
+	/// NormPhys' and NormShearPhys' attributes; for a joint with stiffness per contact they are set for good.
 	Real getKn() const { return kn; }
 	Real getKs() const { return ks; }
 	void setKn(Real value);

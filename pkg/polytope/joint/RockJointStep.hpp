@@ -79,7 +79,7 @@ struct Law2_PolytopeGeom_RockJointPhys_MohrCoulomb::DampedBody {
 	bool        moves;
 	Across      otherIs;  ///< what the other body is for this one
 	Real        part = 1; ///< s
-	/// Part of the body's motion that its damper may take in a step; of all dampers less than twice the motion, from where on it grows.
+	/// Part of the body's motion that its damper may take in a step; all dampers together take less than twice the motion, beyond which it grows.
 	Real     limit = 1;
 	Vector3r arm; ///< from the mover's centre to the contact point
 

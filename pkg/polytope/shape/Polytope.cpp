@@ -104,7 +104,7 @@ void Polytope::adopt(const std::shared_ptr<const polytope::ConvexShape>& convex)
 	requireInnerParticle(*convex);
 	const auto before = convex_;
 	convex_           = convex;
-	// dynamics take the body's origin for the centroid and its axes for principal ones; of a derived class what makes the mass may not yet be loaded
+	// dynamics take the body's origin for the centroid and its axes for principal ones; what makes the mass of a derived class may not yet be loaded
 	if (!exactly<Polytope>(this)) return;
 	if (const std::string fault = faultOfFrame(); !fault.empty()) {
 		convex_ = before;

@@ -45,11 +45,12 @@ public:
 	/// own.
 	virtual std::optional<Real> margin() const;
 
-	/// For unit density, in the body's frame, whose origin and axes they must be. By itself: of the planes, with a margin of the planes and a ball
-	/// (RoundedSolid.hpp).
+	/// Mass properties for unit density, in the body's frame, whose origin and axes they must be. This class gives those of the planes, with a margin those
+	/// of the planes and a ball (RoundedSolid.hpp).
 	virtual polytope::MassProperties massProperties() const;
 
-	/// Faces to be drawn, in the body's frame. By itself: of the planes, with a margin of the planes and a ball. Null until planes are given.
+	/// Faces to be drawn, in the body's frame. This class gives those of the planes, with a margin those of the planes and a ball. Null until planes are
+	/// given.
 	virtual std::shared_ptr<const polytope::Polyhedron> surface() const;
 
 	/// Takes planes that are built already, in a class derived from it, too; refuses a corner radius that leaves no inner particle.

@@ -78,7 +78,7 @@ public:
 	/// Whether it is the same in all orientations: its box need not follow a rotation.
 	virtual bool isRound(const Shape&) const { return false; }
 
-	/// Enlarges a box by the body as it stands [m]. By itself: by the ball of the bounding radius.
+	/// Enlarges a box by the body as it stands [m]. This class does it by the ball of the bounding radius.
 	virtual void extend(const Shape& shape, const State& state, Vector3r& low, Vector3r& high) const;
 
 	/// Appends its half-spaces as a piece of a support, as the other body meets it; none: it is not seen as one, so that what slides over several such bodies

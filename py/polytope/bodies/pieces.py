@@ -16,8 +16,8 @@ is farther from it, by the least piece that is cut off."""
 
 
 def pieceOf(body, cuts):
-	"""The part of a body below planes, as a body that moves with it: of its density, material, colour, mask and blocked degrees of freedom. What is left of a face keeps
-	the material that it has of its own (Polytope.faceMaterials).
+	"""The part of a body below planes, as a body that moves with it and has its density, material, colour, mask and blocked degrees of freedom. What is
+	left of a face keeps the material that it has of its own (Polytope.faceMaterials).
 
 	:param cuts: (normal, offset) of planes, from the body's centre, world axes
 	:returns: the new body, and for each of its planes which of the body's it lies on, −1: a cut

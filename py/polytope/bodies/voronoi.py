@@ -36,7 +36,7 @@ class VoronoiCells:
 	blocks: list
 	"""(normals, offsets) of each cell in world coordinates, for polytope.fromHalfSpaces."""
 	volumes: np.ndarray
-	"""[m³]; of a region that is a box they add up to its volume to rounding, wherever it is."""
+	"""[m³]; in a region that is a box they add up to its volume to rounding, wherever it is."""
 	seeds: np.ndarray
 	"""(n, 3) points [m], in the order of the blocks."""
 

@@ -50,7 +50,7 @@ def _reach(scene, body):
 
 
 def _width(scene, body):
-	"""Largest edge of the box around it [m], in its own axes; of a clump in those of the world."""
+	"""Largest edge of the box around it [m], in its own axes; for a clump, in those of the world."""
 	if not body.isClump:
 		return extentOf(body) if isinstance(body.shape, Polytope) else 2 * _reach(scene, body)
 	corners = []

@@ -20,9 +20,9 @@ standardGravity = 9.81
 class Thrown:
 	"""Speeds at which contacts that do not exist yet would throw bodies of this scene.
 
-	The elastic energy of the overlap, as the contact computes it, becomes motion, without any damping: of the lighter of the two, v = √(2 E m₂ / (m₁ (m₁ + m₂))).
-	It is told where it is more than √(2 g h), that of a fall over the body's own thickness h, its inscribed diameter: a body that lies on another one is thrown higher than that by no load
-	that it carries itself. Contacts that exist may bear the loads of others, and are told by their depth alone.
+	The elastic energy of the overlap, as the contact computes it, becomes motion, without any damping: the lighter of the two gets v = √(2 E m₂ / (m₁ (m₁ +
+	m₂))). It is told where it is more than √(2 g h), that of a fall over the body's own thickness h, its inscribed diameter: no load that a body on another
+	one carries itself throws it higher than that. Contacts that exist may bear the loads of others, and are told by their depth alone.
 	"""
 
 	def __init__(self, scene):
@@ -32,7 +32,7 @@ class Thrown:
 	def speed(self, one, other, at, otherAt):
 		"""Speed at which their contact throws two polytopes that stand where `at` and `otherAt` do [m/s]: infinite for a deep overlap, 0 for none worth telling."""
 		try:
-			# the chord: of a body within another, too, on which a contact surface would not act
+			# the chord: there is one also for a body within another, on which a contact surface would not act
 			chord = float(_polytope.contact(at, otherAt, contactModel='boon2012', contactPoint='chebyshevCentre').depth)
 			if not chord > 0:
 				return 0.0

@@ -99,7 +99,7 @@ def _functor(dispatcher, *arguments):
 
 
 def _candidates(one, other):
-	"""Names of the functors that make a contact of two shapes of these names; of shapes that are seldom in one scene none is asked for."""
+	"""Names of the functors that make a contact of two shapes of these names; for shapes that are seldom in one scene no functor is asked for."""
 	if not {one, other} <= {'Polytope', *yadesOwn}:
 		return []
 	starts = {f'Ig2_{one}_{other}_', f'Ig2_{other}_{one}_'}

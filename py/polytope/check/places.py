@@ -141,7 +141,7 @@ def stiffness(scene):
 
 
 def overlapShare(body, perArea, gravity):
-	"""Overlap under its weight or in its impact over its inscribed radius; of a body of RockJointMat."""
+	"""Overlap under its weight or in its impact, over its inscribed radius; for a body of RockJointMat."""
 	shape, weight = body.shape, float(body.state.mass)
 	face = float(shape.volume) ** (2 / 3) if shape.dimension == 3 else math.sqrt(float(shape.volume * shape.thickness))
 	k = _softest(body) * (face if perArea else 1)

@@ -72,7 +72,7 @@ def _heights(bodies):
 def _staysInPlane(O, moving):
 	"""Whether velocities and loads of these bodies have no part out of the xy plane; False if nothing moves or drives them.
 
-	Rounding is measured by the largest speed in the plane, and by what gravity there adds to it in a step: of bodies at rest rounding is all
+	Rounding is measured by the largest speed in the plane, and by what gravity there adds to it in a step: for bodies at rest, rounding is all
 	the motion there is.
 
 	:param list moving: bodies

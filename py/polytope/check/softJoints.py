@@ -34,7 +34,7 @@ rounding = 1e-9
 beside = 0.5
 """Cosine between a contact's normal and the face on which a body stands, below which the contact holds its side."""
 most = 1000
-"""Bodies that are looked at: of more so many, evenly, for what one of them loses others of its kind lose too."""
+"""Largest number of bodies that are looked at: where there are more, so many are taken evenly, since what one loses others of its kind lose too."""
 looks = 20
 """Number of bodies for which it is found out what they touch; those that lose most come first."""
 leastTurn, mostTurn, turns = 1e-6, 0.5, 400

@@ -145,7 +145,7 @@ def _fromValues(record, times):
 
 
 def _checked(times, values, name):
-	"""*name*: of the argument that has the times."""
+	"""*name*: that of the argument with the times."""
 	if len(times) < 2:
 		raise ValueError(f'record: must have two instants at least, got {len(times)}')
 	for where, column in ((name, times), ('record', values)):

@@ -38,7 +38,7 @@ class WalledSample(Sample):
 
 	@property
 	def upper(self):
-		"""Opposite corner of the box [m]; of a heap without a wall above, the height of its highest body."""
+		"""Opposite corner of the box [m]; for a heap without a wall above, with the height of its highest body."""
 		top = None if all(pair[1] for pair in self._states) else aabbExtrema(self.ids)[1]
 		return np.array([float(pair[1].pos[axis]) if pair[1] else top[axis] for axis, pair in enumerate(self._states)])
 

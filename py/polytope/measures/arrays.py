@@ -25,7 +25,7 @@ class BodyArrays(NamedTuple):
 	masks: np.ndarray
 	"""(n,) Body.mask."""
 	masses: np.ndarray
-	"""(n,) [kg]; of a clump that of the whole, of its members as YADE has them (zero or their own)."""
+	"""(n,) [kg]; for a clump that of the whole, for its members what YADE has (zero or their own)."""
 	positions: np.ndarray
 	"""(n, 3) of the centroid [m]; in a periodic scene as it is, not wrapped into the cell."""
 	orientations: np.ndarray

@@ -17,12 +17,12 @@ __all__ = ['check', 'followClumps', 'giveMaterials', 'movers', 'parts', 'takeMat
 
 
 def movers():
-	"""Bodies that forces can move; of a clump its own body alone."""
+	"""Bodies that forces can move; for a clump its own body alone."""
 	return [body for body in allMovers() if not body.isSubdomain]
 
 
 def parts(number):
-	"""Ids of all that a mover moves: of a clump and its members, or of a body alone."""
+	"""Ids of all that a mover moves: those of a clump and its members, or that of a body alone."""
 	body = O.bodies[number]
 	return [*body.shape.ids, number] if body.isClump else [number]
 

@@ -200,7 +200,7 @@ def _couldHang(k):
 
 
 def placesById():
-	"""(n, 3) by id; of ids without a body zero [m]"""
+	"""Places of bodies, (n, 3) by id [m]; zero for ids without a body"""
 	bodies = arrays().bodies
 	found = np.zeros((len(O.bodies), 3))
 	found[bodies.ids] = bodies.positions
@@ -208,7 +208,7 @@ def placesById():
 
 
 def _turn(before, k):
-	"""Angle by which body k has turned since these arrays of bodies [°]; of one that is new zero."""
+	"""Angle by which body k has turned since these arrays of bodies [°]; zero for one that is new."""
 	row = np.flatnonzero(before.ids == k)
 	if not len(row):
 		return 0.0
@@ -217,7 +217,7 @@ def _turn(before, k):
 
 
 def _ways(before, now):
-	"""Lengths from place to place; of bodies that are new zero [m]"""
+	"""Lengths from place to place [m]; zero for bodies that are new"""
 	found = np.zeros(len(now))
 	both = min(len(before), len(now))
 	found[:both] = np.linalg.norm(now[:both] - before[:both], axis=1)

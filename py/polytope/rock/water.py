@@ -24,7 +24,7 @@ class Face(NamedTuple):
 	body: int
 	"""Its id."""
 	plane: int
-	"""Index of its half-space in *shape.normals*; of a block of *polytope.jointedRock* also that in its list *faces*."""
+	"""Index of its half-space in *shape.normals*; for a block of *polytope.jointedRock* also that in its list *faces*."""
 	normal: np.ndarray
 	"""Unit, outward [-]."""
 	centre: np.ndarray
@@ -93,7 +93,7 @@ def _refuseOverlappingParts():
 
 
 def _anyPressure(pieces, corners):
-	"""Whether a corner has some; of strips between corners the load tells."""
+	"""Whether a corner has pressure; for strips between corners the load tells."""
 	for piece in pieces:
 		apart = corners - piece.point
 		within = np.all([apart @ side <= offset for side, offset in piece.sides], axis=0)

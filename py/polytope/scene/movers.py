@@ -7,7 +7,7 @@ __all__ = ['canMove', 'isMover', 'moverOf', 'movers', 'partsOf', 'sameClump']
 
 
 def partsOf(k):
-	"""Ids of a clump's members; of another body its own."""
+	"""Ids of a clump's members; for another body its own."""
 	body = O.bodies[k]
 	return list(body.shape.members) if body.isClump else [k]
 

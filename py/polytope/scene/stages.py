@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Stages in which a scene comes to rest again or fails, each weaker than the one before: of frictionReduction and strengthReduction."""
+"""Stages of frictionReduction and strengthReduction, in which a scene comes to rest again or fails, each weaker than the one before."""
 
 import dataclasses
 import numbers
@@ -164,7 +164,7 @@ class Reduction:
 
 
 def sizeOf(number):
-	"""Edge of the cube, or square, of the body's volume, or area [m]; of a clump that of its parts together."""
+	"""Edge of the cube, or square, of the body's volume, or area [m]; for a clump that of its parts together."""
 	body = O.bodies[number]
 	if body.isClump:
 		return sum(sizeOf(part) ** 3 for part in body.shape.members) ** (1 / 3)

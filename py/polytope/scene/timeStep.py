@@ -11,7 +11,7 @@ __all__ = ['safeTimeStep', 'stableTimeStep']
 
 
 def safeTimeStep():
-	"""τ [s] of the present contacts; in a scene without any, of those that may come; None where nothing limits it."""
+	"""τ [s] of the present contacts; in a scene without any, τ of those that may come; None where nothing limits it."""
 	limits = _polytope.timeStepLimits()
 	return limits['material'] if limits['contacts'] is None else limits['contacts']
 

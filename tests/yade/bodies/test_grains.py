@@ -219,7 +219,8 @@ def testCloudIsInsideAndApart():
 
 
 def testCloudOfGrainsAndSpheres():
-	"""Apart by closed forms: of spheres by their centres, of a sphere and a grain by the grain's corners, edges and faces, which a fine net of points stands for."""
+	"""They are apart by closed forms: spheres by their centres, a sphere and a grain by the grain's corners, edges and faces, which a fine net of points
+	stands for."""
 	stones = polytope.grains([(0.01, 0), (0.02, 1)], number=30, seed=1)
 	bodies = polytope.cloud((0, 0, 0), (0.1, 0.1, 0.1), [*stones, *(yade.utils.sphere((0, 0, 0), 0.006) for _ in range(60))], seed=1)
 	spheres = [body for body in bodies if isinstance(body.shape, yade.Sphere)]

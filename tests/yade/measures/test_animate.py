@@ -44,7 +44,7 @@ def framesOf(path):
 
 
 def middles(images, channel):
-	"""(column, row) of the mean pixel in which this channel is more than twice each of the others; of each frame."""
+	"""For each frame (column, row) of the mean of the pixels in which this channel is more than twice each of the others."""
 	others = [k for k in range(3) if k != channel]
 	like = images[..., channel] > 2 * images[..., others].max(axis=-1)
 	return np.array([np.argwhere(one)[:, ::-1].mean(axis=0) for one in like])

@@ -159,7 +159,7 @@ def testCrushedCubeBalancesItsEnergy(runs, capsys):
 
 
 def testCrushedGrainBreaksWhereItsStressSays(runs):
-	"""Force times height over volume is the mean stress; of a stress along one direction q is √2/3 of it. Halves are stronger."""
+	"""Force times height over volume is the mean stress; for a stress along one direction q is √2/3 of it. Halves are stronger."""
 	names = runs('crushedGrain')
 	height, first = -2 * names['low'], names['forces'][0]
 	assert first == pytest.approx(1e6 * 3 / 2**0.5 * names['volume'] / height, rel=2e-2) and names['forces'][1] > first

@@ -8,7 +8,7 @@ from yade.polytope.rock.bracket import Bracket
 
 
 def search(limit, lacks, tolerance=0.01, most=20):
-	"""Factors that were tried, and the bracket in the end. *lacks*: of a factor that fails, the force that is missing."""
+	"""Factors that were tried, and the bracket in the end. *lacks*: the force that is missing at a factor that fails."""
 	bracket, tried = Bracket(tolerance, most), []
 	while not bracket.isNarrow and bracket.stable < most:
 		factor = bracket.next()

@@ -129,7 +129,7 @@ def testPlanesWithoutAFaceStayWhereTheyAre():
 
 
 def testObliqueJoints():
-	"""Thin blocks included, of joints that close by 0.03 mm."""
+	"""There are thin blocks, too; the joints close by 0.03 mm."""
 	rock(normalStiffness=2e11, shearStiffness=1e11)
 	assert min(float(body.shape.inscribedRadius) for body in O.bodies) < 0.04
 	polytope.inSitu(general)

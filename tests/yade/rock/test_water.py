@@ -94,7 +94,7 @@ def testTheLoadOfAClumpIsThatOfItsMembersTogether():
 
 @pytest.mark.parametrize('flat', [False, True])
 def testAFloatingBlockHasItsDraftAndRightingMoment(flat):
-	"""Archimedes: draft h ρ_b/ρ_w; of a box turned by θ without a dry bottom the moment ρ g L sin θ (b³/12 (1 + tan² θ/2) − A (h − T)/2)."""
+	"""Archimedes: draft h ρ_b/ρ_w; a box turned by θ without a dry bottom has the moment ρ g L sin θ (b³/12 (1 + tan² θ/2) − A (h − T)/2)."""
 	width, height, length, ratio = 2.0, 0.8, 1.5, 0.6
 	rock(density=ratio * density)
 	if flat:

@@ -61,7 +61,7 @@ template <Operator op, class A, class B> [[gnu::always_inline]] inline auto appl
 	else return a != b;
 }
 
-/// The value of an expression of Eigen, which refers to its operands; of all else the type itself.
+/// The type of the value of an expression of Eigen, which refers to its operands; for all else, the type itself.
 template <class E, class = void> struct ValueOf {
 	using Type = E;
 };

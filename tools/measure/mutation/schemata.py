@@ -131,7 +131,7 @@ class Schemata:
 		for unit, name in objects.items():
 			if not unit.startswith('src/'):
 				command = command.replace(f' {name} ', ' ')
-		# first come the objects with mutants: of functions that several files hold the linker takes the first
+		# first come the objects with mutants: the linker takes the first of the functions that several files hold
 		command = command.replace('FIRST', ' '.join(str(self.build / name) for name in objects.values()))
 		subprocess.run(command.replace(' -o tests/core/polytope_core_tests', f' -o {program}'), shell=True, cwd=own, check=True)
 		return program

@@ -11,7 +11,7 @@ from text import bold, paragraph, table
 
 file = 'mutation.csv'
 judgements = pathlib.Path(__file__).resolve().parents[1] / 'mutation/survivors.csv'
-"""By hand: of each survivor whether it is *equivalent* (no answer differs by more than rounding) or *open*, and why."""
+"""Written by hand: whether each survivor is *equivalent* (no answer differs by more than rounding) or *open*, and why."""
 columns = 'revision seed id file line column kind original mutant source ran reachedBy killedBy'.split()
 ofMutant = ('file', 'column', 'original', 'mutant', 'source')
 """What a survivor is known by, whatever line it is on."""

@@ -103,7 +103,7 @@ class BeamReport:
 		)
 
 	def dynamics(self, driven, pushed):
-		"""The rotation at a rate, and the weight; of each contact point the first run is the one that others are changes of.
+		"""The rotation at a rate, and the weight; the first run with each contact point is the one that the others change.
 
 		:param list driven, pushed: DrivenBeams, PushedBeams
 		"""

@@ -162,7 +162,7 @@ class FallingPolyhedra:
 		)
 
 	def _addParticles(self):
-		"""Different solids in different colours; of one alone, each layer of the lattice."""
+		"""Different solids in different colours; with one solid alone, each layer of the lattice has its colour."""
 		for k, (center, orientation) in enumerate(zip(self.lattice(), self.orientations(), strict=True)):
 			faces = self.faces[k % len(self.faces)]
 			layer = k // self.columns**2

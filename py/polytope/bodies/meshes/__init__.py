@@ -38,9 +38,9 @@ named = 3
 def fromMesh(path, scale=1.0, parts=None, **body):
 	"""Convex hull of a mesh file's vertices, as a body at its centroid; or with *parts* a list of convex bodies.
 
-	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). For a mesh of volumes, the surface is
-	taken. Warned of: a mesh that is not closed, not convex, or several bodies; a file whose numbers have too few digits where the mesh is. A container
-	(funnel, cup, drum) is read by *facets*.
+	Formats: STL, OBJ, PLY, OFF, GLB, 3MF … (trimesh); GTS; VTK's own; Gmsh, TetGen, Abaqus, Medit … (meshio). For a mesh of volumes, the surface is taken.
+	A warning tells of a mesh that is not closed, not convex, or several bodies, and of a file whose numbers have too few digits where the mesh is. A
+	container (funnel, cup, drum) is read by *facets*.
 
 	:param path: the file
 	:param float scale: factor on all coordinates, for files in other units than metres

@@ -78,7 +78,7 @@ def decomposed(points, triangles, most, volume):
 	middle, unit = (low + high) / 2, float((high - low).max()) or 1.0
 	if np.abs(middle).max() < far * unit:
 		middle = np.zeros(3)
-	# joins equal vertices: of those of an STL file CoACD makes a closed mesh of its own, slowly and too large; at unit size, wherever it is
+	# joins equal vertices: from those of an STL file CoACD makes a closed mesh of its own, slowly and too large; at unit size, wherever it is
 	mesh = trimesh.Trimesh((points - middle) / unit, triangles)
 	best, least = None, np.inf
 	for concavity in concavities:

@@ -24,7 +24,7 @@ class Piece:
 	"""numbers of the mesh's triangles"""
 	closed: bool
 	volume: float
-	"""that it encloses, in the file's units; of one that is not closed, without meaning"""
+	"""Volume that it encloses, in the file's units; without meaning for a mesh that is not closed"""
 	hull: float
 	"""volume of its convex hull; 0 where it is flat"""
 

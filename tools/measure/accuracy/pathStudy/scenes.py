@@ -134,7 +134,7 @@ class Pair:
 
 
 class Placing:
-	"""Finds poses; of plain cubes, since planes that cut nothing do not change s*."""
+	"""Finds poses of plain cubes, since planes that cut nothing do not change s*."""
 
 	def __init__(self, overlap=1.0):
 		self.pair, self.overlap = Pair({'contactModel': 'boon2012'}), overlap
