@@ -46,9 +46,9 @@ that bear on a block through grout; between two neighbouring stations is an elem
 		((Vector3r, head, Vector3r::Zero(), Attr::readonly, "Head, where the bolt was made [m]."))
 		((Vector3r, end, Vector3r::Zero(), Attr::readonly, "End, where the bolt was made [m]."))
 		((Real, area, 0, Attr::readonly, "Cross-section of the steel [m²]."))
-		((Real, youngsModulus, 0, Attr::readonly, "Of the steel [Pa]."))
-		((Real, yieldForce, std::numeric_limits<Real>::infinity(), Attr::readonly, "At which the steel yields, perfectly plastic [N]."))
-		((Real, ruptureStrain, std::numeric_limits<Real>::infinity(), Attr::readonly, "At which it breaks [-], plastic strain included."))
+		((Real, youngsModulus, 0, Attr::readonly, "Young's modulus of the steel [Pa]."))
+		((Real, yieldForce, std::numeric_limits<Real>::infinity(), Attr::readonly, "Force at which the steel yields, perfectly plastic [N]."))
+		((Real, ruptureStrain, std::numeric_limits<Real>::infinity(), Attr::readonly, "Strain at which it breaks [-], plastic strain included."))
 		((Real, pretension, 0, Attr::readonly, "Force with which the head was pulled against its plate [N]."))
 		((bool, plate, true, Attr::readonly, "Whether a plate holds the head."))
 		((Real, groutStiffness, 0, Attr::readonly, "Shear force per length and slip of the grout [N/m²]; 0: no grout, an anchor at the end."))
@@ -59,11 +59,11 @@ that bear on a block through grout; between two neighbouring stations is an elem
 		((Real, dowelStrength, 0, Attr::readonly, "Largest shear force at each joint [N]."))
 		((Real, energy, 0, Attr::readonly, "Elastic energy of steel, grout and dowels [J]."))
 		((Real, firstStation, 0, (Attr::readonly | Attr::hidden), "Distance of the first station from the head"))
-		((vector<shared_ptr<PolytopeBoltCrossing>>, crossings, , Attr::hidden, "In their order from the head"))
+		((vector<shared_ptr<PolytopeBoltCrossing>>, crossings, , Attr::hidden, "Crossings in their order from the head"))
 		((polytope::BoltChain, chain, , (Attr::readonly | Attr::hidden), "Steel and grout"))
 		, /*ctor*/
 		, /*py*/
-		.add_property("crossings", &PolytopeBolt::crossingList, "Where it goes over from block to block (:yref:`PolytopeBoltCrossing`), in "
+		.add_property("crossings", &PolytopeBolt::crossingList, "Places where it goes over from block to block (:yref:`PolytopeBoltCrossing`), in "
 		        "their order from the head.")
 		.add_property("stations", &PolytopeBolt::stations, "Distances of plate, nodes and anchor from the head [m]; element $k$ lies "
 		        "between stations $k$ and $k+1$.")

@@ -40,17 +40,17 @@ public:
 	R"""(Where a :yref:`PolytopeBolt` goes over from one block that holds it to the next (docs/support.md): it pulls the two blocks together along
 the line between two points, the ends of what steel is free of grout there, and where it is grouted on both sides of a joint it resists shear as a
 dowel.)""",
-		((Body::id_t, id1, Body::ID_NONE, Attr::readonly, "Block on the side of the head; of a clump, a member."))
+		((Body::id_t, id1, Body::ID_NONE, Attr::readonly, "Block on the side of the head; for a clump, one of its members."))
 		((Body::id_t, id2, Body::ID_NONE, Attr::readonly, "Block on the side of the end."))
 		((Real, start, 0, Attr::readonly, "Where the free steel begins, from the bolt's head [m]."))
-		((Real, stop, 0, Attr::readonly, "Where it ends [m]."))
+		((Real, stop, 0, Attr::readonly, "Where the free steel ends, from the bolt's head [m]."))
 		((Real, stiffness, 0, Attr::readonly, "Tension per opening while all is elastic: free steel and what grout holds on both sides in "
 		        "series [N/m]."))
 		((Real, dowelStiffness, 0, Attr::readonly, "Shear force per shear displacement [N/m]."))
 		((Real, dowelStrength, 0, Attr::readonly, "Largest shear force [N]."))
-		((Real, opening, 0, Attr::readonly, "By how much the distance of the two points has grown [m]."))
+		((Real, opening, 0, Attr::readonly, "Growth of the distance of the two points [m]."))
 		((Real, tension, 0, Attr::readonly, "Force along the line between the two points [N]; below 0: compression."))
-		((Vector3r, shearForce, Vector3r::Zero(), Attr::readonly, "Of the dowel on block 2 [N]; block 1 gets the opposite one."))
+		((Vector3r, shearForce, Vector3r::Zero(), Attr::readonly, "Shear force of the dowel on block 2 [N]; block 1 gets the opposite one."))
 		((Vector2r, shear, Vector2r::Zero(), Attr::readonly, "Displacement of block 2 against block 1 across the bolt [m], along axes 1 and "
 		        "2 of *frame1*."))
 		((Vector2r, plasticShear, Vector2r::Zero(), Attr::readonly, "The plastic part of *shear* [m]."))
@@ -59,15 +59,15 @@ dowel.)""",
 		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Point of body 2, in its axes"))
 		((Vector3r, middle1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Middle between the points when the crossing was made, in "
 		        "body 1's axes"))
-		((Vector3r, middle2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's"))
+		((Vector3r, middle2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same point in body 2's axes"))
 		((Quaternionr, frame1, Quaternionr::Identity(), (Attr::readonly | Attr::hidden), "Axis 0 along the bolt, in body 1's axes"))
-		((Quaternionr, frame2, Quaternionr::Identity(), (Attr::readonly | Attr::hidden), "The same in body 2's"))
-		((Vector2r, dowelForce, Vector2r::Zero(), (Attr::readonly | Attr::hidden), "Along axes 1 and 2, against the shear"))
-		((int, element, -1, (Attr::readonly | Attr::hidden), "Of the bolt's steel"))
+		((Quaternionr, frame2, Quaternionr::Identity(), (Attr::readonly | Attr::hidden), "Axis 0 along the bolt, in body 2's axes"))
+		((Vector2r, dowelForce, Vector2r::Zero(), (Attr::readonly | Attr::hidden), "Force of the dowel along axes 1 and 2, against the shear"))
+		((int, element, -1, (Attr::readonly | Attr::hidden), "Number of the element of the bolt's steel"))
 		((Vector3r, force, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Tension on body 1"))
-		((Vector3r, dowelMoment, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "On body 2"))
+		((Vector3r, dowelMoment, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Moment of the dowel on body 2"))
 		((Vector3r, dowelArm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to where the dowel acts"))
-		((Vector3r, dowelArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
+		((Vector3r, dowelArm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 2's centre to where the dowel acts"))
 	);
 	// clang-format on
 

@@ -61,9 +61,9 @@ and frames are those in which it was made and do not follow the bodies' overlap.
 		((Vector3i, cellDist, Vector3i::Zero(), Attr::readonly, "Periodic scenes: by how many cells body 2 is shifted, as "
 		        ":yref:`Interaction.cellDist`."))
 		((Vector3r, point1, Vector3r::Zero(), Attr::readonly, "Centroid of the area in body 1's axes, from its centre [m]."))
-		((Vector3r, point2, Vector3r::Zero(), Attr::readonly, "The same point in body 2's."))
+		((Vector3r, point2, Vector3r::Zero(), Attr::readonly, "The same point in body 2's axes, from its centre [m]."))
 		((Quaternionr, frame1, Quaternionr::Identity(), Attr::readonly, "The bond's frame in body 1's axes."))
-		((Quaternionr, frame2, Quaternionr::Identity(), Attr::readonly, "The same frame in body 2's."))
+		((Quaternionr, frame2, Quaternionr::Identity(), Attr::readonly, "The bond's frame in body 2's axes."))
 		((Real, area, 0, Attr::readonly, "Area $A$ [m²]."))
 		((Vector2r, secondMoments, Vector2r::Zero(), Attr::readonly, "$\\int y^2dA$ and $\\int z^2dA$ along axes 1 and 2, from the centroid "
 		        "[m⁴]."))
@@ -93,10 +93,10 @@ and frames are those in which it was made and do not follow the bodies' overlap.
 		        "at $\\sigma_t$."))
 		((Real, shearStress, 0, Attr::readonly, "Mean shear stress plus the share of the largest one of twisting [Pa]: fails at "
 		        "$c-\\sigma\\tan\\phi$."))
-		((vector<Real>, lastingOpenings, , (Attr::readonly | Attr::hidden), "Of the fibres of a joint that yields in tension [m]; none: it "
+		((vector<Real>, lastingOpenings, , (Attr::readonly | Attr::hidden), "Openings of the fibres of a joint that yields in tension [m]; none: it "
 		        "does not"))
 		((Vector3r, arm1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 1's centre to the point in the last step"))
-		((Vector3r, arm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same of body 2"))
+		((Vector3r, arm2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "From body 2's centre to the point in the last step"))
 	);
 	// clang-format on
 

@@ -97,7 +97,7 @@ are the bodies' sizes when the contact began: half the edge of the cube (polygon
 box, a facet and a body that cannot move count as large as the other body.)""",
 		((Real, infeasibility, 0, Attr::readonly, "Optimum $s^*$ of the phase-one linear program [m]: minus the radius of the largest ball "
 		        "in the overlap; positive for a gap (for a pair dismissed early, a lower bound)."))
-		((Real, contactArea, 0, Attr::readonly, "Of the contact surface as seen along the normal, or, *boon2012*, in which the plane "
+		((Real, contactArea, 0, Attr::readonly, "Area of the contact surface as seen along the normal, or, with *boon2012*, area in which the plane "
 		        "through the contact point, normal to the contact normal, cuts both bodies [m²]; polygons: length times thickness. With "
 		        "*boon2012* computed where a law needs it, as those of rock joints do, or if "
 		        ":yref:`computeArea<Ig2_Polytope_Polytope_PolytopeGeom.computeArea>` is set."))
@@ -110,7 +110,7 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		((std::int8_t, faceForceCode, 0, (Attr::readonly | Attr::hidden), "What the normal force depends on where the bodies tilt, as a "
 		        "number (FaceForce)"))
 		((bool, internalKnown, false, (Attr::readonly | Attr::hidden), "Whether internal faces have been searched for"))
-		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Of the contact's physics: none that the geometry knows, a "
+		((std::int8_t, stiffnessRule, 0, (Attr::readonly | Attr::hidden), "Rule of the contact's physics: none that the geometry knows, a "
 		        "stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several "
 		        "pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie "
@@ -127,7 +127,7 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		        "are known, otherwise the weights of the basis' first planes"))
 		((Vector3r, point1, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 1's frame, the next step's "
 		        "warm-start point"))
-		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "The same in body 2's frame"))
+		((Vector3r, point2, Vector3r::Zero(), (Attr::readonly | Attr::hidden), "Last contact point in body 2's frame"))
 		((BasisCodes, basis, , (Attr::readonly | Attr::hidden), "The linear program's last basis, 2 × plane + body"))
 		((StoredVertices, surface, , (Attr::readonly | Attr::hidden), "Vertices of the last feasible set of the models that have a surface, "
 		        "by their planes"))

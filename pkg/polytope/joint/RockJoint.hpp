@@ -186,8 +186,8 @@ friction, peak or residual.)""",
 		.add_property("hasOwnStrength", &RockJointPhys::hasOwnStrength, "Whether the joint has a shear law of its own "
 		        "(:yref:`RockJointMat.strength`): then :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is what it gives at "
 		        "the present stress and displacement.")
-		.add_property("slipLength", &RockJointPhys::slipLength, "Of a joint with a shear law of its own (:yref:`RockJointMat.strength`) the "
-		        "length of all its slip so far, back and forth [m]; of others that of :yref:`slip<RockJointPhys.slip>`.")
+		.add_property("slipLength", &RockJointPhys::slipLength, "Length of all slip so far, back and forth, of a joint with a shear "
+		        "law of its own (:yref:`RockJointMat.strength`) [m]; for others the length of :yref:`slip<RockJointPhys.slip>`.")
 		.add_property("reduction", &RockJointPhys::getReduction, &RockJointPhys::setReduction, "What tan φ of a shear law of its own is "
 		        "divided by [-]; 1 for Mohr-Coulomb, whose values are divided themselves (polytope.factorOfSafety).")
 		.def("energyPerStiffness", &RockJointPhys::energyPerStiffness, boost::python::arg("closure"),

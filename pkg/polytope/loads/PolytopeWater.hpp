@@ -24,19 +24,19 @@ public:
 :yref:`NewtonIntegrator` (*polytope.water(…)* makes it and puts it there; docs/water.md). The pressure is a field in space that is linear in pieces
 and does not change; in each step it is integrated exactly over the faces where they are. Several engines of this kind add up. Other shapes have no
 water.)""",
-		((vector<Vector3r>, points, , Attr::readonly, "Of each piece: the point at which it has its value [m]."))
-		((vector<Real>, values, , Attr::readonly, "Of each piece: pressure at its point [Pa]. Where value and gradient make it negative "
+		((vector<Vector3r>, points, , Attr::readonly, "Point of each piece at which it has its value [m]."))
+		((vector<Real>, values, , Attr::readonly, "Pressure of each piece at its point [Pa]. Where value and gradient make it negative "
 		        "there is none."))
-		((vector<Vector3r>, gradients, , Attr::readonly, "Of each piece [Pa/m]."))
+		((vector<Vector3r>, gradients, , Attr::readonly, "Gradient of the pressure of each piece [Pa/m]."))
 		((vector<Vector3r>, sides, , Attr::readonly, "Three for each piece: unit outward normals of what bounds it; zero: none."))
-		((vector<Real>, sideOffsets, , Attr::readonly, "Of each side, from the piece's point [m]."))
+		((vector<Real>, sideOffsets, , Attr::readonly, "Distance of each side from the piece's point along its normal [m]."))
 		((bool, someFaces, false, Attr::readonly, "Whether there is water on some faces only: those of *wetBodies* and *wetPlanes*."))
-		((vector<int>, wetBodies, , Attr::readonly, "Of each such face: the body."))
-		((vector<int>, wetPlanes, , Attr::readonly, "Of each such face: the index of its half-space in :yref:`Polytope.normals`."))
+		((vector<int>, wetBodies, , Attr::readonly, "Body of each such face."))
+		((vector<int>, wetPlanes, , Attr::readonly, "Index of the half-space of each such face in :yref:`Polytope.normals`."))
 		, /*ctor*/
 		, /*py*/
 		.def("load", &PolytopeWater::load, boost::python::arg("id"), "Force [N] of the water on a body as it is now, and its moment about "
-		        "the body's position [N m], as a tuple; of a clump that of its members together. Zero while the engine is dead.")
+		        "the body's position [N m], as a tuple; for a clump those on its members together. Zero while the engine is dead.")
 	);
 	// clang-format on
 

@@ -32,8 +32,8 @@ saved.)""",
 		        "*polytope.checkpoint* and *polytope.continueFrom* set up what it needs."))
 		((int, written, 0, Attr::readonly, "Number of states saved, those of runs that this one continues included."))
 		((vector<int>, loaded, , Attr::readonly, "Bodies with permanent forces or torques, which YADE does not save"))
-		((vector<Vector3r>, permanentForces, , Attr::readonly, "Of these bodies [N]"))
-		((vector<Vector3r>, permanentTorques, , Attr::readonly, "Of these bodies [N·m]"))
+		((vector<Vector3r>, permanentForces, , Attr::readonly, "Permanent forces of these bodies [N]"))
+		((vector<Vector3r>, permanentTorques, , Attr::readonly, "Permanent torques of these bodies [N·m]"))
 		, /*ctor*/
 		, /*py*/
 		.def("write", &PolytopeCheckpoint::write, "Save the scene now, between two steps.")

@@ -80,8 +80,8 @@ A plane that repeats another one to rounding is dropped. Planes that own no face
 and change the force by half of its mean (``./run accuracy --only path``). Leave out what the body does not need: *fromHalfSpaces* with
 *keepRedundant=False* does; *fromVertices* and *fromMesh* make no such planes.)""",
 		((vector<Vector3r>, normals, , (Attr::readonly | Attr::hidden | planesAsText * Attr::noSave),
-		        "Of the planes while they are given, saved or loaded: otherwise empty, the shape has them once for all bodies"))
-		((vector<Real>, offsets, , (Attr::readonly | Attr::hidden | planesAsText * Attr::noSave), "In the same way"))
+		        "Normals of the planes while they are given, saved or loaded; otherwise empty: the shape has them once for all bodies"))
+		((vector<Real>, offsets, , (Attr::readonly | Attr::hidden | planesAsText * Attr::noSave), "Offsets of the planes, while normals are there"))
 		((string, planesText, , (Attr::readonly | Attr::hidden), "Normals and offsets in an archive, where they are no lists there"))
 		((Real, cornerRadius, 0, Attr::triggerPostLoad, "Radius $r$ [m] with which corners of the inner potential particle are rounded; the "
 		        "normal of the contact model *boon2012* (:yref:`contactModel<Ig2_Polytope_Polytope_PolytopeGeom.contactModel>`) is the "
