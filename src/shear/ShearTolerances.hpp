@@ -13,24 +13,24 @@ constexpr double shearSliver = 1e-14;
 /// Distance of a centre of rotation from an edge's line, as a part of the edge's length, below which it sees no triangle between them.
 constexpr double shearPole = 1e-14;
 
-/// Times the outline's size: for a centre of rotation farther than this the resistance is summed at points, since the sums over edges lose digits with the
-/// fourth power of the distance. Here both agree to 1e-10 of the strength; what jumped by more would have motions that differ by rounding part.
+/// Distance of a centre of rotation, over the outline's size, beyond which the resistance is summed at points, since the sums over edges lose digits with the
+/// fourth power of the distance. Here both agree to 1e-10 of the strength; if they differed by more, motions that differ by rounding would part here.
 constexpr double shearPoleFar = 16;
 
-/// Times the outline's size: for a centre of rotation farther than this three points do in place of five; their error falls with the third power of the
+/// Distance of a centre of rotation, over the outline's size, beyond which three points take the place of five; their error falls with the third power of the
 /// distance.
 constexpr double shearPoleFarther = 500;
 
-/// Times an outline's half width: from a centre of rotation farther than this the sums over edges lose digits with the square of distance over width, and
+/// Distance of a centre of rotation, over an outline's half width, beyond which the sums over edges lose digits with the square of distance over width, and
 /// five points of Gauss-Legendre across are exact to 1e-14 (their error falls with the tenth power).
 constexpr double shearNarrow = 12;
 
-/// Times a line's length: seen from farther than this, five points of Gauss-Legendre along it are exact to 1e-15, and its closed form loses digits with the
+/// Distance, over a line's length, beyond which five points of Gauss-Legendre along the line are exact to 1e-15, while its closed form loses digits with the
 /// square of distance over length.
 constexpr double shearShort = 8;
 
-/// Times a line's length, or an outline's half width: seen from farther than this, three points of Gauss-Legendre (their error falls with the fifth power of
-/// the distance), or two (third power), are exact to 1e-14.
+/// Distances, over a line's length or an outline's half width, beyond which three points of Gauss-Legendre (their error falls with the fifth power of the
+/// distance), or two (third power), are exact to 1e-14.
 constexpr double shearThreePoints = 200;
 constexpr double shearTwoPoints   = 10000;
 
