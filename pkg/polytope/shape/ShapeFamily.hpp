@@ -21,8 +21,9 @@
 ///
 ///     const FamilyOf<MyShape, MyFamily> family; // in the library that has MyShape, at namespace level
 ///
-/// The functions of this class itself answer for a shape about which nothing is known. They are called by several threads at once, and must not throw. What is not
-/// asked here: other contacts, which have functors for each pair of classes, and boxes, which have bound functors (FamilyBound.hpp has one by the bounding radius).
+/// The functions of this class itself answer for a shape about which nothing is known. They are called by several threads at once, and must not throw. Not
+/// asked here are other contacts, which have functors for each pair of classes, and boxes, which have bound functors (FamilyBound.hpp has one by the bounding
+/// radius).
 namespace yade {
 
 using Planes = std::vector<polytope::Plane>; ///< world axes
@@ -92,8 +93,9 @@ public:
 		return std::nullopt;
 	}
 
-	/// Adds a contact's force [N], which acts at a place of the body, to what the scene sums for each body. By itself: to the body, with its torque about the body's centre. A
-	/// body that others carry, as nodes do a beam: to these. Laws ask it by addContactForce() (contact/ContactForce.hpp); those of the plug-in and YADE's do not.
+	/// Adds a contact's force [N], which acts at a place of the body, to what the scene sums for each body. This class adds it to the body, with its torque
+	/// about the body's centre; the family of a body that others carry, as nodes do a beam, adds it to these. Laws ask it by addContactForce()
+	/// (contact/ContactForce.hpp); those of the plug-in and YADE's do not.
 	virtual void addForce(const Body& body, const Vector3r& place, const Vector3r& force, ForceContainer& forces) const;
 
 	/// Faces to be drawn, in its own axes; null: none.

@@ -60,8 +60,8 @@ def ownContacts(shapes, functors):
 
 
 def ownBounds(shapes, functors):
-	"""Bound functors of extensions for these classes of shapes (names), and those that YADE has for shapes of its own that extensions have contacts for. If there are
-	several for one class, the first."""
+	"""Bound functors of extensions for these classes of shapes (names), and those that YADE has for shapes of its own that extensions
+	have contacts for. If there are several for one class, the first."""
 	taken = {base for functor in functors for base in functor.bases}
 	made = [own() for own in ownFunctors(BoundFunctor)]
 	touched = {base for own in ownContacts(shapes, []) for base in own.bases}

@@ -212,7 +212,8 @@ def testAnExtensionBuiltWithAnotherInterfaceIsRefused(otherAbi):
 
 
 def testTheSumOfTheHeadersChangesWithThem(tmp_path):
-	"""The sum by which an extension is compared with the plug-in is the same for the same headers, another one where one of them, or the configuration, has another line."""
+	"""The sum by which an extension is compared with the plug-in is the same for the same headers, and another one where one of them, or the
+	configuration, has another line."""
 	source, into = tmp_path / 'source', tmp_path / 'into'
 	name = 'host/FlatArchive.hpp'
 	(source / 'host').mkdir(parents=True)
