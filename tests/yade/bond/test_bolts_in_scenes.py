@@ -247,7 +247,7 @@ def testOtherEnginesKeepTheBolts():
 @pytest.mark.parametrize('flat', [False, True])
 @pytest.mark.parametrize('ruptureStrain', [inf, 2.1e-5])
 def testABoltWithoutPretensionIsLoadedGentlyByTheFactorOfSafety(flat, ruptureStrain):
-	"""The yield strain is 2e-5: a bolt that were loaded at once would swing beyond it and break at 1.23."""
+	"""The yield strain is 2e-5: a bolt that was loaded at once would swing beyond it and break at 1.23."""
 	block, factor = boltedBlock(flat, 2e3, dict(yieldForce=2e3, ruptureStrain=ruptureStrain))
 	polytope.settle(elastic=False)
 	found = polytope.factorOfSafety()

@@ -124,7 +124,7 @@ def testABallAtTheEndOfAPlateKeepsItsSpring():
 @pytest.mark.parametrize('clumped', [True, False])
 @pytest.mark.parametrize('rule', ['perArea', 'perContact'])
 def testFreePlatesShareABall(clumped, rule):
-	"""Both plates lie on a floor, and carry half of the ball."""
+	"""The plates lie on a floor, and each of them carries half of the ball."""
 
 	def pieces():
 		floor = [polytope.cuboid((0, 0, -2), (3, 3, 1), fixed=True)]
