@@ -17,7 +17,7 @@ namespace yade {
 /// box was made before, enough for `targetInterv` steps. Other shapes than balls and polytopes, and classes derived from Polytope that do not say their margin, have no room to turn.
 class BoxRoom {
 public:
-	/// Of one body: what its box was made for.
+	/// What the box of one body was made for.
 	struct Reference {
 		shared_ptr<State> state; ///< of the body; none if it has no box
 		Vector3r          position    = Vector3r::Zero();

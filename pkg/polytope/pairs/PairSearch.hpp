@@ -15,7 +15,7 @@ namespace yade {
 /// the InteractionLoop meets neighbours one after the other, whose bodies it has in the cache. The order is the same with any number of threads. When some bodies have got new boxes, only their pairs are
 /// searched for: they leave the grid of all for a smaller one, until they are so many that the first is made anew.
 ///
-/// Of two polytopes whose boxes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
+/// Where the boxes of two polytopes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
 /// Interaction, which costs memory, and time in each step. Neither do two fixed ones without velocity, as the pieces of a ground are, that are apart or lie
 /// flush; two that pierce each other do, so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body
 /// that moves keep theirs: internal faces are searched for among the pieces that a body may touch.
@@ -26,7 +26,7 @@ public:
 	/// Finds the pairs of all bodies. `judge`: by the linear program, too. `sort`: unless contacts shall keep the order that they were saved in, and with it the
 	/// last digits of sums.
 	void ofAll(Scene& scene, Collider& collider, bool judge, bool sort);
-	/// Of these, whose boxes are new.
+	/// Finds the pairs of these bodies, whose boxes are new.
 	void ofSome(Scene& scene, Collider& collider, const std::vector<Body::id_t>& ids);
 
 	/// Whether so many new boxes are better searched for with all others.
