@@ -26,7 +26,7 @@ def expect(found, theory):
 
 
 def testPartsThatAreBondedForGoodAreOneBlock():
-	"""The parts are as those of a block that excavate has cut: the mode is that of one block, and both parts are named."""
+	"""The mode is that of one block, and both parts are named."""
 	blockMaterial(cohesion=6e3)
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (3, 2, 0.5), fixed=True))
 	parts = O.bodies.append([polytope.cuboid((x, 0, 0.1), (0.25, 0.5, 0.1)) for x in (-0.25, 0.25)])
@@ -262,8 +262,9 @@ def testABlockBesideASteepPlane(side):
 	expect(polytope.limitAnalysis(tolerance=fine), theory)
 
 
-def testAWedgeInARoof():
-	"""Between two blocks that a permanent force presses, and that move along it alone: φ = i + arctan(W/2H)."""
+@pytest.mark.parametrize('pull', [0, 2000, 6000])
+def testAWedgeInARoof(pull):
+	"""Between two blocks that a permanent force presses, and that move along it alone: φ = i + arctan((W − T)/2H), T the yield force of a bolt."""
 	lean, pressed, height = math.radians(20), 8e3, 0.8
 	blockMaterial(density=2500, frictionAngle=math.radians(60))
 
@@ -279,10 +280,13 @@ def testAWedgeInARoof():
 		O.forces.setPermF(rock, (-side * pressed, 0, 0))
 		fixed.append(rock)
 	O.engines = polytope.engines()
-	load = float(O.bodies[wedge].state.mass) * gravity
+	load = float(O.bodies[wedge].state.mass) * gravity - pull
+	if pull:
+		O.bodies.append(polytope.cuboid((0, 0, 2), (2, 0.5, 0.5), fixed=True))
+		polytope.bolt((0, 0, 0), (0, 0, 2.2), area=5e-4, youngsModulus=2e11, yieldForce=pull)
 	found = polytope.limitAnalysis(tolerance=fine)
 	expect(found, math.tan(math.radians(60)) / math.tan(lean + math.atan(load / (2 * pressed))))
-	assert found.bodies[0] == wedge
+	assert wedge in found.bodies
 
 
 def testWaterInATensionCrack():
@@ -391,11 +395,8 @@ def otherMaterial():
 		(lambda: setattr(O.bodies[1].state, 'pos', (0, 0, 1)), 'O.bodies: no faces .* connect 1 blocks to a fixed one .1.'),
 		(lambda: setattr(O.engines[3], 'gravity', (0, 0, 0)), 'O.engines: nothing loads the blocks; .*gravity'),
 		(lambda: setattr(O, 'engines', []), 'O.engines: there must be a NewtonIntegrator'),
-		(lambda: polytope.bond(tensileStrength=1e6, cohesion=1e6), 'polytope.bond: .*cohesion and tensileStrength in place'),
-		(
-			lambda: polytope.bolt((0, 0, 0.2), (0, 0, -0.5), area=5e-4, youngsModulus=2e11, grout=polytope.Grout(1e9, 1e5)),
-			'polytope.bolt: .*polytope.factorOfSafety',
-		),
+		(lambda: polytope.bond(tensileStrength=1e6, cohesion=math.inf), 'polytope.bond: .*one strength without a limit'),
+		(lambda: polytope.bolt((0, 0, 0.2), (0, 0, -0.5), area=5e-4, youngsModulus=2e11), 'polytope.bolt: .*give it a yieldForce'),
 	],
 )
 def testScenesThatAreNoBlocksWithJointsAreRefused(spoil, message):
@@ -472,3 +473,37 @@ def testThePackageThatLacksIsNamed(monkeypatch):
 	monkeypatch.setitem(sys.modules, 'cvxopt', None)
 	with pytest.raises(ImportError, match='limitAnalysis needs the package python3-cvxopt; sudo apt install'):
 		polytope.limitAnalysis()
+
+
+@pytest.mark.parametrize('grout', [None, (1e9, 1e5, 2e4), (1e9, 4e4, 2e4)])
+def testABoltAcrossAJoint(grout):
+	"""A block on a slope with a bolt at a right angle to the joint: tan φ (W cos ψ + T) / (W sin ψ − V), T of steel or of grout over 0.4 m below, V of the dowel."""
+	dip, yields = math.radians(40), 3e4
+	blockOnSlope(dip, (0.5, 0.5, 0.5), False, frictionAngle=math.radians(30))
+	support = {} if grout is None else dict(grout=polytope.Grout(*grout[:2]), dowel=polytope.Dowel(1e9, grout[2]), freeLength=0.02)
+	bolt = polytope.bolt((0, 0, 1), (0, 0, -0.41), area=5e-4, youngsModulus=2e11, yieldForce=yields, **support)
+	(crossing,) = bolt.crossings
+	below = 1.41 - float(crossing.stop)
+	tension = yields if grout is None else min(yields, grout[1] * below)
+	weight, dowel = float(O.bodies[1].state.mass) * gravity, 0 if grout is None else grout[2]
+	theory = math.tan(math.radians(30)) * (weight * math.cos(dip) + tension) / (weight * math.sin(dip) - dowel)
+	expect(polytope.limitAnalysis(tolerance=fine, most=100), theory)
+
+
+def testBondsAreJointsOfTheirStrengths():
+	"""A block on a slope: (W cos ψ tan φ + c A) / (W sin ψ); and one that hangs: σ A / W."""
+	dip, cohesion = math.radians(50), 3e4
+	blockOnSlope(dip, (0.5, 0.5, 0.5), False, frictionAngle=math.radians(10))
+	polytope.bond(tensileStrength=1e6, cohesion=cohesion, frictionAngle=math.radians(35))
+	weight = float(O.bodies[1].state.mass) * gravity
+	expect(
+		polytope.limitAnalysis(tolerance=fine), (weight * math.cos(dip) * math.tan(math.radians(35)) + cohesion) / (weight * math.sin(dip))
+	)
+	O.reset()
+	blockMaterial()
+	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
+	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	weight = float(O.bodies[hanging].state.mass) * gravity
+	polytope.bond(tensileStrength=1.4 * weight, cohesion=1e7, frictionAngle=0.5)
+	expect(polytope.limitAnalysis(tolerance=fine), 1.4)

@@ -13,6 +13,7 @@ from ...strengthReduction import checkedStrengths, strengths
 from ..bracket import Bracket
 from ..failure import Failure, inMode, noMode, told
 from .blocks import blocksOf, cornersOf, refuseScene
+from .bolts import linksOf, withLinks
 from .equilibrium import Equilibrium
 from .leastStrength import leastStrength
 
@@ -50,6 +51,8 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	the corner stands for, and shear forces within Coulomb's cone with friction and cohesion. The scene stands where forces within these strengths balance weight, permanent forces (O.forces.setPermF) and water on
 	every block (static theorem). Else it fails, and the motion is found along with that (kinematic theorem). Second-order cones, not polygons in their place, solved by an interior-point method with the package python3-cvxopt.
 
+	A bolt that passes from block to block bears a tension up to what its steel (yieldForce) and grout hold, and its dowel across, all fully mobilised whatever its stiffness; these are not divided. A bond is a joint of its own strengths (both infinite: what it joins is one block).
+
 	Joints are perfectly plastic, as in limit equilibrium, so the strength is that of the material before failure, residual values do not count, and stiffnesses do not matter. With friction a joint that slips opens by tan φ times its slip
 	(associated flow): the theorems hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of a slope, that does not matter. Where they jam it is too high: by 4 % for the wedge of Hoek & Bray, by a fifth for columns that topple and
 	rub against each other, without bound between fixed walls. Compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the dilation that the material has.
@@ -58,7 +61,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	:param float tolerance: width of the bracket over the factor
 	:param float most: factor at which to give up: what stands there has an infinite one, with no mode; and by which strengths are multiplied where it is below 1
 	:returns: *LimitAnalysis*
-	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds that can fail, bolts, blocks that no joint connects to a fixed one
+	:raises ValueError: naming the argument, or what in the scene is no rigid block with joints: bodies other than Polytopes, materials other than RockJointMat, bonds with one strength without a limit, bolts without one, blocks that no joint connects to a fixed one
 	:raises ImportError: python3-cvxopt is not installed
 	:raises RuntimeError: the scene does not stand with *most* times its strengths
 	"""
@@ -80,8 +83,10 @@ class _Search:
 		self.force = float(np.linalg.norm(blocks.loads * [1, 1, 1, 1 / self.length, 1 / self.length, 1 / self.length], axis=1).mean())
 		"""Units, in which numbers are about 1."""
 		self.area = float(corners.areas.mean())
-		self.equilibrium = Equilibrium(blocks, corners, self.length)
-		self.load = (blocks.loads / np.repeat([self.force, self.force * self.length], 3) * blocks.free).ravel()
+		self.links = linksOf(blocks)
+		bolted, linked = withLinks(blocks, corners, self.links)
+		self.equilibrium = Equilibrium(bolted, linked, self.length)
+		self.load = (bolted.loads / np.repeat([self.force, self.force * self.length], 3) * blocks.free).ravel()
 		self.trials, self.motion, self.limit = [], None, None
 
 	def run(self, most):
@@ -104,16 +109,16 @@ class _Search:
 		parts = [1 / factor if name in self.reduce else 1.0 for name in strengths]
 		share = corners.areas / self.area
 		pressure = self.force / self.area
-		friction = corners.friction
+		friction, most = corners.friction, self.links.most / self.force
 		cohesion, tension = (share * of / pressure for of in (corners.cohesion, corners.tension))
 		try:
 			found = leastStrength(
 				self.equilibrium,
 				self.load,
-				parts[0] * friction,
-				parts[1] * cohesion,
-				parts[2] * tension,
-				share,
+				np.append(parts[0] * friction, np.full(len(most), -1.0)),
+				np.append(parts[1] * cohesion, most / 2),
+				np.append(parts[2] * tension, most / 2),
+				np.append(share, 0 * most),
 				lambda _: self._show(factor),
 			)
 		except ArithmeticError as error:
@@ -127,8 +132,9 @@ class _Search:
 			if factor <= bracket.failed:
 				self.motion = found.motion
 			# by how much λ falls for more strength: the straight line leads to where it is 0
-			slopes = ((found.openings[:, 0] * by).sum() for by in (friction * found.forces[:, 0], cohesion))
-			slopes = [*slopes, (found.openings[:, 1] * tension).sum()]
+			openings, forces = found.openings[: len(share)], found.forces[: len(share)]
+			slopes = ((openings[:, 0] * by).sum() for by in (friction * forces[:, 0], cohesion))
+			slopes = [*slopes, (openings[:, 1] * tension).sum()]
 			slope = float(sum(slope for slope, name in zip(slopes, strengths, strict=True) if name in self.reduce))
 			limit = 1 / (1 / factor + found.value / slope) if slope > 0 else None
 		bracket.tell(factor, stands, limit=limit)

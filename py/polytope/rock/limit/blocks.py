@@ -8,7 +8,6 @@ import numpy as np
 from scipy.sparse import csgraph, csr_matrix
 from yade import O, Polytope, RockJointMat
 
-from ...bonding.bolting import madeBolts
 from ...bonding.bonds import madeBonds
 from ...scene.movers import canMove, moverOf, partsOf
 from ...scene.permanentLoads import permanentLoads
@@ -74,13 +73,9 @@ def refuseScene():
 	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, with gravity; set O.engines first')
 	refuseMatchMaker()
-	if any(bond.intact and not _isRigid(bond) for bond in madeBonds()):
+	if any(bond.intact and math.isinf(bond.tensileStrength) != math.isinf(bond.cohesion) for bond in madeBonds()):
 		raise ValueError(
-			'polytope.bond: bonds are brittle and elastic, limit analysis has plastic joints; give joints cohesion and tensileStrength in place of bonds, or take polytope.factorOfSafety'
-		)
-	if madeBolts():
-		raise ValueError(
-			'polytope.bolt: the force of a bolt depends on how far blocks have moved, which limit analysis does not know; take polytope.factorOfSafety'
+			'polytope.bond: a bond has one strength without a limit; give it a tensileStrength and a cohesion, or both infinite, which makes one block of what it joins'
 		)
 	for body in O.bodies:
 		if body is not None and not body.isClump and not isinstance(body.shape, Polytope):
@@ -155,7 +150,8 @@ def cornersOf(blocks):
 		np.array([row.get(moverOf(k), -1) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces])
 	)
 	_refuseLoose(blocks, one, two)
-	strengths = np.array([_strengthsOf(face) for face in faces])
+	bonded = {frozenset((bond.id1, bond.id2)): bond for bond in madeBonds() if bond.intact}
+	strengths = np.array([_strengthsOf(face, bonded.get(frozenset((face.id1, face.id2)))) for face in faces])
 	counts = [len(face.corners) for face in faces]
 	face = np.repeat(np.arange(len(faces)), counts)
 	return Corners(
@@ -192,8 +188,10 @@ def _refuseLoose(blocks, one, two):
 		)
 
 
-def _strengthsOf(face):
-	"""(tan φ, cohesion, tensile strength): the lower ones of the two sides."""
+def _strengthsOf(face, bond):
+	"""(tan φ, cohesion, tensile strength): of the bond, or the lower ones of the two sides."""
+	if bond is not None:
+		return math.tan(bond.frictionAngle), float(bond.cohesion), float(bond.tensileStrength)
 	sides = [materialOf(face, k) for k in (face.id1, face.id2)]
 	for k, material in zip((face.id1, face.id2), sides, strict=True):
 		if not isinstance(material, RockJointMat):
