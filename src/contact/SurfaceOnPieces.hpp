@@ -83,7 +83,7 @@ template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const In
 		R larger = 1;
 		for (int k = 0; k < internal.count[piece]; ++k) {
 			const R own = in.shape[piece]->offsetArray()[internal.plane[piece][k]];
-			larger      = maxOf<R>(larger, own > 0 ? 1 + R(internal.beyond[piece][k]) / own : R(padOffset));
+			larger      = maxOf<R>(larger, own > 0 ? R(1 + R(internal.beyond[piece][k]) / own) : R(padOffset));
 		}
 		size = minOf<R>(size, minOf<R>(in.shape[1 - piece]->boundingRadius(), larger * in.shape[piece]->boundingRadius()));
 	}

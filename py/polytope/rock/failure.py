@@ -46,6 +46,7 @@ class Failure:
 			path,
 			**{
 				'colorBy': lambda body: ways.get(moverOf(body.id), 0.0),
+				'valueRange': (0, max(ways.values(), default=1)),
 				'legend': 'displacement [m]',
 				**arguments,
 			},
