@@ -602,7 +602,7 @@ def testAnArchThroughASlabBetweenPlates():
 	assert max(float((body.state.pos - places[body.id]).norm()) for body in O.bodies) < 1e-3 * 2.5e6 / 2e10
 
 
-half, remaining, sideways, above = math.radians(25), 2.0, 5e4, 3e4
+half, remaining, sideways, overburden = math.radians(25), 2.0, 5e4, 3e4
 """Of a roof prism: angle of its joints with the vertical, height of what the cut leaves [m], horizontal and vertical stress [Pa]."""
 
 
@@ -628,14 +628,14 @@ def roofPrism(flat, friction):
 		O.bodies[k].dynamic = k == prism
 	O.engines = polytope.engines(gravity=(0, 0, 0))
 	stress = np.zeros((3, 3))
-	stress[0, 0], stress[up, up] = -sideways, -above
+	stress[0, 0], stress[up, up] = -sideways, -overburden
 	polytope.inSitu(stress)
 	(left,) = polytope.excavate(normals=[place(0, 1)], offsets=[5 - remaining], over=2000)[prism]
 	weight, width = density * gravity * remaining**2 * math.tan(half), 2 * remaining * math.tan(half)
 	length, sine, cosine = remaining / math.cos(half), math.sin(half), math.cos(half)
-	sunk = (above * width + weight) / (2 * length * (stiff * sine**2 + soft * cosine**2))
-	pressed = sideways * cosine**2 + above * sine**2 - stiff * sunk * sine
-	sheared = soft * sunk * cosine - (above - sideways) * sine * cosine
+	sunk = (overburden * width + weight) / (2 * length * (stiff * sine**2 + soft * cosine**2))
+	pressed = sideways * cosine**2 + overburden * sine**2 - stiff * sunk * sine
+	sheared = soft * sunk * cosine - (overburden - sideways) * sine * cosine
 	assert 2 * length * (sheared * cosine - pressed * sine) == pytest.approx(weight)  # the closed form is in equilibrium
 	return left, up, length, sunk, pressed, sheared
 
