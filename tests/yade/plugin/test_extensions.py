@@ -212,8 +212,7 @@ def testAnExtensionBuiltWithAnotherInterfaceIsRefused(otherAbi):
 
 
 def testTheSumOfTheHeadersChangesWithThem(tmp_path):
-	"""The sum by which an extension is compared with the plug-in is the same for the same headers, and another one where one of them, or the
-	configuration, has another line."""
+	"""By which an extension is compared with the plug-in: the same for the same headers, another one where one of them, or the configuration, has another line."""
 	source, into = tmp_path / 'source', tmp_path / 'into'
 	name = 'host/FlatArchive.hpp'
 	(source / 'host').mkdir(parents=True)
@@ -264,7 +263,7 @@ def testAnExtensionForLongDoubleIsRefusedInDouble(wide):
 
 
 def testLongDoubleHasItsOwnExtensions(joint, wide, inLongDouble):
-	"""The extension for double is refused; that for long double has the closed form, with more digits than double."""
+	"""That for double is refused; its own has the closed form, with more digits than double."""
 	assert refused(joint, **inLongDouble).startswith('it was built for the precision double, and this YADE computes in longdouble;')
 	script = (
 		block
@@ -294,7 +293,7 @@ def testWhatIsNoExtensionIsRefused(tmp_path):
 
 @pytest.mark.parametrize('part', [0.5, 0.9, 0.9999])
 def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
-	"""The message has the text that it has about itself: the dynamic linker would end the process."""
+	"""With the text that it has about itself: the dynamic linker would end the process."""
 	whole = joint.read_bytes()
 	library = tmp_path / 'part.so'
 	library.write_bytes(whole[: int(part * len(whole))])
@@ -303,7 +302,7 @@ def testAFileThatIsCutOffIsRefused(part, joint, tmp_path):
 
 
 def testWhatIsNoFileIsRefused(joint, tmp_path):
-	"""polytope.load refuses it, and so does the start for YADE_POLYTOPE_EXTENSIONS, where the others are loaded."""
+	"""By polytope.load, and at the start in YADE_POLYTOPE_EXTENSIONS, where the others are loaded."""
 	script = """
 from yade import polytope
 def said(path):
@@ -323,7 +322,7 @@ answer([said(path) for path in (None, 5, sys.argv[1], sys.argv[1] + '/none.so')]
 
 
 def testARefusalIsTheSameAgain(joint, tmp_path):
-	"""The extension is a copy, whose classes are there already, and which stays in the process."""
+	"""Of a copy, whose classes are there already, and which stays in the process."""
 	copy = tmp_path / 'copy.so'
 	shutil.copy(joint, copy)
 	script = """
@@ -339,7 +338,7 @@ answer([said(), said()])
 
 
 def testAPrecisionThatIsNotThereIsNamed(tmp_path):
-	"""CMake names it, before anything is compiled."""
+	"""By CMake, before anything is compiled."""
 	text = 'cmake_minimum_required(VERSION 3.22)\nproject(other C CXX)\nset(YADE_POLYTOPE_PRECISION mpfr151)\nfind_package(yade-polytope 0.1 REQUIRED)\n'
 	(tmp_path / 'CMakeLists.txt').write_text(text)
 	command = ['cmake', '-S', str(tmp_path), '-B', str(tmp_path / 'build'), f'-DCMAKE_PREFIX_PATH={overlay}']
@@ -361,10 +360,8 @@ def testTheFolderOfExtensions(name, joint, tmp_path):
 	assert known == [True, True] and 'broken.so is not loaded: it is no extension' in warning
 	own = libraries / 'polytope-py/mine.txt'
 	own.write_text('mine')
-	installed = pathlib.Path(yade.__file__).resolve().parents[3]
 	arguments = {
-		'YADE_PREFIX': str(installed).removesuffix(f'/{libraries.relative_to(prefix)}'),
-		'YADE_LIBRARY_DIR': installed,
+		'YADE_LIBRARY_DIR': pathlib.Path(yade.__file__).resolve().parents[3],
 		'OVERLAY': libraries.parent,
 		'PROGRAMS': prefix / 'bin',
 	}
@@ -401,21 +398,38 @@ def testWithoutStiffnessesCheckSaysSo():
 	assert any(what == 'time step' and f'{name} does not say how stiff' in seen for what, seen in found), found
 
 
-@pytest.mark.parametrize(
-	'constructor, reason',
-	[
-		('throw std::runtime_error("no licence")', 'a constructor of its static objects throws: no licence'),
-		('throw 5', 'a constructor of its static objects throws: an object that is no std::exception'),
-		('std::abort()', 'a constructor of its static objects ends the process: Aborted'),
-		('std::_Exit(3)', 'a constructor of its static objects ends the process'),
-	],
-	ids=['exception', 'number', 'abort', 'exit'],
-)
-def testAConstructorThatThrowsIsRefused(constructor, reason):
-	"""Of a static object, while the library is loaded, where no exception can be caught."""
+@pytest.fixture(scope='module')
+def thrower():
+	"""A library with a static object whose constructor does what the environment says."""
 	text = (project / 'examples/extend/hyperbolicJoint/hyperbolicJoint.cpp').read_text()
-	changed = (
-		text + f'\n#include <cstdlib>\n#include <stdexcept>\nstruct Thrower {{ Thrower() {{ {constructor}; }} }};\nconst Thrower thrower;\n'
-	)
-	library = built('hyperbolicJoint', f'thrower{len(reason)}{len(constructor)}', hyperbolicJoint=changed)
-	assert refused(library) == reason
+	added = """
+#include <cstdlib>
+#include <stdexcept>
+struct Thrower {
+	Thrower()
+	{
+		const std::string what = std::getenv("THROWER") ? std::getenv("THROWER") : "";
+		if (what == "exception") throw std::runtime_error("no licence");
+		if (what == "number") throw 5;
+		if (what == "abort") std::abort();
+		if (what == "exit") std::_Exit(3);
+	}
+};
+const Thrower thrower;
+"""
+	return built('hyperbolicJoint', 'thrower', hyperbolicJoint=text + added)
+
+
+@pytest.mark.parametrize(
+	'what, reason',
+	[
+		('exception', 'throws: no licence'),
+		('number', 'throws: an object that is no std::exception'),
+		('abort', 'ends the process: Aborted'),
+		('exit', 'ends the process'),
+	],
+)
+def testAConstructorThatThrowsIsRefused(what, reason, thrower):
+	"""Of a static object, while the library is loaded, where no exception can be caught."""
+	assert refused(thrower, THROWER=what) == f'a constructor of its static objects {reason}'
+	assert inYade('from yade import polytope\nanswer(polytope.load(sys.argv[1]).name)', thrower)[0] == 'hyperbolicJoint'

@@ -44,14 +44,26 @@ answer([seen, found, weight, turning, O.interactions.countReal(), float(O.forces
 	assert found.splitlines()[0] == 'nothing was found that is wrong'
 
 
-@pytest.mark.parametrize('wrong', ['result.point[1] = std::nan("")', 'result.normal *= 2', 'result.depth /= 0'])
-def testAResultThatIsNoContactIsCounted(wrong):
-	"""A point that is no number, a normal that is no unit vector, an infinite depth: a status and counters of the functor, which check tells of; no force."""
+@pytest.fixture(scope='module')
+def wrong():
+	"""The example, which after a hundred steps has the fault that the environment names."""
 	text = (project / 'examples/extend/ownPoint/ownPoint.cpp').read_text()
 	after = 'geometry(c).remember(memory);'
-	changed = text.replace(after, f'{after} if (scene->iter > 100) {wrong};')
-	assert changed != text
-	library = built('ownPoint', f'wrong{len(wrong)}', ownPoint=changed)
+	added = """
+			const std::string fault = std::getenv("FAULT");
+			if (scene->iter > 100) {
+				if (fault == "point") result.point[1] = std::nan("");
+				if (fault == "normal") result.normal *= 2;
+				if (fault == "depth") result.depth = std::numeric_limits<Real>::infinity();
+			}
+"""
+	assert after in text
+	return built('ownPoint', 'wrong', ownPoint=text.replace(after, after + added))
+
+
+@pytest.mark.parametrize('fault', ['point', 'normal', 'depth'])
+def testAResultThatIsNoContactIsCounted(fault, wrong):
+	"""A point that is no number, a normal that is no unit vector, an infinite depth: a status and counters of the functor, which check tells of; no force."""
 	script = """
 from yade import polytope
 polytope.load(sys.argv[1])
@@ -68,7 +80,7 @@ law = O.engines[2].lawDispatcher.functors[0]
 numbers = [*c.geom.contactPoint, *c.geom.normal, c.geom.penetrationDepth, *O.bodies[1].state.vel]
 answer([before, good, stats['failures'], stats['statuses']['failed'], c.geom.status, all(abs(float(x)) < 10 for x in numbers), law.nonFiniteForces, [one.what for one in polytope.check(O)]])
 """
-	(before, good, failures, failed, status, finite, forces, found), _ = inYade(script, library)
+	(before, good, failures, failed, status, finite, forces, found), _ = inYade(script, wrong, FAULT=fault)
 	assert before == 0 and good == 'contact'
 	assert 45 <= failures == failed <= 50 and status == 'failed' and finite and forces == 0
 	assert 'failures' in found
