@@ -423,6 +423,7 @@ def scene(tangent):
 	O.reset(); material(closure=SofteningClosure(length=10 * tangent, initialTangent=tangent))
 	O.bodies.append([plane((0, 0, 0), Quaternion.Identity), block((0, 0, 0.35), Quaternion.Identity, 0.1)])
 	O.engines = polytope.engines(damping=0)
+	O.engines[2].lawDispatcher.functors[0].normalDamping = 0
 steps = []
 for tangent in (0.5, 1, 100):
 	scene(tangent)
