@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a run on several processes leaves in a scene that was saved after it. Does not start MPI, as importing yade.polytope.mpi does."""
 
-from yade import O
+from yade import O, config
 
 __all__ = ['eraseRanks', 'forgetDivision', 'refuseDivided']
 
@@ -17,6 +17,8 @@ def refuseDivided():
 
 def forgetDivision():
 	"""The scene is then as one that was never divided: one process computes contacts of bodies of its own subdomain only."""
+	if 'MPI' not in config.features:
+		return  # bodies have no subdomain
 	for body in O.bodies:
 		body.subdomain = 0
 	eraseRanks()

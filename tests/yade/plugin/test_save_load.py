@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 import pytest
-from yade import polytope
+from yade import O, RockJointMat, polytope
 
 # runs in a process of its own with one thread; prints the states in full precision
 program = r'''
@@ -261,3 +261,15 @@ def testDamagedArchivesAreRefused(tmp_path):
 	done = subprocess.run([sys.executable, '-c', damaged, here, str(tmp_path)], capture_output=True, text=True, timeout=600)
 	assert done.returncode == 0, done.stdout[-1000:] + done.stderr[-3000:]
 	assert 'LOADED' not in done.stdout and 'REFUSED 27' in done.stdout, done.stdout
+
+
+def testARunIsContinuedWhateverYadeIsBuiltWith(tmp_path):
+	"""A state may come from a run on several processes, and what stood for these is erased. YADE's wider precisions are built without MPI: bodies have no subdomain there."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.4))
+	O.bodies.append([polytope.cuboid((0, 0, -0.5), (1, 1, 0.5), fixed=True), polytope.cuboid((0, 0, 0.499), (0.4, 0.4, 0.5))])
+	O.engines = polytope.engines() + [polytope.checkpoint(str(tmp_path / 'run'), iterPeriod=2, onSignal=False)]
+	O.run(3, True)
+	O.reset()
+	assert polytope.continueFrom(str(tmp_path / 'run')) and O.iter == 3  # taken in the step from 2 to 3
+	O.run(2, True)
+	assert O.interactions[0, 1].isReal
