@@ -27,7 +27,7 @@ public:
 		Real              margin      = 0; ///< Polytope::margin()
 		/// Its own: the body's shape may be exchanged. None where its planes do not say where the surface is.
 		std::shared_ptr<const polytope::ConvexShape> convex;
-		/// Whether all its degrees of freedom were blocked: as one of them no longer is, it may touch what it did not (outside()).
+		/// Whether all its degrees of freedom were blocked: when one of them no longer is, it may touch what it did not (outside()).
 		bool blocked = false;
 		/// Whether it was fixed and without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put elsewhere.
 		bool still = false;

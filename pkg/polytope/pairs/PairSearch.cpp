@@ -2,10 +2,14 @@
 #include "pairs/PairSearch.hpp"
 
 #include <core/Scene.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/Wall.hpp>
 
 #include <src/contact/PairApart.hpp>
 #include <src/numbers/Tolerances.hpp>
 
+#include "host/ExactClass.hpp"
 #include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 
@@ -50,6 +54,9 @@ namespace {
 		return collider.mayCollide(&one, &other);
 #endif
 	}
+
+	/// Of the classes of which YADE has no contact among themselves.
+	bool isBoundary(const Shape* shape) { return exactly<Facet>(shape) || exactly<Box>(shape) || exactly<Wall>(shape); }
 
 	bool boxesOverlap(const Bound& one, const Bound& other)
 	{
@@ -122,6 +129,7 @@ void PairSearch::move(const Scene& scene, const std::vector<Body::id_t>& ids)
 bool PairSearch::staysApart(const Body& one, const Body& other) const
 {
 	const auto &reference1 = room_.references()[one.id], &reference2 = room_.references()[other.id];
+	if (judge_ && reference1.blocked && reference2.blocked && isBoundary(one.shape.get()) && isBoundary(other.shape.get())) return true;
 	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
 		return false;
 	Real way = reference1.margin + reference2.margin;

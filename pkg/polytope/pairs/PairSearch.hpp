@@ -17,7 +17,7 @@ namespace yade {
 ///
 /// Where the boxes of two polytopes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
 /// Interaction, which costs memory, and time in each step. Neither do two fixed ones without velocity, as the pieces of a ground are, that are apart or lie
-/// flush; two that pierce each other do, so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body
+/// flush, or two of YADE's facets, boxes and walls, moved by a script or not; two polytopes that pierce each other do, so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body
 /// that moves keep theirs: internal faces are searched for among the pieces that a body may touch.
 class PairSearch {
 public:

@@ -2,7 +2,7 @@
 """Pairs of two fixed bodies: those that are apart or flush have no interaction, until one of them is freed, moved or put elsewhere."""
 
 import pytest
-from yade import O, RockJointMat, Vector3, polytope
+from yade import O, RockJointMat, Vector3, polytope, utils
 from yade.polytope.scene.present import geometryFunctors
 
 stiffness = 1e8
@@ -36,6 +36,34 @@ def testPiecesOfTheGroundAreNotAskedForEachOther():
 	touched = [one for one in O.interactions if one.isReal]
 	assert touched and all(stone in (one.id1, one.id2) for one in O.interactions.all())
 	assert O.bodies[stone].state.pos[2] > 0
+
+
+def testFacetsOfAMeshAreNotAskedEither():
+	"""Also while they turn, as a drum does."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5))
+	corners = [[Vector3(i, j, 0.2 * (i + j) % 0.5) for j in range(6)] for i in range(6)]
+	mesh = [
+		utils.facet(three)
+		for i in range(5)
+		for j in range(5)
+		for three in (
+			(corners[i][j], corners[i + 1][j], corners[i + 1][j + 1]),
+			(corners[i][j], corners[i + 1][j + 1], corners[i][j + 1]),
+		)
+	]
+	O.bodies.append(mesh)
+	O.bodies.append([utils.wall(-1, axis=2), utils.box((0, 0, -0.5), (9, 9, 0.1), fixed=True)])
+	stone = O.bodies.append(polytope.cuboid((2.4, 2.6, 1), (0.2, 0.2, 0.2)))
+	_engines()
+	O.run(5, True)
+	assert all(stone in (one.id1, one.id2) for one in O.interactions.all())
+	for body in mesh:
+		body.state.vel = (0.1, 0, 0)
+	polytope.run(until=1)
+	assert all(stone in (one.id1, one.id2) for one in O.interactions.all()) and O.interactions.countReal() > 0
+	mesh[0].dynamic = True
+	O.step()
+	assert any(stone not in (one.id1, one.id2) for one in O.interactions.all())
 
 
 def testPiercingBodiesKeepTheirContact():
