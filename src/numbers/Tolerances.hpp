@@ -181,6 +181,9 @@ constexpr Real nearLeverage = 1e-6;
 /// overlap's ball is thick. What rounding of poses leaves of pieces that lie flush.
 constexpr Real flush = 1e-9;
 
+/// × largest coordinate of two bodies: what rounding of their places and of their planes there leaves of an overlap where they lie flush.
+constexpr Real flushPlaces = 8 * rounding;
+
 /// × the inscribed radius of the body that lies on a piece: where the overlap is deeper below a face of the piece, it does not slide on this face. Overlaps
 /// of DEM are a hundredth at the most. The piece may be thin.
 constexpr Real thinContact = 0.1;

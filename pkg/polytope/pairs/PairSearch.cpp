@@ -58,6 +58,14 @@ namespace {
 	/// Of the classes of which YADE has no contact among themselves.
 	bool isBoundary(const Shape* shape) { return exactly<Facet>(shape) || exactly<Box>(shape) || exactly<Wall>(shape); }
 
+	/// What rounding may leave of the overlap of two bodies that lie flush, of their places, too.
+	Real flushRoom(const BoxRoom::Reference& one, const BoxRoom::Reference& other)
+	{
+		const Real farthest = math::max(one.position.cwiseAbs().maxCoeff(), other.position.cwiseAbs().maxCoeff());
+		return Real(polytope::tolerance::flush) * math::max(one.radius, other.radius)
+		        + Real(polytope::tolerance::flushPlaces) * farthest;
+	}
+
 	bool boxesOverlap(const Bound& one, const Bound& other)
 	{
 		for (int k = 0; k < 3; ++k)
@@ -133,8 +141,7 @@ bool PairSearch::staysApart(const Body& one, const Body& other) const
 	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
 		return false;
 	Real way = reference1.margin + reference2.margin;
-	if (reference1.still && reference2.still)
-		way -= Real(polytope::tolerance::gapSkin) * math::min(reference1.radius, reference2.radius);
+	if (reference1.still && reference2.still) way -= flushRoom(reference1, reference2);
 	else if (isPiece(one) || isPiece(other)) return false;
 	else // along each axis a body moves by less than its sweep length
 		way += math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep)

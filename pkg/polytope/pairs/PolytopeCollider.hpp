@@ -28,11 +28,12 @@ ball, which contains it in every orientation. Boxes, facets and other shapes of 
 It finds boxes that overlap by a grid, with all threads, in a time that grows as the number of bodies. When some bodies have moved out of their boxes,
 these alone get new ones, and partners; all do after :yref:`targetInterv<InsertionSortCollider.targetInterv>` steps. Two free polytopes whose boxes
 overlap, but which stay apart while they are in them (their linear program says so), have no :yref:`Interaction` until then. Two fixed polytopes without
-velocity that are apart or lie flush (the largest ball in both is smaller than 1e-6 of the smaller body) have none until one of them is freed, gets a
-velocity or is put elsewhere. Nor have two fixed facets, boxes or walls. In periodic cells, and with a :yref:`verletDist<InsertionSortCollider.verletDist>` of zero, pairs are those of InsertionSortCollider, and in the
-former found by it.
+velocity that are apart or lie flush (the largest ball in both is smaller than 1e-9 of the larger body, or than what rounding leaves of their places) have
+none until one of them is freed, gets a velocity or is put elsewhere. Nor have two fixed facets, boxes or walls. In periodic cells, and with a
+:yref:`verletDist<InsertionSortCollider.verletDist>` of zero, pairs are those of InsertionSortCollider, and in the former found by it.
 
-Where bodies were added or freed since a :yref:`PolytopeTimeStepper` has found the time step, it is called first, so that they do not move with a step that was not made for them.)""");
+Where bodies were added or freed since a :yref:`PolytopeTimeStepper` has found the time step, it is called first, so that they do not move with a step that
+was not made for them.)""");
 	// clang-format on
 
 private:
