@@ -78,7 +78,7 @@ O.run(50, True)
 stats, c = functor.stats(), O.interactions[0, 1]
 law = O.engines[2].lawDispatcher.functors[0]
 numbers = [*c.geom.contactPoint, *c.geom.normal, c.geom.penetrationDepth, *O.bodies[1].state.vel]
-answer([before, good, stats['failures'], stats['statuses']['failed'], c.geom.status, all(abs(float(x)) < 10 for x in numbers), law.nonFiniteForces, [one.what for one in polytope.check(O)]])
+answer([before, good, stats['failures'], stats['statuses']['failed'], c.geom.status, all(abs(float(x)) < 10 for x in numbers), law.nonFiniteForces(), [one.what for one in polytope.check(O)]])
 """
 	(before, good, failures, failed, status, finite, forces, found), _ = inYade(script, wrong, FAULT=fault)
 	assert before == 0 and good == 'contact'
