@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <dlfcn.h>
 #include <elf.h>
@@ -146,6 +147,9 @@ namespace {
 	/// What the process that loads it on trial tells of its end.
 	int trialPipe = -1;
 
+	/// For which it may take; then it says nothing of the library.
+	constexpr unsigned trialSeconds = 20;
+
 	[[noreturn]] void tellException()
 	{
 		std::string what = "an object that is no std::exception";
@@ -168,6 +172,13 @@ namespace {
 		const pid_t child = fork();
 		if (child == 0) {
 			trialPipe = ends[1];
+			if (const int nowhere = open("/dev/null", O_WRONLY);
+			        nowhere >= 0) { // what they print comes when the library is loaded
+				dup2(nowhere, STDOUT_FILENO);
+				dup2(nowhere, STDERR_FILENO);
+			}
+			std::signal(SIGALRM, SIG_DFL);
+			alarm(trialSeconds); // a lock that another thread has holds this process for ever
 			std::set_terminate(tellException);
 			dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
 			_exit(0);
@@ -183,6 +194,7 @@ namespace {
 		int state = 0;
 		if (child < 0) return "";
 		while (waitpid(child, &state, 0) < 0 && errno == EINTR) { }
+		if (WIFSIGNALED(state) && WTERMSIG(state) == SIGALRM) return "";
 		if (WIFSIGNALED(state))
 			return std::string("a constructor of its static objects ends the process: ") + strsignal(WTERMSIG(state));
 		if (WEXITSTATUS(state) == 0) return "";
