@@ -148,10 +148,7 @@ namespace {
 
 } // namespace
 
-bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene)
-{
-	return (isPiece(body1) || isPiece(body2)) && !rigidTogether(body1, body2, scene);
-}
+bool mayHaveInternalFaces(const Body& body1, const Body& body2) { return (isPiece(body1) || isPiece(body2)) && !inOneClump(body1, body2); }
 
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding)
 {

@@ -16,7 +16,7 @@ namespace yade {
 
 /// Whether one of two bodies is a piece of a rigid support, fixed or a member of a clump, that the other one moves on. Free pieces are bodies of
 /// their own: they may separate, and their joints carry the contact forces.
-bool mayHaveInternalFaces(const Body& body1, const Body& body2, Scene& scene);
+bool mayHaveInternalFaces(const Body& body1, const Body& body2);
 
 /// Of the planes near the overlap those that are internal faces.
 polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope::BoundingPlanes& bounding);

@@ -59,7 +59,7 @@ namespace {
 	}
 
 	/// No polygon: that is no solid here.
-	bool isSolid(const CoreOfBody& core) { return !core.convex || core.convex->dimension() == 3; }
+	bool isSolid(const CoreOfBody& core) { return core.margin >= 0 && (!core.convex || core.convex->dimension() == 3); }
 
 	/// Place and motion of a segment that others carry, where it is touched.
 	void moveWithEnds(const CoreOfBody& core, const Real& along, State& foot)

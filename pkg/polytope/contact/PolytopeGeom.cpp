@@ -207,7 +207,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	polytope::InternalPlanes internal = geom.internalPlanes();
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (surface) {
-		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), *scene);
+		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
 		if (asPieces && (turn || !geom.internalKnown || !wasReal)) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
@@ -237,8 +237,11 @@ bool PolytopeGeomFunctor::findInternalFaces(const TouchingPair& pair, const poly
 bool PolytopeGeomFunctor::apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
         const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
 {
-	const Real rest = math::abs(result.normal.squaredNorm() - 1), sum = result.point.sum() + result.depth + result.area + result.energy;
-	if (result.hasGeometry && !(rest <= Real(polytope::tolerance::orthogonal) && math::isfinite(sum))) return failed(c);
+	const Real rest  = math::abs(result.normal.squaredNorm() - 1);
+	const Real sum   = result.point.sum() + result.depth + result.area + result.energy + result.turningArm;
+	const bool sound = rest <= Real(polytope::tolerance::orthogonal) && math::isfinite(sum) && result.area >= 0
+	        && (result.outlineCount == 0 || (result.outlineCount > 0 && result.outline));
+	if (result.hasGeometry ? !sound : result.inContact) return failed(c);
 	return write(result, origin1, state1, state2, shift2, force, c);
 }
 

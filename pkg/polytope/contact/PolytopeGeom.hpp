@@ -229,8 +229,8 @@ protected:
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);
 
-	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A result whose normal is no unit vector (tolerance::orthogonal), or
-	/// whose point, depth, area or energy is not finite, is a failure.
+	/// Counts the result and, for a contact, writes it into ScGeom. `origin1`: what result.point is relative to. A failure is a result whose normal is no unit vector
+	/// (tolerance::orthogonal), whose point, depth, area, energy or turning arm is not finite or whose area is negative, and a contact without a geometry.
 	bool apply(const polytope::ContactResult& result, const Vector3r& origin1, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c);
 

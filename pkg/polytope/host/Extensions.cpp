@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
 #include <elf.h>
@@ -147,6 +148,10 @@ namespace {
 	/// What the process that loads it on trial tells of its end.
 	int trialPipe = -1;
 
+	/// What it tells where all constructors have ended, and the status with which it ends where one has thrown.
+	constexpr char constructed[] = "constructed";
+	constexpr int  thrown        = 113;
+
 	/// For which it may take; then it says nothing of the library.
 	constexpr unsigned trialSeconds = 20;
 
@@ -160,7 +165,7 @@ namespace {
 		} catch (...) {
 		}
 		const auto written = write(trialPipe, what.data(), what.size());
-		_exit(written < 0 ? 2 : 1);
+		_exit(written < 0 ? 2 : thrown);
 	}
 
 	/// What is wrong with code that runs while the library is loaded, its static objects' constructors; empty if nothing is. An exception there cannot be caught: it would have to
@@ -180,8 +185,12 @@ namespace {
 			std::signal(SIGALRM, SIG_DFL);
 			alarm(trialSeconds); // a lock that another thread has holds this process for ever
 			std::set_terminate(tellException);
+			std::atexit(
+			        [] { _exit(2); }); // before all else that std::exit would do, which may wait for threads that are not here
 			dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
-			_exit(0);
+			const auto written = write(
+			        trialPipe, constructed, sizeof(constructed) - 1); // not reached where a constructor ends the process
+			_exit(written < 0 ? 2 : 0);
 		}
 		close(ends[1]);
 		std::string told;
@@ -197,8 +206,9 @@ namespace {
 		if (WIFSIGNALED(state) && WTERMSIG(state) == SIGALRM) return "";
 		if (WIFSIGNALED(state))
 			return std::string("a constructor of its static objects ends the process: ") + strsignal(WTERMSIG(state));
-		if (WEXITSTATUS(state) == 0) return "";
-		return "a constructor of its static objects " + (told.empty() ? std::string("ends the process") : "throws: " + told);
+		if (WEXITSTATUS(state) == 0 && told == constructed) return "";
+		return "a constructor of its static objects "
+		        + (told.empty() || WEXITSTATUS(state) != thrown ? std::string("ends the process") : "throws: " + told);
 	}
 
 	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of those lists again.

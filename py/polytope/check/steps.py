@@ -99,10 +99,13 @@ def nothingMoves(scene):
 	"""Nothing sets the step then, and a loop that runs up to a time does so for ever. Looked at for the scene's own engines: bodies may follow later."""
 	if not scene.ownEngines or not scene.bodies or scene.those(PyRunner, KinematicEngine, BaseMotion) or float(scene.O.dt) > yadesDt:
 		return
-	if any(scene.moves(body) or float(body.state.vel.norm() + body.state.angVel.norm()) > 0 for body in scene.bodies):
+	if any(scene.moves(body) for body in scene.bodies):
 		return
-	seen = f'no body can move, and O.dt is {float(scene.O.dt):.1g} s: a run up to a time takes for ever'
-	yield 'time step', seen, 'append bodies that can move (fixed=False, a density above 0), or set O.dt'
+	pushed = [body.id for body in scene.bodies if float(body.state.vel.norm() + body.state.angVel.norm()) > 0]
+	which = f'only fixed bodies move (body {pushed[0]} first)' if pushed else 'no body can move'
+	seen = f'{which}, and O.dt is {float(scene.O.dt):.1g} s: a run up to a time takes for ever'
+	advice = 'set O.dt' if pushed else 'append bodies that can move (fixed=False, a density above 0), or set O.dt'
+	yield 'time step', seen, advice
 
 
 def farInAStep(scene):

@@ -126,3 +126,21 @@ def testSavedScenesHaveTheSamePairs(tmp_path):
 	O.bodies[upper].dynamic = True
 	O.run(2000, True)
 	assert O.interactions.has(lower, upper) and O.interactions[lower, upper].isReal
+
+
+@pytest.mark.parametrize('first', (False, True))
+def testAFixedPlatenOnFixedPlatesHasOneSpring(first):
+	"""With a stiffness per contact, before and after it stops; its id may be lower or higher than theirs."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.5, stiffnessPerArea=False))
+	plates = [polytope.cuboid((x, y, -0.5), (1, 1, 0.5), fixed=True) for x in (-1, 1) for y in (-1, 1)]
+	platen = polytope.cuboid((0.1, 0.2, 0.5), (0.5, 0.5, 0.5), fixed=True, velocity=(0, 0, -0.01))
+	O.bodies.append([platen, *plates] if first else [*plates, platen])
+	O.engines = polytope.engines(gravity=(0, 0, 0))
+	O.dt = 1e-4
+	polytope.run(until=0.1)
+	for _ in range(2):
+		depth = 0.5 - float(platen.state.pos[2])
+		assert depth > 9e-4
+		assert O.forces.f(platen.id)[2] == pytest.approx(1e7 * depth, rel=0.02)
+		platen.state.vel = (0, 0, 0)
+		O.run(200, True)

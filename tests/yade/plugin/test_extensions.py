@@ -413,6 +413,8 @@ struct Thrower {
 		if (what == "number") throw 5;
 		if (what == "abort") std::abort();
 		if (what == "exit") std::_Exit(3);
+		if (what == "quiet") std::_Exit(0);
+		if (what == "end") std::exit(0);
 	}
 };
 const Thrower thrower;
@@ -427,6 +429,8 @@ const Thrower thrower;
 		('number', 'throws: an object that is no std::exception'),
 		('abort', 'ends the process: Aborted'),
 		('exit', 'ends the process'),
+		('quiet', 'ends the process'),
+		('end', 'ends the process'),
 	],
 )
 def testAConstructorThatThrowsIsRefused(what, reason, thrower):

@@ -55,15 +55,19 @@ def wrong():
 				if (fault == "point") result.point[1] = std::nan("");
 				if (fault == "normal") result.normal *= 2;
 				if (fault == "depth") result.depth = std::numeric_limits<Real>::infinity();
+				if (fault == "arm") result.turningArm = std::nan("");
+				if (fault == "area") result.area = -1;
+				if (fault == "geometry") result.hasGeometry = false;
 			}
 """
 	assert after in text
 	return built('ownPoint', 'wrong', ownPoint=text.replace(after, after + added))
 
 
-@pytest.mark.parametrize('fault', ['point', 'normal', 'depth'])
+@pytest.mark.parametrize('fault', ['point', 'normal', 'depth', 'arm', 'area', 'geometry'])
 def testAResultThatIsNoContactIsCounted(fault, wrong):
-	"""A point that is no number, a normal that is no unit vector, an infinite depth: a status and counters of the functor, which check tells of; no force."""
+	"""A point or arm that is no number, a normal that is no unit vector, an infinite depth, a negative area, no geometry: a status and counters of the functor,
+	which check tells of; no force."""
 	script = """
 from yade import polytope
 polytope.load(sys.argv[1])
