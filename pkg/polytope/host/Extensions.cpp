@@ -23,6 +23,7 @@
 #include <dlfcn.h>
 #include <elf.h>
 #include <exception>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
