@@ -169,6 +169,14 @@ namespace {
 		_exit(written < 0 ? 2 : thrown);
 	}
 
+	/// An exception of a constructor ends here, by std::terminate: this process must not go on as a second one of the script. Through a pointer, since dlopen is
+	/// declared as a function that throws nothing, to which compilers add no such end.
+	void loadOnTrial(const char* path) noexcept
+	{
+		void* (*const volatile load)(const char*, int) = dlopen;
+		load(path, RTLD_NOW | RTLD_GLOBAL);
+	}
+
 	/// What is wrong with code that runs while the library is loaded, its static objects' constructors; empty if nothing is. An exception there cannot be caught: it would have to
 	/// pass the dynamic linker's frames, which ends the process. So a process of its own loads the library first. It shares all memory until it writes, and takes milliseconds.
 	std::string faultOfConstructors(const std::string& path)
@@ -188,7 +196,7 @@ namespace {
 			std::set_terminate(tellException);
 			std::atexit(
 			        [] { _exit(2); }); // before all else that std::exit would do, which may wait for threads that are not here
-			dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+			loadOnTrial(path.c_str());
 			const auto written = write(
 			        trialPipe, constructed, sizeof(constructed) - 1); // not reached where a constructor ends the process
 			_exit(written < 0 ? 2 : 0);
