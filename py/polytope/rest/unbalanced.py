@@ -8,6 +8,7 @@ from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..measures.arrays import arrays
 from ..scene.movers import movers
+from ..scene.permanentLoads import permanentLoads
 from ..scene.present import integrators
 
 __all__ = ['resultants', 'unbalancedForce', 'unbalancedForces']
@@ -45,23 +46,22 @@ def unbalancedForces(watched=None, masses=None):
 	if watched is not None:
 		moving = np.intersect1d(moving, np.fromiter(watched, int))
 	found = np.zeros(last)
-	found[moving] = np.linalg.norm(resultants(masses)[moving], axis=1) / scale[moving]
+	found[moving] = np.linalg.norm(resultants()[moving], axis=1) / scale[moving]
 	return found
 
 
-def resultants(masses=None):
-	"""(n, 3) by id: force on each body with its weight, along what it can move; 0 of those that cannot, and of parts of clumps [N].
-
-	:param masses: true masses by id, where those of the scene are scaled [kg]
-	"""
+def resultants():
+	"""(n, 3) by id: force on each body with its weight, along what it can move; 0 of those that cannot, and of parts of clumps [N]."""
 	bodies = arrays().bodies
 	last, owner = len(O.bodies), _owners(bodies)
-	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts
+	single = bodies.clumpIds != bodies.ids  # a clump's own row has the sum of its parts, without its permanent force
 	found = np.column_stack([np.bincount(owner[bodies.ids[single]], bodies.forces[single, m], last) for m in range(3)])
+	clumps = set(bodies.ids[~single].tolist())
+	for key, (force, _) in permanentLoads().items():
+		if key in clumps:
+			found[key] += [float(x) for x in force]
 	present = np.zeros(last)
-	present[bodies.ids] = bodies.masses
-	# a clump's forces are those of its members, without the permanent one that a scaled mass comes with
-	present[bodies.ids[~single]] = _trueMasses(bodies, masses)[bodies.ids[~single]]
+	present[bodies.ids] = bodies.masses  # a scaled mass comes with a permanent force that takes away what it adds to the weight
 	found = found + np.outer(present, np.array(integrators()[0].gravity, float))  # whole numbers where there is none
 	moving, free = _movers()
 	held = np.zeros((last, 3))

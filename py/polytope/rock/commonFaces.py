@@ -5,12 +5,13 @@ import dataclasses
 import math
 
 import numpy as np
-from yade import O, PolytopeBond, PolytopeBonds
+from yade import O, PolytopeBond, PolytopeBonds, RockJointPhys
 
+from ..bonding.bonds import madeBonds
 from ..pictures.faces import rows
 from .faceMaterials import materialOfPlane
 
-__all__ = ['CommonFace', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
+__all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
 
 facing = 0.01
 """Largest angle between two faces that are one joint [rad], as in *polytope.bond*."""
@@ -43,6 +44,13 @@ def commonFaces(chosen=None):
 	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
 	found = PolytopeBonds().find([], -1, facing, pattern)
 	return [_face(one) for one in found if chosen is None or one.id1 in chosen or one.id2 in chosen]
+
+
+def boundFaces():
+	"""The faces of intact bonds, and of intact joints that act as bonds: also where tension has parted them farther than *commonFaces* looks."""
+	joints = [one.phys.bond for one in O.interactions if one.isReal and isinstance(one.phys, RockJointPhys) and one.phys.intact]
+	bonds = [bond for bond in madeBonds() if bond.intact and O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None]
+	return [_face(bond) for bond in [*bonds, *joints] if bond is not None]
 
 
 def _face(found):

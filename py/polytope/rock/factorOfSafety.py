@@ -238,7 +238,7 @@ class _Search:
 				O.step()  # O.run(…, wait=True) looks only every 40 ms whether it is done
 			trial.steps += between
 			trial.unbalanced = unrest.look(between)
-			motion.look(self.masses)
+			motion.look()
 			parts = self._show(factor)
 			trial.outcome = self._outcome(trial, parts, motion, unrest)
 		farthest = int(np.argmax(parts))

@@ -46,15 +46,12 @@ class Motion:
 		self.touched, self.since = _touching(), (0, set())
 		"""Pairs of bodies that touched when it began, or long since, by half or a quarter of the looks: what still moves faster and faster is not stopped by them; and those that touched at a look, with its number."""
 
-	def look(self, masses=None):
-		"""
-		:param masses: true masses by id, where those of the scene are scaled [kg]
-		"""
+	def look(self):
 		self.parts.append(np.linalg.norm((placesById() - self.began)[self.watched], axis=1) / self.limits)
 		if len(self.parts) > 2 * self.since[0]:
 			self.touched, self.since = self.touched | self.since[1], (len(self.parts), _touching())
 		if self.parts[-1].max() < early:
-			self.forces, self.looks = self.forces + resultants(masses), self.looks + 1
+			self.forces, self.looks = self.forces + resultants(), self.looks + 1
 			self.taken, self.time, self.now = self.taken + _friction() * (O.time - self.time), O.time, placesById()
 
 	def way(self, looks):

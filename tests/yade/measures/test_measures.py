@@ -53,6 +53,16 @@ def testStressOfATurnedBlockUnderSideLoads():
 	assert polytope.bodyStress([0])[0].trace() == pytest.approx(-force / 0.4, rel=1e-4)
 
 
+def testStressOfAClumpOfPolygons():
+	"""Two squares side by side on a floor, under their weight: −W/(2 width thickness) in the middle, of which the mean is."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.5))
+	O.bodies.append(polytope.polygon([(-3, -1), (3, -1), (3, 0), (-3, 0)], fixed=True))
+	clump, _parts = O.bodies.appendClumped([polytope.polygon([(x, 0), (x + 1, 0), (x + 1, 1), (x, 1)]) for x in (-1, 0)])
+	O.engines = polytope.engines(gravity=(0, -9.81, 0))
+	polytope.settle()
+	assert polytope.bodyStress()[clump][1, 1] == pytest.approx(-2600 * 9.81 / 2, rel=1e-3)
+
+
 def testStressOfAClumpIsThatOfOneBody():
 	O.bodies.append(polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), fixed=True))
 	clump, _ = O.bodies.appendClumped([polytope.cuboid((side * 0.25, 0, 0.3), (0.25, 0.4, 0.3)) for side in (-1, 1)])

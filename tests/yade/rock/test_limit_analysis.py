@@ -507,3 +507,45 @@ def testBondsAreJointsOfTheirStrengths():
 	weight = float(O.bodies[hanging].state.mass) * gravity
 	polytope.bond(tensileStrength=1.4 * weight, cohesion=1e7, frictionAngle=0.5)
 	expect(polytope.limitAnalysis(tolerance=fine), 1.4)
+
+
+@pytest.mark.parametrize('asJoint', [False, True])
+def testWhatHangsByABondThatHasOpenedIsHeld(asJoint):
+	"""At rest a hanging block is farther from its roof than a millionth of its size; its factor is what it was, σ A/W."""
+	strength = 1.4 * 5000 * gravity
+	if asJoint:
+		blockMaterial(tensileStrength=strength, cohesion=1e7)
+	else:
+		blockMaterial()
+	O.bodies.append(polytope.cuboid((0, 0, 1.5), (2, 2, 0.5), fixed=True))
+	hanging = O.bodies.append(polytope.cuboid((0, 0, 0.5 + (1e-9 if asJoint else 0)), (0.5, 0.5, 0.5)))
+	O.engines = polytope.engines()
+	weight = float(O.bodies[hanging].state.mass) * gravity
+	if not asJoint:
+		polytope.bond(tensileStrength=1.4 * weight, cohesion=1e7, frictionAngle=0.5)
+	before = polytope.limitAnalysis(tolerance=fine)
+	polytope.settle()
+	assert O.bodies[hanging].state.pos[2] < 0.5 - 2e-6
+	after = polytope.limitAnalysis(tolerance=fine)
+	expect(before, strength / weight)
+	expect(after, strength / weight)
+
+
+def testASlabThatHangsByItsBoltsAlone():
+	"""No face of it lies on another: four bolts of yield force W/2 hold it whatever divides strengths, for limits of bolts are not divided."""
+	blockMaterial()
+	O.bodies.append(polytope.cuboid((0, 0, 1), (3, 3, 1), fixed=True))
+	slab = O.bodies.append(polytope.cuboid((0, 0, -0.55), (1, 1, 0.5)))
+	O.engines = polytope.engines()
+	weight = float(O.bodies[slab].state.mass) * gravity
+	for x, y in ((-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)):
+		polytope.bolt(
+			(x, y, -1.05),
+			(x, y, 1.5),
+			area=4.9e-4,
+			youngsModulus=2e11,
+			yieldForce=0.5 * weight,
+			grout=polytope.Grout(1e9, 1e7),
+			dowel=polytope.Dowel(1e8, 1e5),
+		)
+	assert polytope.limitAnalysis().factor == math.inf

@@ -247,3 +247,17 @@ def testARoofThatComesDownIsTold(recwarn):
 	polytope.settle()
 	assert O.bodies[roof].state.pos[2] < 1.1
 	assert any(f'body {roof} by 2 m' in str(one.message) for one in recwarn)
+
+
+@pytest.mark.parametrize('density', [False, True])
+def testAClumpUnderAPermanentForceComesToRest(density):
+	"""The force counts for its balance, as for that of a single body, with scaled masses, too."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=0.6))
+	O.bodies.append(polytope.cuboid((0, 0, -0.5), (5, 5, 0.5), fixed=True))
+	clump, _parts = O.bodies.appendClumped(
+		[polytope.cuboid((1.5, 0, 0.25), (1.5, 0.5, 0.25)), polytope.cuboid((0.25, 0, 1.5), (0.25, 0.5, 1))]
+	)
+	O.engines = polytope.engines()
+	O.forces.setPermF(clump, (-0.3 * float(O.bodies[clump].state.mass) * 9.81, 0, 0))
+	polytope.settle(densityScaling=density)
+	assert O.bodies[clump].state.vel.norm() < 1e-6

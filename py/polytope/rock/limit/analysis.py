@@ -54,7 +54,7 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	A bolt that passes from block to block bears a tension up to what its steel (yieldForce) and grout hold, and its dowel across, all fully mobilised whatever its stiffness; these are not divided. A bond is a joint of its own strengths (both infinite: what it joins is one block).
 
 	Joints are perfectly plastic, as in limit equilibrium, so the strength is that of the material before failure, residual values do not count, and stiffnesses do not matter. With friction a joint that slips opens by tan φ times its slip
-	(associated flow): the theorems hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of a slope, that does not matter. Where they jam it is too high: by 4 % for the wedge of Hoek & Bray, by a fifth for columns that topple and
+	(associated flow): the theorems hold for no other. For rock that dilates less the factor is an upper estimate. Where blocks can open freely, as where they slide out of a slope, that does not matter. Where they jam it is too high: by 4 to 12 % for wedges on two planes, by a fifth for columns that topple and
 	rub against each other, without bound between fixed walls. Compare *polytope.keyBlocks*, or *polytope.factorOfSafety*, which has the dilation that the material has.
 
 	:param reduce: which strengths: of 'friction', 'cohesion' and 'tension'
@@ -73,17 +73,17 @@ def limitAnalysis(reduce=strengths, tolerance=0.01, most=20):
 	checkedStrengths(reduce)
 	refuseScene()
 	blocks = blocksOf()
-	return _Search(blocks, cornersOf(blocks), tuple(reduce), tolerance).run(most)
+	links = linksOf(blocks)
+	return _Search(blocks, cornersOf(blocks, links), links, tuple(reduce), tolerance).run(most)
 
 
 class _Search:
-	def __init__(self, blocks, corners, reduce, tolerance):
-		self.blocks, self.corners, self.reduce, self.tolerance = blocks, corners, reduce, tolerance
+	def __init__(self, blocks, corners, links, reduce, tolerance):
+		self.blocks, self.corners, self.links, self.reduce, self.tolerance = blocks, corners, links, reduce, tolerance
 		self.length = float(blocks.sizes.mean())
 		self.force = float(np.linalg.norm(blocks.loads * [1, 1, 1, 1 / self.length, 1 / self.length, 1 / self.length], axis=1).mean())
 		"""Units, in which numbers are about 1."""
-		self.area = float(corners.areas.mean())
-		self.links = linksOf(blocks)
+		self.area = float(corners.areas.mean()) if len(corners.areas) else self.length**2
 		bolted, linked = withLinks(blocks, corners, self.links)
 		self.equilibrium = Equilibrium(bolted, linked, self.length)
 		self.load = (bolted.loads / np.repeat([self.force, self.force * self.length], 3) * blocks.free).ravel()

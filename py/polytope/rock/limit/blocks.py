@@ -14,7 +14,7 @@ from ...scene.permanentLoads import permanentLoads
 from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
-from ..commonFaces import commonFaces, materialOf
+from ..commonFaces import boundFaces, commonFaces, materialOf
 from ..stress.forces import weightAndWater
 
 __all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
@@ -139,31 +139,39 @@ def _atCentre(load, part, k):
 	return force, moment + (O.bodies[part].state.pos - O.bodies[k].state.pos).cross(force)
 
 
-def cornersOf(blocks):
+def cornersOf(blocks, links):
 	"""Joints of these blocks.
 
-	:raises ValueError: naming what is no joint, and blocks that no joint connects to a fixed one
+	:param links: *Links* of their bolts
+	:raises ValueError: naming what is no joint, and blocks that no joint and no bolt connects to a fixed one
 	"""
 	row = {k: number for number, group in enumerate(blocks.ids) for k in group}
-	faces = [face for face in commonFaces() if row.get(moverOf(face.id1), -1) != row.get(moverOf(face.id2), -1)]
+	faces = [face for face in _jointFaces() if row.get(moverOf(face.id1), -1) != row.get(moverOf(face.id2), -1)]
 	one, two = (
 		np.array([row.get(moverOf(k), -1) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces])
 	)
-	_refuseLoose(blocks, one, two)
+	_refuseLoose(blocks, np.append(one, links.one), np.append(two, links.two))
 	bonded = {frozenset((bond.id1, bond.id2)): bond for bond in madeBonds() if bond.intact}
-	strengths = np.array([_strengthsOf(face, bonded.get(frozenset((face.id1, face.id2)))) for face in faces])
+	strengths = np.array([_strengthsOf(face, bonded.get(frozenset((face.id1, face.id2)))) for face in faces]).reshape(-1, 3)
 	counts = [len(face.corners) for face in faces]
 	face = np.repeat(np.arange(len(faces)), counts)
 	return Corners(
 		one,
 		two,
-		np.array([one.centroid for one in faces]),
+		np.array([one.centroid for one in faces]).reshape(-1, 3),
 		face,
-		np.concatenate([one.corners for one in faces]),
-		np.array([_frame(one.normal) for one in faces])[face],
-		np.concatenate([_areas(one) for one in faces]),
+		np.concatenate([np.empty((0, 3)), *(one.corners for one in faces)]),
+		np.array([_frame(one.normal) for one in faces]).reshape(-1, 3, 3)[face],
+		np.concatenate([np.empty(0), *(_areas(one) for one in faces)]),
 		*strengths[face].T,
 	)
+
+
+def _jointFaces():
+	"""Faces that lie on each other, and those that tension has parted but not broken."""
+	faces = commonFaces()
+	known = {frozenset((face.id1, face.id2)) for face in faces}
+	return faces + [face for face in boundFaces() if frozenset((face.id1, face.id2)) not in known]
 
 
 def _refuseLoose(blocks, one, two):
@@ -183,7 +191,7 @@ def _refuseLoose(blocks, one, two):
 	if loose:
 		ones = ', '.join(map(str, loose[:5])) + (' …' if len(loose) > 5 else '')
 		raise ValueError(
-			f'O.bodies: no faces that lie on each other connect {len(loose)} blocks to a fixed one ({ones}), and nothing would hold them, whatever the strengths; '
+			f'O.bodies: no faces that lie on each other, and no bolts, connect {len(loose)} blocks to a fixed one ({ones}), and nothing would hold them, whatever the strengths; '
 			'erase them, fix blocks at the edge of the mass (body.dynamic=False), or put faces on each other to a millionth of their size'
 		)
 
