@@ -55,7 +55,7 @@ def onFloor(half=(0.5, 0.5, 1), flat=False, **joint):
 
 
 def above(height, flat):
-	return dict(normals=[(0, -1, 0) if flat else (0, 0, -1)], offsets=[-height])
+	return dict(normals=[(0, -1) if flat else (0, 0, -1)], offsets=[-height])
 
 
 @pytest.mark.parametrize('flat', [False, True])

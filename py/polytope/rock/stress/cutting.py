@@ -9,6 +9,7 @@ from yade import Body, O, Vector3, _polytope
 
 from ...arguments import numbersOf, rows, vectors
 from ...bodies.pieces import pieceOf
+from ...bodies.polytopes import areFlat
 from ...pictures.faces import worldVertices
 from ...precision import real
 from ...scene.movers import partsOf
@@ -85,7 +86,14 @@ def _areSeveral(normals):
 		return False
 
 
+def _isInPlane():
+	"""Whether all bodies are polygons."""
+	return all(getattr(body.shape, 'dimension', 2) == 2 for body in O.bodies if body is not None)
+
+
 def _planes(normals, offsets):
+	if areFlat(normals) and _isInPlane():
+		normals = [(*normal, 0) for normal in rows(normals, 'normals', 2)]
 	planes, limits = np.array(rows(normals, 'normals', 3), float), np.array(numbersOf(offsets, 'offsets'), float)
 	if len(planes) != len(limits) or not len(planes):
 		raise ValueError(f'offsets: must be one for each of the {len(planes)} normals, got {len(limits)}')

@@ -35,7 +35,7 @@ def excavate(bodies=None, normals=None, offsets=None, over=0, cut=True):
 	waits for it.
 
 	:param bodies: ids; of a clump its own. They are taken whole
-	:param normals: (n, 3) outward normals of a region, of any length [-]; for a region that is not convex a list of those of convex parts
+	:param normals: (n, 3) outward normals of a region, of any length [-], in the plane (n, 2), too; for a region that is not convex a list of those of convex parts
 	:param offsets: n offsets, in units of the normals' length [m]: {x : normals[i]·x ≤ offsets[i] for all i}; for several parts a list of those
 	:param int over: steps in which the forces fade; 0: at once
 	:param bool cut: False: blocks are taken whole, if their centre is in the region
