@@ -112,7 +112,7 @@ namespace {
 	};
 
 	/// Sums over a pair of features, h over δ.
-	struct Sums {
+	struct SpreadSums {
 		Real    h1 = 0, h2 = 0, h3 = 0;
 		Vector2 place1 = Vector2::Zero(), place2 = Vector2::Zero();
 
@@ -127,23 +127,23 @@ namespace {
 	};
 
 	/// A place along the plane normal to the normal, and h over δ there.
-	struct Place {
+	struct SpreadPlace {
 		Vector2 at;
 		Real    h;
 	};
 
-	Place between(const Place& one, const Place& other, const Real& part)
+	SpreadPlace between(const SpreadPlace& one, const SpreadPlace& other, const Real& part)
 	{
 		return { one.at + part * (other.at - one.at), one.h + part * (other.h - one.h) };
 	}
 
 	/// What a convex ring leaves where a function of its places is not negative.
-	template <class Value> void clip(std::vector<Place>& ring, std::vector<Place>& buffer, const Value& value)
+	template <class Value> void clip(std::vector<SpreadPlace>& ring, std::vector<SpreadPlace>& buffer, const Value& value)
 	{
 		buffer.clear();
 		for (std::size_t k = 0; k < ring.size(); ++k) {
-			const Place &one = ring[k], &next = ring[(k + 1) % ring.size()];
-			const Real   here = value(one), there = value(next);
+			const SpreadPlace &one = ring[k], &next = ring[(k + 1) % ring.size()];
+			const Real         here = value(one), there = value(next);
 			if (here >= 0) buffer.push_back(one);
 			if ((here >= 0) != (there >= 0)) buffer.push_back(between(one, next, here / (here - there)));
 		}
@@ -151,12 +151,12 @@ namespace {
 	}
 
 	/// Over a triangle, to the third power exactly (corners 3/60, middles of sides 8/60, centre 27/60).
-	void addTriangle(const Place& a, const Place& b, const Place& c, Sums& sums)
+	void addTriangle(const SpreadPlace& a, const SpreadPlace& b, const SpreadPlace& c, SpreadSums& sums)
 	{
 		const Vector2 u = b.at - a.at, v = c.at - a.at;
 		const Real    area = (u[0] * v[1] - u[1] * v[0]) / 2;
-		const auto    add  = [&](const Real& part, const Place& place) { sums.add(part * area / 60, place.at, place.h); };
-		for (const Place* corner : { &a, &b, &c })
+		const auto    add  = [&](const Real& part, const SpreadPlace& place) { sums.add(part * area / 60, place.at, place.h); };
+		for (const SpreadPlace* corner : { &a, &b, &c })
 			add(3, *corner);
 		for (const auto& [one, other] : { std::pair(&a, &b), std::pair(&b, &c), std::pair(&c, &a) })
 			add(8, between(*one, *other, Real(0.5)));
@@ -164,11 +164,11 @@ namespace {
 	}
 
 	/// By Simpson's rule, to the third power exactly.
-	void addLine(const Place& one, const Place& other, Sums& sums)
+	void addLine(const SpreadPlace& one, const SpreadPlace& other, SpreadSums& sums)
 	{
 		const Real length = (other.at - one.at).norm();
 		for (const auto& [part, weight] : { std::pair(0, 1), std::pair(1, 4), std::pair(2, 1) }) {
-			const Place place = between(one, other, Real(part) / 2);
+			const SpreadPlace place = between(one, other, Real(part) / 2);
 			sums.add(weight * length / 6, place.at, place.h);
 		}
 	}
@@ -188,7 +188,7 @@ namespace {
 
 		SpreadContact contact()
 		{
-			std::vector<Place> faces;
+			std::vector<SpreadPlace> faces;
 			meetFaces(faces);
 			meetEdgeAndFace(one_, other_, 1);
 			meetEdgeAndFace(other_, one_, -1);
@@ -197,7 +197,7 @@ namespace {
 			const Vector3 aside = arm_[0] * axis_[0] + arm_[1] * axis_[1] + deepest_ * normal_.cross(turn_);
 			result.point        = nearest_ + aside / slope_;
 			const Vector2 from(aside.dot(axis_[0]) / slope_, aside.dot(axis_[1]) / slope_);
-			for (const Place& corner : faces)
+			for (const SpreadPlace& corner : faces)
 				result.outline.push_back(corner.at - from);
 			return result;
 		}
@@ -224,17 +224,17 @@ namespace {
 		}
 
 		/// The gaps of a pair of features, in h, to h over δ: δ where the gap is least.
-		void fromGaps(std::vector<Place>& places) const
+		void fromGaps(std::vector<SpreadPlace>& places) const
 		{
 			Real least = std::numeric_limits<Real>::infinity();
-			for (const Place& place : places)
+			for (const SpreadPlace& place : places)
 				least = std::min(least, place.h);
-			for (Place& place : places)
+			for (SpreadPlace& place : places)
 				place.h = 1 - (place.h - least) / deepest_;
 		}
 
 		/// \param more how the weight changes as body 2 turns, and body 1 does not
-		void take(const Real& weight, const Vector3& more, const Sums& sums)
+		void take(const Real& weight, const Vector3& more, const SpreadSums& sums)
 		{
 			if (!(sums.h2 > 0)) return;
 			const Real mean = sums.h3 / sums.h2, slope = 3 - 2 * mean * sums.h1 / sums.h2;
@@ -244,23 +244,23 @@ namespace {
 			turn_ += (1 - mean) * more;
 		}
 
-		void meetFaces(std::vector<Place>& ring)
+		void meetFaces(std::vector<SpreadPlace>& ring)
 		{
 			const Real weight = one_.face.value * other_.face.value;
 			if (!(weight > 0)) return;
 			const Features &bounded = one_.corners.empty() ? other_ : one_, &bounding = one_.corners.empty() ? one_ : other_;
 			for (const Vector3& corner : bounded.corners)
 				ring.push_back({ across(corner), 0 });
-			std::vector<Place> buffer;
+			std::vector<SpreadPlace> buffer;
 			// counter-clockwise about its own outward normal
 			if (&bounded == &other_) std::reverse(ring.begin(), ring.end());
 			clipByFace(ring, buffer, bounding, &bounding == &one_ ? 1 : -1);
 			if (ring.size() < 3) return ring.clear();
-			for (Place& place : ring)
+			for (SpreadPlace& place : ring)
 				place.h = height(other_, place.at) - height(one_, place.at);
 			fromGaps(ring);
-			clip(ring, buffer, [](const Place& place) { return place.h; });
-			Sums sums;
+			clip(ring, buffer, [](const SpreadPlace& place) { return place.h; });
+			SpreadSums sums;
 			for (std::size_t k = 2; k < ring.size(); ++k)
 				addTriangle(ring[0], ring[k - 1], ring[k], sums);
 			if (!(sums.h2 > 0)) return ring.clear();
@@ -268,12 +268,12 @@ namespace {
 		}
 
 		/// What lies over a face. `sense`: 1 where its corners go counter-clockwise about the normal.
-		void clipByFace(std::vector<Place>& places, std::vector<Place>& buffer, const Features& face, int sense) const
+		void clipByFace(std::vector<SpreadPlace>& places, std::vector<SpreadPlace>& buffer, const Features& face, int sense) const
 		{
 			const std::size_t count = face.corners.size();
 			for (std::size_t k = 0; k < count && !places.empty(); ++k) {
 				const Vector2 from = across(face.corners[k]), way = across(face.corners[(k + 1) % count]) - from;
-				clip(places, buffer, [&](const Place& place) {
+				clip(places, buffer, [&](const SpreadPlace& place) {
 					const Vector2 to = place.at - from;
 					return sense * (way[0] * to[1] - way[1] * to[0]);
 				});
@@ -285,16 +285,16 @@ namespace {
 		{
 			const Real left = 1 - edge.face.value, weight = left * edge.edge.value * face.face.value;
 			if (!(weight > 0)) return;
-			std::vector<Place> ends { { across(edge.ends[0]), height(edge.ends[0]) },
+			std::vector<SpreadPlace> ends { { across(edge.ends[0]), height(edge.ends[0]) },
 				{ across(edge.ends[1]), height(edge.ends[1]) } },
 			        buffer;
 			clipByFace(ends, buffer, face, -sense);
 			if (ends.size() < 2) return;
-			for (Place& place : ends)
+			for (SpreadPlace& place : ends)
 				place.h = sense * (height(face, place.at) - place.h);
 			fromGaps(ends);
-			clip(ends, buffer, [](const Place& place) { return place.h; });
-			Sums sums;
+			clip(ends, buffer, [](const SpreadPlace& place) { return place.h; });
+			SpreadSums sums;
 			if (ends.size() >= 2) addLine(ends[0], ends[1], sums);
 			const Vector3 ofEdge = face.face.value * (left * edge.edge.turn - edge.edge.value * edge.face.turn),
 			              ofFace = left * edge.edge.value * face.face.turn;
@@ -332,7 +332,7 @@ namespace {
 				return bound > least ? std::min(bound, Real(middle + far)) : std::max(bound, Real(middle - far));
 			};
 			const Real from = turn > 0 ? until(0) : Real(0), to = turn > 0 ? until(high - low) : high - low;
-			Sums       sums;
+			SpreadSums sums;
 			// Gauss with four places
 			static constexpr double places[]
 			        = { 0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629 },

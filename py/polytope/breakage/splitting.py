@@ -45,8 +45,7 @@ def split(id, normal, point=None, smallest=None):
 	k = _idOf(id)
 	pieces = _pieces(k, normal, point, smallest)
 	sides = [together([[piece] for piece in side]) if O.bodies[k].isClump else [side] for side in pieces]
-	made = takeOver({k: [*sides[0], *sides[1]]})[k]
-	replaceInSamples(k, made)
+	made = takeOver({k: [*sides[0], *sides[1]]}, replaceInSamples)[k]
 	below, above = made[: len(sides[0])], made[len(sides[0]) :]
 	return tuple(side[0] if len(side) == 1 else tuple(side) for side in (below, above))
 

@@ -70,12 +70,13 @@ def _refuseContact(contact, k):
 		)
 
 
-def takeOver(rests):
+def takeOver(rests, follow=lambda k, pieces: None):
 	"""Takes bodies out of the scene, and puts what is left of them in their place.
 
 	What is left and not convex is a clump. Rock joints with a stiffness per area and bonds go on, other contacts begin anew.
 
 	:param rests: id of each body or clump → a list of bodies, each a list of cutting.Part; empty: nothing is left
+	:param follow: is called with the id of each body and the ids of what is left of it, before the body is erased
 	:returns: id → ids of these bodies
 	"""
 	former = {part: O.bodies[part] for k in rests for part in partsOf(k)}
@@ -92,6 +93,8 @@ def takeOver(rests):
 		replaceInRocks(former[k], [part.body for part in own], [part.planes for part in own])
 	_replaceInWaters(parts)
 	followParts(made)
+	for k, pieces in made.items():
+		follow(k, pieces)
 	_erase(rests)
 	return made
 
