@@ -8,6 +8,7 @@ from test_entry import project, shell
 
 stubs = '''
 build() { echo "build $*"; }
+buildWith() { echo "build overlay $*"; }
 hasPrecision() { true; }
 buildPrecision() { echo "buildPrecision $*"; }
 usePrecision() { precision=$1; }
@@ -34,7 +35,7 @@ def words(line):
 def testAPlaceAloneIsBuiltAndRun(tmp_path):
 	lines, done = ran(tmp_path, '--fast joint -n 1')
 	assert done.returncode == 0, done.stderr
-	assert lines[0] == 'build overlay' and not any(line.startswith('ctest') for line in lines)
+	assert lines[0] == 'build overlay polytope_native_trace' and not any(line.startswith('ctest') for line in lines)
 	assert any(line.startswith('pytest tests/yade/joint') and '-m not slow' in line for line in lines)
 	assert '--expect-core' not in lines[-1] and '--expect-precision' not in lines[-1]
 
