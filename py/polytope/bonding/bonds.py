@@ -10,7 +10,7 @@ from ..arguments import namedArguments, warn
 from ..precision import isNumber, real
 from ..scene.present import EngineOfScene
 
-__all__ = ['bond', 'bonds', 'madeBonds', 'removedBonds']
+__all__ = ['bond', 'bonds', 'intactBonds', 'madeBonds', 'presentBonds', 'removedBonds']
 
 facing = 0.01
 """Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
@@ -94,6 +94,16 @@ def madeBonds():
 	"""All bonds of the scene, failed ones too."""
 	engine = bonds()
 	return engine.bonds if engine else []
+
+
+def intactBonds():
+	"""Those that have not failed, also of bodies that have been erased since the last step."""
+	return [bond for bond in madeBonds() if bond.intact]
+
+
+def presentBonds():
+	"""Those that have not failed and whose bodies are in the scene."""
+	return [bond for bond in intactBonds() if O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None]
 
 
 def removedBonds():

@@ -8,7 +8,7 @@ import numpy as np
 from yade import O, Polytope
 
 from ..arguments import namedArguments, number, positive, vector
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..measures.stress import bodyStress
 from ..scene.movers import movers
 from ..scene.namedBodies import namedBodies
@@ -117,7 +117,7 @@ def _breakable(ids):
 	flat = next((k for k in chosen if O.bodies[k].shape.dimension == 2), None)
 	if flat is not None:
 		raise ValueError(f'ids: body {flat} is a polygon; only polyhedra break by their stress (polytope.split breaks polygons)')
-	held = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}
+	held = {k for bond in intactBonds() for k in (bond.id1, bond.id2)}
 	return [k for k in chosen if k not in held]
 
 

@@ -7,7 +7,7 @@ from yade import O, Polytope
 
 from ..arguments import namedArguments, number, vector
 from ..bodies.pieces import pieceOf
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..loading.sample import replaceInSamples
 from ..rock.jointsOfFaces import replaceInRocks
 from ..rock.stress.cutting import Part, together
@@ -105,7 +105,7 @@ def _idOf(id):
 			)
 	if O.bodies[k].isClumpMember:
 		raise ValueError(f'id: body {k} is a member of clump {O.bodies[k].clumpId}; split that, or O.bodies.releaseFromClump it first')
-	if O.periodic and any(bond.intact and {bond.id1, bond.id2} & set(parts) for bond in madeBonds()):
+	if O.periodic and any({bond.id1, bond.id2} & set(parts) for bond in intactBonds()):
 		raise ValueError(f'id: body {k} has bonds, which are not passed on in a periodic cell; break bonded bodies by their bonds')
 	return k
 

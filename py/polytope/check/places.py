@@ -8,7 +8,7 @@ import numpy as np
 from yade import Box, Facet, Polytope, RockJointMat, Wall
 
 from ..bodies.halfSpaces import halfSpacesOf
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..measures.arrays import arrays
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
@@ -52,7 +52,7 @@ def suddenGravity(scene):
 	if scene.O.iter > 0 or not scene.gravity() > 0:
 		return
 	strong = [body for body in scene.bodies if isinstance(body.shape, Polytope) and _canLoseStrength(body)]
-	bonded = any(bond.intact and math.isfinite(bond.tensileStrength) for bond in madeBonds())
+	bonded = any(math.isfinite(bond.tensileStrength) for bond in intactBonds())
 	supports = [body for body in scene.bodies if isinstance(body.shape, (Box, Facet, Wall)) and _canLoseStrength(body)]
 	if not bonded and not any(True for _ in touchingPairs(scene, strong)) and not _anyRests(scene, strong, supports):
 		return

@@ -9,7 +9,7 @@ import numpy as np
 import yade
 from yade import InsertionSortCollider, InteractionLoop, NewtonIntegrator, Polytope, Wall
 
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..scene.movers import canMove
 from .falling import belowAll
 
@@ -65,7 +65,7 @@ class SceneToCheck:
 	@functools.cached_property
 	def bonded(self):
 		"""Ids of bodies with an intact bond, also of such as are gone."""
-		return {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)}
+		return {k for bond in intactBonds() for k in (bond.id1, bond.id2)}
 
 	@functools.cached_property
 	def fallen(self):

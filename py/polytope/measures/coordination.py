@@ -6,7 +6,7 @@ import itertools
 
 from yade import O
 
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
 from ..scene.namedBodies import namedBodies
 
@@ -40,7 +40,7 @@ def coordinationNumber(ids=None):
 	if not touching:
 		raise ValueError('ids: there is no free polytope')
 	pairs = [(one.id1, one.id2) for one in O.interactions if one.isReal and one.phys.normalForce.squaredNorm() > 0]
-	pairs += {(bond.id1, bond.id2) for bond in madeBonds() if bond.intact}
+	pairs += {(bond.id1, bond.id2) for bond in intactBonds()}
 	for k in map(moverOf, itertools.chain(*pairs)):
 		if k in touching:
 			touching[k] += 1

@@ -3,19 +3,14 @@
 
 from yade import O, Polytope, Sphere
 
-from ..bonding.bonds import madeBonds
 from ..scene.movers import moverOf, movers
 from ..scene.namedBodies import namedBodies
 
-__all__ = ['bearing', 'freePolytopes', 'intactBonds', 'massive']
+__all__ = ['bearing', 'freePolytopes', 'massive']
 
 
 def bearing():
 	return [contact for contact in O.interactions if contact.isReal and contact.phys.normalForce.squaredNorm() > 0]
-
-
-def intactBonds():
-	return [bond for bond in madeBonds() if bond.intact]
 
 
 def massive(ids):

@@ -4,8 +4,9 @@
 import numpy as np
 from yade import O, Vector3
 
+from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
-from .counted import bearing, freePolytopes, intactBonds, massive
+from .counted import bearing, freePolytopes, massive
 
 __all__ = ['contactFabric', 'longAxes', 'particleFabric']
 

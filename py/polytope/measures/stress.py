@@ -6,8 +6,9 @@ import math
 import numpy as np
 from yade import O, Polytope
 
+from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
-from .counted import bearing, intactBonds, massive
+from .counted import bearing, massive
 from .porosity import solidVolume
 
 __all__ = ['bodyStress']

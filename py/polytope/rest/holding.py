@@ -5,7 +5,7 @@ import numpy as np
 from yade import O, RockJointPhys, Wall
 
 from ..bonding.bolting import madeBolts
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..scene.movers import partsOf
 from ..scene.present import integrators
 
@@ -34,7 +34,7 @@ def touched(k):
 def isHeld(k):
 	"""Whether a bond or a bolt holds it."""
 	parts = set(partsOf(k))
-	return any(bond.intact and parts & {bond.id1, bond.id2} for bond in madeBonds()) or any(
+	return any(parts & {bond.id1, bond.id2} for bond in intactBonds()) or any(
 		parts & {crossing.id1, crossing.id2} for bolt in madeBolts() for crossing in bolt.crossings if not crossing.failure
 	)
 

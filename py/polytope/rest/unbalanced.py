@@ -5,7 +5,7 @@ import numpy as np
 from yade import O
 
 from ..bonding.bolting import madeBolts
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import intactBonds
 from ..measures.arrays import arrays
 from ..scene.movers import movers
 from ..scene.permanentLoads import permanentLoads
@@ -31,7 +31,7 @@ def unbalancedForces(watched=None, masses=None):
 	last, owner = len(O.bodies), _owners(bodies)
 	pressing = np.linalg.norm(np.nan_to_num(contacts.forces), axis=1) / 2
 	borne = sum(np.bincount(owner[contacts.ids[:, side]], pressing, last) for side in (0, 1))
-	forces = [(bond, bond.force.norm()) for bond in madeBonds() if bond.intact]
+	forces = [(bond, bond.force.norm()) for bond in intactBonds()]
 	forces += [
 		(crossing, abs(crossing.tension) + crossing.shearForce.norm())
 		for one in madeBolts()

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from yade import O, PolytopeBond, PolytopeBonds, RockJointPhys
 
-from ..bonding.bonds import madeBonds
+from ..bonding.bonds import presentBonds
 from ..pictures.faces import rows
 from .faceMaterials import materialOfPlane
 
@@ -49,8 +49,7 @@ def commonFaces(chosen=None):
 def boundFaces():
 	"""The faces of intact bonds, and of intact joints that act as bonds: also where tension has parted them farther than *commonFaces* looks."""
 	joints = [one.phys.bond for one in O.interactions if one.isReal and isinstance(one.phys, RockJointPhys) and one.phys.intact]
-	bonds = [bond for bond in madeBonds() if bond.intact and O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None]
-	return [_face(bond) for bond in [*bonds, *joints] if bond is not None]
+	return [_face(bond) for bond in [*presentBonds(), *joints] if bond is not None]
 
 
 def _face(found):

@@ -12,7 +12,7 @@ from ..bodies.polytopes import areFlat, fromHalfSpaces
 from .inPlane import asPrisms
 from .joint import Joint
 
-__all__ = ['Region', 'regionOf']
+__all__ = ['Region', 'areSeveral', 'regionOf']
 
 overlapping = 1e-9
 """Volume of overlaps over that of all parts, above which parts are not those of one region: more than rounding."""
@@ -43,7 +43,7 @@ def regionOf(normals, offsets):
 		raise ValueError(
 			'normals: joints cut a region of rock, and none is given; give outward normals and offsets of the half-spaces that bound it, or those of polytope.meshRegion(…)'
 		)
-	several = _areSeveral(normals)
+	several = areSeveral(normals)
 	pairs = list(zip(normals, offsets, strict=False)) if several else [(normals, offsets)]
 	if several and not len(normals) == len(offsets) == len(pairs):
 		raise ValueError(f'offsets: must be as many sequences as there are parts, {len(normals)}, got {len(offsets)}')
@@ -65,7 +65,7 @@ def regionOf(normals, offsets):
 	return Region(about, centre, radius, max(float(part['inscribedRadius']) for part in given), float(volumes.sum()), 2 * half)
 
 
-def _areSeveral(normals):
+def areSeveral(normals):
 	"""Whether these are lists of normals, one for each part."""
 	try:
 		return np.ndim(normals[0][0]) > 0

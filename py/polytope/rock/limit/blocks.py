@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csgraph, csr_matrix
 from yade import O, Polytope, RockJointMat
 
-from ...bonding.bonds import madeBonds
+from ...bonding.bonds import intactBonds, presentBonds
 from ...scene.movers import canMove, moverOf, partsOf
 from ...scene.permanentLoads import permanentLoads
 from ...scene.present import integrators
@@ -17,7 +17,7 @@ from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import boundFaces, commonFaces, materialOf
 from ..stress.forces import weightAndWater
 
-__all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
+__all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'frameOf', 'refuseScene']
 
 components = 'xyzXYZ'
 
@@ -36,6 +36,13 @@ class Blocks:
 	"""(n, 6) of the components of motion those that are not blocked"""
 	sizes: np.ndarray
 	"""(n,) edges of cubes, or squares, of the same volume [m]"""
+
+	def __post_init__(self):
+		self._rows = {k: number for number, group in enumerate(self.ids) for k in group}
+
+	def rowOf(self, k):
+		"""Row of the block that body k is of; −1: it does not move, or is gone."""
+		return self._rows.get(moverOf(k), -1) if O.bodies[k] is not None else -1
 
 
 @dataclasses.dataclass
@@ -73,7 +80,7 @@ def refuseScene():
 	if not integrators():
 		raise ValueError('O.engines: there must be a NewtonIntegrator, with gravity; set O.engines first')
 	refuseMatchMaker()
-	if any(bond.intact and math.isinf(bond.tensileStrength) != math.isinf(bond.cohesion) for bond in madeBonds()):
+	if any(math.isinf(bond.tensileStrength) != math.isinf(bond.cohesion) for bond in intactBonds()):
 		raise ValueError(
 			'polytope.bond: a bond has one strength without a limit; give it a tensileStrength and a cohesion, or both infinite, which makes one block of what it joins'
 		)
@@ -93,9 +100,7 @@ def _groups():
 	"""Ids of bodies and clumps that can move, in groups that bonds without a limit hold together; without those that such bonds hold to a fixed body."""
 	movers = [body.id for body in O.bodies if body is not None and moverOf(body.id) == body.id]
 	row = {k: number for number, k in enumerate(movers)}
-	there = {body.id for body in O.bodies if body is not None}
-	rigid = [bond for bond in madeBonds() if bond.intact and _isRigid(bond) and {bond.id1, bond.id2} <= there]
-	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in rigid]
+	links = [(row[moverOf(bond.id1)], row[moverOf(bond.id2)]) for bond in presentBonds() if _isRigid(bond)]
 	one, two = np.array(links, int).reshape(-1, 2).T
 	labels = csgraph.connected_components(csr_matrix((np.ones(len(one)), (one, two)), (len(movers), len(movers))), directed=False)[1]
 	groups = {}
@@ -145,13 +150,10 @@ def cornersOf(blocks, links):
 	:param links: *Links* of their bolts
 	:raises ValueError: naming what is no joint, and blocks that no joint and no bolt connects to a fixed one
 	"""
-	row = {k: number for number, group in enumerate(blocks.ids) for k in group}
-	faces = [face for face in _jointFaces() if row.get(moverOf(face.id1), -1) != row.get(moverOf(face.id2), -1)]
-	one, two = (
-		np.array([row.get(moverOf(k), -1) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces])
-	)
+	faces = [face for face in _jointFaces() if blocks.rowOf(face.id1) != blocks.rowOf(face.id2)]
+	one, two = (np.array([blocks.rowOf(k) for k in ids], int) for ids in ([face.id1 for face in faces], [face.id2 for face in faces]))
 	_refuseLoose(blocks, np.append(one, links.one), np.append(two, links.two))
-	bonded = {frozenset((bond.id1, bond.id2)): bond for bond in madeBonds() if bond.intact}
+	bonded = {frozenset((bond.id1, bond.id2)): bond for bond in intactBonds()}
 	strengths = np.array([_strengthsOf(face, bonded.get(frozenset((face.id1, face.id2)))) for face in faces]).reshape(-1, 3)
 	counts = [len(face.corners) for face in faces]
 	face = np.repeat(np.arange(len(faces)), counts)
@@ -161,7 +163,7 @@ def cornersOf(blocks, links):
 		np.array([one.centroid for one in faces]).reshape(-1, 3),
 		face,
 		np.concatenate([np.empty((0, 3)), *(one.corners for one in faces)]),
-		np.array([_frame(one.normal) for one in faces]).reshape(-1, 3, 3)[face],
+		np.array([frameOf(one.normal) for one in faces]).reshape(-1, 3, 3)[face],
 		np.concatenate([np.empty(0), *(_areas(one) for one in faces)]),
 		*strengths[face].T,
 	)
@@ -216,7 +218,8 @@ def _strengthsOf(face, bond):
 	)
 
 
-def _frame(normal):
+def frameOf(normal):
+	"""(3, 3) columns: the normal and two directions across it."""
 	across = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
 	across /= np.linalg.norm(across)
 	return np.column_stack([normal, across, np.cross(normal, across)])

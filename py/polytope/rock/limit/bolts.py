@@ -9,10 +9,9 @@ import dataclasses
 import math
 
 import numpy as np
-from yade import O
 
 from ...bonding.bolting import madeBolts
-from ...scene.movers import moverOf
+from .blocks import frameOf
 
 __all__ = ['Links', 'linksOf', 'withLinks']
 
@@ -37,23 +36,20 @@ def linksOf(blocks):
 
 	:raises ValueError: if one has no limit
 	"""
-	row = {k: number for number, group in enumerate(blocks.ids) for k in group}
 	found = []
 	for bolt in madeBolts():
 		head, end = (np.array([float(x) for x in point]) for point in (bolt.head, bolt.end))
 		length = float(np.linalg.norm(end - head))
 		axis = (end - head) / length
 		for crossing in bolt.crossings:
-			one, two = (row.get(moverOf(k), -1) if O.bodies[k] is not None else -1 for k in (crossing.id1, crossing.id2))
+			one, two = blocks.rowOf(crossing.id1), blocks.rowOf(crossing.id2)
 			if crossing.failure or one == two:
 				continue
 			place = head + (float(crossing.start) + float(crossing.stop)) / 2 * axis
 			tension = _tension(bolt, crossing, length)
 			found.append((one, two, place, np.column_stack([0 * axis, axis, 0 * axis]), tension / 2, -tension / 2 * axis))
 			if crossing.dowelStrength > 0:
-				across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-				across /= np.linalg.norm(across)
-				frame = np.column_stack([0 * axis, across, np.cross(axis, across)])
+				frame = frameOf(axis) * [0, 1, 1]
 				found.append((one, two, place, frame, float(crossing.dowelStrength), 0 * axis))
 	columns = zip(*found, strict=True) if found else ([], [], np.empty((0, 3)), np.empty((0, 3, 3)), [], np.empty((0, 3)))
 	one, two, *rest = map(np.array, columns)

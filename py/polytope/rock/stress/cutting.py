@@ -15,6 +15,7 @@ from ...precision import real
 from ...scene.movers import partsOf
 from ..joint import Cut, asArguments
 from ..jointedRock import mostBlocks, smallestBridge
+from ..region import areSeveral
 
 __all__ = ['Part', 'Region', 'restsOf', 'together']
 
@@ -48,7 +49,7 @@ class Region:
 	def __init__(self, normals, offsets):
 		if normals is None or offsets is None:
 			raise ValueError('offsets: a region has normals and offsets')
-		several = _areSeveral(normals)
+		several = areSeveral(normals)
 		if several and (np.ndim(offsets[0]) == 0 or len(normals) != len(offsets)):
 			raise ValueError(f'offsets: must be a sequence for each of the {len(normals)} parts of the region')
 		self.parts = [_planes(*part) for part in (zip(normals, offsets, strict=True) if several else [(normals, offsets)])]
@@ -77,13 +78,6 @@ class Region:
 			planes = np.column_stack([normals, limits - normals @ centre])
 			for k, plane in enumerate(planes):
 				yield Cut(plane[:3], plane[3] * plane[:3], edges=np.delete(planes, k, axis=0))
-
-
-def _areSeveral(normals):
-	try:
-		return np.ndim(normals[0][0]) > 0
-	except (TypeError, IndexError, KeyError):
-		return False
 
 
 def _isInPlane():

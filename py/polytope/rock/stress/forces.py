@@ -3,7 +3,7 @@
 
 from yade import O, PolytopeGeom, PolytopeWater, RockJointPhys, Vector3
 
-from ...bonding.bonds import madeBonds
+from ...bonding.bonds import presentBonds
 from ...scene.movers import canMove, partsOf
 from ...scene.present import integrators
 
@@ -55,9 +55,8 @@ def _forces(on, by):
 	for contact in O.interactions:
 		if contact.isReal:
 			_ofLink(loads, contact, on, by, lambda contact=contact: (*_ofContact(contact), contact.geom.contactPoint))
-	for bond in madeBonds():
-		if bond.intact and O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None:
-			_ofLink(loads, bond, on, by, lambda bond=bond: (bond.force, bond.moment, bond.point))
+	for bond in presentBonds():
+		_ofLink(loads, bond, on, by, lambda bond=bond: (bond.force, bond.moment, bond.point))
 	return loads
 
 

@@ -6,7 +6,7 @@ import math
 import numpy as np
 from yade import O, Polytope, RockJointMat
 
-from ...bonding.bonds import madeBonds
+from ...bonding.bonds import intactBonds
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove, moverOf
 from ...scene.namedBodies import namedBodies
@@ -82,7 +82,7 @@ def refuseScene(chosen):
 			raise ValueError(f'bodies: body {k} is of a {type(others[0]).__name__}; a stress needs joints between RockJointMat')
 	if any(contact.isReal for contact in O.interactions):
 		raise ValueError('O.interactions: there are contacts already; call inSitu before the first step, or O.interactions.clear() first')
-	bonded = {k for bond in madeBonds() if bond.intact for k in (bond.id1, bond.id2)} & chosen
+	bonded = {k for bond in intactBonds() for k in (bond.id1, bond.id2)} & chosen
 	if bonded:
 		raise ValueError(
 			f'bodies: body {min(bonded)} is bonded, and a bond has no force as bodies are when it is made; give joints cohesion and tensileStrength in place of bonds'
