@@ -3,6 +3,7 @@
 
 #include "contact/OverlapVolume.hpp"
 #include "contact/PlanesInRows.hpp"
+#include "numbers/PlaneAxes.hpp"
 
 namespace polytope {
 namespace {
@@ -15,16 +16,11 @@ namespace {
 		Real                                 n[D];
 		for (int k = 0; k < D; ++k)
 			n[k] = direction[k];
-		const Footprint<Real>   seen = Overlap<Real, D, 1>(planes, origin, halfWidth, workspace).footprint(origin, n);
-		const Rotation<Real, D> axes = axesAround<Real, D>(n);
-		Vector3                 u = Vector3::Zero(), v = Vector3::Zero();
-		for (int k = 0; k < D; ++k) {
-			u[k] = axes.m[0][k];
-			v[k] = D == 3 ? axes.m[1][k] : Real(0);
-		}
-		return { seen.area,
-			seen.second[0] * u * u.transpose() + seen.second[1] * (u * v.transpose() + v * u.transpose())
-			        + seen.second[2] * v * v.transpose() };
+		const Footprint<Real> seen = Overlap<Real, D, 1>(planes, origin, halfWidth, workspace).footprint(origin, n);
+		if constexpr (D == 3) return { seen.area, PlaneAxes(direction).inSpace(seen.second) };
+		const Rotation<Real, 2> axes = axesAround<Real, 2>(n);
+		const Vector3           along(axes.m[0][0], axes.m[0][1], 0);
+		return { seen.area, seen.second[0] * along * along.transpose() };
 	}
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/SpreadContact.hpp"
 
-#include "numbers/Rotation.hpp"
+#include "numbers/PlaneAxes.hpp"
 #include "shape/DistanceTolerances.hpp"
 
 #include <algorithm>
@@ -178,12 +178,8 @@ namespace {
 	public:
 		Spread(const CoreInPlace& core1, const CoreInPlace& core2, const Vector3& normal, const Vector3& nearest,
 		        const Real& deepest)
-		        : one_(core1, normal), other_(core2, -normal), normal_(normal), nearest_(nearest), deepest_(deepest)
+		        : one_(core1, normal), other_(core2, -normal), normal_(normal), nearest_(nearest), deepest_(deepest), axes_(normal)
 		{
-			const Real n[3] = { normal[0], normal[1], normal[2] };
-			const auto axes = axesAround<Real, 3>(n);
-			for (int k = 0; k < 2; ++k)
-				axis_[k] = Vector3(axes.m[k][0], axes.m[k][1], axes.m[k][2]);
 		}
 
 		SpreadContact contact()
@@ -194,9 +190,9 @@ namespace {
 			meetEdgeAndFace(other_, one_, -1);
 			meetEdges();
 			SpreadContact result { deepest_ * (1 - less_), slope_, Vector3::Zero(), {} };
-			const Vector3 aside = arm_[0] * axis_[0] + arm_[1] * axis_[1] + deepest_ * normal_.cross(turn_);
+			const Vector3 aside = axes_.inSpace(arm_) + deepest_ * normal_.cross(turn_);
 			result.point        = nearest_ + aside / slope_;
-			const Vector2 from(aside.dot(axis_[0]) / slope_, aside.dot(axis_[1]) / slope_);
+			const Vector2 from(aside.dot(axes_.u) / slope_, aside.dot(axes_.v) / slope_);
 			for (const SpreadPlace& corner : faces)
 				result.outline.push_back(corner.at - from);
 			return result;
@@ -206,20 +202,17 @@ namespace {
 		Features       one_, other_;
 		const Vector3 &normal_, &nearest_;
 		const Real     deepest_;
-		Vector3        axis_[2];
+		PlaneAxes      axes_;
 		Real           less_ = 0, slope_ = 1;
 		Vector2        arm_  = Vector2::Zero();
 		Vector3        turn_ = Vector3::Zero(); ///< moment on body 2 about the nearest point, over k D δ
 
-		Vector2 across(const Vector3& place) const
-		{
-			return Vector2(axis_[0].dot(place - nearest_), axis_[1].dot(place - nearest_));
-		}
-		Real height(const Vector3& place) const { return normal_.dot(place - nearest_); }
+		Vector2 across(const Vector3& place) const { return Vector2(axes_.u.dot(place - nearest_), axes_.v.dot(place - nearest_)); }
+		Real    height(const Vector3& place) const { return normal_.dot(place - nearest_); }
 		/// Of a face over that place.
 		Real height(const Features& features, const Vector2& at) const
 		{
-			const Vector3 place = nearest_ + at[0] * axis_[0] + at[1] * axis_[1];
+			const Vector3 place = nearest_ + axes_.inSpace(at);
 			return features.faceNormal.dot(features.onFace - place) / features.faceNormal.dot(normal_);
 		}
 

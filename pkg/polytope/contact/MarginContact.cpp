@@ -10,6 +10,7 @@
 #include <src/contact/SpreadContact.hpp>
 #include <src/numbers/Tolerances.hpp>
 #include <src/shape/ClosestPoint.hpp>
+#include <src/shear/ContactOutline.hpp>
 
 #include <optional>
 
@@ -91,6 +92,59 @@ namespace {
 		result.energy        = result.inContact ? energy : Real(0);
 	}
 
+	/// The contact of half-spaces that overlap: without margins it is the answer, `result`; with margins the way from where body 2 is moved out of it.
+	std::optional<Way> outOfOverlap(
+	        const CoreOfBody& one, const CoreOfBody& other, polytope::ContactSettings settings, polytope::ContactResult& result)
+	{
+		static thread_local polytope::ContactWorkspace workspace;
+		settings.geometryAcrossGap = settings.section = settings.outline = true;
+		polytope::PairMemory memory;
+		contactQuery(*one.convex, one.rotation, *other.convex, other.rotation, other.origin - one.origin, settings, memory,
+		        workspace, result);
+		if (!result.inContact) result.depth = 0; // they just touch
+		const Real margins = one.margin + other.margin;
+		if (!(margins > 0)) return std::nullopt;
+		const Real size = math::min(one.convex->boundingRadius(), other.convex->boundingRadius());
+		const auto way
+		        = betweenHalfSpaces(one, other, Vector3r((2 * result.depth + polytope::tolerance::gapSkin * size) * result.normal));
+		const Real depth = result.depth + margins;
+		if (!way) publish(depth, depth * depth / 2, result.normal, result.point, result);
+		return way;
+	}
+
+	/// None where there is no answer, or `result` is it.
+	std::optional<Way> shortestWay(
+	        const CoreOfBody& one, const CoreOfBody& other, const polytope::ContactSettings& settings, polytope::ContactResult& result)
+	{
+		if (!one.convex && !other.convex) return betweenSegments(one, other);
+		if (!one.convex) return fromSegment(one, other, +1);
+		if (!other.convex) return fromSegment(other, one, -1);
+		const auto way = betweenHalfSpaces(one, other, Vector3r::Zero());
+		return way ? way : outOfOverlap(one, other, settings, result);
+	}
+
+	/// How bodies press on each other along their shortest way. `spread` has the outline of the result.
+	void press(const CoreOfBody& one, const CoreOfBody& other, const Way& way, const ClosureOfJoint* joint,
+	        polytope::SpreadContact& spread, polytope::ContactResult& result)
+	{
+		const Vector3r toMiddle = (one.margin - way.deepest / 2) * way.normal;
+		if (!(way.deepest > 0)) return publish(way.deepest, 0, way.normal, way.foot + toMiddle, result);
+		const auto inPlace = [&](const CoreOfBody& core) {
+			return CoreInPlace { core.convex.get(), core.origin - one.origin, core.rotation, core.way };
+		};
+		spread = polytope::spreadContact(inPlace(one), inPlace(other), way.normal, way.foot, way.deepest);
+		// the force that a law has at this depth is that of the mean closure, times its slope
+		Real depth = spread.closure * spread.slope, energy = spread.closure * spread.closure / 2;
+		if (joint) {
+			depth  = joint->law.closure(joint->law.pressure(spread.closure) * spread.slope);
+			energy = joint->law.energy(spread.closure) / joint->law.tangent(depth);
+		}
+		publish(depth, energy, way.normal, spread.point + toMiddle, result);
+		result.outline      = spread.outline.data();
+		result.outlineCount = int(spread.outline.size());
+		result.area         = polytope::momentsOf(result.outline, result.outlineCount).area;
+	}
+
 } // namespace
 
 bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
@@ -102,54 +156,14 @@ bool PolytopeMarginFunctor::go(const shared_ptr<Shape>& shape1, const shared_ptr
 	if (!one || !other || !isSolid(*one) || !isSolid(*other)) return failed(c);
 	if (!c->isReal() && stiffnessRuleOfNew(*scene, *c) == StiffnessRule::PerArea) return failed(c);
 
-	static thread_local polytope::ContactWorkspace workspace;
-	polytope::ContactResult                        result;
-	const Real                                     margins = one->margin + other->margin;
-	std::optional<Way>                             way;
-	if (!one->convex && !other->convex) way = betweenSegments(*one, *other);
-	else if (!one->convex) way = fromSegment(*one, *other, +1);
-	else if (!other->convex) way = fromSegment(*other, *one, -1);
-	else {
-		way = betweenHalfSpaces(*one, *other, Vector3r::Zero());
-		if (!way) { // half-spaces that overlap: their own contact, without margins; with these from where body 2 is moved out of it
-			auto settings              = this->settings(StiffnessRule::PerContact);
-			settings.geometryAcrossGap = settings.section = settings.outline = true;
-			polytope::PairMemory memory;
-			contactQuery(*one->convex, one->rotation, *other->convex, other->rotation, other->origin - one->origin, settings,
-			        memory, workspace, result);
-			if (!result.inContact) result.depth = 0; // they just touch
-			if (margins > 0) {
-				const Real size = math::min(one->convex->boundingRadius(), other->convex->boundingRadius());
-				way             = betweenHalfSpaces(
-                                        *one, *other, Vector3r((2 * result.depth + polytope::tolerance::gapSkin * size) * result.normal));
-			}
-			const Real depth = result.depth + margins;
-			if (!way && margins > 0) publish(depth, depth * depth / 2, result.normal, result.point, result);
-		}
-	}
+	polytope::ContactResult  result;
+	const std::optional<Way> way = shortestWay(*one, *other, settings(StiffnessRule::PerContact), result);
 	if (!way && !result.hasGeometry) return failed(c);
 	polytope::SpreadContact spread;
-	if (way && way->deepest > 0) {
-		const auto inPlace = [&](const CoreOfBody& core) {
-			return CoreInPlace { core.convex.get(), core.origin - one->origin, core.rotation, core.way };
-		};
-		spread = polytope::spreadContact(inPlace(*one), inPlace(*other), way->normal, way->foot, way->deepest);
-		// the force that a law has at this depth is that of the mean closure, times its slope
+	if (way) {
 		const auto* const known = static_cast<const PolytopeGeom*>(c->geom.get());
-		const auto* const joint = known ? known->closure.get() : nullptr;
-		Real              depth = spread.closure * spread.slope, energy = spread.closure * spread.closure / 2;
-		if (joint) {
-			depth  = joint->law.closure(joint->law.pressure(spread.closure) * spread.slope);
-			energy = joint->law.energy(spread.closure) / joint->law.tangent(depth);
-		}
-		publish(depth, energy, way->normal, spread.point + (one->margin - way->deepest / 2) * way->normal, result);
-		result.outline      = spread.outline.data();
-		result.outlineCount = int(spread.outline.size());
-		for (int k = 1; k + 1 < result.outlineCount; ++k) {
-			const polytope::Vector2 u = spread.outline[k] - spread.outline[0], v = spread.outline[k + 1] - spread.outline[0];
-			result.area += (u[0] * v[1] - u[1] * v[0]) / 2;
-		}
-	} else if (way) publish(way->deepest, 0, way->normal, way->foot + (one->margin - way->deepest / 2) * way->normal, result);
+		press(*one, *other, *way, known ? known->closure.get() : nullptr, spread, result);
+	}
 	if (!math::isfinite(result.depth + result.point.sum())) return failed(c);
 
 	State        foot1, foot2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/PolytopeGeom.hpp"
 
-#include <src/numbers/Rotation.hpp>
+#include <src/numbers/PlaneAxes.hpp>
 #include <src/program/PlaneCode.hpp>
 
 #include <core/Scene.hpp>
@@ -49,15 +49,10 @@ void PolytopeGeom::remember(const polytope::PairMemory& memory)
 
 std::vector<Vector3r> PolytopeGeom::cornersOfOutline() const
 {
-	std::vector<Vector3r> corners;
-	const Real            n[3] = { normal[0], normal[1], normal[2] };
-	const auto            axes = polytope::axesAround<Real, 3>(n);
-	for (int k = 0; k < outline.count(); ++k) {
-		Vector3r corner = contactPoint;
-		for (int i = 0; i < 3; ++i)
-			corner[i] += outline.corners()[k][0] * axes.m[0][i] + outline.corners()[k][1] * axes.m[1][i];
-		corners.push_back(corner);
-	}
+	std::vector<Vector3r>     corners;
+	const polytope::PlaneAxes axes(normal);
+	for (int k = 0; k < outline.count(); ++k)
+		corners.push_back(contactPoint + axes.inSpace(outline.corners()[k]));
 	return corners;
 }
 

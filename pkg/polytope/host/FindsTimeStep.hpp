@@ -9,8 +9,9 @@ class Scene;
 class FindsTimeStep {
 public:
 	virtual ~FindsTimeStep() = default;
-	/// Whether bodies were added or freed since it has run, so that they would move with a step that was not made for them.
-	virtual bool knowsNotAll(const Scene& ofScene) const = 0;
+	/// Whether bodies were added since it has run, so that they would move with a step that was not made for them. `freed`: that some have been freed, as is
+	/// known to who asks.
+	virtual bool knowsNotAll(const Scene& ofScene, bool freed) const = 0;
 };
 
 } // namespace yade

@@ -5,7 +5,7 @@
 #include <core/Clump.hpp>
 #include <core/Scene.hpp>
 
-/// Which bodies move, and what moves with what: bodies by themselves, and the parts of clumps.
+/// Which bodies move, what moves with what (bodies by themselves, and the parts of clumps), and whether other processes move some.
 namespace yade {
 
 /// The body itself, or the clump that it is a part of.
@@ -31,6 +31,14 @@ inline bool isPiece(const Body& body) { return body.isClumpMember() || !body.isD
 
 /// Whether forces move the body; members of clumps are moved by their clump.
 inline bool isMovedByForces(const Body& body) { return body.state && body.isDynamic() && !body.isClumpMember(); }
+
+/// Whether the scene is a part of one that several processes compute.
+inline bool isDivided(const Scene& scene)
+{
+	for (const auto& body : *scene.bodies)
+		if (body && body->getIsSubdomain()) return true;
+	return false;
+}
 
 /// The body itself, or the members of a clump.
 template <class Visit> void forParts(const Body& body, const Scene& scene, const Visit& visit)

@@ -7,7 +7,7 @@
 
 #include <core/InteractionLoop.hpp>
 
-#include <src/numbers/Rotation.hpp>
+#include <src/numbers/PlaneAxes.hpp>
 #include <src/shear/ContactOutline.hpp>
 
 namespace yade {
@@ -60,12 +60,9 @@ namespace {
 		Vector3r        centroid = geom.contactPoint;
 		Real            gyration = 0;
 		if (geom.outline.count() >= 3) {
-			const Real                     normal[3] = { n[0], n[1], n[2] };
-			const auto                     axes      = polytope::axesAround<Real, 3>(normal);
-			const polytope::OutlineMoments moments   = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
-			gyration                                 = moments.gyrationSquared();
-			for (int i = 0; i < 3; ++i)
-				centroid[i] += moments.centroid[0] * axes.m[0][i] + moments.centroid[1] * axes.m[1][i];
+			const polytope::OutlineMoments moments = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
+			gyration                               = moments.gyrationSquared();
+			centroid += polytope::PlaneAxes(n).inSpace(moments.centroid);
 		}
 		const Real     turned = whole.twistingStiffness > 0
 		            ? Real((whole.twistingViscous - whole.twistingMoment) / whole.twistingStiffness)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint/RockJointShear.hpp"
 
-#include <src/numbers/Rotation.hpp>
+#include <src/numbers/PlaneAxes.hpp>
 #include <src/shear/ShearReturn.hpp>
 
 namespace yade {
@@ -15,10 +15,9 @@ Shear::Shear(const Pair& pair, const RockJointPhys& phys, const Vector3r& turned
 {
 	const StoredOutline& outline = pair.geom.outline;
 	if (outline.count() >= 3) {
-		const Real n[3] = { pair.geom.normal[0], pair.geom.normal[1], pair.geom.normal[2] };
-		const auto axes = polytope::axesAround<Real, 3>(n);
-		for (int k = 0; k < 2; ++k)
-			axis_[k] = Vector3r(axes.m[k][0], axes.m[k][1], axes.m[k][2]);
+		const polytope::PlaneAxes axes(pair.geom.normal);
+		axis_[0]  = axes.u;
+		axis_[1]  = axes.v;
 		moments_  = polytope::momentsOf(outline.corners(), outline.count());
 		gyration_ = moments_.gyrationSquared();
 		offset_   = inWorld(moments_.centroid);

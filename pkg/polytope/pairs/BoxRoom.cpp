@@ -30,12 +30,12 @@ namespace {
 
 	bool hasVelocity(const State& state) { return state.vel != Vector3r::Zero() || state.angVel != Vector3r::Zero(); }
 
-	/// Whether a body that was fixed when its box was made has been freed, or one that was still is moved. The parts of a clump are not told that it is freed;
-	/// in the step after they have its velocity.
+	/// Whether degrees of freedom of a body have been freed or blocked since its box was made, or one that was still is moved. The parts of a clump are not told
+	/// that it is freed; in the step after they have its velocity.
 	bool hasStarted(const BoxRoom::Reference& reference)
 	{
 		const State& state = *reference.state;
-		if (reference.blocked && state.blockedDOFs != State::DOF_ALL) return true;
+		if (state.blockedDOFs != reference.blockedDOFs) return true;
 		if (!reference.still) return false;
 		return hasVelocity(state) || state.pos != reference.position || (reference.radius > 0 && turned(reference, state.ori) > 0);
 	}
@@ -102,10 +102,11 @@ void BoxRoom::takeOne(const Scene& scene, std::size_t id)
 		return;
 	}
 	if (reference.state != body->state) reference.state = body->state;
-	reference.sweep    = body->bound->sweepLength;
-	reference.position = body->state->pos;
-	reference.blocked  = body->state->blockedDOFs == State::DOF_ALL;
-	reference.still    = isFixed(*body, scene) && !hasVelocity(*body->state);
+	reference.sweep       = body->bound->sweepLength;
+	reference.position    = body->state->pos;
+	reference.blockedDOFs = body->state->blockedDOFs;
+	reference.fixed       = isFixed(*body, scene);
+	reference.still       = reference.fixed && !hasVelocity(*body->state);
 }
 
 void BoxRoom::takeFromAll(const Scene& scene)
@@ -134,6 +135,24 @@ bool BoxRoom::isOutside(std::size_t id, bool byTranslation) const
 	}
 	if (!(reference.radius > 0) || !(rooms_[id] < std::numeric_limits<Real>::infinity())) return false;
 	return !(turned(reference, reference.state->ori) <= rooms_[id]); // also an orientation that is no number
+}
+
+bool BoxRoom::isFreed(const Scene& scene, std::size_t id) const
+{
+	const Body* const body = references_[id].fixed ? bodyOf(scene, id) : nullptr;
+	return body && !isFixed(*body, scene);
+}
+
+bool BoxRoom::hasFreed(const Scene& scene, const std::vector<Body::id_t>& ids) const
+{
+	return std::any_of(ids.begin(), ids.end(), [&](Body::id_t id) { return isFreed(scene, std::size_t(id)); });
+}
+
+bool BoxRoom::hasFreed(const Scene& scene) const
+{
+	for (std::size_t id = 0; id < references_.size(); ++id)
+		if (isFreed(scene, id)) return true;
+	return false;
 }
 
 std::vector<Body::id_t> BoxRoom::outside(const Scene& scene, bool byTranslation) const

@@ -27,10 +27,11 @@ public:
 		Real              margin      = 0; ///< Polytope::margin()
 		/// Its own: the body's shape may be exchanged. None where its planes do not say where the surface is.
 		std::shared_ptr<const polytope::ConvexShape> convex;
-		/// Whether all its degrees of freedom were blocked: when one of them no longer is, it may touch what it did not (outside()).
-		bool blocked = false;
-		/// Whether it was fixed and without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put elsewhere.
-		bool still = false;
+		/// Its own degrees of freedom that were blocked: where others are now, it may touch what it did not (outside()).
+		unsigned blockedDOFs = 0;
+		/// Whether it was fixed, and whether it was so without velocity: pairs of such bodies are left out until one of them is freed, gets a velocity or is put
+		/// elsewhere.
+		bool fixed = false, still = false;
 	};
 
 	/// What a box may be enlarged by for a rotation [m], and for how many steps it should last.
@@ -58,10 +59,15 @@ public:
 	/// those.
 	std::vector<Body::id_t> outside(const Scene& scene, bool byTranslation) const;
 
+	/// Whether one of these bodies, or of all, was fixed when its box was made and no longer is.
+	bool hasFreed(const Scene& scene, const std::vector<Body::id_t>& ids) const;
+	bool hasFreed(const Scene& scene) const;
+
 private:
 	void makeOne(const Scene& scene, std::size_t id, const Limits& limits);
 	void takeOne(const Scene& scene, std::size_t id);
 	bool isOutside(std::size_t id, bool byTranslation) const;
+	bool isFreed(const Scene& scene, std::size_t id) const;
 
 	std::vector<Reference> references_;
 	std::vector<Real>      rooms_;

@@ -137,7 +137,7 @@ void PairSearch::move(const Scene& scene, const std::vector<Body::id_t>& ids)
 bool PairSearch::staysApart(const Body& one, const Body& other) const
 {
 	const auto &reference1 = room_.references()[one.id], &reference2 = room_.references()[other.id];
-	if (judge_ && reference1.blocked && reference2.blocked && isBoundary(one.shape.get()) && isBoundary(other.shape.get())) return true;
+	if (judge_ && reference1.fixed && reference2.fixed && isBoundary(one.shape.get()) && isBoundary(other.shape.get())) return true;
 	if (!judge_ || !reference1.convex || !reference2.convex || reference1.convex->dimension() != reference2.convex->dimension())
 		return false;
 	Real way = reference1.margin + reference2.margin;

@@ -6,6 +6,7 @@
 #include <pkg/common/Sphere.hpp>
 
 #include "host/FindsTimeStep.hpp"
+#include "host/PartsOfBodies.hpp"
 #include "shape/Polytope.hpp"
 
 #include <limits>
@@ -94,9 +95,7 @@ void PolytopeCollider::searchAll()
 	hasSearched_ = true;
 	searchedAt_  = scene->iter;
 	bodies_      = scene->bodies->size();
-	divided_     = false;
-	for (const auto& body : *scene->bodies)
-		divided_ = divided_ || (body && body->getIsSubdomain());
+	divided_     = isDivided(*scene);
 
 	// as InsertionSortCollider leaves them
 	keepListsShort = scene->bodies->useRedirection;
@@ -123,9 +122,11 @@ void PolytopeCollider::searchSome()
 /// Bodies that were added or freed since the time step was found: this step has to suit them.
 void PolytopeCollider::adaptTimeStep()
 {
+	// those that have been freed are out of their boxes
+	const bool freed = outside_.empty() ? room_.hasFreed(*scene) : room_.hasFreed(*scene, outside_);
 	for (const auto& engine : scene->engines) {
 		const auto* const stepper = dynamic_cast<const FindsTimeStep*>(engine.get());
-		if (!stepper || !stepper->knowsNotAll(*scene)) continue;
+		if (!stepper || !stepper->knowsNotAll(*scene, freed)) continue;
 		engine->scene = scene;
 		engine->action();
 	}

@@ -50,17 +50,6 @@ namespace {
 		return limit;
 	}
 
-#ifdef YADE_MPI
-	bool isDivided(const Scene& scene)
-	{
-		for (const auto& body : *scene.bodies)
-			if (body && body->getIsSubdomain()) return true;
-		return false;
-	}
-#else
-	bool isDivided(const Scene&) { return false; }
-#endif
-
 } // namespace
 
 TimeStepLimit motionLimit(const Scene& scene, Real fraction, Real below, Real steps)

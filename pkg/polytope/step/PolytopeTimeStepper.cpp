@@ -29,11 +29,9 @@ namespace {
 	std::size_t moversOf(const Scene& scene)
 	{
 		std::size_t number = 0;
-		for (const auto& body : *scene.bodies) {
-			if (!body) continue;
-			if (body->getIsSubdomain()) return 0;
-			if (isMovedByForces(*body)) boost::hash_combine(number, body->id);
-		}
+		if (isDivided(scene)) return number;
+		for (const auto& body : *scene.bodies)
+			if (body && isMovedByForces(*body)) boost::hash_combine(number, body->id);
 		return number;
 	}
 
@@ -54,11 +52,6 @@ namespace {
 	}
 
 } // namespace
-
-bool PolytopeTimeStepper::knowsNotAll(const Scene& ofScene) const
-{
-	return active && !dead && hasRun_ && (bodies_ != ofScene.bodies->size() || movers_ != moversOf(ofScene));
-}
 
 bool PolytopeTimeStepper::isActivated()
 {

@@ -15,7 +15,10 @@ public:
 	/// was erased.
 	bool isActivated() override;
 	void computeTimeStep(Scene* ofScene) override;
-	bool knowsNotAll(const Scene& ofScene) const override;
+	bool knowsNotAll(const Scene& ofScene, bool freed) const override
+	{
+		return active && !dead && hasRun_ && (freed || bodies_ != ofScene.bodies->size());
+	}
 
 	/// Refuses values out of range, naming the attribute, and restores the last good ones.
 	void postLoad(PolytopeTimeStepper&);

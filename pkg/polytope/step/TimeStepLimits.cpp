@@ -4,7 +4,7 @@
 #include <core/InteractionLoop.hpp>
 
 #include <src/contact/OverlapFootprint.hpp>
-#include <src/numbers/Rotation.hpp>
+#include <src/numbers/PlaneAxes.hpp>
 #include <src/shear/ContactOutline.hpp>
 #include <src/timestep/RockingStiffness.hpp>
 #include <src/timestep/TimeStepTolerances.hpp>
@@ -69,27 +69,27 @@ namespace {
 
 	Matrix3r across(const Vector3r& normal) { return Matrix3r::Identity() - normal * normal.transpose(); }
 
-	/// Moment per tilt of a pressure over the area seen along the normal, kₙ/A ∫ (r × n)(r × n)ᵀ dA.
+	/// kₙ/A ∫ (r × n)(r × n)ᵀ dA: moment per tilt of springs over an area. `second`: ∫ r rᵀ dA.
+	Matrix3r rockingOfArea(const Matrix3r& second, const Real& area, const Vector3r& normal, const Real& kn)
+	{
+		const Matrix3r turn = polytope::crossMatrix(normal);
+		return kn / area * turn * second * turn.transpose();
+	}
+
+	/// Moment per tilt of a pressure over the area seen along the normal.
 	Matrix3r rockingOfPressure(const std::vector<polytope::Plane>& planes, const Vector3r& normal, Real reach, int dimension, Real kn)
 	{
 		const polytope::OverlapFootprint seen = polytope::overlapFootprint(planes, normal, reach, dimension);
-		if (!(seen.area > 0)) return Matrix3r::Zero();
-		const Matrix3r turn = polytope::crossMatrix(normal);
-		return kn / seen.area * turn * seen.second * turn.transpose();
+		return seen.area > 0 ? rockingOfArea(seen.second, seen.area, normal, kn) : Matrix3r(Matrix3r::Zero());
 	}
 
-	/// Of bodies with margins, whose half-spaces are apart: of the faces that lie on each other (src/contact/SpreadContact.hpp).
+	/// Moment per tilt of bodies with margins, whose half-spaces are apart: that of the faces that lie on each other (src/contact/SpreadContact.hpp).
 	Matrix3r rockingOfOutline(const PolytopeGeom& geom, Real kn)
 	{
 		const auto seen = polytope::momentsOf(geom.outline.corners(), geom.outline.count());
 		if (!(seen.area > 0)) return Matrix3r::Zero();
-		const Real        n[3] = { geom.normal[0], geom.normal[1], geom.normal[2] };
-		const auto        axes = polytope::axesAround<Real, 3>(n);
-		const Vector3r    u(axes.m[0][0], axes.m[0][1], axes.m[0][2]), v(axes.m[1][0], axes.m[1][1], axes.m[1][2]);
-		polytope::Matrix3 second = seen.second[0] * u * u.transpose() + seen.second[1] * (u * v.transpose() + v * u.transpose())
-		        + seen.second[2] * v * v.transpose();
-		const Matrix3r turn = polytope::crossMatrix(geom.normal);
-		return polytope::rockingOfSpring * kn / seen.area * turn * second * turn.transpose();
+		return polytope::rockingOfSpring
+		        * rockingOfArea(polytope::PlaneAxes(geom.normal).inSpace(seen.second), seen.area, geom.normal, kn);
 	}
 
 	bool hasMargin(const Body& body)
