@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/PlacedPair.hpp"
 #include "numbers/Rotation.hpp"
 #include "numbers/Tolerances.hpp"
-#include "shape/ConvexShape.hpp"
 
 #include <cmath>
 
 /// The frame in which one query computes, and transformations between it, the bodies' own frames and world axes.
 namespace polytope {
-
-struct PairInput {
-	const ConvexShape* shape[2];
-	const Matrix3*     rotation[2];
-	const Vector3*     centre2;
-};
 
 /// The frame of one query, given in each body's own axes: so a plane that passes near the contact loses no digits through its
 /// body's size or position. It is that of the last step's contact (followContact()) or starts in the smaller
@@ -54,7 +48,7 @@ template <class R, int D> POLYTOPE_INLINE Rotation<R, D> ownAxes(const Matrix3& 
 }
 
 /// Axes (columns: the frame's in world axes) for a frame whose origin stays.
-template <class R, int D> POLYTOPE_INLINE void setAxes(const PairInput& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
+template <class R, int D> POLYTOPE_INLINE void setAxes(const PlacedPair& in, ContactFrame<R, D>& f, const Rotation<R, D>& world)
 {
 	f.world = world;
 	for (int body = 0; body < 2; ++body)
@@ -62,7 +56,7 @@ template <class R, int D> POLYTOPE_INLINE void setAxes(const PairInput& in, Cont
 }
 
 /// Whether all components of the pose are finite.
-template <class R, int D> POLYTOPE_INLINE bool finitePose(const PairInput& in)
+template <class R, int D> POLYTOPE_INLINE bool finitePose(const PlacedPair& in)
 {
 	using std::isfinite;
 	R all = 0;
@@ -75,7 +69,7 @@ template <class R, int D> POLYTOPE_INLINE bool finitePose(const PairInput& in)
 }
 
 /// `home` and `size` alone.
-template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> unplacedFrame(const PairInput& in)
+template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> unplacedFrame(const PlacedPair& in)
 {
 	ContactFrame<R, D> f;
 	f.home = in.shape[1]->boundingRadius() < in.shape[0]->boundingRadius() ? 1 : 0;
@@ -83,7 +77,7 @@ template <class R, int D> POLYTOPE_INLINE ContactFrame<R, D> unplacedFrame(const
 	return f;
 }
 
-template <class R, int D> POLYTOPE_INLINE void setCentres(const PairInput& in, ContactFrame<R, D>& f)
+template <class R, int D> POLYTOPE_INLINE void setCentres(const PlacedPair& in, ContactFrame<R, D>& f)
 {
 	const int other = 1 - f.home;
 	toOwnAxes<R, D>(*in.rotation[other], *in.centre2, f.centre[other]);
@@ -94,7 +88,7 @@ template <class R, int D> POLYTOPE_INLINE void setCentres(const PairInput& in, C
 }
 
 /// The smaller body's own frame.
-template <class R, int D> POLYTOPE_INLINE void homeFrame(const PairInput& in, ContactFrame<R, D>& f)
+template <class R, int D> POLYTOPE_INLINE void homeFrame(const PlacedPair& in, ContactFrame<R, D>& f)
 {
 	const int      other = 1 - f.home;
 	const Matrix3& h     = *in.rotation[f.home];
@@ -135,7 +129,7 @@ template <class R, int D> POLYTOPE_INLINE void fromBody(const ContactFrame<R, D>
 }
 
 /// From the smaller body's coordinates to world axes from body 1's centre.
-template <class R, int D> POLYTOPE_INLINE Vector3 worldPoint(const PairInput& in, const ContactFrame<R, D>& f, const Vector3& home)
+template <class R, int D> POLYTOPE_INLINE Vector3 worldPoint(const PlacedPair& in, const ContactFrame<R, D>& f, const Vector3& home)
 {
 	R out[3] = { 0, 0, 0 };
 	toWorldAxes<R, D>(*in.rotation[f.home], home, out);

@@ -39,7 +39,7 @@ private:
 	long last_;
 };
 
-template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairInput& in, ContactWorkspace& workspace)
+template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PlacedPair& in, ContactWorkspace& workspace)
 {
 	PairPlanes<R, D> planes;
 	planes.first = in.shape[0]->paddedCount();
@@ -55,7 +55,7 @@ template <class R, int D> POLYTOPE_INLINE PairPlanes<R, D> pairRows(const PairIn
 
 /// Whether the last step's weights still separate the bodies, checked before any plane is transformed.
 template <class R, int D>
-POLYTOPE_INLINE bool dismissedByLastWeights(const PairInput& in, const ContactSettings& settings, const PairMemory& memory,
+POLYTOPE_INLINE bool dismissedByLastWeights(const PlacedPair& in, const ContactSettings& settings, const PairMemory& memory,
         const ContactFrame<R, D>& f, const ProgramLimits<R>& limits, ContactResult& out)
 {
 	if (!settings.warmStart || !memory.hasBasis || memory.hasPoint || settings.geometryAcrossGap) return false;
@@ -107,7 +107,7 @@ POLYTOPE_INLINE void paperContact(const PairQuery<R, D>& q, bool optimal, bool t
 /// `Surface`: for models that have one (hasSurface()), and for them alone: the other contacts' instructions are not to change with it.
 template <class R, int D, int W, bool Surface>
 POLYTOPE_INLINE void contactKernel(
-        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+        const PlacedPair& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	StageTimer             timer(settings.timed);
 	ContactFrame<R, D>     f      = unplacedFrame<R, D>(in);

@@ -9,7 +9,7 @@
 namespace polytope {
 
 /// Direction (not of unit length) where the bodies have none: along the line of centres, or the smaller body's last axis.
-template <class R, int D> POLYTOPE_INLINE void lineOfCentres(const PairInput& in, const ContactFrame<R, D>& f, R* n)
+template <class R, int D> POLYTOPE_INLINE void lineOfCentres(const PlacedPair& in, const ContactFrame<R, D>& f, R* n)
 {
 	R line[D];
 	for (int k = 0; k < D; ++k)

@@ -59,7 +59,7 @@ void ContactWorkspace::finishOutline(bool exchanged, ContactResult& result)
 
 namespace {
 
-	using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
+	using Kernel = void (*)(const PlacedPair&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
 
 	struct Kernels {
 		Kernel      flat[2];  ///< 2-D; of models without and with a surface
@@ -72,8 +72,8 @@ namespace {
 #if defined(__x86_64__) && POLYTOPE_REAL_IS_DOUBLE
 #define POLYTOPE_KERNEL(NAME, TARGET, WIDTH)                                                                                               \
 	template <int D, bool Surface>                                                                                                     \
-	__attribute__((target(TARGET))) void NAME(                                                                                         \
-	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out) \
+	__attribute__((target(TARGET))) void NAME(const PlacedPair& in, const ContactSettings& settings, PairMemory& memory,               \
+	        ContactWorkspace& workspace, ContactResult& out)                                                                           \
 	{                                                                                                                                  \
 		contactKernel<Real, D, WIDTH, Surface>(in, settings, memory, workspace, out);                                              \
 	}
@@ -98,7 +98,7 @@ namespace {
 #else
 	template <int D, bool Surface>
 	void kernelScalar(
-	        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+	        const PlacedPair& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 	{
 		contactKernel<Real, D, 1, Surface>(in, settings, memory, workspace, out);
 	}
@@ -111,10 +111,11 @@ namespace {
 	const Kernels kernels = chooseKernels();
 
 	/// Whether both bodies have these planes: a body whose shape was exchanged must not be read beyond its own.
-	bool fits(const std::array<int, 4>& basis, const ConvexShape& shape1, const ConvexShape& shape2)
+	bool fits(const std::array<int, 4>& basis, const PlacedPair& pair)
 	{
-		const int count[2] = { shape1.planeCount(), shape2.planeCount() }, least = 2 * std::min(count[0], count[1]) - 1;
-		int       beyond = 0; // negative where a code is, or where the body of fewer planes might not have that plane
+		const int count[2] = { pair.shape[0]->planeCount(), pair.shape[1]->planeCount() },
+		          least    = 2 * std::min(count[0], count[1]) - 1;
+		int beyond         = 0; // negative where a code is, or where the body of fewer planes might not have that plane
 		for (int code : basis)
 			beyond |= code | int(unsigned(least) - unsigned(code));
 		if (beyond >= 0) return true;
@@ -125,34 +126,35 @@ namespace {
 
 } // namespace
 
-void contactQuery(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
-        const Vector3& centre2, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
+void contactQuery(
+        const PlacedPair& pair, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& result)
 {
-	if (memory.hasBasis && !fits(memory.basis, shape1, shape2)) memory.hasBasis = memory.hasPoint = false;
-	const bool   surface = hasSurface(settings.contactModel);
-	const Kernel kernel  = (shape1.dimension() == 2 ? kernels.flat : kernels.solid)[surface];
+	if (memory.hasBasis && !fits(memory.basis, pair)) memory.hasBasis = memory.hasPoint = false;
+	const int    dimension = pair.shape[0]->dimension();
+	const bool   surface   = hasSurface(settings.contactModel);
+	const Kernel kernel    = (dimension == 2 ? kernels.flat : kernels.solid)[surface];
 	// reset in place: constructing a temporary and assigning it takes as long as the dismissal of a pair
 	std::destroy_at(&result);
 	new (&result) ContactResult;
-	if (surface && secondGoesFirst(shape1, rotation1, shape2, rotation2, centre2)) {
-		const Vector3   centre1 = -centre2;
-		const PairInput in { { &shape2, &shape1 }, { &rotation2, &rotation1 }, &centre1 };
+	if (surface && secondGoesFirst(pair)) {
+		const Vector3&   centre2 = *pair.centre2;
+		const Vector3    centre1 = -centre2;
+		const PlacedPair other   = pair.exchanged(centre1);
 		exchangeBodies(memory);
 		if (settings.internal) {
 			InternalPlanes  internal  = *settings.internal;
 			ContactSettings exchanged = settings;
 			exchangeBodies(internal);
 			exchanged.internal = &internal;
-			kernel(in, exchanged, memory, workspace, result);
-		} else kernel(in, settings, memory, workspace, result);
+			kernel(other, exchanged, memory, workspace, result);
+		} else kernel(other, settings, memory, workspace, result);
 		exchangeBodies(memory);
-		if (settings.bounding) exchangeBodies(*settings.bounding, centre2, shape1.dimension());
-		exchangeBodies(result, centre2, shape1.dimension());
+		if (settings.bounding) exchangeBodies(*settings.bounding, centre2, dimension);
+		exchangeBodies(result, centre2, dimension);
 		if (result.outlineCount > 0) workspace.finishOutline(true, result);
 		return;
 	}
-	const PairInput in { { &shape1, &shape2 }, { &rotation1, &rotation2 }, &centre2 };
-	kernel(in, settings, memory, workspace, result);
+	kernel(pair, settings, memory, workspace, result);
 	if (result.outlineCount > 0) workspace.finishOutline(false, result);
 }
 

@@ -8,14 +8,14 @@
 
 namespace polytope {
 
-bool staysApart(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
-        const Vector3& centre2, Real way, ContactWorkspace& workspace)
+bool staysApart(const PlacedPair& pair, Real way, ContactWorkspace& workspace)
 {
 	using std::abs;
+	const ConvexShape &shape1 = *pair.shape[0], &shape2 = *pair.shape[1];
 	if (!(abs(way) < std::numeric_limits<Real>::infinity())) return false;
 	// balls around both bodies, as far apart as the bodies may come nearer
 	const Real between = shape1.boundingRadius() + shape2.boundingRadius() + 2 * way;
-	if (shape1.dimension() == 3 && centre2.squaredNorm() > between * between) return true;
+	if (shape1.dimension() == 3 && pair.centre2->squaredNorm() > between * between) return true;
 	ContactSettings settings;
 	settings.warmStart    = false;
 	settings.programAlone = true;
@@ -23,7 +23,7 @@ bool staysApart(const ConvexShape& shape1, const Matrix3& rotation1, const Conve
 	settings.tolerance = -way / std::min<Real>(shape1.boundingRadius(), shape2.boundingRadius());
 	PairMemory    memory;
 	ContactResult result;
-	contactQuery(shape1, rotation1, shape2, rotation2, centre2, settings, memory, workspace, result);
+	contactQuery(pair, settings, memory, workspace, result);
 	return !result.inContact && result.status == ContactStatus::Separated;
 }
 

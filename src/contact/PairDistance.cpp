@@ -155,11 +155,11 @@ namespace {
 
 } // namespace
 
-PairDistance pairDistance(
-        const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2)
+PairDistance pairDistance(const PlacedPair& pair)
 {
-	const Placed body1(shape1, rotation1, Vector3::Zero()), body2(shape2, rotation2, centre2);
-	const auto & vertices1 = shape1.polyhedron().vertices, &vertices2 = shape2.polyhedron().vertices;
+	const ConvexShape &shape1 = *pair.shape[0], &shape2 = *pair.shape[1];
+	const Placed       body1(shape1, *pair.rotation[0], Vector3::Zero()), body2(shape2, *pair.rotation[1], *pair.centre2);
+	const auto &       vertices1 = shape1.polyhedron().vertices, &vertices2 = shape2.polyhedron().vertices;
 	if (vertices1.empty()) return vertices2.empty() ? PairDistance() : fromWall(shape1, body1, body2, 1);
 	if (vertices2.empty()) return fromWall(shape2, body2, body1, -1);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "shape/ConvexShape.hpp"
+#include "contact/PlacedPair.hpp"
 
 namespace polytope {
 
@@ -12,13 +12,12 @@ struct PairDistance {
 	Vector3 point[2] = { Vector3::Zero(), Vector3::Zero() }; ///< nearest points of the bodies, world axes, from body 1's centre
 };
 
-/// Input as contactQuery() has it: the same dimension, not two half-spaces; in 2-D z of everything is ignored. Where several points are nearest, as of parallel
+/// The bodies have the same dimension and are not two half-spaces. Where several points are nearest, as of parallel
 /// faces, they are a vertex of the faces' nearest part. Nothing throws or allocates.
 ///
 /// The point of the difference of both bodies that is nearest to the origin, by Wolfe's iterations (P. Wolfe 1976, Finding the nearest point in a
 /// polytope, Mathematical Programming 11:128-149) with one vertex of each body as a vertex of the difference. Error: some roundings of the pair's size, of the
 /// normal this over the distance.
-POLYTOPE_API PairDistance pairDistance(
-        const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2);
+POLYTOPE_API PairDistance pairDistance(const PlacedPair& pair);
 
 } // namespace polytope

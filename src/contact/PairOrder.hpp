@@ -2,8 +2,8 @@
 #pragma once
 
 #include "contact/ContactTypes.hpp"
+#include "contact/PlacedPair.hpp"
 #include "program/PlaneCode.hpp"
-#include "shape/ConvexShape.hpp"
 
 #include <utility>
 
@@ -22,19 +22,19 @@ inline int compared(const Real* a, const Real* b, int count)
 }
 
 /// Whether body 2 goes first: by the shapes' sizes and planes, then orientations, then positions.
-inline bool secondGoesFirst(
-        const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2, const Vector3& centre2)
+inline bool secondGoesFirst(const PlacedPair& pair)
 {
-	int order = 0;
+	const ConvexShape &shape1 = *pair.shape[0], &shape2 = *pair.shape[1];
+	int                order = 0;
 	if (&shape1 != &shape2) {
 		order = compared(shape1.boundingRadius(), shape2.boundingRadius());
 		if (!order) order = compared(shape1.inscribedRadius(), shape2.inscribedRadius());
 		if (!order) order = compared(Real(shape1.planeCount()), Real(shape2.planeCount()));
 		if (!order) order = compared(shape1.normalArray(0), shape2.normalArray(0), (shape1.dimension() + 1) * shape1.paddedCount());
 	}
-	if (!order) order = compared(rotation1.data(), rotation2.data(), 9);
+	if (!order) order = compared(pair.rotation[0]->data(), pair.rotation[1]->data(), 9);
 	for (int k = 0; k < shape1.dimension() && !order; ++k)
-		order = compared(centre2[k], 0);
+		order = compared((*pair.centre2)[k], 0);
 	return order > 0;
 }
 

@@ -17,7 +17,7 @@ template <class R> struct ProgramLimits {
 };
 
 template <class R, int D>
-POLYTOPE_INLINE ProgramLimits<R> programLimits(const PairInput& in, const ContactSettings& settings, const ContactFrame<R, D>& f)
+POLYTOPE_INLINE ProgramLimits<R> programLimits(const PlacedPair& in, const ContactSettings& settings, const ContactFrame<R, D>& f)
 {
 	const R tolerance = settings.tolerance * f.size;
 	const R larger    = in.shape[1 - f.home]->boundingRadius();
@@ -28,7 +28,7 @@ POLYTOPE_INLINE ProgramLimits<R> programLimits(const PairInput& in, const Contac
 /// references to variables of contactKernel(), which the compiler keeps in registers as if each stage had been given them one by one; a function that is
 /// not inlined takes a copy, so that their addresses do not leave the others.
 template <class R, int D> struct PairQuery {
-	const PairInput&        in;
+	const PlacedPair&       in;
 	const ContactSettings&  settings;
 	const ProgramLimits<R>& limits;
 	ContactFrame<R, D>&     frame;

@@ -22,7 +22,7 @@ POLYTOPE_INLINE LpStatus solvePhaseOne(
 
 /// The value reported for s* of a pair that a basis separates: a lower bound wherever s* is attained, rounding of the weights
 /// included, above `least`.
-template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PairInput& in, R least)
+template <class R, int D> POLYTOPE_INLINE R separatedBound(const LpBasis<R, D>& basis, R reach, const PlacedPair& in, R least)
 {
 	R noise = 0;
 	for (int k = 0; k < D; ++k)
@@ -48,7 +48,7 @@ template <class R, int D> POLYTOPE_INLINE void dualDirection(const PairPlanes<R,
 /// The start basis alone separates the bodies.
 template <class R, int D>
 POLYTOPE_INLINE void publishSeparation(
-        const PairInput& in, const ProgramLimits<R>& limits, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
+        const PlacedPair& in, const ProgramLimits<R>& limits, const LpBasis<R, D>& basis, PairMemory& memory, ContactResult& out)
 {
 	out.status        = ContactStatus::Separated;
 	out.infeasibility = separatedBound<R, D>(basis, limits.reach, in, -limits.tolerance);

@@ -10,7 +10,7 @@ namespace polytope {
 /// Planes of a body into its rows: a ← Tᵀ·a, d ← (d − a·centre) − a·origin with the body's own a, in whose axes the frame's `centre` (of the smaller
 /// body) and from there its `origin` are given: so a normal's rounding acts over the overlap only. T: from the frame to the body's axes.
 template <class R, int D, int W>
-POLYTOPE_INLINE void placePlanes(const PairInput& in, const ContactFrame<R, D>& f, int body, PairPlanes<R, D>& out)
+POLYTOPE_INLINE void placePlanes(const PlacedPair& in, const ContactFrame<R, D>& f, int body, PairPlanes<R, D>& out)
 {
 	using V                      = typename Lanes<R, W>::Type;
 	const ConvexShape&    shape  = *in.shape[body];
@@ -55,7 +55,8 @@ template <class R, int D> POLYTOPE_INLINE void framePlane(const ContactFrame<R, 
 }
 
 /// One plane of a body in the frame.
-template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
+template <class R, int D>
+POLYTOPE_INLINE void framePlane(const PlacedPair& in, const ContactFrame<R, D>& f, int body, int index, R* a, R& d)
 {
 	R own[D];
 	for (int k = 0; k < D; ++k)
@@ -63,7 +64,7 @@ template <class R, int D> POLYTOPE_INLINE void framePlane(const PairInput& in, c
 	framePlane<R, D>(f, body, own, R(in.shape[body]->offsetArray()[index]), a, d);
 }
 
-template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PlacedPair& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {
 	for (int body = 0; body < 2; ++body)
 		placePlanes<R, D, W>(in, f, body, planes);
@@ -71,7 +72,7 @@ template <class R, int D, int W> POLYTOPE_INLINE void placePair(const PairInput&
 
 /// Does the same as placePair(), but in the smaller body's own frame, where its planes stay as they are.
 template <class R, int D, int W>
-POLYTOPE_INLINE void placePairAtHome(const PairInput& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
+POLYTOPE_INLINE void placePairAtHome(const PlacedPair& in, const ContactFrame<R, D>& f, PairPlanes<R, D>& planes)
 {
 	const ConvexShape& own   = *in.shape[f.home];
 	const int          begin = planes.begin(f.home), count = own.paddedCount();

@@ -62,10 +62,10 @@ std::string faultOf(const ContactOptions& options)
 	return "";
 }
 
-std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
-        const Vector3& centre2, const ContactSettings& settings)
+std::string faultOf(const PlacedPair& pair, const ContactSettings& settings)
 {
-	const std::string fault = faultOf(settings);
+	const ConvexShape &shape1 = *pair.shape[0], &shape2 = *pair.shape[1];
+	const std::string  fault = faultOf(settings);
 	if (!fault.empty()) return fault;
 	const Real sum = settings.normalWeight[0] + settings.normalWeight[1];
 	if (!(settings.normalWeight[0] >= 0 && settings.normalWeight[1] >= 0 && sum > 0 && isfinite(sum)))
@@ -78,10 +78,10 @@ std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const C
 	if (!hasUnitNormal(shape1)) return std::string("shape1") + unit;
 	if (!hasUnitNormal(shape2)) return std::string("shape2") + unit;
 	const char* const what = dimension == 3 ? ": must be a rotation matrix" : ": must be the matrix of a rotation about z";
-	if (!isRotation(rotation1, dimension)) return std::string("rotation1") + what;
-	if (!isRotation(rotation2, dimension)) return std::string("rotation2") + what;
+	if (!isRotation(*pair.rotation[0], dimension)) return std::string("rotation1") + what;
+	if (!isRotation(*pair.rotation[1], dimension)) return std::string("rotation2") + what;
 	for (int k = 0; k < dimension; ++k)
-		if (!isfinite(centre2[k])) return "centre2: must be finite";
+		if (!isfinite((*pair.centre2)[k])) return "centre2: must be finite";
 	return settings.internal ? faultOf(*settings.internal, shape1, shape2) : "";
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/ContactTypes.hpp"
-#include "shape/ConvexShape.hpp"
+#include "contact/PlacedPair.hpp"
 
 #include <string>
 
@@ -16,7 +16,6 @@ POLYTOPE_API std::string faultOf(const ContactOptions& options);
 /// A sentence that names the first argument of a query that is not as it must be, or nothing: options as above, weights, and internal planes that the bodies have; both
 /// shapes of one dimension, not both half-spaces; of a half-space a unit normal (to tolerance::orthogonal); rotations that are rotations (tolerance::orthogonal), in 2-D about z; a finite position.
 /// The memory may be any.
-POLYTOPE_API std::string faultOf(const ConvexShape& shape1, const Matrix3& rotation1, const ConvexShape& shape2, const Matrix3& rotation2,
-        const Vector3& centre2, const ContactSettings& settings);
+POLYTOPE_API std::string faultOf(const PlacedPair& pair, const ContactSettings& settings);
 
 } // namespace polytope

@@ -23,7 +23,7 @@ enum class StartBasis {
 /// Solves the basis given by codes (PairMemory::basis) in the frame; false if it cannot be used. `dual`: its dual direction.
 template <class R, int D>
 POLYTOPE_INLINE bool startFrom(
-        const PairInput& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
+        const PlacedPair& in, const ContactFrame<R, D>& f, const std::array<int, 4>& codes, LpBasis<R, D>& basis, R* dual)
 {
 	R          normals[D + 1][D];
 	const auto plane = [&](int k, R* a, R& d) POLYTOPE_INLINE_LAMBDA {
@@ -43,7 +43,7 @@ POLYTOPE_INLINE bool startFrom(
 /// Basis of the smaller body's inscribed ball, as the shape has solved it, in that body's frame. False where that is not the smaller ball,
 /// or where the shape has no solved basis.
 template <class R, int D>
-POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis)
+POLYTOPE_INLINE bool startFromOwnBall(const PlacedPair& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis)
 {
 	const LpBasis<R, D>* const ball = in.shape[f.home]->template inscribedBall<D>();
 	if (!ball || !(in.shape[f.home]->inscribedRadius() <= in.shape[1 - f.home]->inscribedRadius())) return false;
@@ -56,7 +56,7 @@ POLYTOPE_INLINE bool startFromOwnBall(const PairInput& in, const ContactFrame<R,
 /// A start basis of either body, the smaller ball's first, solved in the frame: the other one, where turning a basis of nearly parallel planes
 /// has made it singular. False if both are.
 template <class R, int D>
-POLYTOPE_INLINE bool startFromBall(const PairInput& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)
+POLYTOPE_INLINE bool startFromBall(const PlacedPair& in, const ContactFrame<R, D>& f, PairMemory& memory, LpBasis<R, D>& basis, R* dual)
 {
 	int ball = in.shape[1]->inscribedRadius() < in.shape[0]->inscribedRadius() ? 1 : 0;
 	for (int attempt = 0; attempt < 2; ++attempt, ball = 1 - ball) {
@@ -74,7 +74,7 @@ POLYTOPE_INLINE bool startFromBall(const PairInput& in, const ContactFrame<R, D>
 /// Sets frame, planes and basis.
 template <class R, int D, int W> POLYTOPE_INLINE StartBasis startBasis(const PairQuery<R, D>& q)
 {
-	const PairInput&    in     = q.in;
+	const PlacedPair&   in     = q.in;
 	PairMemory&         memory = q.memory;
 	ContactFrame<R, D>& f      = q.frame;
 	PairPlanes<R, D>&   planes = q.planes;

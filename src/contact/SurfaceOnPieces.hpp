@@ -48,7 +48,7 @@ private:
 /// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: thin beside the body that
 /// lies on the pieces, and within the thickness of a piece. Twice that, since beside the seam the piece's own part of the overlap is less deep.
 template <class R, int D>
-POLYTOPE_APART R internalDepth(const PairInput& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
+POLYTOPE_APART R internalDepth(const PlacedPair& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
 {
 	R least = R(padOffset);
 	for (int piece = 0; piece < 2; ++piece) {
@@ -75,7 +75,7 @@ template <class R, int D, int W> POLYTOPE_APART void boundingPlanesOf(PairQuery<
 
 /// Length that bounds the overlap with the extended piece: it lies within the other body, and within the piece enlarged about its centre until it reaches as far as the
 /// solid, for planes that are moved out by no more than that factor bound no more.
-template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PairInput& in, const InternalPlanes& internal)
+template <class R> POLYTOPE_INLINE R sizeOfOverlap(const PlacedPair& in, const InternalPlanes& internal)
 {
 	R size = R(padOffset);
 	for (int piece = 0; piece < 2; ++piece) {
@@ -125,7 +125,7 @@ POLYTOPE_APART bool beginOnPieces(
 
 /// Whether the surface of the extended piece was found, and the overlap is that of a body which slides on these pieces.
 template <class R, int D>
-POLYTOPE_APART bool slidesOnPieces(const PairInput& in, const ContactFrame<R, D>& f, const ProgramLimits<R>& limits,
+POLYTOPE_APART bool slidesOnPieces(const PlacedPair& in, const ContactFrame<R, D>& f, const ProgramLimits<R>& limits,
         const InternalPlanes& internal, const PairSurface<R, D>& surface)
 {
 	if (surface.status != SurfaceStatus::Found || !(surface.deepest > limits.tolerance)) return false;

@@ -71,7 +71,7 @@ POLYTOPE_INLINE void rememberBasis(const PairPlanes<R, D>& planes, const LpBasis
 /// attained, that body grown by s* < |centre2| + size about its inscribed ball of radius r has the point: so L < 2 size (2 +
 /// (|centre2| + size)/r) there, which gives a `bound` of s*, zero at least.
 template <class R, int D>
-POLYTOPE_INLINE bool separatedByWeights(const PairInput& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
+POLYTOPE_INLINE bool separatedByWeights(const PlacedPair& in, const PairMemory& memory, int home, R size, R reach, Real& bound)
 {
 	using std::sqrt;
 	R sum[2][D] = {}, world[2][D];
@@ -122,7 +122,7 @@ template <class R, int D> POLYTOPE_INLINE void carriedPoint(const ContactFrame<R
 /// each body's frame), last axis along `direction` (world axes). False where there is no such frame: the bodies disagree on
 /// the point, having been moved by more than a step.
 template <class R, int D>
-POLYTOPE_INLINE bool followContact(const PairInput& in, ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, const Vector3& direction)
+POLYTOPE_INLINE bool followContact(const PlacedPair& in, ContactFrame<R, D>& f, const std::array<Vector3, 2>& own, const Vector3& direction)
 {
 	R carried[2][D], half[D], n[D], middle[D];
 	for (int body = 0; body < 2; ++body)

@@ -12,8 +12,9 @@ namespace {
 
 	/// A slip, the resistance to it, and how that changes with the slip. A slip that is longer meets the same resistance, which changes the less.
 	struct Motion {
-		Vector3 slip, resistance;
-		Matrix3 slope;
+		Vector3 slip;
+		Matrix3 slope; // before the resistance, whose function writes it
+		Vector3 resistance;
 
 		Motion(const ShearStrength& strength, const Vector3& slip_) : slip(slip_), resistance(strength.resistance(slip, &slope)) { }
 		/// Work that the strength takes (Euler).

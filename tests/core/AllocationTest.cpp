@@ -53,8 +53,7 @@ void expectNoneAfterTheLargest(ContactSettings settings, int dimension)
 	const auto              queryAll = [&] {
                 int contacts = 0;
                 for (std::size_t i = 0; i < pairs.size(); ++i) {
-                        contactQuery(*pairs[i].shape[0], pairs[i].rotation[0], *pairs[i].shape[1], pairs[i].rotation[1], pairs[i].centre2,
-			                     settings, memories[i], workspace, result);
+                        contactQuery(pairs[i].placed(), settings, memories[i], workspace, result);
                         contacts += result.hasGeometry;
                 }
                 return contacts;

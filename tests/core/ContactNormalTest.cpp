@@ -13,7 +13,7 @@ TEST(ContactNormal, GradientsThatCancelGiveNoDirection)
 	const auto                shape    = ConvexShape::shared(cuboid(1, 1, 1), Real(0.1));
 	const Matrix3             rotation = Matrix3::Identity();
 	const Vector3             centre   = Vector3::UnitZ();
-	const PairInput           in { { shape.get(), shape.get() }, { &rotation, &rotation }, &centre };
+	const PlacedPair          in { *shape, rotation, *shape, rotation, centre };
 	ContactFrame<Real, 3>     frame {};
 	const ContactSettings     settings;
 	const ProgramLimits<Real> limits {};

@@ -222,8 +222,7 @@ TEST(ContactQuery, WhatTheBuffersHeldBeforeDoesNotMatter)
 			ContactResult    result[2];
 			for (int again = 0; again < 2; ++again)
 				for (int k = 0; k < 2; ++k)
-					contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2,
-					        settings, memory[k], k ? used : fresh, result[k]);
+					contactQuery(pair.placed(), settings, memory[k], k ? used : fresh, result[k]);
 			EXPECT_EQ(result[0].point, result[1].point);
 			EXPECT_EQ(result[0].normal, result[1].normal);
 			EXPECT_EQ(result[0].depth, result[1].depth);

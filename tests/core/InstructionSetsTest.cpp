@@ -18,16 +18,16 @@ using namespace polytope::samples;
 
 namespace {
 
-using Kernel = void (*)(const PairInput&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
+using Kernel = void (*)(const PlacedPair&, const ContactSettings&, PairMemory&, ContactWorkspace&, ContactResult&);
 
 template <int D, bool Surface>
-void scalar(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+void scalar(const PlacedPair& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 1, Surface>(in, settings, memory, workspace, out);
 }
 
 template <int D, bool Surface>
-void twoLanes(const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+void twoLanes(const PlacedPair& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 2, Surface>(in, settings, memory, workspace, out);
 }
@@ -37,7 +37,7 @@ ContactResult from(const Kernel kernel, const Pair& pair, const ContactSettings&
 	ContactWorkspace workspace;
 	PairMemory       memory;
 	ContactResult    result;
-	const PairInput  in { { pair.shape[0].get(), pair.shape[1].get() }, { &pair.rotation[0], &pair.rotation[1] }, &pair.centre2 };
+	const PlacedPair in = pair.placed();
 	kernel(in, settings, memory, workspace, result);
 	return result;
 }
@@ -70,8 +70,7 @@ void expectSameFrom(const Kernel* kernels)
 			const ContactResult result = query(pair), other = from(kernels[dimension - 2], pair, {});
 			ASSERT_EQ(result.inContact, other.inContact);
 			// the order of the bodies is the query's business, not the kernel's
-			if (!secondGoesFirst(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2))
-				expectSameFoundation(pair, kernels[dimension]);
+			if (!secondGoesFirst(pair.placed())) expectSameFoundation(pair, kernels[dimension]);
 			if (!result.inContact) continue;
 			++contacts;
 			const PrecisePair exact(pair);
@@ -98,7 +97,7 @@ TEST(InstructionSets, TwoLanesGiveTheSame)
 
 template <int D, bool Surface>
 __attribute__((target("arch=x86-64-v3"))) void fourLanes(
-        const PairInput& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
+        const PlacedPair& in, const ContactSettings& settings, PairMemory& memory, ContactWorkspace& workspace, ContactResult& out)
 {
 	contactKernel<Real, D, 4, Surface>(in, settings, memory, workspace, out);
 }

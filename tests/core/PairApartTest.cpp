@@ -19,7 +19,7 @@ std::shared_ptr<const ConvexShape> solid(int faces) { return ConvexShape::shared
 bool stay(const Pair& pair, Real way)
 {
 	ContactWorkspace workspace;
-	return staysApart(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, way, workspace);
+	return staysApart(pair.placed(), way, workspace);
 }
 
 } // namespace

@@ -12,10 +12,7 @@ using namespace polytope::samples;
 
 namespace {
 
-PairDistance distanceOf(const Pair& pair)
-{
-	return pairDistance(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2);
-}
+PairDistance distanceOf(const Pair& pair) { return pairDistance(pair.placed()); }
 
 Vector3 vertexOf(const Pair& pair, int body, const Vector3& own)
 {
@@ -88,27 +85,27 @@ TEST(PairDistance, OfCubes)
 			Vector3 centre = Vector3::Zero();
 			for (int k = 0; k < axes; ++k)
 				centre[k] = place;
-			const PairDistance found = pairDistance(*shape, one, *shape, one, centre);
+			const PairDistance found = pairDistance({ *shape, one, *shape, one, centre });
 			EXPECT_NEAR(found.distance, (place - 2) * sqrt(Real(axes)), 32 * tolerance::rounding);
 			EXPECT_NEAR((found.normal - centre.normalized()).norm(), 0, 32 * tolerance::rounding);
 		}
-	EXPECT_EQ(pairDistance(*shape, one, *shape, one, Vector3(1.5, 0, 0)).distance, 0); // overlap
-	EXPECT_EQ(pairDistance(*shape, one, *shape, one, Vector3(2, 0, 0)).distance, 0);   // touch
+	EXPECT_EQ(pairDistance({ *shape, one, *shape, one, Vector3(1.5, 0, 0) }).distance, 0); // overlap
+	EXPECT_EQ(pairDistance({ *shape, one, *shape, one, Vector3(2, 0, 0) }).distance, 0);   // touch
 }
 
 TEST(PairDistance, FromAHalfSpace)
 {
 	const auto         wall = ConvexShape::halfSpace(Vector3(0, 0, 1), 3), shape = cube();
 	const Matrix3      one   = Matrix3::Identity();
-	const PairDistance above = pairDistance(*wall, one, *shape, one, Vector3(5, 6, 1.25)),
-	                   below = pairDistance(*shape, one, *wall, one, Vector3(0, 0, -1.25));
+	const PairDistance above = pairDistance({ *wall, one, *shape, one, Vector3(5, 6, 1.25) }),
+	                   below = pairDistance({ *shape, one, *wall, one, Vector3(0, 0, -1.25) });
 	EXPECT_NEAR(above.distance, 0.25, 8 * tolerance::rounding);
 	EXPECT_NEAR(below.distance, 0.25, 8 * tolerance::rounding);
 	EXPECT_EQ(above.normal, Vector3(0, 0, 1));
 	EXPECT_EQ(below.normal, Vector3(0, 0, -1));
 	EXPECT_NEAR(above.point[0][2], 0, 8 * tolerance::rounding);
 	EXPECT_NEAR(below.point[1][2], -1.25, 8 * tolerance::rounding);
-	EXPECT_EQ(pairDistance(*wall, one, *shape, one, Vector3(0, 0, 0.9)).distance, 0);
+	EXPECT_EQ(pairDistance({ *wall, one, *shape, one, Vector3(0, 0, 0.9) }).distance, 0);
 }
 
 TEST(ConvexShape, SupportIsTheFarthestVertex) { EXPECT_EQ(cube()->support(Vector3(1, -2, 3)), Vector3(1, -1, 1)); }

@@ -21,9 +21,10 @@ struct Pair {
 	/// The smaller circumradius: what the kernel's tolerances are relative to.
 	Real size() const { return std::min(shape[0]->boundingRadius(), shape[1]->boundingRadius()); }
 	/// A plane of the pair in one frame is rounded to about machine precision × this.
-	Real reach() const { return shape[0]->boundingRadius() + shape[1]->boundingRadius() + centre2.norm(); }
-	Real inscribedRadius() const { return std::min(shape[0]->inscribedRadius(), shape[1]->inscribedRadius()); }
-	int  dimension() const { return shape[0]->dimension(); }
+	Real       reach() const { return shape[0]->boundingRadius() + shape[1]->boundingRadius() + centre2.norm(); }
+	Real       inscribedRadius() const { return std::min(shape[0]->inscribedRadius(), shape[1]->inscribedRadius()); }
+	int        dimension() const { return shape[0]->dimension(); }
+	PlacedPair placed() const { return { *shape[0], rotation[0], *shape[1], rotation[1], centre2 }; }
 };
 
 inline Real uniform(std::mt19937_64& random, Real low, Real high) { return std::uniform_real_distribution<Real>(low, high)(random); }
@@ -55,8 +56,7 @@ inline ContactResult query(const Pair& pair, const ContactSettings& settings = {
 	static thread_local ContactWorkspace workspace;
 	PairMemory                           fresh;
 	ContactResult                        result;
-	contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, memory ? *memory : fresh,
-	        workspace, result);
+	contactQuery(pair.placed(), settings, memory ? *memory : fresh, workspace, result);
 	return result;
 }
 

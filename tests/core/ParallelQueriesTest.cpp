@@ -56,8 +56,7 @@ History run(const std::vector<Pair>& pairs, const ContactSettings& settings, int
                         ContactResult    result;
                         for (std::size_t i = next++; i < now.size(); i = next++) {
                                 Pair& pair = now[i];
-                                contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings,
-				                      memories[i], workspace, result);
+                                contactQuery(pair.placed(), settings, memories[i], workspace, result);
                                 const std::vector<Real> own = numbers(result);
                                 history[i].insert(history[i].end(), own.begin(), own.end());
                                 pair.centre2 *= 1 - Real(1e-3) * Real(1 + i % 5);

@@ -36,27 +36,28 @@ TEST(Preconditions, NameTheArgument)
 	const Vector3         centre(0, 0, 1.9);
 	const ContactSettings good;
 	const auto fault = [&](const ConvexShape& other, const Matrix3& turn, const Vector3& place, const ContactSettings& settings) {
-		return faultOf(*solid, unturned, other, turn, place, settings);
+		return faultOf({ *solid, unturned, other, turn, place }, settings);
 	};
 	const auto starts = [](const std::string& text, const std::string& start) { return text.substr(0, start.size()) == start; };
 	EXPECT_EQ(fault(*solid, unturned, centre, good), "");
 	EXPECT_EQ(fault(*wall, unturned, centre, good), "");
 	EXPECT_TRUE(starts(fault(*flat, unturned, centre, good), "shape2: a polygon and a polyhedron"));
-	EXPECT_TRUE(starts(faultOf(*wall, unturned, *wall, unturned, centre, good), "shape2: two half-spaces"));
+	EXPECT_TRUE(starts(faultOf({ *wall, unturned, *wall, unturned, centre }, good), "shape2: two half-spaces"));
 	for (const Vector3& normal : { Vector3(0, 0, 0), Vector3(0, 0, 2), Vector3(0, 0, std::numeric_limits<Real>::quiet_NaN()) }) {
 		const auto slanted = ConvexShape::halfSpace(normal, 3);
 		EXPECT_TRUE(starts(fault(*slanted, unturned, centre, good), "shape2: the normal of a half-space must be a unit vector"));
-		EXPECT_TRUE(starts(faultOf(*slanted, unturned, *solid, unturned, centre, good), "shape1: the normal of a half-space"));
+		EXPECT_TRUE(starts(faultOf({ *slanted, unturned, *solid, unturned, centre }, good), "shape1: the normal of a half-space"));
 	}
 	const Vector3 aslant = Vector3(0, 0.6, 0.8);
 	EXPECT_EQ(fault(*ConvexShape::halfSpace(aslant, 3), unturned, centre, good), "");
-	EXPECT_TRUE(starts(faultOf(*flat, unturned, *ConvexShape::halfSpace(aslant, 2), unturned, centre, good), "shape2: the normal"));
+	EXPECT_TRUE(starts(faultOf({ *flat, unturned, *ConvexShape::halfSpace(aslant, 2), unturned, centre }, good), "shape2: the normal"));
 	EXPECT_TRUE(starts(fault(*solid, 2 * unturned, centre, good), "rotation2: must be a rotation matrix"));
 	EXPECT_TRUE(starts(fault(*solid, -unturned, centre, good), "rotation2"));
 	Matrix3 tilted;
 	tilted << 1, 0, 0, 0, 0, -1, 0, 1, 0;
 	EXPECT_EQ(fault(*solid, tilted, centre, good), "");
-	EXPECT_TRUE(starts(faultOf(*flat, tilted, *flat, unturned, centre, good), "rotation1: must be the matrix of a rotation about z"));
+	EXPECT_TRUE(
+	        starts(faultOf({ *flat, tilted, *flat, unturned, centre }, good), "rotation1: must be the matrix of a rotation about z"));
 	EXPECT_TRUE(starts(fault(*solid, unturned, Vector3(0, std::numeric_limits<Real>::quiet_NaN(), 0), good), "centre2"));
 	ContactSettings bad = good;
 	bad.contactModel    = ContactModel(3);
@@ -99,8 +100,8 @@ TEST(Preconditions, MemoryOfAnotherPairIsNotUsed)
 			PairMemory       none, memory;
 			memory.hasBasis = memory.hasPoint = true;
 			memory.basis                      = basis;
-			contactQuery(*one, unturned, *other, unturned, centre, settings, none, workspace, cold);
-			contactQuery(*one, unturned, *other, unturned, centre, settings, memory, workspace, warm);
+			contactQuery({ *one, unturned, *other, unturned, centre }, settings, none, workspace, cold);
+			contactQuery({ *one, unturned, *other, unturned, centre }, settings, memory, workspace, warm);
 			EXPECT_TRUE(warm.inContact);
 			EXPECT_EQ(warm.depth, cold.depth);
 			EXPECT_EQ(warm.point, cold.point);

@@ -46,7 +46,7 @@ struct OnFloor {
 	{
 		const Matrix3 rotation = turned(turn);
 		const Vector3 foot(shift[0], shift[1], shift[2] + 2 * margin - depth), centre = foot + rotation * Vector3(0, 0, half[2]);
-		const auto    way  = pairDistance(*floor, Matrix3::Identity(), *block, rotation, centre);
+		const auto    way  = pairDistance({ *floor, Matrix3::Identity(), *block, rotation, centre });
 		const Real    most = 2 * margin - way.distance;
 		if (deepest) *deepest = most;
 		return spreadContact({ floor.get(), Vector3::Zero(), Matrix3::Identity(), Vector3::Zero() },

@@ -19,7 +19,7 @@ int main()
 	PairMemory            memory;    // of this pair, for the next query
 	ContactWorkspace      workspace; // of this thread
 	ContactResult         contact;
-	contactQuery(*cube.shape, cube.rotation, *octahedron.shape, octahedron.rotation, octahedron.position - cube.position, settings,
+	contactQuery({ *cube.shape, cube.rotation, *octahedron.shape, octahedron.rotation, octahedron.position - cube.position }, settings,
 	        memory, workspace, contact);
 	const Vector3 point = cube.position + contact.point, force = 1e6 * contact.depth * contact.normal;
 	std::printf("s* %.17g\npoint %.17g %.17g %.17g\nnormal %.17g %.17g %.17g\ndepth %.17g\nforce %.17g %.17g %.17g\n",

@@ -25,7 +25,8 @@ public:
 		auto* const             known  = static_cast<PolytopeGeom*>(c->geom.get());
 		auto                    memory = known ? known->memory() : polytope::PairMemory();
 		polytope::ContactResult result;
-		contactQuery(*one, state1.ori.toRotationMatrix(), *other, state2.ori.toRotationMatrix(), state2.pos + shift2 - state1.pos,
+		contactQuery(
+		        { *one, state1.ori.toRotationMatrix(), *other, state2.ori.toRotationMatrix(), state2.pos + shift2 - state1.pos },
 		        settings, memory, workspace, result);
 		if (result.inContact) {
 			const Matrix3r turn = state1.ori.toRotationMatrix();

@@ -54,7 +54,7 @@ namespace {
 	std::optional<Way> betweenHalfSpaces(const CoreOfBody& one, const CoreOfBody& other, const Vector3r& moved)
 	{
 		const auto gap = polytope::pairDistance(
-		        *one.convex, one.rotation, *other.convex, other.rotation, Vector3r(other.origin + moved - one.origin));
+		        { *one.convex, one.rotation, *other.convex, other.rotation, Vector3r(other.origin + moved - one.origin) });
 		if (!(gap.distance > 0)) return std::nullopt;
 		return Way { gap.normal, gap.point[0], one.margin + other.margin + moved.dot(gap.normal) - gap.distance };
 	}
@@ -99,7 +99,7 @@ namespace {
 		static thread_local polytope::ContactWorkspace workspace;
 		settings.geometryAcrossGap = settings.section = settings.outline = true;
 		polytope::PairMemory memory;
-		contactQuery(*one.convex, one.rotation, *other.convex, other.rotation, other.origin - one.origin, settings, memory,
+		contactQuery({ *one.convex, one.rotation, *other.convex, other.rotation, other.origin - one.origin }, settings, memory,
 		        workspace, result);
 		if (!result.inContact) result.depth = 0; // they just touch
 		const Real margins = one.margin + other.margin;

@@ -162,7 +162,7 @@ bool PolytopeGeomFunctor::isApart(const polytope::ConvexShape& convex1, const Bo
 	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
 	settings.programAlone              = hasSurface(settings.contactModel);
 	polytope::ContactResult result;
-	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	polytope::contactQuery({ convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
 	candidates_.remember(c, scene->iter, memory);
 	if (result.inContact) return false;
 	count(result);
@@ -207,7 +207,7 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
-	polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+	polytope::contactQuery({ convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
 	if (result.inContact && settings.bounding) {
 		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
@@ -215,7 +215,8 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
-			polytope::contactQuery(convex1, frame1.rotation, convex2, rotation2, centre2, settings, memory, workspace, result);
+			polytope::contactQuery(
+			        { convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
 		}
 	}
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);

@@ -147,8 +147,9 @@ bool PairSearch::staysApart(const Body& one, const Body& other) const
 		way += math::sqrt(Real(3)) * math::max(reference1.sweep, reference2.sweep)
 		        + math::max(room_.rooms()[one.id], room_.rooms()[other.id]);
 	static thread_local polytope::ContactWorkspace workspace;
-	return polytope::staysApart(*reference1.convex, reference1.orientation.toRotationMatrix(), *reference2.convex,
-	        reference2.orientation.toRotationMatrix(), reference2.position - reference1.position, way, workspace);
+	return polytope::staysApart({ *reference1.convex, reference1.orientation.toRotationMatrix(), *reference2.convex,
+	                                    reference2.orientation.toRotationMatrix(), reference2.position - reference1.position },
+	        way, workspace);
 }
 
 bool PairSearch::shouldBeErased(Body::id_t id1, Body::id_t id2, Scene* scene) const

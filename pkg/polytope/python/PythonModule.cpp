@@ -244,7 +244,7 @@ Contact contact(const py::object& b1, const py::object& b2, const py::object& co
 	polytope::ContactWorkspace workspace;
 	Contact                    answer;
 	const yade::Vector3r       centre2 = body2->state->pos - body1->state->pos;
-	polytope::contactQuery(convex1, body1->state->ori.toRotationMatrix(), convex2, body2->state->ori.toRotationMatrix(), centre2,
+	polytope::contactQuery({ convex1, body1->state->ori.toRotationMatrix(), convex2, body2->state->ori.toRotationMatrix(), centre2 },
 	        settings, memory, workspace, answer.result);
 	answer.point           = body1->state->pos + answer.result.point;
 	answer.sectionCentroid = body1->state->pos + answer.result.sectionCentroid;

@@ -36,11 +36,7 @@ namespace {
 		ContactWorkspace        workspace;
 		ContactResult           result;
 
-		void query(const Pair& pair, PairMemory& own)
-		{
-			contactQuery(*pair.shape[0], pair.rotation[0], *pair.shape[1], pair.rotation[1], pair.centre2, settings, own,
-			        workspace, result);
-		}
+		void query(const Pair& pair, PairMemory& own) { contactQuery(pair.placed(), settings, own, workspace, result); }
 
 		/// Boon2012: the motion along the linear program's dual direction separates the pair.
 		bool wayOutIsRight(const Pair& pair) const

@@ -54,8 +54,9 @@ public:
 		auto* const             known  = static_cast<PolytopeGeom*>(c->geom.get());
 		auto                    memory = known ? known->memory() : polytope::PairMemory();
 		polytope::ContactResult result;
-		contactQuery(*one.convex(), state1.ori.toRotationMatrix(), *other.convex(), state2.ori.toRotationMatrix(),
-		        state2.pos + shift2 - state1.pos, settings, memory, workspace, result);
+		contactQuery({ *one.convex(), state1.ori.toRotationMatrix(), *other.convex(), state2.ori.toRotationMatrix(),
+		                     state2.pos + shift2 - state1.pos },
+		        settings, memory, workspace, result);
 		if (!result.hasGeometry) return apply(result, state1.pos, state1, state2, shift2, force, c);
 		const Vector3r normal1 = state1.ori.conjugate() * result.normal, normal2 = state2.ori.conjugate() * -result.normal;
 		const Real     reach1 = reach(one, normal1), reach2 = reach(other, normal2);
