@@ -42,7 +42,7 @@ public:
 	POLYTOPE_INLINE void restore()
 	{
 		for (int k = 0; k < planes_.total && left_ > 0; ++k)
-			if (buffers_.twin[k] >= 0 && buffers_.twin[k] != k) {
+			if (isLeftOut(k)) {
 				planes_.offset[k] = buffers_.dropped[k];
 				--left_;
 			}
@@ -73,7 +73,10 @@ private:
 
 	int rank(int k) const { return (k < planes_.first) == (order_ == 0) ? k : k + planes_.total; }
 
-	/// Leaves out all planes that coincide with plane i but the one that stands for them, which it returns.
+	bool isLeftOut(int k) const { return buffers_.twin[k] >= 0 && buffers_.twin[k] != k; }
+
+	/// Leaves out all planes that coincide with plane i but the one that stands for them, which it returns. Not a second time: planes without a normal
+	/// (padding, and those of a pose that is no rotation) coincide with what is left out, and this would never end.
 	POLYTOPE_APART int leaveOut(int i)
 	{
 		R a[D], d;
@@ -82,7 +85,7 @@ private:
 			R square = 0;
 			for (int c = 0; c < D; ++c)
 				square += (planes_.normal[c][k] - a[c]) * (planes_.normal[c][k] - a[c]);
-			return square <= normal_ * normal_ && abs(planes_.offset[k] - d) <= offset_;
+			return !isLeftOut(k) && square <= normal_ * normal_ && abs(planes_.offset[k] - d) <= offset_;
 		};
 		int stands = i;
 		for (int k = 0; k < planes_.total; ++k)

@@ -108,6 +108,29 @@ TEST(Preconditions, MemoryOfAnotherPairIsNotUsed)
 		}
 }
 
+/// Matrices that flatten, stretch or mirror, as a quaternion from a script that is no unit quaternion has them: each query ends, with a status.
+TEST(Preconditions, AQueryEndsWhateverTheMatrix)
+{
+	std::mt19937_64 random(1127);
+	const Shapes    shapes  = randomShapes(30, random);
+	const Real      scale[] = { 0, 0, 1, -1, 1e-9, 1e9, 1e307 };
+	for (int trial = 0; trial < 2000 && !HasFailure(); ++trial) {
+		SCOPED_TRACE(trial);
+		Pair pair = randomPair(shapes, random);
+		for (Matrix3& rotation : pair.rotation)
+			for (int k = 0; k < 3; ++k)
+				rotation.row(k) *= scale[random() % 7];
+		ContactSettings settings;
+		settings.contactModel      = ContactModel(trial % 3);
+		settings.geometryAcrossGap = trial % 2;
+		PairMemory memory;
+		for (int step = 0; step < 2; ++step) {
+			const ContactResult result = query(pair, settings, &memory);
+			EXPECT_TRUE(int(result.status) >= 0 && int(result.status) < contactStatusCount);
+		}
+	}
+}
+
 /// Bytes at random, in part those of a true memory: no crash (also under sanitizers), and the depth of a query without memory.
 TEST(Preconditions, AnyMemoryIsSafe)
 {
