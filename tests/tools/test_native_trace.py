@@ -11,7 +11,7 @@ library = pathlib.Path(__file__).resolve().parents[2] / 'build/tests/core/libpol
 
 
 def testAFaultInAThreadIsWrittenWithItsFunctions():
-	"""Of Python, by its faulthandler as in pytest, and of C."""
+	"""Functions of Python are written, by its faulthandler as in pytest, and those of C."""
 	fault = 'import ctypes, faulthandler, threading; faulthandler.enable(); threading.Thread(target=lambda: ctypes.string_at(1)).start()'
 	ended = subprocess.run([sys.executable, '-c', fault], env={**os.environ, 'LD_PRELOAD': str(library)}, capture_output=True, text=True)
 	assert ended.returncode == -signal.SIGSEGV

@@ -167,11 +167,11 @@ class JointSet:
 		return directions / np.linalg.norm(directions, axis=1)[:, None]
 
 	def _parts(self, number, random):
-		"""Of the distance from the middle within which centres lie, evenly."""
+		"""Each centre's distance from the middle, over the distance within which centres lie evenly."""
 		return np.sqrt(random.random(number))
 
 	def _weights(self, reach, radii):
-		"""Of radii to each power: together (reach + r)², in proportion to which centres lie near enough."""
+		"""Weights of the radii to the powers 0, 1, 2: together (reach + r)², in proportion to which centres lie near enough."""
 		return [reach**2, 2 * reach * radii.moment(1), radii.moment(2)]
 
 	def _sizes(self, reach, random):

@@ -49,7 +49,7 @@ class JointedRock:
 	blocks: list
 	"""(normals, offsets) of each convex block in world coordinates, for *fromHalfSpaces*, without redundant planes."""
 	volumes: np.ndarray
-	"""Of the blocks [m³]; they add up to the region's. In the plane areas [m²], and lengths [m] in place of *areas* and *sections*."""
+	"""Volume of each block [m³]; they add up to the region's. In the plane areas [m²], and lengths [m] in place of *areas* and *sections*."""
 	bodies: list
 	"""For each rigid body the numbers of its blocks: one, or several where no joint separates them wholly (*incomplete*)."""
 	joints: np.ndarray

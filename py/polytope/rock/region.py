@@ -31,7 +31,7 @@ class Region:
 	volume: float
 	"""[m³]"""
 	thickness: float = 0.0
-	"""Of the prism that stands for a region in the plane [m]; 0: a region of space."""
+	"""Thickness of the prism that stands for a region in the plane [m]; 0: a region of space."""
 
 
 def regionOf(normals, offsets):

@@ -72,7 +72,7 @@ def loads(contacts, middle):
 
 
 def springs(outlines, middle, tilt):
-	"""The same of springs under each piece that are pressed by depth · (1 + tilt·(x, y)), from the middle."""
+	"""As loads(), but of springs under each piece that are pressed by depth · (1 + tilt·(x, y)), from the middle."""
 	rows = []
 	for outline in outlines:
 		area, x, y, xx, xy, yy = momentsOf([(a - middle[0], b - middle[1]) for a, b in outline])

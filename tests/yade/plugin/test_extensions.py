@@ -322,7 +322,7 @@ answer([said(path) for path in (None, 5, sys.argv[1], sys.argv[1] + '/none.so')]
 
 
 def testARefusalIsTheSameAgain(joint, tmp_path):
-	"""Of a copy, whose classes are there already, and which stays in the process."""
+	"""Asked for again, a copy whose classes are there already, and which stays in the process, is refused with the same words."""
 	copy = tmp_path / 'copy.so'
 	shutil.copy(joint, copy)
 	script = """
@@ -434,6 +434,6 @@ const Thrower thrower;
 	],
 )
 def testAConstructorThatThrowsIsRefused(what, reason, thrower):
-	"""Of a static object, while the library is loaded, where no exception can be caught."""
+	"""The constructor of a static object runs while the library is loaded, where no exception can be caught."""
 	assert refused(thrower, THROWER=what) == f'a constructor of its static objects {reason}'
 	assert inYade('from yade import polytope\nanswer(polytope.load(sys.argv[1]).name)', thrower)[0] == 'hyperbolicJoint'

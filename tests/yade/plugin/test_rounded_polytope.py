@@ -408,7 +408,7 @@ answer(seen)
 
 
 def testTwoBodiesOfRockableSettle(rounded):  # noqa: F811
-	"""Of its library, with their radius, one on the other: at rest upright, with the weight of both below."""
+	"""Two bodies of Rockable's library, with their radius, one on the other: at rest upright, with the weight of both below."""
 	script = (
 		resting
 		+ """

@@ -415,7 +415,7 @@ answer([seen, ways, found])
 
 
 def testTheStepBeforeContactKnowsTheLargestTangent(plane):
-	"""Of a law that begins 100 times as stiff as the material says: a tenth of the step of one that begins with that stiffness; a block that is dropped leaves no faster than it came."""
+	"""A law that begins 100 times as stiff as the material says has a tenth of the step of one that begins with that stiffness, and a block that is dropped leaves no faster than it came."""
 	script = (
 		startOfPlanes
 		+ """

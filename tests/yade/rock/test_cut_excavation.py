@@ -603,7 +603,7 @@ def testAnArchThroughASlabBetweenPlates():
 
 
 half, remaining, sideways, overburden = math.radians(25), 2.0, 5e4, 3e4
-"""Of a roof prism: angle of its joints with the vertical, height of what the cut leaves [m], horizontal and vertical stress [Pa]."""
+"""A roof prism: angle of its joints with the vertical, height of what the cut leaves [m], horizontal and vertical stress [Pa]."""
 
 
 def roofPrism(flat, friction):

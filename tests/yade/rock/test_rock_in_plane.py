@@ -39,7 +39,7 @@ def testBlocksArePolygonsWhoseAreasAddUp():
 
 
 def testTheyAreTheSectionOfTheRockInSpace():
-	"""Of joints that strike across the section: as deep as the prism is."""
+	"""Where all joints strike across the section, each block in space is one of the plane, as deep as the prism is."""
 	sets = joints((35, left, 3), (70, right, 4), (5, left, 2.5))
 	flat = polytope.jointedRock(*slope, sets, smallest=0)
 	normals = [(x, 0, y) for x, y in slope[0]]

@@ -29,7 +29,7 @@ class LimitTrial:
 	missing: float
 	"""Least cohesion and tensile strength that all joints would need in addition to stand [Pa]; 0 where it stands."""
 	steps: int
-	"""Of the interior-point method."""
+	"""Steps of the interior-point method."""
 
 
 @dataclasses.dataclass

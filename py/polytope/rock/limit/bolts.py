@@ -32,7 +32,7 @@ class Links:
 
 
 def linksOf(blocks):
-	"""Of the bolts that hold.
+	"""The links that bolts which hold make between blocks.
 
 	:raises ValueError: if one has no limit
 	"""

@@ -36,7 +36,7 @@ class Cones:
 		return float((self.round * other.round).sum() + self.plain @ other.plain)
 
 	def largest(self):
-		"""Of all components."""
+		"""The largest magnitude of any component."""
 		return max(float(np.abs(self.round).max()), float(np.abs(self.plain).max()))
 
 	def depth(self):

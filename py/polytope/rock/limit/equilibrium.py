@@ -60,7 +60,7 @@ class Equilibrium:
 		return self.matrix @ forces.ravel()
 
 	def slips(self, motion):
-		"""Of block *two* against block *one* at each corner, in the face's frame."""
+		"""How far block *two* moves against block *one* at each corner, in the face's frame."""
 		return (self.transposed @ motion).reshape(-1, 3)
 
 	def _order(self):

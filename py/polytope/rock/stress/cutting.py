@@ -25,7 +25,7 @@ cut along the region reach over its faces (*inSitu*)."""
 level = 1e-9
 """Sine of the angle up to which a plane is that of polygons."""
 touching = 1e-6
-"""Of the smaller part's inscribed radius: how far apart two parts of a clump may be and touch."""
+"""Distance up to which two parts of a clump touch, over the smaller part's inscribed radius."""
 
 
 @dataclasses.dataclass
@@ -98,7 +98,7 @@ def _planes(normals, offsets):
 
 
 def _section(normals, limits, z):
-	"""Of a part with a plane of this z; None: none."""
+	"""The polygon in which a plane of this z cuts a part; None: they do not meet."""
 	limits, lengths = limits - z * normals[:, 2], np.linalg.norm(normals[:, :2], axis=1)
 	across = lengths > level
 	if (limits[~across] < 0).any():

@@ -8,7 +8,7 @@ from ...precision import real
 __all__ = ['StressField']
 
 symmetry = 1e-9
-"""Of the largest component: how far a tensor may be from symmetric by rounding."""
+"""How far a tensor may be from symmetric by rounding, over its largest component."""
 
 
 class StressField:

@@ -105,4 +105,4 @@ def _setShear(contact, face, field):
 
 
 _permutation = np.array([[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j in range(3)] for i in range(3)])
-"""Of three indices: (a × b)ᵢ = permutation[i, j, k] aⱼ bₖ"""
+"""The permutation symbol: (a × b)ᵢ = permutation[i, j, k] aⱼ bₖ"""

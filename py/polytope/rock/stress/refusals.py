@@ -20,13 +20,13 @@ from ..faces import areaOfFace
 __all__ = ['accuracy', 'forcesBorne', 'massOf', 'refuseField', 'refuseForces', 'refuseScene']
 
 accuracy = 0.01
-"""To which the stress is what was asked for: of a block's forces, what may be missing for want of neighbours, and be left by gravity."""
+"""Share of a block's forces that may be missing for want of neighbours, or be left by gravity: so near is the stress to what was asked for."""
 
 wrongForce = 0.05
-"""Of what a body bears: by which a joint's force may differ from what was asked. The rim of its face and neighbours across an edge have a part of the closure over its width."""
+"""How far a joint's force may be from what was asked, over what a body bears. The rim of its face and neighbours across an edge have a part of the closure over its width."""
 
 rounding = 1e-9
-"""Of the largest stress at a joint."""
+"""A stress below this share of the largest one at a joint is rounding."""
 
 
 def massOf(bodies):
@@ -112,7 +112,7 @@ def refuseField(field, faces, chosen):
 
 
 def _refuseMaterials(faces):
-	"""Of faces where they have one of their own, else of bodies."""
+	"""Refuses materials whose joints cannot be given a stress: a face's own material counts before its body's."""
 	for face in faces:
 		joint, materials = f'bodies: the joint between {face.id1} and {face.id2}', [materialOf(face, k) for k in (face.id1, face.id2)]
 		if not all(isinstance(material, RockJointMat) for material in materials):

@@ -18,7 +18,7 @@ from ..faceMaterials import materialOfPlane
 __all__ = ['inLine']
 
 flush = 1e-9
-"""Of the largest coordinate: by how much the ends of one plane, or two bodies that touch, may be apart by rounding."""
+"""How far the ends of one plane, or two bodies that touch, may be apart by rounding, over the largest coordinate."""
 
 
 def inLine(moved):

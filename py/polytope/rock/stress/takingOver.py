@@ -122,7 +122,7 @@ def _betweenParts(link, goesOn, parts):
 
 
 def _findPairs():
-	"""Of the new bodies: contacts with parts of clumps that lie flush depend on each other."""
+	"""Lets the collider find the pairs of the new bodies, all at once: contacts with parts of clumps that lie flush depend on each other."""
 	for engine in O.engines:
 		if isinstance(engine, Collider) and not engine.dead:
 			engine()
@@ -154,7 +154,7 @@ def _addsUp(k):
 
 
 sameMass = 1e-9
-"""Of a clump's mass: by how much the sum over its parts may be more by rounding; else they overlap."""
+"""How much more than a clump's mass the sum over its parts may be by rounding, over that mass; if it is more, they overlap."""
 
 
 def _replaceInWaters(parts):
