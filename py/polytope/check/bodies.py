@@ -31,10 +31,25 @@ weakestWall = 1e5
 unitsApart = 300.0
 """Extent over the median of the bodies that can move, above which units differ: millimetres and metres differ by 1000, grains
 seldom by 100."""
+turnedOnly = 1e-6
+"""How far a quaternion's norm may be from 1: more stretches a body by more than contacts may be wrong."""
 
 
 def bodyFindings(scene):
-	for one in (density, mass, size, flatBoxes, frictionAngle, weakStrengths, dilation, tension, units, jointLaws, elasticConstants):
+	for one in (
+		density,
+		mass,
+		size,
+		flatBoxes,
+		orientation,
+		frictionAngle,
+		weakStrengths,
+		dilation,
+		tension,
+		units,
+		jointLaws,
+		elasticConstants,
+	):
 		yield from one(scene)
 
 
@@ -137,6 +152,17 @@ def flatBoxes(scene):
 	if flat:
 		seen = f'{_number(flat)} is a Box with extents {tuple(map(float, flat[0].shape.extents))}: without a thickness nothing rests on it'
 		yield 'size', seen, 'give it a thickness, or take a Wall or Facets'
+
+
+def orientation(scene):
+	wrong = [body for body in scene.bodies if body.shape and abs(float(body.state.ori.norm()) - 1) > turnedOnly]
+	if wrong:
+		seen = f'{_number(wrong)} has an orientation that is no unit quaternion (norm {float(wrong[0].state.ori.norm()):.3g}): it stretches the body'
+		yield (
+			'orientation',
+			seen,
+			'body.state.ori = body.state.ori.normalized(); Quaternion(axis, angle) and polytope.cuboid(…, orientation=…) have norm 1',
+		)
 
 
 def frictionAngle(scene):

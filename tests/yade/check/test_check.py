@@ -41,6 +41,7 @@ from yade import (
 	O,
 	PolytopeCollider,
 	PolytopeTimeStepper,
+	Quaternion,
 	RockJointMat,
 	RotationEngine,
 	TriaxialStressController,
@@ -870,6 +871,15 @@ def testPartsOfAClumpMayOverlap():
 def testABoxWithoutThickness():
 	scene(lambda: [utils.box((0, 0, -2), (3, 3, 0), fixed=True)])
 	assert 'without a thickness' in onlyFinding('size').seen
+
+
+def testAnOrientationThatStretches():
+	scene()
+	O.bodies[0].state.ori = Quaternion(2, 0, 0, 1)
+	found = onlyFinding('orientation')
+	assert 'body 0 has' in found.seen and 'norm 2.24' in found.seen and 'normalized' in found.advice
+	O.bodies[0].state.ori = O.bodies[0].state.ori.normalized()
+	assert not polytope.check(O)
 
 
 def testEnginesThatAreThereTwice():
