@@ -197,6 +197,9 @@ constexpr Real leastShareOfSupport = 1e-9;
 /// Steps between two searches for internal faces of a pair that touched before: between two of them, a body at
 /// 1 m/s moves by a hundredth of its size at most.
 constexpr int internalFacesEvery = 16;
+/// Way of a pair's contact point on one body against that on the other since the last step, over the smaller circumradius, above which a body was put
+/// elsewhere, and its internal faces are looked for at once.
+constexpr Real putElsewhere = 0.01;
 
 /// Difference of two orientations that counts as no rotation (length of the vector part of one quaternion times the other's conjugate).
 /// YADE normalises an orientation in each step, which changes its four numbers by a rounding error each, of either sign; their product

@@ -155,19 +155,31 @@ PolytopeGeom& PolytopeGeomFunctor::geometry(const shared_ptr<Interaction>& c)
 	return static_cast<PolytopeGeom&>(*c->geom);
 }
 
-bool PolytopeGeomFunctor::isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
-        const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace, const Interaction& c)
+bool PolytopeGeomFunctor::isApart(const polytope::PlacedPair& pair, polytope::ContactWorkspace& workspace, const Interaction& c)
 {
 	polytope::PairMemory      memory   = candidates_.recall(c, scene->iter);
 	polytope::ContactSettings settings = this->settings(StiffnessRule::Unknown);
 	settings.programAlone              = hasSurface(settings.contactModel);
 	polytope::ContactResult result;
-	polytope::contactQuery({ convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
+	polytope::contactQuery(pair, settings, memory, workspace, result);
 	candidates_.remember(c, scene->iter, memory);
 	if (result.inContact) return false;
 	count(result);
 	return true;
 }
+
+namespace {
+
+	/// Whether a script has put one of the two bodies elsewhere since the last step: the last contact point is not where it was on both of them.
+	bool wasPutElsewhere(const polytope::PairMemory& memory, const polytope::PlacedPair& pair)
+	{
+		if (!memory.hasPoint) return false;
+		const Vector3r apart = *pair.rotation[0] * memory.point[0] - *pair.rotation[1] * memory.point[1] - *pair.centre2;
+		const Real     size  = math::min(pair.shape[0]->boundingRadius(), pair.shape[1]->boundingRadius());
+		return apart.norm() > Real(polytope::tolerance::putElsewhere) * size;
+	}
+
+} // namespace
 
 bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
         const State& state1, const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
@@ -179,9 +191,10 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	static thread_local polytope::ContactWorkspace workspace;
 	const bool                                     wasReal = c->isReal();
 	if (convex1.dimension() != convex2.dimension()) return failed(c);
-	const Vector3r centre2   = state2.pos + shift2 - frame1.origin;
-	const Matrix3r rotation2 = state2.ori.toRotationMatrix();
-	if (!c->geom && !force && isApart(convex1, frame1, convex2, rotation2, centre2, workspace, *c)) return false;
+	const Vector3r             centre2   = state2.pos + shift2 - frame1.origin;
+	const Matrix3r             rotation2 = state2.ori.toRotationMatrix();
+	const polytope::PlacedPair pair { convex1, frame1.rotation, convex2, rotation2, centre2 };
+	if (!c->geom && !force && isApart(pair, workspace, *c)) return false;
 
 	auto& geom = geometry(c);
 	if (!wasReal) geom.stiffnessRule = std::int8_t(stiffnessRuleOfNew(*scene, *c));
@@ -203,20 +216,19 @@ bool PolytopeGeomFunctor::query(const polytope::ConvexShape& convex1, const Body
 	const bool               turn     = (scene->iter + c->getId1() + c->getId2()) % polytope::tolerance::internalFacesEvery == 0;
 	if (surface) {
 		const bool asPieces = mayHaveInternalFaces(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene));
-		if (asPieces && (turn || !geom.internalKnown || !wasReal)) settings.bounding = &bounding;
+		if (asPieces && (turn || !geom.internalKnown || !wasReal || wasPutElsewhere(memory, pair))) settings.bounding = &bounding;
 		settings.internal = internal.none() ? nullptr : &internal;
 	}
 	polytope::ContactResult result;
-	polytope::contactQuery({ convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
+	polytope::contactQuery(pair, settings, memory, workspace, result);
 	if (result.inContact && settings.bounding) {
-		const TouchingPair pair { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
+		const TouchingPair touching { c.get(), scene, { &convex1, &convex2 }, { frame1.origin, frame1.origin + centre2 },
 			{ frame1.rotation, rotation2 }, frame1.origin + bounding.point, -result.infeasibility };
-		if (findInternalFaces(pair, bounding, geom)) {
+		if (findInternalFaces(touching, bounding, geom)) {
 			settings.bounding = nullptr;
 			internal          = geom.internalPlanes();
 			settings.internal = internal.none() ? nullptr : &internal;
-			polytope::contactQuery(
-			        { convex1, frame1.rotation, convex2, rotation2, centre2 }, settings, memory, workspace, result);
+			polytope::contactQuery(pair, settings, memory, workspace, result);
 		}
 	}
 	if (result.inContact) giveShare(math::max(result.share, Real(polytope::tolerance::leastShareOfSupport)), geom, *c, result);

@@ -223,8 +223,7 @@ protected:
 
 	/// Whether a pair without a geometry has no need of one. Else the query that makes it starts without memory: what a new contact is
 	/// does not depend on what the pair remembers, so it is the same in a scene that was saved and loaded before.
-	bool isApart(const polytope::ConvexShape& convex1, const Body1Frame& frame1, const polytope::ConvexShape& convex2,
-	        const Matrix3r& rotation2, const Vector3r& centre2, polytope::ContactWorkspace& workspace, const Interaction& c);
+	bool isApart(const polytope::PlacedPair& pair, polytope::ContactWorkspace& workspace, const Interaction& c);
 
 	/// Finds internal faces; true if they differ from those in the geometry, which is then updated.
 	static bool findInternalFaces(const TouchingPair& pair, const polytope::BoundingPlanes& bounding, PolytopeGeom& geom);

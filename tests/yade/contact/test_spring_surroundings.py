@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """contactModel='spring' with YADE's own laws, shapes, periodic cells, polygons, and the time step it needs."""
 
+import itertools
 from math import sqrt
 
 import pytest
@@ -24,6 +25,7 @@ from yade import (
 	NewtonIntegrator,
 	O,
 	Quaternion,
+	RockJointMat,
 	ViscElMat,
 	polytope,
 )
@@ -295,3 +297,29 @@ def testCoincidentBodiesHaveNoDirectionAndNoForce():
 	assert found.geom.energyPerStiffness == pytest.approx((1.2 * 0.5) ** 2 / 2, rel=1e-9)
 	stats = O.engines[2].geomDispatcher.functors[0].stats()
 	assert stats['failures'] == stats['fallbacks'] == stats['statuses']['noDirection'] == 1
+
+
+@pytest.mark.parametrize('perArea', [False, True])
+def testABodyPutElsewhereHasItsSharesAtOnce(perArea):
+	"""On the joints of 36 flush pieces, wherever a script puts it: the force of a floor of one piece."""
+	O.reset()
+	stiffness = 1e9 if perArea else 1e7
+	O.materials.append(
+		RockJointMat(normalStiffness=stiffness, shearStiffness=stiffness, frictionAngle=0.5, density=2600, stiffnessPerArea=perArea)
+	)
+	for i, j in itertools.product(range(6), range(6)):
+		O.bodies.append(polytope.cuboid((i - 2.5, j - 2.5, -0.5), (0.5, 0.5, 0.5), fixed=True))
+	body = O.bodies[O.bodies.append(polytope.cuboid((0.03, 0.02, 0.4 - 1e-3), (0.7, 0.6, 0.4)))]
+	body.state.blockedDOFs = 'xyzXYZ'
+	O.engines = polytope.engines()
+	O.dt = 1e-5
+
+	def force():
+		return sum(float(contact.phys.normalForce[2]) for contact in O.interactions if contact.isReal)
+
+	O.run(3, True)
+	first = force()
+	for place in ((0.63, 0.47), (-0.2, 0.9), (0.03, 0.02)):
+		body.state.pos = (*place, 0.4 - 1e-3)
+		O.step()
+		assert force() == pytest.approx(first, rel=1e-3)
