@@ -12,6 +12,7 @@ from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..pictures.films import filmEngines
 from ..rest.scaledMasses import scaledMassesIfPossible
+from ..rest.unbalanced import unbalancedForce
 from ..rest.unrest import Unrest
 from ..scene.movers import canMove
 from ..scene.namedBodies import namedBodies
@@ -156,33 +157,36 @@ class _Search:
 		"""Mean unbalanced force of the body that moved farthest in the last trial [-], and its id."""
 		self.limit = None
 		"""Factor that the motion in the last trial tells."""
+		self.settled = None
+		"""Whether the scene was at rest at first: then it may swing and fail as its joints begin to slip, and stand with the same strengths from a state in which they have slipped."""
 		self.left = 1
 		"""Trials that are expected, with the present one: for the time left in the bar."""
 
 	def run(self, most):
 		with tqdm(unit=' steps', disable=None, leave=False) as self.bar:
 			bracket = self._begun(most)
-			while not bracket.isNarrow:
+			while not bracket.isFound:
 				self.left = bracket.halvings
 				trial = self._trialFromRest(bracket.next())
-				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked, self.limit)
+				bracket.tell(trial.factor, trial.outcome == 'stable', *self.lacked, self.limit, self.reached)
 				bracket.stable = max(bracket.stable, self.reached)
+				self._refuseUnsettled(bracket)
 				if bracket.stable >= most:
 					self.mode = noMode()
 					break
-		self._refuseUnsettled(bracket)
 		self._tellTrembling()
 		return FactorOfSafety(bracket.stable, bracket.failed, *self.mode, self.trials)
 
 	def _begun(self, most):
 		"""Begins with the scene's own strengths; where the scene fails with these, with strengths so large that it stands, from the same state."""
 		bracket = Bracket(self.tolerance, most)
+		self.settled = unbalancedForce(self.watched) < self.bound
 		self.origin = self._places()
 		O.saveTmp(standing, quiet=True)
 		own = self._trial(1.0)
 		if own.outcome != 'stable':
 			self.mode = self._motion()
-			bracket.tell(1.0, False, *self.lacked, self.limit)
+			bracket.tell(1.0, False, *self.lacked, self.limit, 0.0)
 			_load(standing, self.loads)
 			bracket.stable = 1 / most
 			divideStrengths(bracket.stable, self.reduce)
@@ -195,8 +199,8 @@ class _Search:
 		return bracket
 
 	def _refuseUnsettled(self, bracket):
-		"""Refuses a scene that failed with its own strengths only because it was not at rest: from the last state that stood it does not fail."""
-		if bracket.failed == 1 and self._trialFromRest(1.0).outcome == 'stable':
+		"""Refuses a scene that failed with its own strengths only because it was not at rest: from a state that stood it does not fail."""
+		if not self.settled and bracket.stable >= 1 and self.trials[0].outcome != 'stable':
 			raise RuntimeError(
 				'the scene stands with its own strengths from a state at rest, and fails from the one that it is in; polytope.settle() first'
 			)
@@ -255,7 +259,7 @@ class _Search:
 		if not parts.max() <= 1 or motion.runsAway():  # not a number counts as failed
 			return 'failed'
 		self.quiet = self.quiet + 1 if trial.unbalanced < self.bound else 0
-		stands = self.quiet >= looks and motion.way(looks) < still
+		stands = self.quiet >= looks and motion.way(looks) < still and not motion.speedsUp()
 		trial.trembling = [] if stands else _trembling(unrest)
 		return 'stable' if stands or trial.trembling else 'creeping'
 

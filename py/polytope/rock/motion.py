@@ -14,7 +14,9 @@ __all__ = ['Motion']
 far = 0.25
 """Part of the way that counts as failure, from which on a body that moves faster and faster has failed: some ten times what elastic joints give way."""
 faster = 1.05
-"""Least ratio of the ways in two quarters of a trial, one after the other, where a body moves faster and faster: a steady speed has 1, a steady acceleration from rest 1.4 at least."""
+"""Least ratio of the ways in two of three or four equal parts of a trial, one after the other, where a body moves faster and faster: a steady speed has 1, a steady acceleration from rest 1.4 at least."""
+unmoved = 1e-6
+"""Way over that which counts as failure, up to which a body is at rest, whatever its speed."""
 early = 0.3
 """Part of the way that counts as failure, up to which the motion tells of the strength: beyond that blocks have come free of each other, and fall."""
 sameWay = 0.5
@@ -58,6 +60,10 @@ class Motion:
 		"""Largest way in the last looks, over its limit."""
 		return float(np.abs(self.parts[-1] - self.parts[max(0, len(self.parts) - looks)]).max())
 
+	def speedsUp(self):
+		"""Whether a body has moved faster and faster all the while: its joints lack little of what would hold it, less than what counts as an unbalanced force."""
+		return bool((self._speeding(3) & (self.parts[-1] > unmoved)).any())
+
 	def limit(self, factor):
 		"""The factor at which strengths would have held the mass, or None.
 
@@ -68,12 +74,16 @@ class Motion:
 
 	def runsAway(self):
 		"""Whether a body moves faster and faster with nothing ahead, on the way that is left until it counts as failed, that could stop it."""
-		last = len(self.parts) - 1
-		if last < 8 or self.parts[-1].max() < far:
+		if len(self.parts) < 9 or self.parts[-1].max() < far:
 			return False
-		ways = np.diff([self.parts[last * k // 4] for k in range(5)], axis=0)
-		speeding = (self.parts[-1] >= far) & (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)
+		speeding = (self.parts[-1] >= far) & self._speeding(4)
 		return any(not self._isStopped(k) for k in np.flatnonzero(speeding))
+
+	def _speeding(self, spans):
+		"""Of each body whether it moved faster in each of so many equal parts of the trial than in the one before."""
+		last = len(self.parts) - 1
+		ways = np.diff([self.parts[last * k // spans] for k in range(spans + 1)], axis=0)
+		return (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)
 
 	def _isStopped(self, k):
 		"""Whether body k meets another one, which it has not touched for long and which does not move with it."""

@@ -10,7 +10,7 @@ from yade.polytope.rock.bracket import Bracket
 def search(limit, lacks, tolerance=0.01, most=20):
 	"""Factors that were tried, and the bracket in the end. *lacks*: the force that is missing at a factor that fails."""
 	bracket, tried = Bracket(tolerance, most), []
-	while not bracket.isNarrow and bracket.stable < most:
+	while not bracket.isFound and bracket.stable < most:
 		factor = bracket.next()
 		tried.append(factor)
 		bracket.tell(factor, factor < limit, lacks(factor) if factor >= limit else 0.0)
@@ -76,10 +76,25 @@ def testTheTrialsToComeAreCounted():
 	assert bracket.halvings == 5
 
 
+@pytest.mark.parametrize('jump', [1.02, 1.1, 1.4])
+@pytest.mark.parametrize('limit', [0.62, 0.8245, 1.1, 1.7321, 3.3])
+def testATrialThatFailedByItsJumpIsMadeAgainFromNearby(limit, jump):
+	"""Of a mass that fails where its strength falls at once to near the limit, by more than *jump*."""
+	bracket, factors = Bracket(0.01, 20), [1 / 20 if limit < 1 else 1.0]
+	bracket.stable = factors[0]
+	while not bracket.isFound:
+		factors.append(bracket.next())
+		began = bracket.stable
+		stands = factors[-1] < limit and (factors[-1] < 0.9 * limit or factors[-1] < jump * began)
+		bracket.tell(factors[-1], stands, limit=None if stands else limit, began=began)
+		assert len(factors) < 100
+	assert bracket.stable < limit < bracket.failed <= bracket.stable * 1.01
+
+
 def told(limit, estimate, tolerance=0.01):
 	"""Factors that are tried where the motion in a failed trial tells the limit by this function of the factor."""
 	bracket, tried = Bracket(tolerance, 20), []
-	while not bracket.isNarrow:
+	while not bracket.isFound:
 		tried.append(bracket.next())
 		stands = tried[-1] < limit
 		bracket.tell(tried[-1], stands, limit=None if stands else estimate(tried[-1]))

@@ -98,7 +98,7 @@ class _Search:
 					raise RuntimeError(
 						f'the scene does not stand, not even with {most:g} times {", ".join(self.reduce)}: {told(*self._mode()[:2])}; a support, or more of the other strengths'
 					)
-			while not bracket.isNarrow:
+			while not bracket.isFound:
 				if self._stands(bracket.next(), bracket) and bracket.stable >= most:
 					break
 		mode = self._mode() if np.isfinite(bracket.failed) else noMode()
