@@ -11,7 +11,7 @@ from ..measures.arrays import arrays
 from ..scene.movers import partsOf
 from ..scene.present import jointMaterials
 from ..scene.stages import sizeOf
-from .holding import anythingBelow, isHeld, isThin, touched
+from .holding import isHeld, isThin, touched, unsupported
 from .unbalanced import unbalancedForces
 
 __all__ = ['NotAtRest', 'Restless', 'Unrest', 'placesById', 'remedy', 'told']
@@ -130,7 +130,8 @@ class Unrest:
 		there = [int(k) for k in np.flatnonzero(self.mean > self.bound) if k < len(O.bodies) and O.bodies[int(k)] is not None]
 		if atLeast > 0:
 			there = [k for k in there if ways[k] > atLeast * sizeOf(k)]
-		found = [Restless(k, float(self.mean[k]), *self._kind(k, float(ways[k]), float(span[k]), float(path[k]))) for k in there]
+		falling = unsupported(there) if any(ways[k] > sizeOf(k) for k in there) else {}
+		found = [Restless(k, float(self.mean[k]), *self._kind(k, falling, float(ways[k]), float(span[k]), float(path[k]))) for k in there]
 		return sorted(found, key=lambda one: -one.unbalanced)
 
 	def _falling(self):
@@ -145,12 +146,19 @@ class Unrest:
 			return self.steps >= patience and self.mean[one.id] >= asBefore * _ofLength(self.before, len(self.mean))[one.id]
 		return one.kind in ('falls', 'slides')
 
-	def _kind(self, k, way, span, path):
-		"""Kind of unrest of body k, which has moved by *way* since the start and by *span* since the span began, on this *path*."""
+	def _kind(self, k, falling, way, span, path):
+		"""Kind of unrest of body k, which has moved by *way* since the start and by *span* since the span began, on this *path*.
+
+		:param falling: what *unsupported* tells of the bodies that are not at rest
+		"""
 		size, others = sizeOf(k), touched(k)
-		if not others and not isHeld(k):
-			if way > size and not anythingBelow(k):  # what floats or hangs by a given force stays
+		if way > size and k in falling:  # what floats or hangs by a given force stays
+			withIt = sorted(falling[k] - {k})
+			if not withIt:
 				return 'falls', 'touches nothing, and nothing is below it'
+			ones = f'body {withIt[0]}' + (f' and {len(withIt) - 1} more' if len(withIt) > 1 else '')
+			return 'falls', f'falls together with {ones}, and nothing is below'
+		if not others and not isHeld(k):
 			return 'moves', f'touches nothing, has moved by {way:.2g} m'
 		before = float(_ofLength(self.spanBefore, len(self.span))[k])
 		toAndFro = path >= turns * span or span <= still * size
