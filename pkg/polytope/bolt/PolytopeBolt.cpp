@@ -124,6 +124,14 @@ vector<Real> PolytopeBolt::groutForces() const
 	return all;
 }
 
+vector<Real> PolytopeBolt::groutStrengths() const
+{
+	vector<Real> all;
+	for (const auto& node : chain.nodes)
+		all.push_back(node.strength);
+	return all;
+}
+
 Real PolytopeBolt::headForce() const { return plate && !chain.elements.empty() ? chain.elements.front().force : Real(0); }
 
 Real PolytopeBolt::largestForce() const

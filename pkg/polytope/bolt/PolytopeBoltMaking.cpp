@@ -26,12 +26,20 @@ namespace {
 		requireValue(positive(bolt.youngsModulus), "youngsModulus", bolt.youngsModulus, "positive and finite [Pa]");
 		requireValue(bolt.yieldForce > 0, "yieldForce", bolt.yieldForce, "above 0 [N] (infinity: no yield)");
 		requireValue(bolt.ruptureStrain > 0, "ruptureStrain", bolt.ruptureStrain, "above 0 (infinity: no rupture)");
+		const Real breaks = bolt.ruptureStrain * bolt.area * bolt.youngsModulus;
+		if (math::isfinite(bolt.yieldForce) && breaks < bolt.yieldForce) {
+			std::ostringstream message;
+			message << "ruptureStrain: must be at least that at which the steel yields, yieldForce/(area youngsModulus) = "
+			        << bolt.yieldForce / (bolt.area * bolt.youngsModulus) << ", got " << bolt.ruptureStrain
+			        << ": it would break at " << breaks << " N and never yield; leave out yieldForce for steel that breaks so";
+			refuseBolt(message.str());
+		}
 		requireValue(bolt.pretension >= 0 && math::isfinite(bolt.pretension), "pretension", bolt.pretension,
 		        "at least 0 and finite [N]");
 		requireValue(bolt.pretension == 0 || bolt.pretension <= bolt.yieldForce, "pretension", bolt.pretension,
 		        "at most the yieldForce");
-		requireValue(bolt.pretension == 0 || bolt.pretension < bolt.ruptureStrain * bolt.area * bolt.youngsModulus, "pretension",
-		        bolt.pretension, "less than that at which the steel reaches its ruptureStrain");
+		requireValue(bolt.pretension == 0 || bolt.pretension < breaks, "pretension", bolt.pretension,
+		        "less than that at which the steel reaches its ruptureStrain");
 		if (bolt.pretension > 0 && !bolt.plate) refuseBolt("pretension: needs a plate to pull against, take plate=True");
 	}
 

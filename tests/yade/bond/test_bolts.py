@@ -2,7 +2,7 @@
 """Rock bolts between blocks that are moved by hand, against closed forms: pull-out, yield, rupture, dowel; balance; what is refused."""
 
 import math
-from math import inf, nan, sqrt, tanh
+from math import inf, nan, pi, sqrt, tanh
 
 import numpy as np
 import pytest
@@ -126,6 +126,23 @@ def testPretensionOfAGroutedAnchor():
 	assert sum(bolt.groutForces) == pytest.approx(-1e5, rel=1e-6)
 
 
+@pytest.mark.parametrize('plate, free', [(True, None), (False, None), (False, 0.3)])
+def testPullOutIsTheStrengthOfWhatIsGrouted(plate, free):
+	"""g times the length in the weaker block, less half of what is free at the joint; a plate holds the head's side."""
+	strength, states = 1e5, blocks(half=(0.5, 0.5, 0.5))
+	start = Vector3(states[1].pos)
+	bolt = polytope.bolt(
+		(-0.2, 0, 0), (1.3, 0, 0), **bar, grout=Grout(1e9, strength), plate=plate, **({} if free is None else {'freeLength': free})
+	)
+	free = 4 * sqrt(4 * area / pi) if free is None else free
+	assert bolt.freeLength == pytest.approx(free)
+	holds = strength * ((0.8 if plate else 0.7) - free / 2)
+	assert sum(bolt.groutStrengths) == pytest.approx(strength * (1.5 - free))
+	for opening in np.linspace(0, 0.01, 50):
+		moved(states[1], start + Vector3(opening, 0, 0))
+	assert bolt.crossings[0].tension == pytest.approx(holds, rel=1e-4)
+
+
 # ------------------------------------------------------------------------------------------------ shear
 
 
@@ -233,6 +250,7 @@ refused = [
 	('youngsModulus: must be a number', dict(youngsModulus='steel')),
 	('yieldForce: must be above 0', dict(yieldForce=0)),
 	('ruptureStrain: must be above 0', dict(ruptureStrain=nan)),
+	('ruptureStrain: .* = 0.002, got 0.001: it would break at 100000 N .*leave out yieldForce', dict(ruptureStrain=1e-3, yieldForce=2e5)),
 	('pretension: must be at least 0', dict(pretension=-1)),
 	('pretension: must be at most the yieldForce', dict(pretension=2e5, yieldForce=1e5)),
 	('pretension: must be less than', dict(pretension=2e6, ruptureStrain=0.01)),

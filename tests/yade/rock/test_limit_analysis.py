@@ -475,16 +475,21 @@ def testThePackageThatLacksIsNamed(monkeypatch):
 		polytope.limitAnalysis()
 
 
-@pytest.mark.parametrize('grout', [None, (1e9, 1e5, 2e4), (1e9, 4e4, 2e4)])
-def testABoltAcrossAJoint(grout):
-	"""A block on a slope with a bolt at a right angle to the joint: tan φ (W cos ψ + T) / (W sin ψ − V), T of steel or of grout over 0.4 m below, V of the dowel."""
-	dip, yields = math.radians(40), 3e4
+@pytest.mark.parametrize('plate, end', [(True, -0.41), (False, -0.9), (True, -1.5)])
+@pytest.mark.parametrize('grout', [None, (1e9, 1e5, 2e4), (1e9, 2e4, 2e4)])
+def testABoltAcrossAJoint(grout, plate, end):
+	"""A block on a slope with a bolt at a right angle to the joint: tan φ (W cos ψ + T) / (W sin ψ − V), T of steel or of the grout in rock below, or, without a plate, in the 0.8 m above, V of the dowel."""
+	if grout is None and (not plate or end < -1):
+		pytest.skip('an anchor needs a plate and rock')
+	dip, yields, free = math.radians(40), 3e4, 0.02
 	blockOnSlope(dip, (0.5, 0.5, 0.5), False, frictionAngle=math.radians(30))
-	support = {} if grout is None else dict(grout=polytope.Grout(*grout[:2]), dowel=polytope.Dowel(1e9, grout[2]), freeLength=0.02)
-	bolt = polytope.bolt((0, 0, 1), (0, 0, -0.41), area=5e-4, youngsModulus=2e11, yieldForce=yields, **support)
-	(crossing,) = bolt.crossings
-	below = 1.41 - float(crossing.stop)
-	tension = yields if grout is None else min(yields, grout[1] * below)
+	support = (
+		{} if grout is None else dict(grout=polytope.Grout(*grout[:2]), dowel=polytope.Dowel(1e9, grout[2]), freeLength=free, plate=plate)
+	)
+	polytope.bolt((0, 0, 0.8), (0, 0, end), area=5e-4, youngsModulus=2e11, yieldForce=yields, **support)
+	held = min(1, -end) - free / 2
+	held = held if plate else min(held, 0.8 - free / 2)
+	tension = yields if grout is None else min(yields, grout[1] * held)
 	weight, dowel = float(O.bodies[1].state.mass) * gravity, 0 if grout is None else grout[2]
 	theory = math.tan(math.radians(30)) * (weight * math.cos(dip) + tension) / (weight * math.sin(dip) - dowel)
 	expect(polytope.limitAnalysis(tolerance=fine, most=100), theory)

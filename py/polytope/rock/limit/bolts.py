@@ -39,14 +39,13 @@ def linksOf(blocks):
 	found = []
 	for bolt in madeBolts():
 		head, end = (np.array([float(x) for x in point]) for point in (bolt.head, bolt.end))
-		length = float(np.linalg.norm(end - head))
-		axis = (end - head) / length
+		axis = (end - head) / np.linalg.norm(end - head)
 		for crossing in bolt.crossings:
 			one, two = blocks.rowOf(crossing.id1), blocks.rowOf(crossing.id2)
 			if crossing.failure or one == two:
 				continue
 			place = head + (float(crossing.start) + float(crossing.stop)) / 2 * axis
-			tension = _tension(bolt, crossing, length)
+			tension = _tension(bolt, crossing)
 			found.append((one, two, place, np.column_stack([0 * axis, axis, 0 * axis]), tension / 2, -tension / 2 * axis))
 			if crossing.dowelStrength > 0:
 				frame = frameOf(axis) * [0, 1, 1]
@@ -56,15 +55,16 @@ def linksOf(blocks):
 	return Links(one.astype(int), two.astype(int), *rest)
 
 
-def _tension(bolt, crossing, length):
+def _tension(bolt, crossing):
 	"""Largest one at this joint [N]: of the steel, and of what holds it on either side."""
 	sides = [float(bolt.yieldForce)]
 	if bolt.groutStiffness > 0:
-		first = float(bolt.stations[0])
-		begin = first if bolt.groutedLength < 0 else max(first, length - float(bolt.groutedLength))
-		sides.append(float(bolt.groutStrength) * max(0.0, length - max(begin, float(crossing.stop))))
+		strengths = np.array([float(strength) for strength in bolt.groutStrengths])
+		places = np.array([float(place) for place in bolt.stations])[-len(strengths) :]  # the plate's comes before
+		before = places < (float(crossing.start) + float(crossing.stop)) / 2
+		sides.append(strengths[~before].sum())
 		if not bolt.plate:
-			sides.append(float(bolt.groutStrength) * max(0.0, float(crossing.start) - begin))
+			sides.append(strengths[before].sum())
 	if not min(sides) < math.inf:
 		raise ValueError(
 			'polytope.bolt: a bolt without a yieldForce holds whatever pulls at it, and limit analysis knows no elastic forces; give it a yieldForce'
