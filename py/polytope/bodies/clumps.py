@@ -7,9 +7,9 @@ import numpy as np
 from yade import Body, Matrix3, O, Polytope, Quaternion, Vector3, _polytope
 
 from ..arguments import warn
-from .polytopes import isotropyTolerance
+from .polytopes import fromHalfSpaces, isotropyTolerance
 
-__all__ = ['clump', 'ofUnion', 'rigid', 'union']
+__all__ = ['clump', 'ofUnion', 'rigid', 'union', 'volumeOfUnion']
 
 apart = 0.01
 """Gap between two parts over the smaller one's inscribed radius, above which they do not belong together: parts that a program cuts out of a mesh
@@ -27,13 +27,15 @@ def clump(parts):
 
 	O.bodies.updateClumpProperties and addToClump make YADE's sums of them again.
 
-	:param parts: list of polyhedra that are not in the scene yet, or one
+	:param parts: list of polyhedra, or of polygons in one plane and of one thickness, that are not in the scene yet, or one
 	:returns: (number of the clump, numbers of its parts), as O.bodies.appendClumped does
 	:raises ValueError: naming *parts*, also where their union would take more than some ten seconds
 	"""
 	parts = [parts] if isinstance(parts, Body) else list(parts) if isinstance(parts, Iterable) else []
-	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) and part.shape.dimension == 3 for part in parts):
-		raise ValueError('parts: must be a list of polyhedra, as polytope.cuboid and other builders make')
+	if not parts or not all(isinstance(part, Body) and isinstance(part.shape, Polytope) for part in parts):
+		raise ValueError('parts: must be a list of polyhedra or of polygons, as polytope.cuboid, polytope.polygon and other builders make')
+	if len({_plane(part) for part in parts}) > 1:
+		raise ValueError('parts: must all be polyhedra, or all polygons of one thickness and in one plane, with the same z')
 	if any(part.id >= 0 for part in parts):
 		raise ValueError(
 			'parts: must not be in the scene yet; O.bodies.clump makes clumps of bodies that are, with the sum of their masses'
@@ -78,9 +80,35 @@ def _append(parts, mass, centre, tensor):
 
 
 def union(parts):
-	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra fill together (src/shape/UnionOfParts.hpp)."""
-	_, mass, centre, tensor = _polytope.unionOf(parts)
+	"""(mass, centre of mass, tensor of inertia about it) of what polyhedra, or polygons, fill together (src/shape/UnionOfParts.hpp)."""
+	_, mass, centre, tensor = _polytope.unionOf(_solids(parts))
 	return float(mass), np.array(centre, float), np.array(tensor, float).reshape(3, 3)
+
+
+def volumeOfUnion(parts):
+	"""Volume of what polyhedra, or polygons with their thickness, fill together [m³]."""
+	return float(_polytope.unionOf(_solids(parts))[0])
+
+
+def _plane(part):
+	"""(thickness, z) of a polygon; None of a polyhedron."""
+	return (float(part.shape.thickness), float(part.state.pos[2])) if part.shape.dimension == 2 else None
+
+
+def _solids(parts):
+	"""Polygons as the prisms that they stand for."""
+	return [_prism(part) if part.shape.dimension == 2 else part for part in parts]
+
+
+def _prism(part):
+	shape, state, ends = part.shape, part.state, (Vector3(0, 0, 1), Vector3(0, 0, -1))
+	normals = [*(state.ori * normal for normal in shape.normals), *ends]
+	offsets = [*shape.offsets, *[shape.thickness / 2] * 2]
+	made = fromHalfSpaces(
+		normals, [offset + normal.dot(state.pos) for normal, offset in zip(normals, offsets, strict=True)], material=part.material
+	)
+	made.state.mass = state.mass
+	return made
 
 
 def _warnOfPartsApart(parts):

@@ -6,10 +6,10 @@ import math
 import numpy as np
 from yade import O, Polytope
 
+from ..bodies.clumps import volumeOfUnion
 from ..bonding.bonds import intactBonds
 from ..scene.movers import moverOf
 from .counted import bearing, massive
-from .porosity import solidVolume
 
 __all__ = ['bodyStress']
 
@@ -19,7 +19,7 @@ def bodyStress(ids=None):
 	with tensile strength that act as bonds, count with their force and with the first moments of the stresses of bending and twisting over their area.
 
 	The mean of a body in equilibrium; gravity has no part in it about the centroid. Not symmetric where the body is not in equilibrium of
-	moments. A clump is one body, its volume what its parts fill together (with spheres among them, or of polygons: the sum).
+	moments. A clump is one body, its volume what its parts fill together (with spheres among them: the sum).
 
 	:param ids: of the bodies; None: all free polytopes and spheres, and clumps of them
 	:returns: dictionary id → (3, 3) array [Pa], tension positive as in YADE; rows are components of the force
@@ -57,8 +57,8 @@ def _addBond(stress, bond):
 
 def _volume(k):
 	body = O.bodies[k]
-	if body.isClump and all(getattr(O.bodies[part].shape, 'dimension', 0) == 3 for part in body.shape.members):
-		return solidVolume(k)
+	if body.isClump and all(isinstance(O.bodies[part].shape, Polytope) for part in body.shape.members):
+		return volumeOfUnion([O.bodies[part] for part in body.shape.members])
 	if body.isClump:
 		return sum(_volume(member) for member in body.shape.members)
 	return float(body.shape.volume) if isinstance(body.shape, Polytope) else 4 / 3 * math.pi * float(body.shape.radius) ** 3

@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from PIL import Image
 from scenes import gravity, joint, loop, stepper
 from yade import O, Quaternion, Vector3, polytope
 from yade.polytope.bodies.meshes import convexParts
@@ -23,6 +24,11 @@ def material():
 def box(lower, upper, **body):
 	lower, upper = np.array(lower, float), np.array(upper, float)
 	return polytope.cuboid(tuple((lower + upper) / 2), tuple((upper - lower) / 2), **body)
+
+
+def rectangle(lower, upper, **body):
+	(a, b), (c, d) = lower, upper
+	return polytope.polygon([(a, b), (c, b), (c, d), (a, d)], **body)
 
 
 def sums(boxes):
@@ -70,6 +76,58 @@ def testPropertiesAreThoseOfTheUnion(name):
 	for k, (lower, upper) in zip(members, boxes, strict=True):
 		middle = (np.array(lower) + np.array(upper)) / 2
 		assert np.abs(np.array(O.bodies[k].state.pos, float) - middle).max() < 1e-12, 'parts stay where they are'
+
+
+@pytest.mark.filterwarnings('ignore:parts:UserWarning')
+@pytest.mark.parametrize('thick', [1, 0.1])
+@pytest.mark.parametrize('name', shapes)
+def testPropertiesOfPolygonsAreThoseOfTheirPrisms(name, thick):
+	boxes, twice = ([(low[:2], high[:2]) for low, high in part] for part in shapes[name])
+	number, _ = polytope.clump([rectangle(*one, thickness=thick) for one in boxes])
+	signs = [(1, one) for one in boxes] + [(-1, one) for one in twice]
+	expected = sums([(sign, (*low, -thick / 2), (*high, thick / 2)) for sign, (low, high) in signs])
+	assertEqual(properties(number), expected, 3)
+	assert O.bodies[number].state.blockedDOFs == 'zXY'
+
+
+def testAClumpOfPolygonsRestsIsStressedAndIsCut(tmp_path):
+	"""An L of two polygons that overlap: its weight on the floor, its stress with the union's area, its picture; a notch cut out of its foot and of the floor."""
+	foot = rectangle((-5, -1), (5, 0), fixed=True, color=(0, 1, 0))
+	floor = O.bodies.append(foot)
+	number, members = polytope.clump([rectangle((0, 0), (3, 1), color=(1, 0, 0)), rectangle((0, 0), (1, 2), color=(1, 0, 0))])
+	O.engines = polytope.engines(gravity=(0, -gravity, 0))
+	polytope.settle()
+	weight = 4 * density * gravity
+	assert O.forces.f(floor)[1] == pytest.approx(-weight, rel=1e-4)
+	assert all(O.bodies[k].state.pos[2] == 0 for k in members)
+	# the mean of σ_yy: −(W/V) ȳ, as supports are at the bottom and weight at the height ȳ of the centroid
+	stress = polytope.bodyStress([number])[number]
+	assert stress[1, 1] == pytest.approx(-weight / 4 * 0.75, rel=1e-3) and abs(stress[0, 0]) < 1e-3 * weight
+	polytope.picture(str(tmp_path / 'l.png'), size=(200, 150))
+	with Image.open(tmp_path / 'l.png') as picture:
+		red, green, blue = np.moveaxis(np.array(picture.convert('RGB'), int), 2, 0)
+	assert ((red > 100) & (green < red / 3) & (blue < red / 3)).sum() > 500
+	normals, offsets = [(1, 0), (-1, 0), (0, 1), (0, -1)], [0.7, -0.3, 0.7, 0.5]
+	sunk = 0.75 - float(O.bodies[number].state.pos[1])
+	gone = polytope.excavate(normals=normals, offsets=offsets)
+	(left,) = gone[number]
+	assert O.bodies[left].isClump and O.bodies[left].state.mass == pytest.approx(density * (4 - 0.4 * (0.7 + sunk)), rel=1e-9)
+	polytope.settle()
+	assert O.bodies[left].state.vel.norm() < 1e-4
+	assert polytope.bodyStress([left])[left][1, 1] < 0
+
+
+def testABarOfPolygonsThatOverlapIsStressedByItsSection():
+	"""Pulled at both ends by a bond."""
+	left, right = (rectangle((x - 0.5, -0.5), (x + 0.5, 0.5), fixed=x < 0) for x in (-2, 2))
+	O.bodies.append([left, right])
+	number, _ = polytope.clump([rectangle((-1.5, -0.5), (0.5, 0.5)), rectangle((-0.5, -0.5), (1.5, 0.5))])
+	loop(True, damping=0.5)
+	assert polytope.bond() == 2
+	stepper()
+	O.forces.setPermF(1, (1e4, 0, 0))
+	O.run(4000, wait=True)
+	assert polytope.bodyStress([number])[number][0, 0] == pytest.approx(1e4, rel=1e-3)
 
 
 def testCrossOfThreeTurnedBars():
@@ -150,7 +208,11 @@ def testPartsAreChecked():
 	for parts, words in (
 		([], 'must be a list'),
 		(3, 'must be a list'),
-		([polytope.polygon([(0, 0), (1, 0), (0, 1)])], 'must be a list'),
+		(
+			[polytope.polygon([(0, 0), (1, 0), (0, 1)]), box((0, 0, 0), (1, 1, 1))],
+			'must all be polyhedra, or all polygons of one thickness',
+		),
+		([rectangle((0, 0), (1, 1)), rectangle((0, 0), (1, 1), thickness=2)], 'must all be polyhedra, or all polygons of one thickness'),
 		([inScene], 'must not be in'),
 	):
 		with pytest.raises(ValueError, match=f'^parts: {words}'):
