@@ -127,6 +127,16 @@ def vector(value, name):
 	return vector
 
 
+def point(value, name):
+	"""A point of space, or of the plane by two numbers: a tuple of three or two [m]."""
+	try:
+		flat = len(value) == 2
+	except TypeError:
+		flat = False
+	found = vector((*value, 0) if flat else value, name)
+	return tuple(float(x) for x in found)[: 2 if flat else 3]
+
+
 def rotation(orientation):
 	if not isinstance(orientation, Quaternion):
 		raise ValueError('orientation: must be a Quaternion')

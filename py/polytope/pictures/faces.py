@@ -11,6 +11,8 @@ import math
 import numpy as np
 from yade import O, Sphere, Wall, _polytope
 
+from .rims import withRims
+
 __all__ = ['collect', 'localVertices', 'reachOfWalls', 'rows', 'worldVertices']
 
 mostRings, fewestRings = 24, 4
@@ -22,7 +24,7 @@ mostSphereFaces = 2_500_000
 def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 'solid'):
 	"""The bodies' faces in world coordinates, as arrays.
 
-	:param colorOf: function of a body: RGB in 0…1, or an array (faces, 3) with that of each face
+	:param colorOf: function of a body: RGB in 0…1, or an array (faces, 3) with that of each face; of a polygon each side's is seen along it on the caps
 	:param styleOf: function of a body: any word; bodies of the same word come together, 'hidden' ones not at all
 	:returns: dictionary style → {points (n, 3), offsets (faces + 1), connectivity, colors (faces, 3) bytes, ids (faces)};
 	    spheres are of the style 'smooth'
@@ -36,10 +38,12 @@ def collect(bodies, colorOf=lambda body: body.shape.color, styleOf=lambda body: 
 		faces = _wallFaces(body, room) if isinstance(body.shape, Wall) else _localFaces(body.shape, rings)
 		if len(faces[1]) == 0:
 			continue
-		turn = _quaternion(body)
+		turn, color = _quaternion(body), colorOf(body)
 		if isinstance(body.shape, Sphere):
 			style, turn = 'smooth', unturned
-		parts.setdefault(style, []).append((*faces, _place(body), turn, colorOf(body), body.id))
+		if np.ndim(color) == 2 and getattr(body.shape, 'dimension', 3) == 2:
+			*faces, color = withRims(*faces, color)
+		parts.setdefault(style, []).append((*faces, _place(body), turn, color, body.id))
 	return {style: _joined(*zip(*several, strict=True)) for style, several in parts.items()}
 
 

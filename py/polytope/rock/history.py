@@ -8,7 +8,7 @@ import re
 import numpy as np
 from yade import O, Polytope, PyRunner, Vector3
 
-from ..arguments import flag, namedArguments, vector, warn
+from ..arguments import flag, namedArguments, point, warn
 from ..measures.stress import bodyStress
 from ..scene.movers import moverOf, partsOf
 
@@ -31,7 +31,7 @@ def history(points, every=100, stress=False):
 	*crown_yz* and *crown_zx*, bodyStress of this body [Pa]. ``plot.plot()``, ``plot.saveDataTxt(…)`` and numpy.array(plot.data['crown_z']) show them. The
 	engine is saved with the scene and goes on when that is loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*.
 
-	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]
+	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]: of two components for a polygon
 	:param int every: steps from one row to the next
 	:param bool stress: whether to record stresses
 	:returns: the names of the columns
@@ -134,18 +134,29 @@ def _name(name):
 	return name
 
 
-def _follow(name, point):
+def _follow(name, given):
 	"""(id of what moves, the point in its axes, the point where it is now)"""
-	if isinstance(point, numbers.Integral) and not isinstance(point, bool):
-		point = int(point)
-		if not 0 <= point < len(O.bodies) or O.bodies[point] is None:
-			raise ValueError(f'points: {name}: there is no body {point}')
-		k = moverOf(int(point))
-		place = O.bodies[int(point)].state.pos
+	if isinstance(given, numbers.Integral) and not isinstance(given, bool):
+		given = int(given)
+		if not 0 <= given < len(O.bodies) or O.bodies[given] is None:
+			raise ValueError(f'points: {name}: there is no body {given}')
+		k = moverOf(given)
+		place = O.bodies[given].state.pos
 	else:
-		place = vector(point, f'points: {name}')
+		place = Vector3(*_inScene(given, f'points: {name}'))
 		k = _bodyAt(name, place)
 	return k, _inAxesOf(k, place), tuple(map(float, place))
+
+
+def _inScene(given, name):
+	"""A point of two components is one in the plane of the scene's polygons."""
+	place = point(given, name)
+	if len(place) == 2:
+		heights = {float(body.state.pos[2]) for body in O.bodies if body is not None and getattr(body.shape, 'dimension', 0) == 2}
+		if len(heights) != 1:
+			raise ValueError(f'{name}: must be three numbers, got {place}; two are those of a scene of polygons in one plane')
+		place = *place, heights.pop()
+	return place
 
 
 def _bodyAt(name, place):

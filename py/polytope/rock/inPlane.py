@@ -50,7 +50,7 @@ def flatCut(joint):
 	"""
 	if joint.corners is not None:
 		raise ValueError('jointSets: a Joint.polygon is one of space; in the plane Joint(dip, dipDirection, centre, radius) is a segment')
-	x, y, _ = joint.centre
+	x, y, *_ = joint.centre
 	return Cut(_normalOf(joint.dip, joint.dipDirection), np.array([x, y, 0.0]), joint.radius or 0.0)
 
 
@@ -65,7 +65,10 @@ def asSegment(cut):
 
 def flatSet(given):
 	"""The same set in the plane."""
-	return _FlatSet(**{field.name: getattr(given, field.name) for field in dataclasses.fields(given)})
+	values = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
+	if given.through is not None:
+		values['through'] = (*given.through[:2], 0.0)
+	return _FlatSet(**values)
 
 
 class _FlatSet(JointSet):

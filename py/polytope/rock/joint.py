@@ -7,7 +7,7 @@ import math
 import numpy as np
 from yade import _polytope
 
-from ..arguments import numbersOf, vector, vectors
+from ..arguments import numbersOf, point, vectors
 from ..precision import isNumber
 
 __all__ = ['Cut', 'Joint', 'areasOf', 'asArguments', 'checkedAngles', 'finite', 'positive', 'upwardNormal']
@@ -28,7 +28,7 @@ class Joint:
 
 	:param float dip: angle below the horizontal [rad], 0…π/2
 	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
-	:param centre: of the disc, or a point of the plane [m]
+	:param centre: of the disc, or a point of the plane [m]; of a segment in a section of rock in the plane two components will do
 	:param float radius: of the disc [m]; None: it runs through the whole rock mass
 	:param set: a number or a name of one's own, such as that of a set in a file: jointedRock tells joints of one list apart by it
 	:raises ValueError: naming the argument
@@ -44,7 +44,7 @@ class Joint:
 
 	def __post_init__(self):
 		checkedAngles(self.dip, self.dipDirection)
-		object.__setattr__(self, 'centre', tuple(float(x) for x in vector(self.centre, 'centre')))
+		object.__setattr__(self, 'centre', point(self.centre, 'centre'))
 		if self.radius is not None:
 			positive(self.radius, 'radius', 'or None for a joint through the whole rock')
 
@@ -90,7 +90,7 @@ class Joint:
 	@property
 	def cut(self):
 		"""The joint as jointedRock cuts by it."""
-		centre = np.array(self.centre)
+		centre = inSpace(self.centre, 'centre')
 		if self.corners is None:
 			return Cut(self.normal, centre, self.radius or 0.0)
 		corners = np.array(self.corners)
@@ -157,6 +157,13 @@ def anglesOf(normal):
 	"""(dip, dip direction) [rad] of a plane."""
 	x, y, z = normal if normal[2] >= 0 else -np.asarray(normal)
 	return math.atan2(math.hypot(x, y), z), math.atan2(x, y) % (2 * math.pi)
+
+
+def inSpace(place, name):
+	"""Refuses a point of two components."""
+	if len(place) != 3:
+		raise ValueError(f'{name}: must be three numbers for rock in space, got {place}; two are those of rock in the plane')
+	return np.array(place)
 
 
 def checkedAngles(dip, dipDirection):

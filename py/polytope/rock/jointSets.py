@@ -7,8 +7,8 @@ import math
 import numpy as np
 import scipy  # loads its packages at their first use: half a second
 
-from ..arguments import flag, vector
-from .joint import Cut, areasOf, checkedAngles, finite, positive, upwardNormal
+from ..arguments import flag, point
+from .joint import Cut, areasOf, checkedAngles, finite, inSpace, positive, upwardNormal
 from .radii import radiiOf
 
 __all__ = ['JointSet']
@@ -31,7 +31,7 @@ class JointSet:
 	:param float dip: angle of the planes below the horizontal [rad], 0…π/2
 	:param float dipDirection: azimuth of the line of dip, clockwise from north (y) as seen from above [rad]
 	:param float spacing: mean distance between neighbouring joints along the mean normal [m]
-	:param through: a point on one of the joints [m]; default the region's centroid. Only for equal distances.
+	:param through: a point on one of the joints [m], in the plane of two components or three; default the region's centroid. Only for equal distances.
 	:param bool exponential: distances drawn from the negative exponential distribution (Priest & Hudson 1976, Int. J. Rock Mech.
 	    Min. Sci. 13:135-148) rather than all equal. Those of discs are.
 	:param float fisher: constant κ of Fisher's distribution of the normals about the mean one (Fisher 1953, Proc. R. Soc. A
@@ -69,7 +69,7 @@ class JointSet:
 				raise ValueError(
 					'through: random distances (exponential, p32, radius) have no joint at a given point; leave it out, or add a Joint there'
 				)
-			object.__setattr__(self, 'through', tuple(float(x) for x in vector(self.through, 'through')))
+			object.__setattr__(self, 'through', point(self.through, 'through'))
 		if self.fisher is not None and not (finite(self.fisher) and self.fisher > 0):
 			raise ValueError(f"fisher: must be positive and finite (Fisher's constant), or None for parallel joints, got {self.fisher!r}")
 		if self.radius is not None:
@@ -110,7 +110,7 @@ class JointSet:
 		if self.exponential:
 			along = random.uniform(-reach, reach, random.poisson(2 * reach / self.spacing))
 		else:
-			first = 0.0 if self.through is None else float(self.normal @ (np.array(self.through) - centre))
+			first = 0.0 if self.through is None else float(self.normal @ (inSpace(self.through, 'through') - centre))
 			along = first + self.spacing * np.arange(
 				math.ceil((-reach - first) / self.spacing), math.floor((reach - first) / self.spacing) + 1
 			)

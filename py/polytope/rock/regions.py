@@ -11,12 +11,14 @@ import os
 import numpy as np
 from yade import _polytope
 
-from ..arguments import namedArguments, numbersOf, positive, vectors, warn
+from ..arguments import namedArguments, numbersOf, positive, rows, vectors, warn
 from ..bodies.meshes.digits import warnOfRounding
 from ..bodies.meshes.files import readMesh
+from ..bodies.polytopes import areFlat
 from ..precision import real
+from .inPlane import asPrisms
 from .joint import Cut, Joint, asArguments
-from .region import regionOf
+from .region import areSeveral, regionOf
 
 __all__ = ['meshRegion', 'regionWithout']
 
@@ -82,11 +84,13 @@ def meshRegion(path, scale=1):
 def regionWithout(normals, offsets, openings):
 	"""A region without openings, such as tunnels and pits, as convex parts: ``polytope.jointedRock(*polytope.regionWithout(…), sets)``.
 
-	:param normals, offsets: of the region, as for *jointedRock*
+	:param normals, offsets: of the region, as for *jointedRock*; in the plane, with normals of two components, openings have such, too
 	:param openings: list of (normals, offsets) of convex openings, which may overlap and reach out of the region
 	:returns: (list of normals, list of offsets), one each for every part
 	:raises ValueError: naming *openings* where one is not convex and bounded, or nothing is left
 	"""
+	if _areFlat(normals):
+		return _withoutInPlane(normals, offsets, openings)
 	try:
 		solids = [_polytope.polyhedron(vectors(n, 'openings', 3), numbersOf(d, 'openings')) for n, d in openings]
 	except (TypeError, ValueError) as error:
@@ -106,6 +110,27 @@ def regionWithout(normals, offsets, openings):
 	if not kept:
 		raise ValueError('openings: nothing is left of the region')
 	return _lists(kept)
+
+
+def _areFlat(normals):
+	return areFlat(normals[0] if areSeveral(normals) else normals)
+
+
+def _withoutInPlane(normals, offsets, openings):
+	"""All as prisms of one thickness."""
+	several = areSeveral(normals)
+	parts = list(zip(normals, offsets, strict=True)) if several else [(normals, offsets)]
+	try:
+		holes = [(rows(n, 'openings', 2), numbersOf(d, 'openings')) for n, d in openings]
+	except (TypeError, ValueError) as error:
+		raise ValueError(
+			f'openings: must be a list of (normals, offsets) with normals of two components, as those of the region; {error}'
+		) from None
+	half, prisms = asPrisms([*((rows(n, 'normals', 2), numbersOf(d, 'offsets')) for n, d in parts), *holes])
+	solids, gaps = prisms[: len(parts)], prisms[len(parts) :]
+	made = regionWithout([n for n, _ in solids], [d for _, d in solids], [(n, [*d[:-2], 2 * half, 2 * half]) for n, d in gaps])
+	sides = [np.abs(n[:, 2]) < 0.5 for n in made[0]]
+	return [n[on][:, :2] for n, on in zip(made[0], sides, strict=True)], [d[on] for d, on in zip(made[1], sides, strict=True)]
 
 
 def _cells(normals, offsets, faces):

@@ -5,7 +5,11 @@ import math
 
 import numpy as np
 import pytest
-from yade import O, Polytope, RockJointMat, polytope
+from PIL import Image
+from yade import O, Polytope, RockJointMat, plot, polytope
+from yade.polytope.pictures.faceColors import faceColors, palette
+from yade.polytope.pictures.faces import collect
+from yade.polytope.pictures.looks import rgbOf
 from yade.polytope.scene.movers import partsOf
 
 gravity, density = 9.81, 2600
@@ -176,3 +180,88 @@ def testWhatIsNotOfThePlaneIsRefused():
 			report(rock)
 	with pytest.raises(ValueError, match='^thickness: '):
 		polytope.fromHalfSpaces([*np.eye(3), *-np.eye(3)], [1] * 6, thickness=2)
+
+
+def testPointsOfTwoComponents():
+	"""The same as with three, of joints, sets and histories; in space they are refused."""
+	first = polytope.Joint(math.radians(35), left, (5, 3), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1))
+	second = polytope.Joint(math.radians(35), left, (5, 3, 7), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1, 7))
+	one, two = (polytope.jointedRock(*slope, [[joint], joints]) for joint, joints in (first, second))
+	assert one.volumes.tolist() == two.volumes.tolist() and len(one.volumes) > 5 and first[0].centre == (5, 3)
+	normals = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+	for given, name in zip(first, ('centre', 'through'), strict=True):
+		with pytest.raises(ValueError, match=f'^{name}: must be three numbers for rock in space, got '):
+			polytope.jointedRock(normals, [9] * 6, [given])
+	with pytest.raises(ValueError, match='^centre: must be three numbers'):
+		polytope.Joint(0, 0, (1,))
+
+
+def testAHistoryOfAPointInThePlane():
+	material()
+	O.bodies.append(polytope.polygon([(-2, -1), (2, -1), (2, 0), (-2, 0)], fixed=True))
+	block = O.bodies.append(polytope.polygon([(-1, 0), (1, 0), (1, 1), (-1, 1)]))
+	O.engines = polytope.engines(gravity=(0, -gravity, 0))
+	polytope.history({'top': (0.5, 0.9), 'same': (0.5, 0.9, 0)}, every=10)
+	O.run(100, wait=True)
+	assert plot.data['top_y'] == plot.data['same_y'] and plot.data['top_y'][-1] == pytest.approx(
+		float(O.bodies[block].state.pos[1]) - 0.5, rel=0.01
+	)
+	assert plot.data['top_y'][-1] < -1e-8
+	O.reset()
+	material()
+	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
+	O.engines = polytope.engines()
+	with pytest.raises(ValueError, match='^points: top: must be three numbers, got .*two are those of a scene of polygons'):
+		polytope.history({'top': (0.5, 0.5)})
+
+
+def testARegionWithoutOpeningsInThePlane():
+	"""A tunnel of six sides in a slope, and a trench that reaches out of it."""
+	turns = [math.radians(60 * k) for k in range(6)]
+	tunnel = [(math.cos(a), math.sin(a)) for a in turns], [2 + 15 * math.cos(a) + 8 * math.sin(a) for a in turns]
+	trench = [(1, 0), (-1, 0), (0, 1), (0, -1)], [26, -22, 50, -17]
+	region = polytope.regionWithout(*slope, [tunnel, trench])
+	assert all(n.shape[1] == 2 for n in region[0])
+	rock = polytope.jointedRock(*region, joints((35, left, 3), (70, right, 4)), smallest=0)
+	assert rock.volumes.sum() == pytest.approx(areaOfSlope - 6 * 2**2 / math.sqrt(3) - 4 * 3, rel=1e-12)
+	again = polytope.regionWithout(*region, [([(1, 0), (-1, 0), (0, 1), (0, -1)], [29, -28, 2, -1])])
+	assert polytope.jointedRock(*again, joints((35, left, 3)), smallest=0).volumes.sum() == pytest.approx(rock.volumes.sum() - 1, rel=1e-12)
+	with pytest.raises(ValueError, match='^openings: must be a list of'):
+		polytope.regionWithout(*slope, [([(1, 0, 0), (-1, 0, 0)], [1, 1])])
+	with pytest.raises(ValueError, match='^openings: nothing is left'):
+		polytope.regionWithout(*slope, [([(1, 0), (-1, 0), (0, 1), (0, -1)], [99] * 4)])
+
+
+def testPicturesShowTheSetsOfSides(tmp_path):
+	"""A strip along each side of a polygon, on the cap that is seen, has the colour of the set that made it; what is the region's is grey."""
+	material()
+	rock = polytope.jointedRock([(1, 0), (-1, 0), (0, 1), (0, -1)], [3, 3, 3, 3], joints((0, right, 2), (90, right, 2)))
+	ids = rock.append()
+	bodies = [O.bodies[k] for k in ids]
+	mesh = collect(bodies, faceColors(bodies, rock.setsOfFaces, None).of)['solid']
+	loops = np.split(mesh['connectivity'], mesh['offsets'][1:-1])
+	cap = {0: [], 1: [], None: []}
+	for loop, color in zip(loops, mesh['colors'].tolist(), strict=True):
+		points = mesh['points'][loop]
+		if np.ptp(points[:, 2]) == 0 and points[0, 2] > 0:
+			area = abs(np.sum(points[:, 0] * np.roll(points[:, 1], -1) - points[:, 1] * np.roll(points[:, 0], -1))) / 2
+			key = next((k for k in (0, 1) if color == [round(255 * x) for x in rgbOf(palette)[k]]), None)
+			cap[key].append(area)
+	whole = 6 * 6
+	assert sum(sum(areas) for areas in cap.values()) == pytest.approx(whole)
+	# a strip has a quarter of the height of the triangle from its side to the middle, 1 − 0.75² of its area; each side of a square has a quarter of its area
+	strip = (1 - 0.75**2) / 4
+	sides = {0: 0, 1: 0}
+	for body in bodies:
+		area = float(body.shape.volume)
+		for number in rock.setsOfFaces(body).tolist():
+			if number >= 0:
+				sides[number] += strip * area
+	assert [sum(cap[k]) for k in (0, 1)] == pytest.approx([sides[0], sides[1]]) and min(sides.values()) > 1
+	polytope.picture(str(tmp_path / 'sets.png'), colorBy=rock.setsOfFaces, legend='set', size=(300, 200), edges=False)
+	with Image.open(tmp_path / 'sets.png') as picture:
+		seen = np.array(picture.convert('RGB'), int)[60:].reshape(-1, 3)  # below the legend
+	for k in (0, 1):  # shaded: of the same hue
+		own = np.array(rgbOf(palette)[k])
+		alike = seen @ own / np.maximum(np.linalg.norm(seen, axis=1), 1) / np.linalg.norm(own)
+		assert ((alike > 0.995) & (seen.min(axis=1) < 100)).sum() > 300
