@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Faces of a block: which corners are on a plane, and their polygon's area."""
+"""Faces of a block: which corners are on a plane, their polygon's area, axes across its normal."""
 
 import numpy as np
 from yade import _polytope
 
 from ..arguments import numbersOf, vectors
 
-__all__ = ['areaOfFace', 'shapeOf']
+__all__ = ['areaOfFace', 'frameOf', 'shapeOf']
 
 onPlane = 1e-9
 """Tolerance on the corners of a block's face, as a part of the block's extent: how far from the face's plane they may be computed."""
@@ -25,10 +25,14 @@ def areaOfFace(corners, normal, offset):
 	on = corners[np.abs(corners @ normal - offset) < onPlane * extent]
 	if len(on) < 3:
 		return 0.0
-	away = on - on.mean(axis=0)
-	first = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
-	first /= np.linalg.norm(first)
-	x, y = away @ first, away @ np.cross(normal, first)
+	x, y = ((on - on.mean(axis=0)) @ frameOf(normal)[:, 1:]).T
 	order = np.argsort(np.arctan2(y, x))
 	x, y = x[order], y[order]
 	return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
+
+
+def frameOf(normal):
+	"""(3, 3) columns: the unit normal and two directions across it."""
+	across = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+	across /= np.linalg.norm(across)
+	return np.column_stack([normal, across, np.cross(normal, across)])

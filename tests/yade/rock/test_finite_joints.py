@@ -291,7 +291,7 @@ def testWrongSetsAreRefused(arguments, named):
 	[
 		(lambda: Joint(2, 0, (0, 0, 0)), 'dip'),
 		(lambda: Joint(1, 90, (0, 0, 0)), 'dipDirection'),
-		(lambda: Joint(1, 1, (0, 0)), 'centre'),
+		(lambda: Joint(1, 1, (0,)), 'centre'),
 		(lambda: Joint(1, 1, (0, 0, 0), radius=0), 'radius'),
 		(lambda: Joint.polygon([(0, 0, 0), (1, 0, 0)]), 'corners'),
 		(lambda: Joint.polygon([(0, 0, 0), (1, 0, 0), (2, 0, 0)]), 'corners'),

@@ -126,7 +126,7 @@ def testJointsAlongFacesAndCornersDoNotCut():
 		({'spacing': float('inf')}, 'spacing'),
 		({'spacing': True}, 'spacing'),
 		({'fisher': 0}, 'fisher'),
-		({'through': (1, 2)}, 'through'),
+		({'through': (1, 2, 3, 4)}, 'through'),
 		({'exponential': 'no'}, 'exponential'),
 		({'exponential': None}, 'exponential'),
 		({'through': (1, 2, float('nan'))}, 'through'),

@@ -15,9 +15,10 @@ from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
 from ..commonFaces import boundFaces, commonFaces, materialOf
+from ..faces import frameOf
 from ..stress.forces import weightAndWater
 
-__all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'frameOf', 'refuseScene']
+__all__ = ['Blocks', 'Corners', 'blocksOf', 'cornersOf', 'refuseScene']
 
 components = 'xyzXYZ'
 
@@ -216,13 +217,6 @@ def _strengthsOf(face, bond):
 		min(float(material.cohesion) for material in sides),
 		min(float(material.tensileStrength) for material in sides),
 	)
-
-
-def frameOf(normal):
-	"""(3, 3) columns: the normal and two directions across it."""
-	across = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
-	across /= np.linalg.norm(across)
-	return np.column_stack([normal, across, np.cross(normal, across)])
 
 
 def _areas(face):

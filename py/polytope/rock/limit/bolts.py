@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ...bonding.bolting import madeBolts
-from .blocks import frameOf
+from ..faces import frameOf
 
 __all__ = ['Links', 'linksOf', 'withLinks']
 
