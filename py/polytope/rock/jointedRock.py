@@ -174,6 +174,7 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 		raise ValueError(f"incomplete: must be 'clump' or 'cut', got {incomplete!r}")
 	region = regionOf(normals, offsets)
 	if region.thickness:
+		_tellHeights(entries)
 		entries = [flatSet(entry) if isinstance(entry, JointSet) else entry for entry in entries]
 	sets = [entry for entry in entries if isinstance(entry, JointSet)]
 	if smallest is None:
@@ -213,10 +214,23 @@ def _setsOf(entry):
 	return sorted({joint.set for joint in entry}, key=lambda name: (isinstance(name, str), name)) or [None]
 
 
-def _tellOutside(entries, region):
-	given = [
+def _singleJoints(entries):
+	return [
 		joint for entry in entries if not isinstance(entry, JointSet) for joint in (entry if isinstance(entry, (list, tuple)) else [entry])
 	]
+
+
+def _tellHeights(entries):
+	"""Joints of a survey in space have their height as z, which is y in the plane."""
+	high = [joint for joint in _singleJoints(entries) if len(joint.centre) == 3 and joint.centre[2] != 0]
+	if high:
+		warn(
+			f'jointSets: {len(high)} joints have a z, the first {high[0].centre}, which does not count in the plane, where y is up; of a survey in space take centre=(x, z)'
+		)
+
+
+def _tellOutside(entries, region):
+	given = _singleJoints(entries)
 	areas = areasOf([_cutOf(joint, region, bounded=True) for joint in given], region.parts)
 	outside = [(number, joint) for number, joint in enumerate(given) if not areas[number] > 0]
 	if outside:

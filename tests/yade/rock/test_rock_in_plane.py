@@ -186,7 +186,9 @@ def testPointsOfTwoComponents():
 	"""The same as with three, of joints, sets and histories; in space they are refused."""
 	first = polytope.Joint(math.radians(35), left, (5, 3), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1))
 	second = polytope.Joint(math.radians(35), left, (5, 3, 7), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1, 7))
-	one, two = (polytope.jointedRock(*slope, [[joint], joints]) for joint, joints in (first, second))
+	one = polytope.jointedRock(*slope, [[first[0]], first[1]])
+	with pytest.warns(UserWarning, match=r'^jointSets: 1 joints have a z, the first \(5.0, 3.0, 7.0\), which does not count in the plane'):
+		two = polytope.jointedRock(*slope, [[second[0]], second[1]])
 	assert one.volumes.tolist() == two.volumes.tolist() and len(one.volumes) > 5 and first[0].centre == (5, 3)
 	normals = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 	for given, name in zip(first, ('centre', 'through'), strict=True):
@@ -265,3 +267,32 @@ def testPicturesShowTheSetsOfSides(tmp_path):
 		own = np.array(rgbOf(palette)[k])
 		alike = seen @ own / np.maximum(np.linalg.norm(seen, axis=1), 1) / np.linalg.norm(own)
 		assert ((alike > 0.995) & (seen.min(axis=1) < 100)).sum() > 300
+
+
+def testFromTheFileOfASurveyToTheFactorOfSafety(tmp_path):
+	"""Bedding of 35° with 40° of friction between steep joints: tan 40°/tan 35°; from a CSV file in space, whose x and z are the section's axes."""
+	rows = [(35, 270, 5, z, 'bedding') for z in (2, 5, 8)] + [(80, 90, x, 2, 'steep') for x in (3, 6, 9, 12)] + [(85, 0, 5, 5, 'along')]
+	text = ''.join(f'{dip},{direction},{x},4,{z},{name}\n' for dip, direction, x, z, name in rows)
+	(tmp_path / 'survey.csv').write_text('dip,dip_direction,x,y,z,set\n' + text)
+	survey = [
+		polytope.Joint(one.dip, one.dipDirection, (one.centre[0], one.centre[2]), one.radius, one.set)
+		for one in polytope.readJoints(str(tmp_path / 'survey.csv'))
+		if one.set != 'along'  # the section's own direction
+	]
+	face = math.radians(60)
+	section = polytope.jointedRock([(1, 0), (-1, 0), (0, 1), (0, -1), (-math.sin(face), math.cos(face))], [15, 2, 10, 2, 0], [survey])
+	for name, friction in (('bedding', 40), ('steep', 45)):
+		material(label=name, frictionAngle=math.radians(friction))
+	ids = section.append(jointMaterials=['bedding', 'steep'], material='steep')
+	for k, blocks in zip(ids, section.bodies, strict=True):
+		own = [normal for b in blocks for normal, joint in zip(section.blocks[b][0], section.faces[b], strict=True) if joint < 0]
+		O.bodies[k].dynamic = not any(y < -0.99 or x > 0.99 for x, y in own)
+	O.engines = polytope.engines(gravity=(0, -gravity, 0))
+	theory = math.tan(math.radians(40)) / math.tan(math.radians(35))
+	found = polytope.limitAnalysis()
+	assert len(ids) == 18 and found.factor == pytest.approx(theory, rel=0.01)
+	polytope.settle()
+	found = polytope.factorOfSafety(tolerance=0.02)
+	assert found.stable < theory * 1.001 and found.failed > theory * 0.999 and found.failed <= 1.02 * found.stable
+	ways = found.directions[: min(3, len(found.bodies))]
+	assert ways @ (-math.cos(math.radians(35)), -math.sin(math.radians(35)), 0) == pytest.approx(np.ones(len(ways)), abs=0.01)
