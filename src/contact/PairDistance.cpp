@@ -39,6 +39,29 @@ namespace {
 		static void flatten(Vector3& v) { v[2] = 0; }
 	};
 
+	/// The convex hull of points.
+	class Hull {
+	public:
+		explicit Hull(const std::vector<Vector3>& points) : points_(points) { }
+
+		const Vector3& support(const Vector3& direction) const
+		{
+			return *std::max_element(points_.begin(), points_.end(),
+			        [&](const Vector3& a, const Vector3& b) { return direction.dot(a) < direction.dot(b); });
+		}
+		const Vector3& middle() const { return points_.front(); }
+		Real           reach() const
+		{
+			Real farthest = 0;
+			for (const Vector3& point : points_)
+				farthest = std::max(farthest, Real((point - middle()).norm()));
+			return farthest;
+		}
+
+	private:
+		const std::vector<Vector3>& points_;
+	};
+
 	/// Vertices of the difference of both bodies, affinely independent, with the weights of the point that is nearest to the origin.
 	class Corral {
 	public:
@@ -153,6 +176,32 @@ namespace {
 		return sign > 0 ? apart(foot, nearest, distance, normal) : apart(nearest, foot, distance, -normal);
 	}
 
+	/// \param way from a point of body 1 to one of body 2; `reach`: as far as any two of their points may be apart
+	template <class Body>
+	PairDistance ofVertices(const Body& body1, const Body& body2, const Vector3& way, const Real& reach, int vertices)
+	{
+		const Real least = Real(tolerance::distance) * reach;
+		Corral     corral(body1.support(way), body2.support(-way));
+		const int  most    = tolerance::distanceStepsAtLeast + tolerance::distanceSteps * vertices;
+		Vector3    nearest = corral.nearest();
+		for (int step = 0; step < most; ++step) {
+			const Real distance = nearest.norm();
+			if (!(distance > least)) return {};
+			const Vector3 one = body1.support(-nearest), other = body2.support(nearest);
+			const Real    gain = nearest.dot(nearest - (one - other)) / distance;
+			if (!(gain > least / 4) || corral.size() == 4 || corral.has(one, other)) break;
+			corral.add(one, other);
+			corral.settle();
+			const Vector3 next = corral.nearest();
+			if (!(next.squaredNorm() < nearest.squaredNorm())) break; // rounding
+			nearest = next;
+		}
+		nearest             = corral.nearest();
+		const Real distance = nearest.norm();
+		if (!(distance > least)) return {};
+		return apart(corral.point(0), corral.point(1), distance, -nearest / distance);
+	}
+
 } // namespace
 
 PairDistance pairDistance(const PlacedPair& pair)
@@ -163,27 +212,15 @@ PairDistance pairDistance(const PlacedPair& pair)
 	if (vertices1.empty()) return vertices2.empty() ? PairDistance() : fromWall(shape1, body1, body2, 1);
 	if (vertices2.empty()) return fromWall(shape2, body2, body1, -1);
 
-	const Real reach = shape1.boundingRadius() + shape2.boundingRadius() + body2.centre().norm(),
-	           least = Real(tolerance::distance) * reach;
-	Corral    corral(body1.support(body2.centre()), body2.support(-body2.centre()));
-	const int most    = tolerance::distanceStepsAtLeast + tolerance::distanceSteps * int(vertices1.size() + vertices2.size());
-	Vector3   nearest = corral.nearest();
-	for (int step = 0; step < most; ++step) {
-		const Real distance = nearest.norm();
-		if (!(distance > least)) return {};
-		const Vector3 one = body1.support(-nearest), other = body2.support(nearest);
-		const Real    gain = nearest.dot(nearest - (one - other)) / distance;
-		if (!(gain > least / 4) || corral.size() == 4 || corral.has(one, other)) break;
-		corral.add(one, other);
-		corral.settle();
-		const Vector3 next = corral.nearest();
-		if (!(next.squaredNorm() < nearest.squaredNorm())) break; // rounding
-		nearest = next;
-	}
-	nearest             = corral.nearest();
-	const Real distance = nearest.norm();
-	if (!(distance > least)) return {};
-	return apart(corral.point(0), corral.point(1), distance, -nearest / distance);
+	const Real reach = shape1.boundingRadius() + shape2.boundingRadius() + body2.centre().norm();
+	return ofVertices(body1, body2, body2.centre(), reach, int(vertices1.size() + vertices2.size()));
+}
+
+PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2)
+{
+	const Hull    body1(points1), body2(points2);
+	const Vector3 way = body2.middle() - body1.middle();
+	return ofVertices(body1, body2, way, body1.reach() + body2.reach() + way.norm(), int(points1.size() + points2.size()));
 }
 
 } // namespace polytope

@@ -20,4 +20,7 @@ struct PairDistance {
 /// normal this over the distance.
 POLYTOPE_API PairDistance pairDistance(const PlacedPair& pair);
 
+/// Of the convex hulls of two sets of points in space, world axes, each with one at least; nearest points from their origin.
+POLYTOPE_API PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2);
+
 } // namespace polytope

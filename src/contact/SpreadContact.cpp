@@ -30,10 +30,10 @@ namespace {
 
 	/// The face and the edge of a core that look most along a direction.
 	struct Features {
-		Weight                 face, edge;
-		std::vector<Vector3>   corners; ///< of the face; none: it has no bounds
-		Vector3                faceNormal = Vector3::Zero(), onFace = Vector3::Zero();
-		std::array<Vector3, 2> ends { { Vector3::Zero(), Vector3::Zero() } };
+		Weight                   face, edge;
+		std::vector<FaceCorners> faces; ///< the face, or its parts in several pieces; none: it has no bounds
+		Vector3                  faceNormal = Vector3::Zero(), onFace = Vector3::Zero();
+		std::array<Vector3, 2>   ends { { Vector3::Zero(), Vector3::Zero() } };
 
 		Features(const CoreInPlace& core, const Vector3& outward)
 		{
@@ -66,9 +66,12 @@ namespace {
 			const int  plane     = halfSpace ? 0 : hull.planeOfFace[best];
 			faceNormal           = core.rotation * planes.normals[plane];
 			onFace               = core.origin + planes.offsets[plane] * faceNormal;
-			if (!halfSpace)
+			if (core.pieces) faces = *core.pieces;
+			else if (!halfSpace) {
+				faces.emplace_back();
 				for (int v : hull.faces[best])
-					corners.push_back(core.origin + core.rotation * hull.vertices[v]);
+					faces.back().push_back(core.origin + core.rotation * hull.vertices[v]);
+			}
 			const Real cosine = faceNormal.dot(outward);
 			if (!(cosine > 0)) return;
 			const Vector3 axis = faceNormal.cross(outward);
@@ -184,16 +187,17 @@ namespace {
 
 		SpreadContact contact()
 		{
-			std::vector<SpreadPlace> faces;
-			meetFaces(faces);
+			std::vector<SpreadPlace> shared;
+			meetFaces(shared);
 			meetEdgeAndFace(one_, other_, 1);
 			meetEdgeAndFace(other_, one_, -1);
 			meetEdges();
+			if (shared.empty()) shared = line_;
 			SpreadContact result { deepest_ * (1 - less_), slope_, Vector3::Zero(), {} };
 			const Vector3 aside = axes_.inSpace(arm_) + deepest_ * normal_.cross(turn_);
 			result.point        = nearest_ + aside / slope_;
 			const Vector2 from(aside.dot(axes_.u) / slope_, aside.dot(axes_.v) / slope_);
-			for (const SpreadPlace& corner : faces)
+			for (const SpreadPlace& corner : shared)
 				result.outline.push_back(corner.at - from);
 			return result;
 		}
@@ -206,6 +210,16 @@ namespace {
 		Real           less_ = 0, slope_ = 1;
 		Vector2        arm_  = Vector2::Zero();
 		Vector3        turn_ = Vector3::Zero(); ///< moment on body 2 about the nearest point, over k D δ
+		/// Where the pair of features with an edge that weighs most touches.
+		std::vector<SpreadPlace> line_;
+		Real                     weightOfLine_ = 0;
+
+		void offerLine(const Real& weight, const SpreadPlace& one, const SpreadPlace& other)
+		{
+			if (!(weight > weightOfLine_)) return;
+			weightOfLine_ = weight;
+			line_         = { one, other };
+		}
 
 		Vector2 across(const Vector3& place) const { return Vector2(axes_.u.dot(place - nearest_), axes_.v.dot(place - nearest_)); }
 		Real    height(const Vector3& place) const { return normal_.dot(place - nearest_); }
@@ -217,13 +231,15 @@ namespace {
 		}
 
 		/// The gaps of a pair of features, in h, to h over δ: δ where the gap is least.
-		void fromGaps(std::vector<SpreadPlace>& places) const
+		void fromGaps(std::vector<std::vector<SpreadPlace>>& parts) const
 		{
 			Real least = std::numeric_limits<Real>::infinity();
-			for (const SpreadPlace& place : places)
-				least = std::min(least, place.h);
-			for (SpreadPlace& place : places)
-				place.h = 1 - (place.h - least) / deepest_;
+			for (const auto& places : parts)
+				for (const SpreadPlace& place : places)
+					least = std::min(least, place.h);
+			for (auto& places : parts)
+				for (SpreadPlace& place : places)
+					place.h = 1 - (place.h - least) / deepest_;
 		}
 
 		/// \param more how the weight changes as body 2 turns, and body 1 does not
@@ -237,35 +253,50 @@ namespace {
 			turn_ += (1 - mean) * more;
 		}
 
-		void meetFaces(std::vector<SpreadPlace>& ring)
+		/// \param shared where both faces touch: of pieces, the first
+		void meetFaces(std::vector<SpreadPlace>& shared)
 		{
 			const Real weight = one_.face.value * other_.face.value;
 			if (!(weight > 0)) return;
-			const Features &bounded = one_.corners.empty() ? other_ : one_, &bounding = one_.corners.empty() ? one_ : other_;
-			for (const Vector3& corner : bounded.corners)
-				ring.push_back({ across(corner), 0 });
-			std::vector<SpreadPlace> buffer;
-			// counter-clockwise about its own outward normal
-			if (&bounded == &other_) std::reverse(ring.begin(), ring.end());
-			clipByFace(ring, buffer, bounding, &bounding == &one_ ? 1 : -1);
-			if (ring.size() < 3) return ring.clear();
-			for (SpreadPlace& place : ring)
-				place.h = height(other_, place.at) - height(one_, place.at);
-			fromGaps(ring);
-			clip(ring, buffer, [](const SpreadPlace& place) { return place.h; });
+			const Features &bounded = one_.faces.empty() ? other_ : one_, &bounding = one_.faces.empty() ? one_ : other_;
+			std::vector<std::vector<SpreadPlace>> rings;
+			std::vector<SpreadPlace>              buffer;
+			for (const FaceCorners& face : bounded.faces) {
+				std::vector<SpreadPlace> ring;
+				for (const Vector3& corner : face)
+					ring.push_back({ across(corner), 0 });
+				// counter-clockwise about its own outward normal
+				if (&bounded == &other_) std::reverse(ring.begin(), ring.end());
+				if (bounding.faces.empty()) rings.push_back(std::move(ring));
+				else
+					for (const FaceCorners& over : bounding.faces) {
+						rings.push_back(ring);
+						clipByFace(rings.back(), buffer, over, &bounding == &one_ ? 1 : -1);
+					}
+			}
+			for (auto& ring : rings)
+				for (SpreadPlace& place : ring)
+					place.h = height(other_, place.at) - height(one_, place.at);
+			fromGaps(rings);
 			SpreadSums sums;
-			for (std::size_t k = 2; k < ring.size(); ++k)
-				addTriangle(ring[0], ring[k - 1], ring[k], sums);
-			if (!(sums.h2 > 0)) return ring.clear();
+			for (auto& ring : rings) {
+				clip(ring, buffer, [](const SpreadPlace& place) { return place.h; });
+				for (std::size_t k = 2; k < ring.size(); ++k)
+					addTriangle(ring[0], ring[k - 1], ring[k], sums);
+			}
+			if (!(sums.h2 > 0)) return;
+			if (rings.front().size() > 2) shared = rings.front();
 			take(weight, one_.face.value * other_.face.turn - other_.face.value * one_.face.turn, sums);
 		}
 
 		/// What lies over a face. `sense`: 1 where its corners go counter-clockwise about the normal.
-		void clipByFace(std::vector<SpreadPlace>& places, std::vector<SpreadPlace>& buffer, const Features& face, int sense) const
+		void clipByFace(
+		        std::vector<SpreadPlace>& places, std::vector<SpreadPlace>& buffer, const FaceCorners& face, int sense) const
 		{
-			const std::size_t count = face.corners.size();
+			const std::size_t count = face.size();
+			if (count < 3) places.clear();
 			for (std::size_t k = 0; k < count && !places.empty(); ++k) {
-				const Vector2 from = across(face.corners[k]), way = across(face.corners[(k + 1) % count]) - from;
+				const Vector2 from = across(face[k]), way = across(face[(k + 1) % count]) - from;
 				clip(places, buffer, [&](const SpreadPlace& place) {
 					const Vector2 to = place.at - from;
 					return sense * (way[0] * to[1] - way[1] * to[0]);
@@ -278,17 +309,28 @@ namespace {
 		{
 			const Real left = 1 - edge.face.value, weight = left * edge.edge.value * face.face.value;
 			if (!(weight > 0)) return;
-			std::vector<SpreadPlace> ends { { across(edge.ends[0]), height(edge.ends[0]) },
-				{ across(edge.ends[1]), height(edge.ends[1]) } },
-			        buffer;
-			clipByFace(ends, buffer, face, -sense);
-			if (ends.size() < 2) return;
-			for (SpreadPlace& place : ends)
-				place.h = sense * (height(face, place.at) - place.h);
-			fromGaps(ends);
-			clip(ends, buffer, [](const SpreadPlace& place) { return place.h; });
+			const std::vector<SpreadPlace>        whole { { across(edge.ends[0]), height(edge.ends[0]) },
+				       { across(edge.ends[1]), height(edge.ends[1]) } };
+			std::vector<SpreadPlace>              buffer;
+			std::vector<std::vector<SpreadPlace>> parts;
+			if (face.faces.empty()) parts.push_back(whole);
+			for (const FaceCorners& over : face.faces) {
+				std::vector<SpreadPlace> ends = whole;
+				clipByFace(ends, buffer, over, -sense);
+				if (ends.size() < 2) ends.clear();
+				parts.push_back(std::move(ends));
+			}
+			for (auto& ends : parts)
+				for (SpreadPlace& place : ends)
+					place.h = sense * (height(face, place.at) - place.h);
+			fromGaps(parts);
 			SpreadSums sums;
-			if (ends.size() >= 2) addLine(ends[0], ends[1], sums);
+			for (auto& ends : parts) {
+				clip(ends, buffer, [](const SpreadPlace& place) { return place.h; });
+				if (ends.size() < 2) continue;
+				addLine(ends[0], ends[1], sums);
+				if (&ends == &parts.front()) offerLine(weight, ends[0], ends[1]);
+			}
 			const Vector3 ofEdge = face.face.value * (left * edge.edge.turn - edge.edge.value * edge.face.turn),
 			              ofFace = left * edge.edge.value * face.face.turn;
 			take(weight, sense * (ofFace - ofEdge), sums);
@@ -325,17 +367,21 @@ namespace {
 				return bound > least ? std::min(bound, Real(middle + far)) : std::max(bound, Real(middle - far));
 			};
 			const Real from = turn > 0 ? until(0) : Real(0), to = turn > 0 ? until(high - low) : high - low;
+			const auto placeAt = [&](const Real& place) {
+				const Vector3 way = first + place * rate;
+				return SpreadPlace { across(one_.ends[0] + (low + place) * along + way / 2),
+					1 - (way.norm() - nearest) / deepest_ };
+			};
 			SpreadSums sums;
 			// Gauss with four places
 			static constexpr double places[]
 			        = { 0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629 },
 			        weights[] = { 0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693 };
 			for (int k = 0; k < 4; ++k) {
-				const Real    place = from + Real(places[k]) * (to - from);
-				const Vector3 way   = first + place * rate;
-				sums.add(Real(weights[k]) * (to - from), across(one_.ends[0] + (low + place) * along + way / 2),
-				        1 - (way.norm() - nearest) / deepest_);
+				const SpreadPlace place = placeAt(from + Real(places[k]) * (to - from));
+				sums.add(Real(weights[k]) * (to - from), place.at, place.h);
 			}
+			offerLine(left1 * left2 * one_.edge.value * other_.edge.value * parallel, placeAt(from), placeAt(to));
 			const Vector3 of1 = left1 * one_.edge.turn - one_.edge.value * one_.face.turn,
 			              of2 = left2 * other_.edge.turn - other_.edge.value * other_.face.turn;
 			take(left1 * left2 * one_.edge.value * other_.edge.value * parallel,

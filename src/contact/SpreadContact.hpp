@@ -22,19 +22,25 @@
 /// the normal of two edges that are nearly parallel, which is left out.
 namespace polytope {
 
+/// Corners of a face, counter-clockwise about its outward normal.
+using FaceCorners = std::vector<Vector3>;
+
 /// Half-spaces, or, where there is no shape, the segment from the origin along `way` (zero: a point). World axes.
 struct CoreInPlace {
 	const ConvexShape* shape;
 	Vector3            origin;
 	Matrix3            rotation;
 	Vector3            way;
+	/// The face that is touched, in the pieces of a support which it goes on over: that of the core itself first (it may be empty). Null: it is the core's alone.
+	const std::vector<FaceCorners>* pieces = nullptr;
 };
 
 struct SpreadContact {
 	Real    closure; ///< D [m]
 	Real    slope;   ///< ∂D/∂δ: the force is k D times this [-]
 	Vector3 point;   ///< of the force's line of action, as high as the nearest point
-	/// Of the part of two faces that overlaps: corners (u, v) along axesAround(normal) from the point, convex, counter-clockwise; else empty.
+	/// Where they touch, along axesAround(normal) from the point. Of two faces (of pieces: the first) the corners (u, v) of the part that overlaps, convex, counter-clockwise; of
+	/// an edge beside a face or another edge its two ends there; of a corner none.
 	std::vector<Vector2> outline;
 };
 

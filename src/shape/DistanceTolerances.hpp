@@ -20,4 +20,14 @@ constexpr double parallelSegments = 1e-12;
 /// angle is ten times that, and less than that between neighbouring faces of most polyhedra.
 constexpr double parallelFeatures = 0.1;
 
+/// Sides of the polygon around the section of a body with a margin (contact/RoundedSection.hpp), a multiple of four. Shares of pieces are parts of its area, so they add up to one
+/// with any number. With 16 it goes up to 2 % beyond a disc's rim: no farther than the overlap, whose rim is 41 % wider than that of the section half as deep.
+constexpr int sectionDirections = 16;
+
+/// Halvings of the vertices between two of those sides at which the core's own sides are found: more than any face has in a sixteenth of a turn.
+constexpr int sectionSides = 6;
+
+/// Halvings of the angle to one place of it, at the most: then it is known to a rounding. Most places take as many as separate two vertices, a few.
+constexpr int sectionSteps = 50;
+
 } // namespace polytope::tolerance

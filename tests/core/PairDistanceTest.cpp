@@ -62,6 +62,33 @@ TEST_P(Distances, AreThoseOfTheNearestPoints)
 	EXPECT_GT(touching, 1000);
 }
 
+TEST(DistanceOfPoints, IsThatOfTheirHulls)
+{
+	std::mt19937_64 random(31);
+	const Shapes    shapes = randomShapes(30, random, 3);
+	int             apart  = 0;
+	for (int trial = 0; trial < 2000 && !testing::Test::HasFailure(); ++trial) {
+		const Pair           pair = randomPair(shapes, random);
+		std::vector<Vector3> points[2];
+		for (int body = 0; body < 2; ++body)
+			for (const Vector3& vertex : pair.shape[body]->polyhedron().vertices)
+				points[body].push_back(vertexOf(pair, body, vertex));
+		const PairDistance known = distanceOf(pair), found = pairDistance(points[0], points[1]);
+		EXPECT_NEAR(found.distance, known.distance, 64 * tolerance::rounding * pair.reach());
+		apart += known.distance > 0;
+	}
+	EXPECT_GT(apart, 300);
+}
+
+TEST(DistanceOfPoints, OfATriangleAndASegment)
+{
+	const PairDistance found
+	        = pairDistance({ Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0) }, { Vector3(2, 2, 0.5), Vector3(0.2, 0.2, 0.25) });
+	EXPECT_NEAR(found.distance, 0.25, 1e-15);
+	EXPECT_NEAR((found.normal - Vector3(0, 0, 1)).norm(), 0, 1e-14);
+	EXPECT_NEAR((found.point[0] - Vector3(0.2, 0.2, 0)).norm(), 0, 1e-14);
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, Distances, testing::Values(2, 3), [](const auto& info) { return std::to_string(info.param) + "D"; });
 
 std::shared_ptr<const ConvexShape> cube()

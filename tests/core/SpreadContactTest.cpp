@@ -169,7 +169,9 @@ TEST(SpreadContact, OfParallelSegmentsActsWhereTheyLieBesideEachOther)
 	const SpreadContact flush = ofSegments(Vector3(2, 0, 0), Vector3::Zero(), depth);
 	EXPECT_NEAR(flush.closure, depth, 1e-14);
 	EXPECT_NEAR((flush.point - Vector3(0.625, 0, 0)).norm(), 0, 1e-10);
-	EXPECT_TRUE(flush.outline.empty());
+	ASSERT_EQ(flush.outline.size(), 2u); // the ends of that
+	EXPECT_NEAR((flush.outline[0] - flush.outline[1]).norm(), 0.75, 1e-9);
+	EXPECT_NEAR((flush.outline[0] + flush.outline[1]).norm(), 0, 1e-9);
 	// tilted by θ about their middle: of springs along 0.75 m the moment is 4 k L²/12 θ
 	const Real          tilt    = 1e-5;
 	const SpreadContact leaning = ofSegments(Vector3(2, 0, 2 * tilt), Vector3(0, 0, -0.375 * tilt), depth);
@@ -177,6 +179,7 @@ TEST(SpreadContact, OfParallelSegmentsActsWhereTheyLieBesideEachOther)
 	// crossed at a right angle
 	const SpreadContact crossed = ofSegments(Vector3(0, 1, 0), Vector3(0, -0.3, 0), depth);
 	EXPECT_EQ(crossed.slope, 1);
+	EXPECT_TRUE(crossed.outline.empty());
 	EXPECT_NEAR((crossed.point - Vector3(0.25, 0, 0)).norm(), 0, 1e-12);
 }
 
@@ -188,9 +191,42 @@ TEST(SpreadContact, OfASegmentOnAFaceActsInTheMiddleOfWhatLiesOnIt)
 	const SpreadContact found = spreadContact(core, segment, Vector3(0, 0, 1), Vector3(0.5, 0.1, 0.5), 1e-3);
 	EXPECT_NEAR(found.closure, 1e-3, 1e-15);
 	EXPECT_NEAR((found.point - Vector3(0.125, 0.1, 0.5)).norm(), 0, 1e-12);
+	ASSERT_EQ(found.outline.size(), 2u);
+	EXPECT_NEAR((found.outline[0] - found.outline[1]).norm(), 0.75, 1e-12);
 	// the same with the bodies exchanged
 	const SpreadContact other = spreadContact(segment, core, Vector3(0, 0, -1), Vector3(0.5, 0.1, 0.599), 1e-3);
 	EXPECT_NEAR((other.point - Vector3(0.125, 0.1, 0.599)).norm(), 0, 1e-12);
+}
+
+/// A floor, whole or as pieces that lie flush.
+TEST(SpreadContact, OnFlushPiecesIsThatOnOne)
+{
+	const auto                           floor = cuboid(2, 2, 1), left = cuboid(1, 2, 1);
+	const auto                           block   = cuboid(0.5, 0.3, 0.2);
+	const FaceCorners                    faces[] = { { Vector3(-2, -2, 1), Vector3(0, -2, 1), Vector3(0, 2, 1), Vector3(-2, 2, 1) },
+		                   { Vector3(0, -2, 1), Vector3(2, -2, 1), Vector3(2, 2, 1) }, { Vector3(0, -2, 1), Vector3(2, 2, 1), Vector3(0, 2, 1) } };
+	const std::vector<FaceCorners>       pieces(std::begin(faces), std::end(faces));
+	std::mt19937_64                      random(8);
+	std::uniform_real_distribution<Real> any(-1, 1);
+	for (int trial = 0; trial < 200; ++trial) {
+		const Real          tilt     = 2e-6 * pow(Real(10), Real(2.6) * (1 + any(random)));
+		const Vector3       turn     = tilt * Vector3(any(random), any(random), 0) + Vector3(0, 0, any(random));
+		const Matrix3       rotation = turned(turn);
+		const Vector3       centre(0.1 + any(random) / 3, 0.1, 1 + 2 * margin + 0.2);
+		const auto          way = pairDistance(*floor, Matrix3::Identity(), *block, rotation, centre);
+		const CoreInPlace   mover { block.get(), centre, rotation, Vector3::Zero() };
+		const Real          depth = 5e-3;
+		const SpreadContact whole = spreadContact(
+		        { floor.get(), Vector3::Zero(), Matrix3::Identity(), Vector3::Zero() }, mover, way.normal, way.point[0], depth);
+		const CoreInPlace parts { left.get(), Vector3(-1, 0, 0), Matrix3::Identity(), Vector3::Zero(), &pieces };
+		for (const bool swapped : { false, true }) {
+			const SpreadContact found = swapped ? spreadContact(mover, parts, -way.normal, way.point[1], depth)
+			                                    : spreadContact(parts, mover, way.normal, way.point[0], depth);
+			EXPECT_NEAR(found.closure / whole.closure, 1, 1e-9);
+			EXPECT_NEAR(found.slope, whole.slope, 1e-9);
+			EXPECT_NEAR((found.point - whole.point).head<2>().norm(), 0, 1e-8) << trial;
+		}
+	}
 }
 
 } // namespace
