@@ -46,14 +46,16 @@ namespace {
 			const Vector3 d     = axes_.inSpace(out);
 			Farthest      below = lowest_, above = highest_;
 			Real          from = -quarter, to = quarter;
-			for (int step = 0; step < tolerance::sectionSteps && below.vertex != above.vertex; ++step) {
+			// straight below and above, several vertices may be the farthest
+			const auto isWithinOne = [&] { return from > -quarter && to < quarter && below.vertex == above.vertex; };
+			for (int step = 0; step < tolerance::sectionSteps && !isWithinOne(); ++step) {
 				const Real     middle = (from + to) / 2;
 				const Farthest next(core_, margin_, Vector3(cos(middle) * d + sin(middle) * normal_));
 				const bool     low    = normal_.dot(next.place) < level_;
 				(low ? from : to)     = middle;
 				(low ? below : above) = next;
 			}
-			if (below.vertex == above.vertex && margin_ > 0) {
+			if (isWithinOne() && margin_ > 0) {
 				const Real sine = (level_ - normal_.dot(*below.vertex)) / margin_;
 				return { out, d.dot(*below.vertex - at_) + margin_ * sqrt(std::max(Real(0), Real(1 - sine * sine))),
 					below.vertex };

@@ -30,4 +30,8 @@ constexpr int sectionSides = 6;
 /// Halvings of the angle to one place of it, at the most: then it is known to a rounding. Most places take as many as separate two vertices, a few.
 constexpr int sectionSteps = 50;
 
+/// × the depth of two cores in each other: as far as one is moved along the contact's normal until they are apart, and the way back is known. The depth is a mean over the overlap, of a
+/// corner a third of what leads out of it.
+constexpr double farthestOut = 16;
+
 } // namespace polytope::tolerance

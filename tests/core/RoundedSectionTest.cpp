@@ -88,6 +88,17 @@ TEST(RoundedSection, DoesNotJumpWithARounding)
 	}
 }
 
+/// A segment along the plane, whose ends are as high as each other: a strip, as long, with a rim.
+TEST(RoundedSection, OfASegmentAlongThePlaneIsAStrip)
+{
+	for (const Vector3& way : { Vector3(2, 0, 0), Vector3(0, -2, 0), Vector3(1.2, 1.6, 0), Vector3(1.2, 1.6, 1e-9) }) {
+		const Real rim   = std::sqrt(2 * Real(0.1) * Real(1e-3) - Real(1e-6));
+		const auto found = moments(section({ Vector3(0, 0, 0.1), Vector3(0, 0, 0.1) + way }, Real(0.1), Vector3(0, 0, 1e-3)));
+		EXPECT_NEAR(found.area, 2 * 2 * rim + around(rim), 0.1 * rim * rim);
+		EXPECT_NEAR((PlaneAxes(up).inSpace(found.centroid) - Vector3(way[0], way[1], 0) / 2).norm(), 0, 1e-6);
+	}
+}
+
 TEST(RoundedSection, ThroughTheMiddleOfASharpBodyIsThatOfTheBody)
 {
 	const auto found = moments(section(cuboid(0.5, 0.3, 0.2), 0, Vector3::Zero()));
