@@ -68,9 +68,8 @@ namespace {
 	}
 
 	/// NAME=VALUE lines of the text that the library has about itself; empty if it has none.
-	std::map<std::string, std::string> ownText(const std::string& path)
+	std::map<std::string, std::string> ownText(const std::string& bytes)
 	{
-		const std::string bytes = contentOf(path);
 		refusePart(bytes);
 		std::map<std::string, std::string> values;
 		const std::string                  mark  = std::string("yade-polytope-") + "extension\n"; // in two: this library is none
@@ -141,8 +140,21 @@ namespace {
 		return "";
 	}
 
+	struct Refused {
+		std::size_t content; ///< sum over the file
+		std::string reason;
+	};
+
+	/// Libraries that were refused after they had been loaded, by their paths: they stay in the process, and YADE's factory keeps their classes. What was refused before that,
+	/// as on trial, is looked at anew.
+	std::map<std::string, Refused>& staying()
+	{
+		static std::map<std::string, Refused> all;
+		return all;
+	}
+
 	/// Makes the library's classes known to YADE's factory, and its normal laws by their names; where they are refused they are taken out of those lists again.
-	Extension opened(const std::string& path, const std::string& name)
+	Extension opened(const std::string& path, const std::string& name, std::size_t content)
 	{
 		if (const std::string fault = faultOfConstructors(path); !fault.empty()) throw std::runtime_error(fault);
 		Names& all  = ClassFactory::instance().pluginClasses;
@@ -158,33 +170,27 @@ namespace {
 		if (fault.empty()) fault = faultOfLaws(before);
 		if (fault.empty()) return { path, name, { classes.begin(), classes.end() } };
 		laws.resize(before);
+		if (library) staying()[path] = { content, fault };
 		throw std::runtime_error(fault);
-	}
-
-	using File = std::pair<std::string, std::filesystem::file_time_type>;
-
-	/// Files that were refused, with the reason: a library stays in the process, and its classes do not register again, so that the next answer would be another one.
-	std::map<File, std::string>& refused()
-	{
-		static std::map<File, std::string> all;
-		return all;
 	}
 
 	/// What was not loaded before this is.
 	Extension& add(const std::string& path)
 	{
-		std::error_code none;
-		const File      file { path, std::filesystem::last_write_time(path, none) };
-		if (const auto found = refused().find(file); found != refused().end()) throw std::runtime_error(found->second);
-		try {
-			std::map<std::string, std::string> own   = ownText(path);
-			const std::string                  fault = misfit(own);
-			if (!fault.empty()) throw std::runtime_error(fault);
-			loaded().push_back(opened(path, own["name"]));
-		} catch (const std::exception& error) {
-			refused()[file] = error.what();
-			throw;
+		const std::string bytes   = contentOf(path);
+		const std::size_t content = std::hash<std::string>()(bytes);
+		if (const auto found = staying().find(path); found != staying().end()) {
+			const Refused& before = found->second;
+			throw std::runtime_error(before.content == content
+			                ? before.reason
+			                : "it was built anew after it was refused, and what was refused stays in this process; start YADE "
+			                  "again to load it (the reason was: "
+			                        + before.reason + ")");
 		}
+		std::map<std::string, std::string> own   = ownText(bytes);
+		const std::string                  fault = misfit(own);
+		if (!fault.empty()) throw std::runtime_error(fault);
+		loaded().push_back(opened(path, own["name"], content));
 		return loaded().back();
 	}
 

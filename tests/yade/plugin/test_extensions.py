@@ -437,3 +437,37 @@ def testAConstructorThatThrowsIsRefused(what, reason, thrower):
 	"""The constructor of a static object runs while the library is loaded, where no exception can be caught."""
 	assert refused(thrower, THROWER=what) == f'a constructor of its static objects {reason}'
 	assert inYade('from yade import polytope\nanswer(polytope.load(sys.argv[1]).name)', thrower)[0] == 'hyperbolicJoint'
+
+
+def testWhatWasRefusedOnTrialIsLookedAtAnew(thrower, joint, tmp_path):
+	"""In the same process, under the same path: when its constructor no longer throws, and when another library is there. One that was refused after it had been loaded stays there, and
+	the answer says that."""
+	twice = tmp_path / 'twice.so'
+	shutil.copy(joint, twice)
+	script = """
+import os, shutil
+from yade import polytope
+def said(path):
+	try: return polytope.load(path).name
+	except ValueError as error: return str(error).split('is not loaded: ')[1]
+place, thrower, joint, twice = sys.argv[1:]
+shutil.copy(thrower, place)
+os.environ['THROWER'] = 'exception'
+answers = [said(place), said(place)]
+shutil.copy2(joint, place + '.new')
+os.utime(place + '.new', ns=(os.stat(place).st_atime_ns, os.stat(place).st_mtime_ns))
+os.replace(place + '.new', place)
+answers += [said(place), said(twice), said(twice)]
+shutil.copy(thrower, twice + '.new')
+os.replace(twice + '.new', twice)
+answers.append(said(twice))
+os.environ['THROWER'] = ''
+answers.append(said(thrower))
+answer(answers)
+"""
+	(first, again, anew, double, doubleAgain, other, mended), _ = inYade(script, tmp_path / 'place.so', thrower, joint, twice)
+	assert first == again == 'a constructor of its static objects throws: no licence'
+	assert anew == 'ownPhysics'
+	assert double == doubleAgain and double.startswith('there is a class Own')
+	assert other.startswith('it was built anew after it was refused') and double in other and 'start YADE again' in other
+	assert mended == 'hyperbolicJoint'
