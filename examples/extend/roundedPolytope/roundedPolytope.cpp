@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// A polyhedron rounded by a ball (sphero-polyhedron), and its contacts with its like, with Polytope, Sphere and Wall. All of it follows from the margin: volume,
+// A polyhedron rounded by a ball (sphero-polyhedron), and its contacts with its like, with Polytope, Sphere, Wall, Box and Facet. All of it follows from the margin: volume,
 // inertia, boxes, drawing, contacts. For stiffnesses per contact.
 #include <yade-polytope/contact/MarginContact.hpp>
 
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
@@ -24,8 +26,10 @@ YADE_POLYTOPE_MARGIN_PAIR(Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom, Roun
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Polytope_RoundedPolytope_PolytopeGeom, Polytope, RoundedPolytope);
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Sphere_RoundedPolytope_PolytopeGeom, Sphere, RoundedPolytope);
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Wall_RoundedPolytope_PolytopeGeom, Wall, RoundedPolytope);
+YADE_POLYTOPE_MARGIN_PAIR(Ig2_Box_RoundedPolytope_PolytopeGeom, Box, RoundedPolytope);
+YADE_POLYTOPE_MARGIN_PAIR(Ig2_Facet_RoundedPolytope_PolytopeGeom, Facet, RoundedPolytope);
 
 YADE_PLUGIN((
-        RoundedPolytope)(Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom)(Ig2_Polytope_RoundedPolytope_PolytopeGeom)(Ig2_Sphere_RoundedPolytope_PolytopeGeom)(Ig2_Wall_RoundedPolytope_PolytopeGeom));
+        RoundedPolytope)(Ig2_RoundedPolytope_RoundedPolytope_PolytopeGeom)(Ig2_Polytope_RoundedPolytope_PolytopeGeom)(Ig2_Sphere_RoundedPolytope_PolytopeGeom)(Ig2_Wall_RoundedPolytope_PolytopeGeom)(Ig2_Box_RoundedPolytope_PolytopeGeom)(Ig2_Facet_RoundedPolytope_PolytopeGeom));
 
 } // namespace yade

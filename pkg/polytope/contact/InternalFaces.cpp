@@ -136,16 +136,6 @@ namespace {
 		return end;
 	}
 
-	/// Which of two pieces that both have covered faces has them left out. Of those of the other one, some may be too far from this overlap to be seen here,
-	/// so the solids of several contacts would differ; but its seams move with it, so it does not slide over them.
-	int supporting(const TouchingPair& pair)
-	{
-		const Body &first = bodyOf(pair, 0), &second = bodyOf(pair, 1);
-		const bool  fixed = isFixed(first, *pair.scene);
-		if (fixed != isFixed(second, *pair.scene)) return fixed ? 0 : 1;
-		return first.id < second.id ? 0 : 1;
-	}
-
 } // namespace
 
 bool mayHaveInternalFaces(const Body& body1, const Body& body2) { return (isPiece(body1) || isPiece(body2)) && !inOneClump(body1, body2); }
@@ -192,7 +182,7 @@ polytope::InternalPlanes internalPlanes(const TouchingPair& pair, const polytope
 				result.add(piece, one.plane, wayBeyond(pair, piece, one, others[piece]));
 		}
 	}
-	if (result.count[0] > 0 && result.count[1] > 0) result.count[1 - supporting(pair)] = 0;
+	if (result.count[0] > 0 && result.count[1] > 0) result.count[1 - supportOf(pair)] = 0;
 	return result;
 }
 

@@ -3,8 +3,13 @@
 
 #include "contact/PolytopeGeom.hpp"
 
-/// Contacts of bodies that are larger than their cores by a ball: of rounded polyhedra and segments with their like, with polytopes, spheres, walls.
+/// Contacts of bodies that are larger than their cores by a ball: of rounded polyhedra and segments with their like, with polytopes, spheres, walls, boxes, facets.
 namespace yade {
+
+struct CoreOfBody;
+
+/// Whether a PolytopeMarginFunctor can meet such a body.
+bool hasMarginCore(const Shape& shape);
 
 /// Contact of two bodies of any classes whose families say what their cores and margins are (ShapeFamily::core).
 ///
@@ -12,6 +17,9 @@ namespace yade {
 /// of their contact, and the way back counts as margin. A segment or point in half-spaces is pushed out to the nearest face. Where faces or edges nearly lie on each other, the
 /// force acts in the middle of them, and moves from there with a tilt (src/contact/SpreadContact.hpp): so a body comes to rest on its faces. `outline` is then the
 /// part of both faces that overlaps, over which a rock joint shears. Half-spaces without any margin have the contact of two polytopes.
+///
+/// YADE's boxes and facets have no core in their families: half-spaces stand for them (StandIns.hpp), those of a facet with the mesh around it. On several pieces of a rigid
+/// support all contacts together are that with their union (MarginOnPieces.hpp).
 ///
 /// For stiffnesses per contact; with a stiffness per area the pair is counted as a failure, and so is one of bodies without a core, of a polygon, or of two segments that
 /// cross. An extension makes functors for its classes of it by YADE_POLYTOPE_MARGIN_PAIR.
@@ -22,6 +30,10 @@ public:
 	YADE_CLASS_BASE_DOC(PolytopeMarginFunctor, PolytopeGeomFunctor,
 	        "What the functors of extensions have in common that make contacts of bodies with margins: half-spaces and a ball around "
 	        "them.");
+
+private:
+	std::optional<CoreOfBody> standIn(
+	        const Shape& shape, const shared_ptr<Interaction>& contact, int which, const Vector3r& shift2, const CoreOfBody& partner);
 };
 REGISTER_SERIALIZABLE(PolytopeMarginFunctor);
 

@@ -2,44 +2,20 @@
 #include "contact/MixedPairs.hpp"
 
 #include "contact/ContactOptions.hpp"
-#include "contact/FacetPrism.hpp"
 #include "contact/SphereOnPieces.hpp"
+#include "contact/StandIns.hpp"
 #include "contact/StiffnessShare.hpp"
-#include "shape/BoxShape.hpp"
 #include "shape/WallShape.hpp"
 
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
-#include <src/shape/Block.hpp>
 #include <src/shape/ShapeOrNull.hpp>
 
 namespace yade {
 
 POLYTOPE_CLASSES(
         (Ig2_Wall_Polytope_PolytopeGeom)(Ig2_Box_Polytope_PolytopeGeom)(Ig2_Facet_Polytope_PolytopeGeom)(Ig2_Sphere_Polytope_PolytopeGeom));
-
-namespace {
-
-	using Convex = std::shared_ptr<const polytope::ConvexShape>;
-
-	Convex boxOf(const Box& box, const polytope::ConvexShape& other)
-	{
-		return polytope::ConvexShape::shared(halfSpacesOf(box), math::min(other.cornerRadius(), Real(box.extents.minCoeff() / 2)));
-	}
-
-	Convex facetOf(const FacetInMesh::Prism& prism, const polytope::ConvexShape& other)
-	{
-		polytope::HalfSpaces set;
-		for (int i = 0; i < prism.count; ++i) {
-			set.normals.push_back(prism.planes[size_t(i)].normal);
-			set.offsets.push_back(prism.planes[size_t(i)].offset);
-		}
-		const Convex solid = polytope::ConvexShape::shared(set, 0);
-		return solid->withCornerRadius(math::min(other.cornerRadius(), Real(solid->inscribedRadius() / 2)));
-	}
-
-} // namespace
 
 bool Ig2_Wall_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1,
         const State& state2, const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& c)
@@ -63,11 +39,8 @@ bool Ig2_Box_Polytope_PolytopeGeom::go(const shared_ptr<Shape>& shape1, const sh
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	StandIn&    standIn = geometry(c).standIn.make();
-	const auto& box     = static_cast<const Box&>(*shape1);
-	// scripts may change the extents of a box in a run
-	if (!standIn.partner || !isMadeOf(*standIn.partner, box))
-		standIn.partner = polytope::shapeOrNull([&] { return boxOf(box, *convex); });
+	StandIn& standIn = geometry(c).standIn.make();
+	standForBox(static_cast<const Box&>(*shape1), convex->cornerRadius(), standIn);
 	if (!standIn.partner) return failed(c);
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }
@@ -77,14 +50,9 @@ bool Ig2_Facet_Polytope_PolytopeGeom::go(const shared_ptr<Shape>&, const shared_
 {
 	const auto& convex = static_cast<const Polytope&>(*shape2).convex();
 	if (!convex) return false;
-	StandIn&          standIn = geometry(c).standIn.make();
-	const FacetInMesh mesh(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), shift2, *scene);
-	// the side is settled when the contact begins, and kept while it lasts
-	if (!standIn.partner || !c->isReal()) standIn.side = mesh.sideOf(state1.ori.conjugate() * (state2.pos + shift2 - state1.pos));
-	// nor need its corners be the same as in the step before
-	const FacetInMesh::Prism prism = mesh.prism(standIn.side, 2 * convex->boundingRadius());
-	if (!standIn.partner || !prism.made(*standIn.partner))
-		standIn.partner = polytope::shapeOrNull([&] { return facetOf(prism, *convex); });
+	StandIn& standIn = geometry(c).standIn.make();
+	standForFacet(*Body::byId(c->getId1(), scene), *Body::byId(c->getId2(), scene), shift2, *scene, !c->isReal(),
+	        2 * convex->boundingRadius(), convex->cornerRadius(), standIn);
 	if (!standIn.partner) return failed(c);
 	return query(*standIn.partner, { state1.pos, state1.ori.toRotationMatrix() }, *convex, state1, state2, shift2, force, c);
 }

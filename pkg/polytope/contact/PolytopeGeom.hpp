@@ -114,7 +114,8 @@ box, a facet and a body that cannot move count as large as the other body.)""",
 		        "stiffness per area or one per contact (StiffnessRule)"))
 		((Real, share, 1, Attr::readonly, "Part of the stiffness that this contact has [-]: less than 1 where the body is on several "
 		        "pieces, by the areas on each. Polytopes: per contact and with YADE's own physics, on pieces of a rigid support that lie "
-		        "flush (fixed bodies, members of a clump). Spheres: on polytopes that meet under it, fixed or free, with every rule; "
+		        "flush (fixed bodies, members of a clump). Shapes with a margin of extensions: on pieces of a rigid support, by what of "
+		        "the body's section lies in each. Spheres: on polytopes that meet under it, fixed or free, with every rule; "
 		        ":yref:`contactArea<PolytopeGeom.contactArea>` is this part, too. The stiffnesses of YADE's own physics contain it."))
 		((Real, normalWeight, 0.5, Attr::readonly, "*boon2012*: weight of body 1's normal against body 2's (1 minus it), from the bodies' "
 		        "stiffnesses: the normal is closer to that of the stiffer body."))

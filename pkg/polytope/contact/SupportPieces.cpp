@@ -3,6 +3,14 @@
 
 namespace yade {
 
+int supportOf(const TouchingPair& pair)
+{
+	const Body &first = bodyOf(pair, 0), &second = bodyOf(pair, 1);
+	const bool  fixed = isFixed(first, *pair.scene);
+	if (fixed != isFixed(second, *pair.scene)) return fixed ? 0 : 1;
+	return first.id < second.id ? 0 : 1;
+}
+
 void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near)
 {
 	solid.clear();

@@ -32,6 +32,10 @@ inline const Body& bodyOf(const TouchingPair& pair, int which)
 	return *Body::byId(which == 0 ? pair.contact->getId1() : pair.contact->getId2(), pair.scene);
 }
 
+/// Which of the bodies (0, 1) is the support where both are pieces: the fixed one, else the one with the lower number. The pieces of the other one may be too far away to be
+/// seen here, so the solids of several contacts would differ; but its seams move with it, so it does not slide over them.
+int supportOf(const TouchingPair& pair);
+
 /// Half-spaces of a body whose centre is at `centre` from the contact point, as a body whose centre is at `other` meets it. None for
 /// shapes without faces, and for bodies farther than `near` from the contact point.
 void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near);

@@ -6,6 +6,7 @@
 // `from yade import _polytope` finds it through yade.__path__, and Python only calls the function below: YADE's own
 // classes and converters are registered by then.
 #include "contact/ContactOptions.hpp"
+#include "contact/MarginContact.hpp"
 #include "host/Extensions.hpp"
 #include "host/Vectors.hpp"
 #include "joint/JointOfParts.hpp"
@@ -332,6 +333,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	        "unit "
 	        "normals (n, 3) and offsets, float64; empty for spheres.");
 	py::def("faultOfShape", &faultOfShape, py::arg("shape"), "What a class derived from Polytope leaves open; empty: nothing.");
+	py::def("faultOfFamily", &yade::faultOfFamily, py::arg("shape"),
+	        "What is no size of all that the family of a shape says (ShapeFamily.hpp); empty: nothing.");
+	py::def("hasMarginCore", &yade::hasMarginCore, py::arg("shape"), "Whether a PolytopeMarginFunctor can meet such a body.");
 	py::def("extensions", &extensions, "Extensions that are loaded: (path, name, names of classes) of each.");
 	py::def("loadExtension", &loadExtension, py::arg("path"),
 	        "Loads one, see polytope.load; RuntimeError with the reason where it does not fit.");

@@ -66,6 +66,19 @@ const ShapeFamily& familyOf(const Shape& shape)
 	return unknown;
 }
 
+std::string faultOfFamily(const Shape& shape)
+{
+	const ShapeFamily& family = familyOf(shape);
+	const auto         length = [](const Real& value) { return math::isfinite(value) && value >= 0; };
+	if (!length(family.boundingRadius(shape))) return "its bounding radius must be finite and at least 0";
+	if (!(family.inscribedRadius(shape) >= 0)) return "the radius of the largest ball in it must be a number and at least 0";
+	if (!length(family.size(shape))) return "its size must be finite and at least 0";
+	const auto core = family.core(shape, Vector3r::Zero(), Quaternionr::Identity(), Vector3r::UnitX());
+	if (core && !length(core->margin)) return "its margin must be finite and at least 0";
+	if (core && !(math::isfinite(core->origin.sum()) && math::isfinite(core->way.sum()))) return "its core must have finite ends";
+	return "";
+}
+
 void registerFamily(int classIndex, std::unique_ptr<const ShapeFamily> family) { keep(families(), classIndex, std::move(family)); }
 
 } // namespace yade

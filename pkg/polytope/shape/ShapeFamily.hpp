@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// What the stages of a simulation ask of a shape, whatever its class: one object for each class of shapes, registered once.
@@ -104,6 +105,9 @@ public:
 
 /// The family that is registered for this class, or for the nearest of its bases that has one.
 const ShapeFamily& familyOf(const Shape& shape);
+
+/// Why what its family says of a shape is no size: a radius or a margin that is no number or negative; empty: nothing. Stages ask for sizes in parallel, and take what they get.
+std::string faultOfFamily(const Shape& shape);
 
 /// Registers a family; to be called before a scene has such a shape. \param classIndex YADE's, Shape::getClassIndex()
 void registerFamily(int classIndex, std::unique_ptr<const ShapeFamily> family);

@@ -9,23 +9,25 @@ from ..bodies.polytopes import isotropyTolerance
 from ..scene.ownFunctors import ownClasses, ownContactsOf
 from ..scene.present import isPerArea, jointMaterials
 
-__all__ = ['contactsToChoose', 'derivedShapes', 'marginsPerArea', 'ownClosures', 'unknownStiffness']
+__all__ = ['contactsToChoose', 'derivedShapes', 'marginsPerArea', 'ownClosures', 'unknownStiffness', 'withoutCore']
 
 
 def derivedShapes(scene):
-	"""Classes that extensions derive from Polytope: what no stage can know of them."""
+	"""Shapes whose radius or margin is none; classes that extensions derive from Polytope: what no stage can know of them."""
 	told = set()
 	for body in scene.bodies:
 		kind = type(body.shape)
-		if not isinstance(body.shape, Polytope) or kind is Polytope or kind in told:
+		if kind is Polytope or kind in told:
 			continue
-		fault = _polytope.faultOfShape(body.shape) or faultOfMargin(body.shape)
+		derived = isinstance(body.shape, Polytope)
+		fault = (_polytope.faultOfShape(body.shape) or faultOfMargin(body.shape)) if derived else _polytope.faultOfFamily(body.shape)
 		if fault:
 			told.add(kind)
+			makes = 'polytope.withShape makes such bodies; ' if derived else 'set the attributes of its shape; '
 			yield (
 				'shapes',
 				f'body {body.id}, a {kind.__name__}: {fault}',
-				'polytope.withShape makes such bodies; docs/extending.md says what the class must tell',
+				makes + 'docs/extending.md says what the class must tell',
 			)
 
 
@@ -56,9 +58,9 @@ def ownClosures(scene):
 			)
 
 
-def contactsToChoose(one, other):
-	"""What to do where the loop has no contact functor for two classes, one of which is of an extension."""
-	own = ownContactsOf(one, other)
+def contactsToChoose(one, other, present):
+	"""What to do where the loop has no contact functor for two classes, one of which is of an extension. *present*: names of those that it has, for classes that these are derived from."""
+	own = [name for name in ownContactsOf(one, other) if name not in present]
 	if not own:
 		return f'no loaded extension has one: write it (docs/extending.md), or keep {one} and {other} apart by the masks of the bodies'
 	if len(own) == 1:
@@ -79,6 +81,22 @@ def marginsPerArea(scene, functor, maker, one, other):
 				'polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False)), and stiffnesses in N/m',
 			)
 			return
+
+
+def withoutCore(scene, functor, one, other):
+	"""Shapes that a functor by margins is made for, and whose family has no core for it: polygons are none in space."""
+	if not isinstance(functor, PolytopeMarginFunctor):
+		return
+	for kind in dict.fromkeys((one, other)):
+		if not _polytope.hasMarginCore(scene.examples[kind].shape):
+			flat = kind.variant == 2 and isinstance(scene.examples[kind].shape, Polytope)
+			yield (
+				'contact functors',
+				f'{type(functor).__name__} meets bodies by their cores, and '
+				+ (f'a {kind.shape} of dimension 2 has none' if flat else f'{kind.shape} has none')
+				+ ': such pairs are counted as failures',
+				'make it a polyhedron, a thin prism' if flat else 'give its family the function core (docs/extending.md)',
+			)
 
 
 def _jointMaterialsOf(scene, kind):

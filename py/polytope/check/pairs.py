@@ -5,11 +5,11 @@ For each pair of shapes and materials that can meet, the dispatchers themselves 
 """
 
 import yade
-from yade import PolytopeGeom
+from yade import PolytopeGeom, PolytopeMarginFunctor, Shape
 
-from ..scene.ownFunctors import ownContactsOf
+from ..scene.ownFunctors import ownClasses, ownContactsOf
 from ..scene.present import contactSettings
-from .extensions import contactsToChoose, marginsPerArea, unknownStiffness
+from .extensions import contactsToChoose, marginsPerArea, unknownStiffness, withoutCore
 
 __all__ = ['notPeriodicLaws', 'pairFindings', 'unsuitedLaws']
 
@@ -54,7 +54,7 @@ def _contacts(scene):
 		polytopes = [kind for kind in (one, other) if kind.shape == 'Polytope' or _isDerived(kind)]
 		found = None
 		if polytopes and not _hasItsOwn(scene, one, other):
-			found = geometry(one, other) or (flat(one, other) if any(kind.variant == 2 for kind in polytopes) else None)
+			found = geometry(scene, one, other) or (flat(one, other) if any(kind.variant == 2 for kind in polytopes) else None)
 		if found:
 			yield found
 			continue
@@ -65,14 +65,17 @@ def _contacts(scene):
 		]
 		if not loops:
 			candidates = _candidates(one.shape, other.shape)
-			if candidates:
-				yield (
-					'contact functors',
-					f'the InteractionLoop has none for {one.shape} and {other.shape}: they pass through each other',
-					f'add {candidates[0]}()',
-				)
+			advice = f'add {candidates[0]}()' if candidates else contactsToChoose(one.shape, other.shape, ())
+			if candidates or _isOfExtension(one) or _isOfExtension(other):
+				seen = f'the InteractionLoop has none for {one.shape} and {other.shape}: they pass through each other'
+				yield 'contact functors', seen, advice
 			continue
 		yield from (finding for loop, functor in loops[:1] for finding in forces(scene, loop, functor, one, other))
+
+
+def _isOfExtension(kind):
+	"""Whether it is a class of shapes that an extension has brought."""
+	return any(made.__name__ == kind.shape for made in ownClasses(Shape))
 
 
 def _isDerived(kind):
@@ -82,12 +85,13 @@ def _isDerived(kind):
 
 
 def _hasItsOwn(scene, one, other):
-	"""Whether a contact functor in the loop is made for just these classes, one of which is of an extension."""
+	"""Whether a contact functor in the loop is made for just these classes, one of which is of an extension, or asks them for their cores, whatever their classes are."""
 	if not any(kind.shape not in exactly for kind in (one, other)):
 		return False
 	shapes = [scene.examples[kind].shape for kind in (one, other)]
 	functors = [_functor(loop.geomDispatcher, *shapes) for loop in scene.loops]
-	return any(functor and sorted(functor.bases) == sorted([one.shape, other.shape]) for functor in functors)
+	wanted = sorted([one.shape, other.shape])
+	return any(functor and (isinstance(functor, PolytopeMarginFunctor) or sorted(functor.bases) == wanted) for functor in functors)
 
 
 def _functor(dispatcher, *arguments):
@@ -108,15 +112,18 @@ def _candidates(one, other):
 	)
 
 
-def geometry(one, other):
+def geometry(scene, one, other):
 	"""Shapes that no contact with a polytope is computed for."""
+	present = {type(functor).__name__ for loop in scene.loops for functor in loop.geomDispatcher.functors}
+	advice = contactsToChoose(one.shape, other.shape, present)
 	for kind in (one, other):
 		if _isDerived(kind):
 			seen = f'there is no functor for {one.shape} and {other.shape}: {kind.shape} is taken for the Polytope of its planes'
-			return 'contact functors', seen, contactsToChoose(one.shape, other.shape)
+			return 'contact functors', seen, advice
+	for kind in (one, other):
 		if kind.shape not in exactly and ownContactsOf(one.shape, other.shape):
 			seen = f'the InteractionLoop has no functor for {one.shape} and {other.shape}: they pass through each other'
-			return 'contact functors', seen, contactsToChoose(one.shape, other.shape)
+			return 'contact functors', seen, advice
 		if kind.shape not in exactly:
 			taken = getattr(yade, kind.shape, None)
 			like = ', and is taken for a sphere' if taken and issubclass(taken, yade.Sphere) else ''
@@ -159,6 +166,7 @@ def forces(scene, loop, functor, one, other):
 	if geom is None or phys is None:
 		return
 	yield from unknownStiffness(scene, maker, one, other)
+	yield from withoutCore(scene, functor, one, other)
 	yield from marginsPerArea(scene, functor, maker, one, other)
 	law = _functor(loop.lawDispatcher, geom, phys)
 	names = f'{type(geom).__name__} and {type(phys).__name__} ({one.shape} and {other.shape})'

@@ -132,6 +132,36 @@ answer([found, [float(O.forces.f(k)[2]) / weight for k in range(6)], [float(x) f
 	assert 'NumberOfPoints="4"' in text  # two of them join the nodes of a beam
 
 
+def testAContactByMarginsAsksDerivedClassesToo():
+	"""A beam of a grid meets a rounded polytope by the functor for polytopes, with both margins; check has nothing to say of it. Where that functor is missing it names it, and where it is there
+	it does not."""
+	script = """
+from yade import polytope
+from yade.gridpfacet import gridNode, gridConnection
+for path in sys.argv[1:]: polytope.load(path)
+O.materials.append(CohFrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5, label='grid', momentRotationLaw=True))
+rock = O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
+a, b = [O.bodies.append(gridNode([x, 0, 0], 0.05, material='grid', fixed=True)) for x in (-1, 1)]
+O.bodies.append(gridConnection(a, b, 0.05, material='grid'))
+O.bodies.append(polytope.withShape(polytope.cuboid((0, 0, 0.3 + 0.1 + 0.05 - 0.01), (0.3, 0.3, 0.3), material=rock), RoundedPolytope(radius=0.1)))
+def found(*functors):
+	O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_GridConnection_Aabb(), Bo1_Sphere_Aabb()]),
+		InteractionLoop([*functors, Ig2_GridNode_GridNode_GridNodeGeom6D()],
+			[Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)],
+			[Law2_PolytopeGeom_FrictPhys_OnNodes(), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
+		NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.6)]
+	return [one.advice for one in polytope.check(O) if one.what == 'contact functors' and 'GridConnection' in one.seen]
+answers = [found(), found(Ig2_GridConnection_Polytope_PolytopeGeom())]
+O.dt = 1e-9
+O.step()
+answers.append([float(c.geom.penetrationDepth) for c in O.interactions if c.isReal and isinstance(c.geom, PolytopeGeom)])
+answer(answers)
+"""
+	(without, with_, depths), _ = inYade(script, built('gridPair'), built('roundedPolytope'))
+	assert len(without) == 1 and 'Ig2_GridConnection_Polytope_PolytopeGeom' in without[0]
+	assert with_ == [] and depths == [pytest.approx(0.01, abs=1e-12)]
+
+
 def testABuilderInPythonRoundsItsColumns():
 	"""Sharp and rounded columns have the volumes of their closed forms, and stand on each other."""
 	library = built('roundedPolytope')

@@ -120,6 +120,64 @@ answer([failures(lambda: rod((0, 0, 0), fixed=True), lambda: polytope.polygon([(
 	assert (polygon[2], crossed[2], perArea[2]) == (0, 0, 1)
 
 
+def testCheckTellsOfPairsWithoutAContactBeforeTheRun(rods):
+	"""A rod and a facet, which have a functor that is not in the loop; a rod and a shape of YADE's that no extension knows; a rod and a polygon, which is no core in space."""
+	script = (
+		startOfRods
+		+ """
+def found(other, functors):
+	O.reset(); material()
+	O.bodies.append([other(), rod((0, 0, 1))])
+	O.engines = [ForceResetter(), InsertionSortCollider([kind() for kind in bounds] + [Bo1_Facet_Aabb(), Bo1_Tetra_Aabb()]),
+		InteractionLoop([kind() for kind in functors], [Ip2_RockJointMat_RockJointMat_RockJointPhys()], [Law2_PolytopeGeom_RockJointPhys_MohrCoulomb()]), NewtonIntegrator(damping=0.2)]
+	return [[one.seen, one.advice] for one in polytope.check(O) if one.what == 'contact functors']
+facet = lambda: utils.facet([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], fixed=True)
+def tetra():
+	body = Body()
+	body.shape, body.material = Tetra(v=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]), O.materials[-1]
+	return body
+polygon = lambda: polytope.polygon([(-1, -1), (1, -1), (0, 1)], fixed=True)
+answer([found(facet, contacts), found(facet, [*contacts, Ig2_Facet_Rod_PolytopeGeom]), found(tetra, contacts), found(polygon, contacts)])
+"""
+	)
+	(facet, with_, tetra, polygon), _ = inYade(script, rods)
+	none = 'the InteractionLoop has none for {} and Rod: they pass through each other'
+	assert facet == [[none.format('Facet'), 'add Ig2_Facet_Rod_PolytopeGeom() to the InteractionLoop; polytope.engines() without geometry has it']]
+	assert with_ == []
+	((seen, advice),) = tetra
+	assert seen == none.format('Tetra') and advice.startswith('no loaded extension has one: write it')
+	((seen, advice),) = polygon
+	assert seen == 'Ig2_Rod_Polytope_PolytopeGeom meets bodies by their cores, and a Polytope of dimension 2 has none: such pairs are counted as failures'
+	assert advice.startswith('make it a polyhedron')
+
+
+@pytest.mark.parametrize('value', ['nan', 'inf', '-0.1'])
+def testARadiusThatIsNoneIsToldAndCounted(rods, value):
+	"""Of a family that is derived from no class of ours: check names the body, and the pair is a failure instead of a contact, also where the box holds it."""
+	script = (
+		startOfRods
+		+ """
+material()
+O.bodies.append([polytope.cuboid((0, 0, -0.4), (2, 2, 0.4), fixed=True), rod((0, 0, 0.099))])
+O.engines = polytope.engines()
+good = [one.seen for one in polytope.check(O)]
+O.step()
+contacts = O.interactions.countReal()
+O.bodies[1].shape.radius = float(sys.argv[2])
+seen = [one.seen for one in polytope.check(O) if one.what == 'shapes']
+O.dt = 1e-9
+O.step()
+failures = sum(one.stats()['failures'] for one in O.engines[2].geomDispatcher.functors)
+c = O.interactions[0, 1]
+answer([good, contacts, seen, failures, c.geom.status])
+"""
+	)
+	(good, contacts, seen, failures, status), _ = inYade(script, rods, value)
+	assert good == [] and contacts == 1
+	assert len(seen) == 1 and seen[0].startswith('body 1, a Rod: its ') and 'at least 0' in seen[0]
+	assert failures == 1 and status == 'failed'
+
+
 def testBothCollidersSeeRodsAtOnce(rods):
 	"""A rod that turns as it falls onto a box: first contact in the same step, at most two steps' way deep."""
 	script = (

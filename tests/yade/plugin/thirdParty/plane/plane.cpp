@@ -97,7 +97,7 @@ public:
 };
 REGISTER_SERIALIZABLE(SilentClosure);
 
-YADE_PLUGIN((Plane)(Bo1_Plane_Aabb)(RoundedBlock)(Ig2_Plane_RoundedBlock_PolytopeGeom)(Ig2_Plane_Polytope_PolytopeGeom)(
-        Ig2_Plane_Sphere_PolytopeGeom)(SofteningClosure)(SilentClosure));
+YADE_PLUGIN((
+        Plane)(Bo1_Plane_Aabb)(RoundedBlock)(Ig2_Plane_RoundedBlock_PolytopeGeom)(Ig2_Plane_Polytope_PolytopeGeom)(Ig2_Plane_Sphere_PolytopeGeom)(SofteningClosure)(SilentClosure));
 
 } // namespace yade

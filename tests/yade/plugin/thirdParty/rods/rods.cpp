@@ -6,6 +6,8 @@
 #include <yade-polytope/shape/FamilyBound.hpp>
 #include <yade-polytope/shape/ShapeFamily.hpp>
 
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
@@ -41,6 +43,8 @@ YADE_POLYTOPE_MARGIN_PAIR(Ig2_Rod_Rod_PolytopeGeom, Rod, Rod);
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Rod_Polytope_PolytopeGeom, Rod, Polytope);
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Sphere_Rod_PolytopeGeom, Sphere, Rod);
 YADE_POLYTOPE_MARGIN_PAIR(Ig2_Wall_Rod_PolytopeGeom, Wall, Rod);
+YADE_POLYTOPE_MARGIN_PAIR(Ig2_Box_Rod_PolytopeGeom, Box, Rod);
+YADE_POLYTOPE_MARGIN_PAIR(Ig2_Facet_Rod_PolytopeGeom, Facet, Rod);
 
 namespace {
 
@@ -75,6 +79,6 @@ public:
 REGISTER_SERIALIZABLE(ExponentialClosure);
 
 YADE_PLUGIN((
-        Rod)(Bo1_Rod_Aabb)(Ig2_Rod_Rod_PolytopeGeom)(Ig2_Rod_Polytope_PolytopeGeom)(Ig2_Sphere_Rod_PolytopeGeom)(Ig2_Wall_Rod_PolytopeGeom)(ExponentialClosure));
+        Rod)(Bo1_Rod_Aabb)(Ig2_Rod_Rod_PolytopeGeom)(Ig2_Rod_Polytope_PolytopeGeom)(Ig2_Sphere_Rod_PolytopeGeom)(Ig2_Wall_Rod_PolytopeGeom)(Ig2_Box_Rod_PolytopeGeom)(Ig2_Facet_Rod_PolytopeGeom)(ExponentialClosure));
 
 } // namespace yade
