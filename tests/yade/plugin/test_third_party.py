@@ -174,7 +174,7 @@ answer([good, contacts, seen, failures, c.geom.status])
 	)
 	(good, contacts, seen, failures, status), _ = inYade(script, rods, value)
 	assert good == [] and contacts == 1
-	assert len(seen) == 1 and seen[0].startswith('body 1, a Rod: its ') and 'at least 0' in seen[0]
+	assert len(seen) == 1 and seen[0].startswith('body 1, a Rod: ') and 'at least 0' in seen[0]
 	assert failures == 1 and status == 'failed'
 
 
