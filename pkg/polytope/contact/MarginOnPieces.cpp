@@ -91,7 +91,7 @@ std::optional<SupportPlace> MarginOnPieces::placeOnFace(const Vector3r& point, R
 			return &piece != &pieces_.front()
 			        && faceAt(piece, place.outward, place.point, math::max(Real(place.depth / 2), room));
 		};
-		const auto holds = [&](const Piece& piece) { return reaches(piece.solid, place.point, math::max(place.depth, room)); };
+		const auto     holds = [&](const Piece& piece) { return reaches(piece.solid, place.point, math::max(place.depth, room)); };
 		const Vector3r outside = point + (face.offset - face.normal.dot(point) + 2 * room) * face.normal;
 		const auto     covers  = [&](const Piece& piece) { return reaches(piece.solid, outside, room); };
 		const auto     any     = [&](const auto& is) { return std::any_of(pieces_.begin(), pieces_.end(), is); };
