@@ -139,11 +139,8 @@ def testAContactByMarginsAsksDerivedClassesToo():
 from yade import polytope
 from yade.gridpfacet import gridNode, gridConnection
 for path in sys.argv[1:]: polytope.load(path)
-O.materials.append(CohFrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5, label='grid', momentRotationLaw=True))
+O.materials.append(CohFrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5, label='grid', normalCohesion=1e9, shearCohesion=1e9, momentRotationLaw=True))
 rock = O.materials.append(FrictMat(density=2600, young=1e8, poisson=0.3, frictionAngle=0.5))
-a, b = [O.bodies.append(gridNode([x, 0, 0], 0.05, material='grid', fixed=True)) for x in (-1, 1)]
-O.bodies.append(gridConnection(a, b, 0.05, material='grid'))
-O.bodies.append(polytope.withShape(polytope.cuboid((0, 0, 0.3 + 0.1 + 0.05 - 0.01), (0.3, 0.3, 0.3), material=rock), RoundedPolytope(radius=0.1)))
 def found(*functors):
 	O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Polytope_Aabb(), Bo1_GridConnection_Aabb(), Bo1_Sphere_Aabb()]),
 		InteractionLoop([*functors, Ig2_GridNode_GridNode_GridNodeGeom6D()],
@@ -151,6 +148,10 @@ def found(*functors):
 			[Law2_PolytopeGeom_FrictPhys_OnNodes(), Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
 		NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.6)]
 	return [one.advice for one in polytope.check(O) if one.what == 'contact functors' and 'GridConnection' in one.seen]
+found(Ig2_GridConnection_Polytope_PolytopeGeom())  # gridConnection asks the engines
+a, b = [O.bodies.append(gridNode([x, 0, 0], 0.05, material='grid', fixed=True)) for x in (-1, 1)]
+O.bodies.append(gridConnection(a, b, 0.05, material='grid'))
+O.bodies.append(polytope.withShape(polytope.cuboid((0, 0, 0.3 + 0.1 + 0.05 - 0.01), (0.3, 0.3, 0.3), material=rock), RoundedPolytope(radius=0.1)))
 answers = [found(), found(Ig2_GridConnection_Polytope_PolytopeGeom())]
 O.dt = 1e-9
 O.step()
