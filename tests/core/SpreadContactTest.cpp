@@ -213,7 +213,7 @@ TEST(SpreadContact, OnFlushPiecesIsThatOnOne)
 		const Vector3       turn     = tilt * Vector3(any(random), any(random), 0) + Vector3(0, 0, any(random));
 		const Matrix3       rotation = turned(turn);
 		const Vector3       centre(0.1 + any(random) / 3, 0.1, 1 + 2 * margin + 0.2);
-		const auto          way = pairDistance(*floor, Matrix3::Identity(), *block, rotation, centre);
+		const auto          way = pairDistance({ *floor, Matrix3::Identity(), *block, rotation, centre });
 		const CoreInPlace   mover { block.get(), centre, rotation, Vector3::Zero() };
 		const Real          depth = 5e-3;
 		const SpreadContact whole = spreadContact(

@@ -142,12 +142,17 @@ answer([found(facet, contacts), found(facet, [*contacts, Ig2_Facet_Rod_PolytopeG
 	)
 	(facet, with_, tetra, polygon), _ = inYade(script, rods)
 	none = 'the InteractionLoop has none for {} and Rod: they pass through each other'
-	assert facet == [[none.format('Facet'), 'add Ig2_Facet_Rod_PolytopeGeom() to the InteractionLoop; polytope.engines() without geometry has it']]
+	assert facet == [
+		[none.format('Facet'), 'add Ig2_Facet_Rod_PolytopeGeom() to the InteractionLoop; polytope.engines() without geometry has it']
+	]
 	assert with_ == []
 	((seen, advice),) = tetra
 	assert seen == none.format('Tetra') and advice.startswith('no loaded extension has one: write it')
 	((seen, advice),) = polygon
-	assert seen == 'Ig2_Rod_Polytope_PolytopeGeom meets bodies by their cores, and a Polytope of dimension 2 has none: such pairs are counted as failures'
+	assert (
+		seen
+		== 'Ig2_Rod_Polytope_PolytopeGeom meets bodies by their cores, and a Polytope of dimension 2 has none: such pairs are counted as failures'
+	)
 	assert advice.startswith('make it a polyhedron')
 
 
