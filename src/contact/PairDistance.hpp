@@ -20,7 +20,7 @@ struct PairDistance {
 /// normal this over the distance.
 POLYTOPE_API PairDistance pairDistance(const PlacedPair& pair);
 
-/// Of the convex hulls of two sets of points in space, world axes, each with one at least; nearest points from their origin.
+/// The distance of the convex hulls of two sets of points in space, each with one at least; points and nearest points in the same axes.
 POLYTOPE_API PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2);
 
 } // namespace polytope
