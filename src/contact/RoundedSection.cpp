@@ -30,9 +30,9 @@ namespace {
 		const Vector3* vertex;
 	};
 
-	class Section {
+	class TouchedSection {
 	public:
-		Section(const std::vector<Vector3>& core, const Real& margin, const Vector3& normal, const PlaneAxes& axes,
+		TouchedSection(const std::vector<Vector3>& core, const Real& margin, const Vector3& normal, const PlaneAxes& axes,
 		        const Vector3& at)
 		        : core_(core), margin_(margin), normal_(normal), axes_(axes), at_(at), level_(normal.dot(at)),
 		          lowest_(core, margin, -normal), highest_(core, margin, normal)
@@ -98,7 +98,7 @@ namespace {
 PlanePolygon roundedSection(
         const std::vector<Vector3>& core, const Real& margin, const Vector3& normal, const PlaneAxes& axes, const Vector3& at)
 {
-	const Section section(core, margin, normal, axes, at);
+	const TouchedSection section(core, margin, normal, axes, at);
 	if (section.isMissed()) return {};
 	constexpr int      count = tolerance::sectionDirections;
 	const Real         turn  = 4 * atan2(Real(1), Real(0)) / count;

@@ -18,3 +18,17 @@ def testAFaultInAThreadIsWrittenWithItsFunctions():
 	assert 'in <lambda>' in ended.stderr, ended.stderr
 	functions = ended.stderr.partition('Functions of the thread')[2]
 	assert '_ctypes' in functions and 'libc.so' in functions, ended.stderr
+
+
+def testItIsWrittenFromATestThatPytestCaptures(tmp_path):
+	"""There the process has another file for its errors, which is lost with it."""
+	(tmp_path / 'test_fault.py').write_text('import ctypes\n\n\ndef testFault():\n\tctypes.string_at(1)\n')
+	ended = subprocess.run(
+		[sys.executable, '-m', 'pytest', '-p', 'no:cacheprovider', tmp_path],
+		env={**os.environ, 'LD_PRELOAD': str(library)},
+		cwd=tmp_path,
+		capture_output=True,
+		text=True,
+	)
+	assert ended.returncode == -signal.SIGSEGV
+	assert 'test_fault.py' in ended.stderr and '_ctypes' in ended.stderr.partition('Functions of the thread')[2], ended.stderr

@@ -277,5 +277,6 @@ def testStrangeBoxesAndFacetsAreCountedNotFatal():
 def testStandInsAreMadeWhereNothingIsThrown():
 	"""Construction may also end with what no box or facet above brings about (no inscribed ball found, no memory): all is made within shapeOrNull,
 	which lets nothing out (tests/core/ShapeFactoryTest.cpp)."""
-	source = (pathlib.Path(__file__).resolve().parents[3] / 'pkg/polytope/contact/MixedPairs.cpp').read_text()
+	folder = pathlib.Path(__file__).resolve().parents[3] / 'pkg/polytope/contact'
+	source = ''.join((folder / name).read_text() for name in ('MixedPairs.cpp', 'StandIns.cpp'))
 	assert re.findall(r'\bpartner\s*=\s*([\w:]+)', source) == ['polytope::shapeOrNull'] * 3

@@ -81,6 +81,14 @@ def testAFactorBelowOne(joint, theory):
 
 
 @pytest.mark.parametrize('flat', [False, True])
+@pytest.mark.parametrize('short', [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 0, -1e-8])
+def testAFactorBesideOneThatIsTried(flat, short):
+	"""A back-analysis gives strengths for a factor of 1, rounded: there the bounds on the lack of strength do not meet before rounding ends the steps."""
+	blockOnSlope(dip, (0.5, 0.5, 0.1), flat, frictionAngle=math.atan((1 - short) * math.tan(dip)))
+	expect(polytope.limitAnalysis(tolerance=fine), 1 - short)
+
+
+@pytest.mark.parametrize('flat', [False, True])
 def testTopplingOfAColumnHeldByTheTensionOfItsBase(flat):
 	"""Plastic: its base pulls with the strength all over, about the foot."""
 	wide, high, steep = 0.5, 1.0, math.radians(40)

@@ -195,7 +195,8 @@ def _refuseLoose(blocks, one, two):
 		ones = ', '.join(map(str, loose[:5])) + (' …' if len(loose) > 5 else '')
 		raise ValueError(
 			f'O.bodies: no faces that lie on each other, and no bolts, connect {len(loose)} blocks to a fixed one ({ones}), and nothing would hold them, whatever the strengths; '
-			'erase them, fix blocks at the edge of the mass (body.dynamic=False), or put faces on each other to a millionth of their size'
+			'erase them, fix blocks at the edge of the mass (body.dynamic=False), or put faces on each other to a millionth of their size; a block that leans on its joint after '
+			'polytope.settle() does not: call limitAnalysis before it'
 		)
 
 

@@ -27,6 +27,9 @@ balanced = 1e-6
 """Largest force that may be missing to equilibrium, over the mean weight."""
 none = 1e-7
 """Least strength below which none is missing, in the units of *leastStrength*, where a mean block that is 1 % too weak lacks some 1e-3."""
+atLimit = 1e-5
+"""Least strength, in the units of *leastStrength*, below which a factor is the limit itself to 1e-4: there rounding may end the steps before the bounds meet, and the last
+point in equilibrium is the answer."""
 gap = 0.01
 """Relative difference of bounds on the least strength, at which it is known: it is above 0, and leads to the next factor."""
 
@@ -143,7 +146,12 @@ class _Point:
 		error = abs(float((self.offForces * self.forces).sum())) / backLack  # of the bound, where slips are not quite those of the motion
 		stands = self.lack < none
 		fails = bound > none and max(self.lack - bound, error) < gap * bound
-		self.isFound = self.unbalanced < balanced and (stands or fails)
+		self.isBalanced = self.unbalanced < balanced
+		self.isFound = self.isBalanced and (stands or fails)
+
+	def answer(self, steps):
+		openings = np.column_stack([self.z.round[:, 0], self.z.plain[:-1]])
+		return LeastStrength(self.lack, self.forces, self.motion, openings, steps)
 
 	def advance(self):
 		"""One step of the predictor and corrector."""
@@ -180,15 +188,19 @@ def leastStrength(equilibrium, load, friction, cohesion, tension, share, told=la
 	:param told: called before each step
 	:raises ArithmeticError: there is none, since nothing holds the blocks, or rounding leaves none to be found
 	"""
-	point = _Point(_Program(equilibrium, load, friction, cohesion, tension, share))
+	point, last = _Point(_Program(equilibrium, load, friction, cohesion, tension, share)), None
 	for steps in range(mostSteps):
 		with np.errstate(invalid='ignore', divide='ignore', over='ignore'):  # beyond what rounding allows; seen below
 			point.measure()
 		told(point)
 		if point.isFound:
-			return LeastStrength(point.lack, point.forces, point.motion, np.column_stack([point.z.round[:, 0], point.z.plain[:-1]]), steps)
+			return point.answer(steps)
+		if point.isBalanced and point.lack < atLimit:
+			last = point.answer(steps)
 		if not np.isfinite(point.lack):
 			break
 		with np.errstate(invalid='ignore', divide='ignore', over='ignore'):
 			point.advance()
+	if last:
+		return last
 	raise ArithmeticError(f'after {steps} steps forces of up to {point.unbalanced:.2g} of the mean load are not balanced')
