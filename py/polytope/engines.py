@@ -41,6 +41,7 @@ from .check.scene import SceneToCheck
 from .pictures.films import filmEngines
 from .rock.history import histories
 from .scene.ownFunctors import ownBounds, ownContacts, ownLaws
+from .scene.radii import inscribedRadius
 from .scene.relaxing import relaxing
 
 __all__ = ['engines']
@@ -130,7 +131,7 @@ def _usualGravity(scene):
 
 def _collider(scene):
 	moving = [body.shape for body in scene.bodies if isinstance(body.shape, (Polytope, Sphere)) and scene.moves(body)]
-	sizes = [float(shape.radius if isinstance(shape, Sphere) else shape.inscribedRadius) for shape in moving]
+	sizes = [inscribedRadius(shape) for shape in moving]
 	bounds = [Bo1_Polytope_Aabb(), Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb(), Bo1_Box_Aabb()]
 	bounds += ownBounds({kind.shape for kind in scene.kinds}, bounds)
 	return PolytopeCollider(bounds, verletDist=reach * min(sizes) if sizes else reachOfNothing)

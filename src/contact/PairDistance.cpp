@@ -218,6 +218,7 @@ PairDistance pairDistance(const PlacedPair& pair)
 
 PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2)
 {
+	if (points1.empty() || points2.empty()) return {};
 	const Hull    body1(points1), body2(points2);
 	const Vector3 way = body2.middle() - body1.middle();
 	return ofVertices(body1, body2, way, body1.reach() + body2.reach() + way.norm(), int(points1.size() + points2.size()));

@@ -20,7 +20,7 @@ struct PairDistance {
 /// normal this over the distance.
 POLYTOPE_API PairDistance pairDistance(const PlacedPair& pair);
 
-/// The distance of the convex hulls of two sets of points in space, each with one at least; points and nearest points in the same axes.
+/// The distance of the convex hulls of two sets of points in space, points and nearest points in the same axes; zero, without normal and points, where a set is empty.
 POLYTOPE_API PairDistance pairDistance(const std::vector<Vector3>& points1, const std::vector<Vector3>& points2);
 
 } // namespace polytope

@@ -138,3 +138,11 @@ TEST(PairDistance, FromAHalfSpace)
 TEST(ConvexShape, SupportIsTheFarthestVertex) { EXPECT_EQ(cube()->support(Vector3(1, -2, 3)), Vector3(1, -1, 1)); }
 
 } // namespace
+
+TEST(PairDistance, OfAnEmptySetIsZero)
+{
+	const std::vector<Vector3> none, one { Vector3(1, 2, 3) };
+	EXPECT_EQ(pairDistance(none, one).distance, 0);
+	EXPECT_EQ(pairDistance(one, none).distance, 0);
+	EXPECT_EQ(pairDistance(one, one).distance, 0);
+}

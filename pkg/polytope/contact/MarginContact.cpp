@@ -6,7 +6,6 @@
 #include "contact/StandIns.hpp"
 #include "contact/StiffnessShare.hpp"
 #include "host/ExactClass.hpp"
-#include "shape/ShapeFamily.hpp"
 
 #include <core/Scene.hpp>
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "contact/PolytopeGeom.hpp"
+#include "shape/ShapeFamily.hpp"
 
 /// Contacts of bodies that are larger than their cores by a ball: of rounded polyhedra and segments with their like, with polytopes, spheres, walls, boxes, facets.
 namespace yade {
-
-struct CoreOfBody;
 
 /// Whether a PolytopeMarginFunctor can meet such a body.
 bool hasMarginCore(const Shape& shape);

@@ -335,6 +335,9 @@ BOOST_PYTHON_MODULE(_polytope)
 	py::def("faultOfShape", &faultOfShape, py::arg("shape"), "What a class derived from Polytope leaves open; empty: nothing.");
 	py::def("faultOfFamily", &yade::faultOfFamily, py::arg("shape"),
 	        "What is no size of all that the family of a shape says (ShapeFamily.hpp); empty: nothing.");
+	py::def(
+	        "marginOf", +[](const yade::Polytope& shape) { return shape.margin().value_or(0); }, py::arg("shape"),
+	        "Radius of the ball around each point of a polytope [m]; 0 where it has none or does not say.");
 	py::def("hasMarginCore", &yade::hasMarginCore, py::arg("shape"), "Whether a PolytopeMarginFunctor can meet such a body.");
 	py::def("extensions", &extensions, "Extensions that are loaded: (path, name, names of classes) of each.");
 	py::def("loadExtension", &loadExtension, py::arg("path"),

@@ -6,6 +6,7 @@ from yade import Box, Facet, Polytope, Sphere
 
 from ..pictures.faces import worldVertices
 from ..scene.movers import movers
+from ..scene.radii import marginOf, outerRadius
 
 __all__ = ['aboutScene', 'extentOf', 'extentOfSupports']
 
@@ -45,7 +46,7 @@ def _reach(scene, body):
 		parts = [(part, _reach(scene, part)) for part in _members(scene, body)]
 		return max((float((part.state.pos - body.state.pos).norm()) + reach for part, reach in parts if reach), default=0.0)
 	if isinstance(body.shape, Polytope):
-		return float(body.shape.circumscribedRadius)
+		return outerRadius(body.shape)
 	return float(body.shape.radius) if isinstance(body.shape, Sphere) and np.isfinite(body.shape.radius) else 0.0
 
 
@@ -71,7 +72,7 @@ def _span(values):
 def extentOf(body):
 	"""Largest edge of the box around a polytope in its own axes [m]."""
 	corners = np.array(body.shape.vertices, float).reshape(-1, 3)[:, : body.shape.dimension]
-	return float(np.ptp(corners, axis=0).max())
+	return float(np.ptp(corners, axis=0).max()) + 2 * marginOf(body.shape)
 
 
 def extentOfSupports(scene):

@@ -10,6 +10,7 @@ from ..bonding.bonds import bonds
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers, jointMaterials
+from ..scene.radii import outerRadius
 from .about import extentOf, extentOfSupports
 from .places import overlapShare
 
@@ -126,11 +127,7 @@ def _turns(body):
 
 
 def size(scene):
-	widths = {
-		body.id: 2 * float(body.shape.circumscribedRadius)
-		for body in scene.bodies
-		if isinstance(body.shape, Polytope) and scene.moves(body)
-	}
+	widths = {body.id: 2 * outerRadius(body.shape) for body in scene.bodies if isinstance(body.shape, Polytope) and scene.moves(body)}
 	if not widths:
 		return
 	usual = float(np.median(list(widths.values())))

@@ -5,19 +5,19 @@ Costs are measured by costsProcess.py, on a copy of the scene.
 """
 
 import json
-import math
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
-from yade import Polytope, PolytopeCollider, PolytopeGeom, Sphere
+from yade import Polytope, PolytopeCollider, PolytopeGeom
 
 from .. import _builds
 from ..pictures.faces import worldVertices
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import contactSettings, geometryFunctors
+from ..scene.radii import inscribedRadius
 from ..scene.timeStep import safeTimeStep
 from .plane import dimension
 from .steps import usual, yadesDt
@@ -66,7 +66,7 @@ def energyTracking(scene):
 
 
 def verletDist(scene):
-	radii = [_radius(body) for body in scene.bodies if scene.moves(body)]
+	radii = [inscribedRadius(body.shape) for body in scene.bodies if scene.moves(body)]
 	if not scene.colliders or not radii or not min(radii) > 0:
 		return
 	present, size = float(scene.colliders[0].verletDist), min(radii)
@@ -111,13 +111,6 @@ def smallStep(scene):
 
 def _contacts(scene):
 	return [one for one in scene.O.interactions if one.isReal and isinstance(one.geom, PolytopeGeom)]
-
-
-def _radius(body):
-	"""Radius of the largest ball inside [m]; infinite for shapes of which that is not known."""
-	if isinstance(body.shape, Polytope):
-		return float(body.shape.inscribedRadius)
-	return float(body.shape.radius) if isinstance(body.shape, Sphere) else math.inf
 
 
 def _tightBox(body, room):

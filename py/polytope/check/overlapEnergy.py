@@ -3,10 +3,11 @@
 
 import math
 
-from yade import Polytope, RockJointMat, _polytope
+from yade import RockJointMat, _polytope
 
 from ..scene.movers import moverOf
 from ..scene.present import isPerArea, jointMakers
+from ..scene.radii import inscribedRadius
 
 __all__ = ['Thrown']
 
@@ -43,14 +44,14 @@ class Thrown:
 				fast = self._ifFast(one, other, value * (float(contact.area) if perArea else 1) * float(contact.energyPerStiffness))
 		except ValueError:  # a polygon and a polyhedron
 			return 0.0
-		return math.inf if chord > 2 * deep * min(_radius(body) for body in (one, other)) else fast
+		return math.inf if chord > 2 * deep * min(inscribedRadius(body.shape) for body in (one, other)) else fast
 
 	def speedOfDepth(self, body, sphere, depth):
 		"""Speed of a polytope and a sphere that overlap by so much: per area over the sphere's section at this depth, as their contact has it."""
 		if not depth > 0:
 			return 0.0
 		radius = float(sphere.shape.radius)
-		if depth > 2 * deep * min(radius, _radius(body)):
+		if depth > 2 * deep * min(radius, inscribedRadius(body.shape)):
 			return math.inf
 		if not self._isNew(body, sphere) or not (stiffness := self._stiffness(body, sphere)):
 			return 0.0
@@ -82,12 +83,5 @@ class Thrown:
 		light, heavy = min(masses), (max(masses) if len(masses) > 1 else math.inf)
 		share = 1.0 if math.isinf(heavy) else heavy / (light + heavy)
 		speed = math.sqrt(2 * energy * share / light)
-		thickness = 2 * _radius(bodies[masses.index(light)])
+		thickness = 2 * inscribedRadius(bodies[masses.index(light)].shape)
 		return speed if speed > math.sqrt(2 * self.gravity * thickness) else 0.0
-
-
-def _radius(body):
-	"""Inscribed; infinite for what has none, such as walls."""
-	if isinstance(body.shape, Polytope):
-		return float(body.shape.inscribedRadius)
-	return float(getattr(body.shape, 'radius', math.inf))

@@ -5,7 +5,7 @@ For each pair of shapes and materials that can meet, the dispatchers themselves 
 """
 
 import yade
-from yade import PolytopeGeom, PolytopeMarginFunctor, Shape
+from yade import Polytope, PolytopeGeom, PolytopeMarginFunctor, Shape
 
 from ..scene.ownFunctors import ownClasses, ownContactsOf
 from ..scene.present import contactSettings
@@ -46,7 +46,9 @@ def bounds(scene):
 	meeting = {kind.shape: kind for pair in scene.meetings() for kind in pair}
 	for name, kind in meeting.items():
 		if all(collider.boundDispatcher.dispFunctor(scene.examples[kind].shape) is None for collider in scene.colliders):
-			yield 'bounds', f'the collider has no functor for {name}: such bodies touch nothing', f'add Bo1_{name}_Aabb() to the collider'
+			own = f'Bo1_{name}_Aabb'
+			makes = own if hasattr(yade, own) or not isinstance(scene.examples[kind].shape, Polytope) else 'Bo1_Polytope_Aabb'
+			yield 'bounds', f'the collider has no functor for {name}: such bodies touch nothing', f'add {makes}() to the collider'
 
 
 def _contacts(scene):

@@ -14,6 +14,7 @@ from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialsOf
 from ..scene.movers import isMover
 from ..scene.present import isPerArea, jointMakers
+from ..scene.radii import inscribedRadius
 from .neighbours import looks, touching, touchingPairs
 from .overlaps import coincidence, overlaps
 
@@ -145,11 +146,7 @@ def overlapShare(body, perArea, gravity):
 	shape, weight = body.shape, float(body.state.mass)
 	face = float(shape.volume) ** (2 / 3) if shape.dimension == 3 else math.sqrt(float(shape.volume * shape.thickness))
 	k = _softest(body) * (face if perArea else 1)
-	return (
-		max(weight * gravity / k, float(body.state.vel.norm()) * math.sqrt(weight / k)) / float(shape.inscribedRadius)
-		if weight > 0
-		else 0.0
-	)
+	return max(weight * gravity / k, float(body.state.vel.norm()) * math.sqrt(weight / k)) / inscribedRadius(shape) if weight > 0 else 0.0
 
 
 def _softest(body):

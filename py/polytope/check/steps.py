@@ -14,11 +14,11 @@ from yade import (
 	PolytopeTimeStepper,
 	PyRunner,
 	RotationEngine,
-	Sphere,
 	TimeStepper,
 )
 
 from ..scene.movers import moverOf
+from ..scene.radii import inscribedRadius
 from ..scene.timeStep import safeTimeStep
 
 __all__ = ['stepFindings', 'usual', 'yadesDt']
@@ -112,19 +112,12 @@ def farInAStep(scene):
 	"""PolytopeTimeStepper sees to it itself."""
 	if any(isinstance(engine, PolytopeTimeStepper) and engine.active for engine in scene.those(TimeStepper)):
 		return
-	fast = [body for body in scene.bodies if float(body.state.vel.norm() * scene.O.dt) > _size(body)]
+	fast = [body for body in scene.bodies if float(body.state.vel.norm() * scene.O.dt) > inscribedRadius(body.shape)]
 	if fast:
 		body = max(fast, key=lambda one: float(one.state.vel.norm()))
 		speed = f'body {body.id}: {float(body.state.vel.norm()):.3g} m/s × {float(scene.O.dt):.3g} s'
 		seen = f'{len(fast)} bodies move farther than their size in a step ({speed})'
 		yield 'speed', seen, 'PolytopeTimeStepper() limits the step by motion, too; or take a smaller O.dt, or mend the velocity'
-
-
-def _size(body):
-	"""What it must not move by in a step [m]; infinite for shapes without an inside."""
-	if isinstance(body.shape, Polytope):
-		return float(body.shape.inscribedRadius)
-	return float(body.shape.radius) if isinstance(body.shape, Sphere) else math.inf
 
 
 def turningUnnoticed(scene):

@@ -192,6 +192,25 @@ answer([[one.what, one.seen, one.advice] for one in polytope.check(O)])
 	assert any('RoundedPolytope' in seen and 'Facet' in seen and add in advice for _, seen, advice in found), found
 
 
+def testSizesHaveTheMargin(rounded):  # noqa: F811
+	"""A core of 2 mm in a ball of 0.1 m is a body of 0.2 m: check has no word of its size or stiffness, and the collider looks as far as for one."""
+	script = (
+		start
+		+ """
+O.materials.append(RockJointMat(density=2600, normalStiffness=1e7, shearStiffness=1e7, frictionAngle=0.5))
+shape = RoundedPolytope(radius=0.1)
+O.bodies.append(polytope.cuboid((0, 0, -0.5), (1, 1, 0.5), fixed=True))
+O.bodies.append(polytope.withShape(polytope.cuboid((0, 0, 0.2), (1e-3,) * 3), shape))
+O.bodies[1].state.vel = (0, 0, -1)
+O.engines = polytope.engines(physics=Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=False))
+found = polytope.check(O)
+answer([[one.seen for one in found], '0.202 m across' in repr(found), O.engines[1].verletDist])
+"""
+	)
+	found, across, verletDist = inYade(script, rounded)
+	assert found == [] and across and 0.002 < verletDist < 0.02
+
+
 def testCheckTellsOfMarginsBeforeTheRun(rounded):  # noqa: F811
 	"""A stiffness per area, with which nothing would touch; a margin that is no number or below 0, with which the time step would be none."""
 	script = (
