@@ -10,7 +10,7 @@ from ..measures.arrays import arrays
 from ..scene.movers import moverOf, partsOf
 from ..scene.present import integrators
 
-__all__ = ['isHeld', 'isThin', 'touched', 'unsupported']
+__all__ = ['areJoined', 'isHeld', 'isThin', 'touched', 'unsupported']
 
 thin = 0.1
 """Inscribed over circumscribed radius, below which a body is said to be thin."""
@@ -34,7 +34,12 @@ def touched(k):
 
 def isHeld(k):
 	"""Whether a bond or a bolt holds it."""
-	parts = set(partsOf(k))
+	return areJoined(partsOf(k))
+
+
+def areJoined(parts):
+	"""Whether a bond or a bolt joins one of these bodies to another."""
+	parts = set(parts)
 	return any(parts & set(pair) for pair in _links())
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from yade import O, Polytope, _polytope
 
 from ..measures.arrays import arrays
+from ..rest.holding import areJoined
 from ..rest.unbalanced import resultants
 from ..rest.unrest import placesById
 from ..scene.movers import partsOf
@@ -73,7 +74,7 @@ class Motion:
 		return factor * self.taken / (self.taken + gained) if self.taken > 0 and gained > 0 else None
 
 	def runsAway(self):
-		"""Whether a body moves faster and faster with nothing ahead, on the way that is left until it counts as failed, that could stop it."""
+		"""Whether a body moves faster and faster with nothing that could stop it on the way that is left until it counts as failed."""
 		if len(self.parts) < 9 or self.parts[-1].max() < far:
 			return False
 		speeding = (self.parts[-1] >= far) & self._speeding(4)
@@ -86,12 +87,14 @@ class Motion:
 		return (ways[1:] > faster * np.maximum(ways[:-1], 0)).all(axis=0)
 
 	def _isStopped(self, k):
-		"""Whether body k meets another one, which it has not touched for long and which does not move with it."""
+		"""Whether body k meets another one, which it has not touched for long and which does not move with it; or it may be: a bolt or a bond joins it, or what moves with it, and may pull
+		more the farther it goes. A bolt across a joint pulls not at all at first."""
 		way = (placesById() - self.began)[self.watched]
 		length = np.linalg.norm(way[k])
 		along = way[k] / length
 		withIt = {int(self.watched[j]) for j in np.flatnonzero(way @ along >= sameWay * length)}
-		return self._meets(int(self.watched[k]), along, self.limits[k] - length, {part for j in withIt for part in partsOf(j)})
+		parts = {part for j in withIt for part in partsOf(j)}
+		return areJoined(parts) or self._meets(int(self.watched[k]), along, self.limits[k] - length, parts)
 
 	def _meets(self, k, along, left, withIt):
 		"""Whether body k would touch another one, not of these, now or on the way that is left, so that it could not go on along it."""
