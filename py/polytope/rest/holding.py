@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What holds bodies up: contacts, bonds, bolts, and what they would fall on."""
 
+import math
+
 import numpy as np
-from yade import O, RockJointPhys, Wall
+from yade import O, PolytopeBond, PolytopeBonds, RockJointPhys, Wall
 
 from ..bonding.bolting import madeBolts
-from ..bonding.bonds import intactBonds
+from ..bonding.bonds import facing, intactBonds
 from ..measures.arrays import arrays
 from ..scene.movers import moverOf, partsOf
 from ..scene.present import integrators
 
-__all__ = ['areJoined', 'isHeld', 'isThin', 'touched', 'unsupported']
+__all__ = ['areJoined', 'facingPairs', 'isHeld', 'isThin', 'joinedPairs', 'touched', 'unsupported']
 
 thin = 0.1
 """Inscribed over circumscribed radius, below which a body is said to be thin."""
@@ -32,6 +34,12 @@ def touched(k):
 	return found
 
 
+def facingPairs():
+	"""Pairs of ids of bodies with a face at each other's, the smaller id first, as *polytope.bond* finds them: also where they touch without a force, and so have no contact."""
+	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
+	return _inOrder((one.id1, one.id2) for one in PolytopeBonds().find([], -1, facing, pattern))
+
+
 def isHeld(k):
 	"""Whether a bond or a bolt holds it."""
 	return areJoined(partsOf(k))
@@ -41,6 +49,15 @@ def areJoined(parts):
 	"""Whether a bond or a bolt joins one of these bodies to another."""
 	parts = set(parts)
 	return any(parts & set(pair) for pair in _links())
+
+
+def joinedPairs():
+	"""Pairs of ids of bodies that bonds and bolts join, the smaller id first."""
+	return _inOrder(_links())
+
+
+def _inOrder(pairs):
+	return {(min(pair), max(pair)) for pair in pairs}
 
 
 def _links():

@@ -9,6 +9,7 @@ from ..bonding.bolting import bolts
 from ..bonding.bonds import bonds
 from ..scene.present import integrators, laws, meanwhile
 from ..scene.relaxing import heldByRelaxing, relaxing
+from .holding import facingPairs, joinedPairs
 from .scaledMasses import scaledMasses
 from .unrest import NotAtRest, Unrest, named, remedy, told
 
@@ -27,8 +28,8 @@ def settle(unbalanced=1e-5, elastic=True, damping=0.8, steps=1000000, densitySca
 	Gravity that begins at once makes bodies swing: joints then bear up to twice their load, and one with cohesion or tensile strength and a
 	factor of safety below two fails in the first swing. So while the bodies come to rest the joints are elastic: those that touch do
 	not slip, intact ones do not fail and bear any tension, and bonds (*polytope.bond*) and bolts (*polytope.bolt*) do not break or yield; motion is damped strongly. Then they have their strength
-	and the scene its damping again. What they can't bear fails in the steps that follow, from rest. A warning names bodies that stood on others and came to rest
-	elsewhere: they slid, fell or toppled.
+	and the scene its damping again. What they can't bear fails in the steps that follow, from rest. A warning names bodies that touched others, or were held by bonds or bolts, at the start
+	and came to rest elsewhere: they slid, fell or toppled.
 
 	Joints that have no strength but friction stick meanwhile, too. Joints that have failed stay so. Time goes on (O.time), and other engines run;
 	forces of excavated bodies that still fade (*polytope.excavate*) are waited for.
@@ -75,13 +76,13 @@ def _tellDisplaced(bodies):
 	if bodies:
 		ones = ', '.join(f'body {k} by {way:.2g} m' for k, way in bodies[:named]) + (', …' if len(bodies) > named else '')
 		warn(
-			f'settle: at rest, but {len(bodies)} that stood on others moved by more than a tenth of their size: {ones}; they slid, fell or toppled'
+			f'settle: at rest, but {len(bodies)} that touched others or were held moved by more than a tenth of their size: {ones}; they slid, fell or toppled'
 		)
 
 
 def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 	quiet, taken, unrest = 0, 0, Unrest(unbalanced, masses=masses)
-	first, held = unrest, heldByRelaxing()
+	first, relieved, pairs = unrest, heldByRelaxing(), facingPairs() | joinedPairs()
 	with tqdm(unit=' steps', disable=None, leave=False) as bar:
 		while taken < steps:
 			now = min(between, steps - taken)
@@ -94,7 +95,8 @@ def _untilRest(unbalanced, steps, adapt=lambda: None, masses=None):
 			bar.update(now)
 			quiet = quiet + 1 if force < unbalanced and not fading else 0
 			if quiet == looks:
-				_tellDisplaced(first.displaced(held))
+				parted = {k for pair in pairs - joinedPairs() for k in pair}  # what a bond or bolt still holds has only stretched it
+				_tellDisplaced(first.displaced(relieved | parted))
 				return taken
 			if fading:
 				unrest = Unrest(unbalanced, masses=masses)  # whose forces change by themselves

@@ -36,7 +36,7 @@ farAway = 2
 leaning = 2.0
 """Angle of a body that still moves, from which on it topples [°]: blocks turn by some tenths as their joints close."""
 displacedBy = 0.1
-"""Way over the size, from which on a body that stood on others has not come to rest where it was: joints close by some thousandths."""
+"""Way over the size, from which on a body that touched others has not come to rest where it was: joints close by some thousandths."""
 named = 3
 """Bodies that a message names."""
 
@@ -102,7 +102,7 @@ class Unrest:
 		return float(forces.max(initial=0.0))
 
 	def displaced(self, held=frozenset()):
-		"""Bodies that stood on others when it began, or were held in another way (their ids), and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
+		"""Bodies that touched others when it began, or were held in another way (their ids), and have moved by a tenth of their size or more, as (id, way [m]), the farthest first."""
 		ways = _ways(self.origin, placesById())
 		stood = (self.stood or set()) | held
 		far = [(int(k), float(ways[k])) for k in np.flatnonzero(ways > 0) if int(k) in stood and ways[k] > displacedBy * sizeOf(int(k))]

@@ -249,6 +249,36 @@ def testARoofThatComesDownIsTold(recwarn):
 	assert any(f'body {roof} by 2 m' in str(one.message) for one in recwarn)
 
 
+@pytest.mark.parametrize('gap, told', [(0, True), (1e-3, False)])
+@pytest.mark.parametrize('flat', [False, True])
+def testABlockThatOnlyTouchesARoofAndFallsIsTold(flat, gap, told, recwarn):
+	"""Nothing holds it, and it comes to rest on a floor 4 m below. One that touched nothing was dropped, and is not named."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9, frictionAngle=math.radians(35)))
+	for low, high, half, fixed in ((0, 2, 3, True), (-1 - gap, -gap, 1, False), (-6, -5, 3, True)):
+		if flat:
+			O.bodies.append(polytope.polygon([(-half, low), (half, low), (half, high), (-half, high)], fixed=fixed))
+		else:
+			O.bodies.append(polytope.cuboid((0, 0, (low + high) / 2), (half, half, (high - low) / 2), fixed=fixed))
+	O.engines = polytope.engines()
+	recwarn.clear()
+	polytope.settle()
+	assert O.bodies[1].state.pos[1 if flat else 2] == pytest.approx(-4.5, abs=1e-3)
+	assert any('body 1 by 4 m' in str(one.message) for one in recwarn) == told
+
+
+@pytest.mark.filterwarnings('ignore:gravity at once')
+def testABlockThatHungByABondThatBreaksIsTold(recwarn):
+	"""Across a gap, so that it touches nothing; settled with the strengths that the scene has."""
+	O.materials.append(RockJointMat(density=2600, normalStiffness=1e9, shearStiffness=1e9))
+	O.bodies.append([polytope.cuboid((0, 0, 1), (3, 3, 1), fixed=True), polytope.cuboid((0, 0, -0.501), (1, 1, 0.5))])
+	O.bodies.append(polytope.cuboid((0, 0, -5.5), (3, 3, 0.5), fixed=True))
+	O.engines = polytope.engines()
+	polytope.bond(gap=2e-3, tensileStrength=0.5 * 2600 * 9.81)
+	recwarn.clear()
+	polytope.settle(elastic=False)
+	assert any('body 1 by 4 m' in str(one.message) for one in recwarn)
+
+
 @pytest.mark.parametrize('density', [False, True])
 def testAClumpUnderAPermanentForceComesToRest(density):
 	"""The force counts for its balance, as for that of a single body, with scaled masses, too."""
