@@ -2,6 +2,7 @@
 """Displacements and stresses of chosen blocks over time, in yade.plot: `polytope.history(…)` (docs/stress-and-excavation.md)."""
 
 import ast
+import math
 import numbers
 import re
 
@@ -29,7 +30,7 @@ def history(points, every=100, stress=False):
 	Adds an engine to O.engines that adds a row to *plot.data* at once and then every so many steps: *i* (O.iter), *t* (O.time) and for each name
 	*crown_x*, *crown_y*, *crown_z*, its displacement since this call [m]. A point moves with the body that it lies in. With *stress* also *crown_xx*, *crown_yy*, *crown_zz*, *crown_xy*,
 	*crown_yz* and *crown_zx*, bodyStress of this body [Pa]. ``plot.plot()``, ``plot.saveDataTxt(…)`` and numpy.array(plot.data['crown_z']) show them. The
-	engine is saved with the scene and goes on when that is loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*.
+	engine is saved with the scene and goes on when that is loaded, the rows are not. Rows of later steps than this one, which a former scene has left in *plot.data*, are removed, with a warning. It records nothing of a body that is no more (nan), nor of the trials of *factorOfSafety*. Several calls share the row of a step; one that has no row of another call has nan in its columns.
 
 	:param points: dictionary of names (letters, digits, _) → id of a body, for its centre, or point in a body that can move [m]: of two components for a polygon
 	:param int every: steps from one row to the next
@@ -107,8 +108,6 @@ def _holds(k, place):
 
 def record(followed, stress):
 	"""What the engine calls."""
-	from yade import plot  # brings matplotlib, which takes longer to load than all of this package
-
 	there = [k for k, *_ in followed.values() if k < len(O.bodies) and O.bodies[k] is not None]
 	stresses = bodyStress(list(dict.fromkeys(there))) if stress and there else {}
 	row = {}
@@ -121,7 +120,22 @@ def record(followed, stress):
 			tensor = stresses.get(k, np.full((3, 3), np.nan))
 			values = [*values, *(tensor[i, j] for i, j in components)]
 		row |= {f'{name}_{what}': float(value) for what, value in zip(_columns(stress), values, strict=True)}
-	plot.addData(i=O.iter, t=float(O.time), **row)
+	_add({'i': O.iter, 't': float(O.time)}, row)
+
+
+def _add(step, row):
+	"""Adds a row to plot.data, or fills the one that another call of *history* has added in this step."""
+	from yade import plot  # brings matplotlib, which takes longer to load than all of this package
+
+	if any(column[-1:] != [step[name]] for name, column in ((name, plot.data.get(name, [])) for name in step)):
+		plot.addData(**step, **row)
+		return
+	plot.addDataColumns(row)
+	if all(math.isnan(plot.data[name][-1]) for name in row):
+		for name, value in row.items():
+			plot.data[name][-1] = value
+	else:
+		plot.addData(**step, **row)
 
 
 def _columns(stress):

@@ -120,3 +120,14 @@ def testANameTwiceIsRefused():
 	polytope.history({'top': 3})
 	with pytest.raises(ValueError, match="^points: \\['top'\\] are recorded already"):
 		polytope.history({'top': 2, 'low': 1})
+
+
+def testSeveralCallsShareTheRowsOfTheirSteps():
+	"""What two calls have recorded at one step is one row; steps of one of them alone have no number of the other."""
+	column()
+	polytope.history({'low': 1}, every=10)
+	polytope.history({'top': 3}, every=20)
+	O.run(100, wait=True)
+	steps = plot.data['i']
+	assert len(set(steps)) == len(steps) > 8 and not np.isnan(plot.data['low_z']).any()
+	assert np.isnan(plot.data['top_z']).tolist() == [k % 2 == 1 for k in range(len(steps))]
