@@ -64,7 +64,9 @@ class Dowel:
 thickest = 0.1
 """Cross-section of a bolt [m²] above which it is taken for one in mm²: cables for bridges have less."""
 softest = 1e6
-"""Young's modulus [Pa] below which it is taken for one in GPa: rubber has more."""
+"""Young's modulus [Pa] below which it is taken for one in MPa or GPa: rubber has more."""
+largestInGPa = 1e3
+"""Number that a Young's modulus in GPa does not reach: steel has 200. Larger ones are taken for MPa."""
 
 
 class BoltArrays(NamedTuple):
@@ -155,7 +157,8 @@ def _tellUnits(area, modulus):
 	if thickest < area < math.inf:
 		warn(f'area: {area:g} m² is that of no bolt; in mm²? {area:g} mm² are {1e-6 * area:g} m²')
 	if 0 < modulus < softest:
-		warn(f'youngsModulus: {modulus:g} Pa is softer than any bolt; in GPa? {modulus:g} GPa are {1e9 * modulus:g} Pa')
+		unit, size = ('GPa', 1e9) if modulus < largestInGPa else ('MPa', 1e6)
+		warn(f'youngsModulus: {modulus:g} Pa is softer than any bolt; in {unit}? {modulus:g} {unit} are {size * modulus:g} Pa')
 
 
 def bolts():

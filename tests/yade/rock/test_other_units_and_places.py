@@ -32,6 +32,7 @@ def silent(act):
 	[
 		({'area': 490}, r'^area: 490 m² .*490 mm² are 0.00049 m²'),
 		({'youngsModulus': 200}, r'^youngsModulus: 200 Pa .* 200 GPa are 2e\+11 Pa'),
+		({'youngsModulus': 2e5}, r'^youngsModulus: 200000 Pa .*in MPa\? 200000 MPa are 2e\+11 Pa'),
 	],
 )
 def testABoltInOtherUnits(change, message):
