@@ -19,6 +19,8 @@ __all__ = ['asPrisms', 'asSegment', 'expectedInPlane', 'flatCut', 'flatSet', 'ou
 
 across = 1e-9
 """Sine of the angle to the section at which a dip is seen in its true size."""
+fewest = 3
+"""Sides of a triangle."""
 largeKappa = 50
 """κ from which on normals that point down are too rare to count."""
 
@@ -28,6 +30,8 @@ def asPrisms(parts):
 	for normals, d in parts:
 		if len(normals) != len(d):
 			raise ValueError(f'offsets: must be one for each of the {len(normals)} normals, got {len(d)}')
+		if len(normals) < fewest:
+			raise ValueError(f'normals: a polygon has at least {fewest} sides, got {len(normals)}; add those that close it')
 	size = max((float(np.abs(np.array(d, float)).max()) for _, d in parts if len(d)), default=1.0)
 	half = 2.0 ** math.ceil(math.log2(size)) if 0 < size < math.inf else 1.0
 	return half, [([*((*n, 0) for n in normals), (0, 0, 1), (0, 0, -1)], [*d, half, half]) for normals, d in parts]

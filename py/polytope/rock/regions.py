@@ -122,6 +122,7 @@ def _withoutInPlane(normals, offsets, openings):
 	parts = list(zip(normals, offsets, strict=True)) if several else [(normals, offsets)]
 	try:
 		holes = [(rows(n, 'openings', 2), numbersOf(d, 'openings')) for n, d in openings]
+		asPrisms(holes)  # refuses what bounds no polygon, as one of the openings
 	except (TypeError, ValueError) as error:
 		raise ValueError(
 			f'openings: must be a list of (normals, offsets) with normals of two components, as those of the region; {error}'
