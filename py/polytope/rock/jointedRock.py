@@ -24,6 +24,7 @@ from .joint import Joint, areasOf, asArguments, finite
 from .jointSets import JointSet
 from .jointsOfFaces import contactJoints, jointsOfFaces, jointsOfPlanes, keep, setsOf, writeFaces
 from .region import regionOf
+from .seams import joinedAcrossSeams
 from .termination import Earlier
 
 __all__ = ['JointSet', 'JointedRock', 'jointedRock']
@@ -162,7 +163,8 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	    of the smallest spacing (1/P32) or of the region's own inscribed radius
 	:param int seed: of the random places, radii and normals
 	:param str incomplete: what becomes of blocks that a joint separates only in part: 'clump', they are one body; 'cut', each is a body, as if joints
-	    went on to the faces of the blocks that they reach into (Boon et al. 2015)
+	    went on to the faces of the blocks that they reach into (Boon et al. 2015). Either way rock goes on across the faces that parts of the region share, except along a joint
+	    (with 'cut' along all of the plane of a joint)
 	:returns: *JointedRock*; with a warning where none of the joints reaches into the region
 	:raises ValueError: naming the argument: what *fromHalfSpaces* refuses of a region, no joint sets, more than 500 000
 	    blocks, *smallest* negative or above the region's inscribed radius, *seed* negative
@@ -194,7 +196,10 @@ def jointedRock(normals, offsets, jointSets, smallest=None, seed=0, incomplete='
 	bridge = smallestBridge if incomplete == 'clump' and partial else -1.0
 	bounded = list(map(asSegment, cuts)) if region.thickness else cuts
 	made = _polytope.jointedBlocks(region.parts, asArguments(bounded), real(smallest), real(bridge), mostBlocks, int(seed))
-	rock = _rock(made, cuts, region.centre, sum(map(len, map(_setsOf, entries))))
+	bodies = np.frombuffer(made['bodies'], np.int32)
+	if incomplete == 'cut' and len(region.parts) > 1:
+		bodies = joinedAcrossSeams(made, bodies, cuts, region, smallestBridge)
+	rock = _rock(made, bodies, cuts, region.centre, sum(map(len, map(_setsOf, entries))))
 	if region.thickness:
 		outlinesOf(rock, region.thickness)
 	if not sets and not len(rock.joints) and not rock.uncut and len(region.parts) == 1:  # a joint along the face of two parts cuts neither
@@ -222,6 +227,15 @@ def _singleJoints(entries):
 
 def _tellHeights(entries):
 	"""Joints of a survey in space have their height as z, which is y in the plane."""
+	through = [
+		entry.through
+		for entry in entries
+		if isinstance(entry, JointSet) and entry.through is not None and len(entry.through) == 3 and entry.through[2] != 0
+	]
+	if through:
+		warn(
+			f'jointSets: {len(through)} sets have a z, the first through={through[0]}, which does not count in the plane, where y is up; of a survey in space take through=(x, z)'
+		)
 	high = [joint for joint in _singleJoints(entries) if len(joint.centre) == 3 and joint.centre[2] != 0]
 	if high:
 		warn(
@@ -272,7 +286,7 @@ def _cutOf(joint, region, bounded=False):
 	return asSegment(cut) if bounded else cut
 
 
-def _rock(made, cuts, centre, entries):
+def _rock(made, bodyOf, cuts, centre, entries):
 	"""The result in world coordinates, with the joints that have cut."""
 	planes = np.frombuffer(made['planes']).reshape(-1, 4)
 	normals, offsets = planes[:, :3].copy(), planes[:, 3] + planes[:, :3] @ centre
@@ -283,8 +297,8 @@ def _rock(made, cuts, centre, entries):
 	labels = row[np.frombuffer(made['labels'], np.int32)]
 	ends = np.cumsum(np.frombuffer(made['counts'], np.int32))
 	slices = [slice(begin, end) for begin, end in zip([0, *ends[:-1]], ends, strict=True)]
-	bodies = [[] for _ in range(max(np.frombuffer(made['bodies'], np.int32)) + 1)]
-	for block, body in enumerate(np.frombuffer(made['bodies'], np.int32).tolist()):
+	bodies = [[] for _ in range(max(bodyOf) + 1)]
+	for block, body in enumerate(bodyOf.tolist()):
 		bodies[body].append(block)
 	return JointedRock(
 		[(normals[one], offsets[one]) for one in slices],

@@ -187,7 +187,10 @@ def testPointsOfTwoComponents():
 	first = polytope.Joint(math.radians(35), left, (5, 3), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1))
 	second = polytope.Joint(math.radians(35), left, (5, 3, 7), radius=4), polytope.JointSet(math.radians(70), right, 4, through=(2, 1, 7))
 	one = polytope.jointedRock(*slope, [[first[0]], first[1]])
-	with pytest.warns(UserWarning, match=r'^jointSets: 1 joints have a z, the first \(5.0, 3.0, 7.0\), which does not count in the plane'):
+	with (
+		pytest.warns(UserWarning, match=r'^jointSets: 1 joints have a z, the first \(5.0, 3.0, 7.0\), which does not count in the plane'),
+		pytest.warns(UserWarning, match=r'^jointSets: 1 sets have a z, the first through=\(2.0, 1.0, 7.0\), .*take through=\(x, z\)'),
+	):
 		two = polytope.jointedRock(*slope, [[second[0]], second[1]])
 	assert one.volumes.tolist() == two.volumes.tolist() and len(one.volumes) > 5 and first[0].centre == (5, 3)
 	normals = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -230,6 +233,8 @@ def testARegionWithoutOpeningsInThePlane():
 	assert polytope.jointedRock(*again, joints((35, left, 3)), smallest=0).volumes.sum() == pytest.approx(rock.volumes.sum() - 1, rel=1e-12)
 	with pytest.raises(ValueError, match='^openings: must be a list of'):
 		polytope.regionWithout(*slope, [([(1, 0, 0), (-1, 0, 0)], [1, 1])])
+	with pytest.raises(ValueError, match='^openings: must be a list of .*a polygon has at least 3 sides, got 1'):
+		polytope.regionWithout(*slope, [([(1, 0)], [2])])
 	with pytest.raises(ValueError, match='^openings: nothing is left'):
 		polytope.regionWithout(*slope, [([(1, 0), (-1, 0), (0, 1), (0, -1)], [99] * 4)])
 

@@ -103,3 +103,37 @@ def testWrongOpeningsAreRefused():
 		polytope.regionWithout(box, [1] * 6, [3])
 	with pytest.raises(ValueError, match='^openings: nothing is left'):
 		polytope.regionWithout(box, [1] * 6, [(box, [2] * 6)])
+
+
+def sidesOf(dimension):
+	return [*np.eye(dimension), *-np.eye(dimension)]
+
+
+def level(dimension, height, **size):
+	"""A horizontal joint."""
+	return polytope.Joint(0, radians(90), (0, 0, height)[-dimension:], **size)
+
+
+@pytest.mark.parametrize('dimension', [2, 3])
+def testSeamsOfARegionAreNoJoints(dimension):
+	"""Blocks that meet where no joint runs are one body, also where joints that end in the rock cut blocks wholly."""
+	sides, across = sidesOf(dimension), [5] * (dimension - 1)  # two boxes that share x = 0
+	boxes = [sides, sides], [[10, *across, 0, *across], [0, *across, 10, *across]]
+	tunnel = [2] * dimension if dimension == 2 else [2, 20, 2]
+	hollow = polytope.regionWithout(sides, [10] * 2 * dimension, [(sides, tunnel * 2)])
+	for region, height, bodies, blocks in ((boxes, 4, 2, 4), (hollow, 9, 2, None)):
+		whole = [polytope.jointedRock(*region, [level(dimension, height)], incomplete=way) for way in ('clump', 'cut')]
+		assert len(whole[0].bodies) == len(whole[1].bodies) == bodies
+		volumes = [sorted(rock.volumes[body].sum() for body in rock.bodies) for rock in whole]
+		assert volumes[0] == pytest.approx(volumes[1], rel=1e-12)
+		assert blocks is None or len(whole[1].blocks) == blocks
+		assert sorted(block for body in whole[1].bodies for block in body) == list(range(len(whole[1].blocks)))
+	ending = level(dimension, 4, radius=3)  # reaches into both boxes, and ends inside them
+	assert [len(polytope.jointedRock(*boxes, [ending], incomplete=way).bodies) for way in ('clump', 'cut')] == [1, 2]
+	steep = polytope.Joint(radians(90), radians(90), (0,) * dimension)  # along the seam
+	assert [len(polytope.jointedRock(*boxes, [steep, level(dimension, 4)], incomplete=way).bodies) for way in ('clump', 'cut')] == [4, 4]
+	beside = polytope.Joint(
+		0, radians(90), (5, 0, 4) if dimension == 3 else (5, 4), radius=3
+	)  # in one box alone, as the other below is whole
+	cut = polytope.jointedRock(*boxes, [beside], incomplete='cut')
+	assert len(cut.blocks) == 3 and len(cut.bodies) == 1
