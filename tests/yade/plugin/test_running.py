@@ -8,6 +8,7 @@ import sys
 import pytest
 import yade
 from conftest import startRun
+from scenes import runInBackground
 from yade import O, PyRunner, RockJointMat, polytope
 from yade.polytope.scene import running
 
@@ -115,7 +116,7 @@ def testScenesThatCannotRunAreRefused(falling):
 	with pytest.raises(ValueError, match='^O.dt: 0 s'):
 		polytope.run(until=1)
 	O.dt = 1e-5
-	O.run()
+	runInBackground()
 	with pytest.raises(RuntimeError, match='^O: is running'):
 		polytope.run(10)
 	O.pause()
