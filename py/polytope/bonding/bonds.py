@@ -10,7 +10,7 @@ from ..arguments import namedArguments, warn
 from ..precision import isNumber, real
 from ..scene.present import EngineOfScene
 
-__all__ = ['bond', 'bonds', 'intactBonds', 'madeBonds', 'presentBonds', 'removedBonds']
+__all__ = ['bond', 'bonds', 'facingFaces', 'intactBonds', 'madeBonds', 'presentBonds', 'removedBonds']
 
 facing = 0.01
 """Default of the largest angle between bonded faces [rad]: half a degree, what rounding and settling leave between faces meant to touch."""
@@ -104,6 +104,12 @@ def intactBonds():
 def presentBonds():
 	"""Those that have not failed and whose bodies are in the scene."""
 	return [bond for bond in intactBonds() if O.bodies[bond.id1] is not None and O.bodies[bond.id2] is not None]
+
+
+def facingFaces():
+	"""The faces that bodies have at each other's, as *bond* finds them: PolytopeBonds that never fail and are in no engine, also where bodies touch without a force."""
+	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
+	return PolytopeBonds().find([], -1, facing, pattern)
 
 
 def removedBonds():

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What holds bodies up: contacts, bonds, bolts, and what they would fall on."""
 
-import math
-
 import numpy as np
-from yade import O, PolytopeBond, PolytopeBonds, RockJointPhys, Wall
+from yade import O, RockJointPhys, Wall
 
 from ..bonding.bolting import madeBolts
-from ..bonding.bonds import facing, intactBonds
+from ..bonding.bonds import facingFaces, intactBonds
 from ..measures.arrays import arrays
 from ..scene.movers import moverOf, partsOf
 from ..scene.present import integrators
@@ -36,8 +34,7 @@ def touched(k):
 
 def facingPairs():
 	"""Pairs of ids of bodies with a face at each other's, the smaller id first, as *polytope.bond* finds them: also where they touch without a force, and so have no contact."""
-	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
-	return _inOrder((one.id1, one.id2) for one in PolytopeBonds().find([], -1, facing, pattern))
+	return _inOrder((one.id1, one.id2) for one in facingFaces())
 
 
 def isHeld(k):

@@ -2,21 +2,18 @@
 """Faces that neighbours have in common in the scene: where joints are, before there is a contact."""
 
 import dataclasses
-import math
 
 import numpy as np
-from yade import O, PolytopeBond, PolytopeBonds, RockJointPhys
+from yade import O, RockJointPhys
 
-from ..bonding.bonds import presentBonds
+from ..bonding.bonds import facingFaces, presentBonds
 from ..pictures.faces import rows
 from .faceMaterials import materialOfPlane
 
 __all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
 
-facing = 0.01
-"""Largest angle between two faces that are one joint [rad], as in *polytope.bond*."""
 samePlane = 1e-4
-"""1 − cosine of the angle within which a plane of a body is that of its joint: that of *facing*."""
+"""1 − cosine of the angle within which a plane of a body is that of its joint: that between faces which *polytope.bond* joins."""
 
 
 @dataclasses.dataclass
@@ -41,9 +38,7 @@ def commonFaces(chosen=None):
 
 	:param chosen: set of ids; default all
 	"""
-	pattern = PolytopeBond(normalStiffness=1, shearStiffness=1, tensileStrength=math.inf, cohesion=math.inf, frictionAngle=0)
-	found = PolytopeBonds().find([], -1, facing, pattern)
-	return [_face(one) for one in found if chosen is None or one.id1 in chosen or one.id2 in chosen]
+	return [_face(one) for one in facingFaces() if chosen is None or one.id1 in chosen or one.id2 in chosen]
 
 
 def boundFaces():

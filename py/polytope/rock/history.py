@@ -127,15 +127,15 @@ def _add(step, row):
 	"""Adds a row to plot.data, or fills the one that another call of *history* has added in this step."""
 	from yade import plot  # brings matplotlib, which takes longer to load than all of this package
 
-	if any(column[-1:] != [step[name]] for name, column in ((name, plot.data.get(name, [])) for name in step)):
+	shared = all(plot.data.get(name, [])[-1:] == [value] for name, value in step.items())
+	if shared:
+		plot.addDataColumns(row)
+		shared = all(math.isnan(plot.data[name][-1]) for name in row)
+	if not shared:
 		plot.addData(**step, **row)
 		return
-	plot.addDataColumns(row)
-	if all(math.isnan(plot.data[name][-1]) for name in row):
-		for name, value in row.items():
-			plot.data[name][-1] = value
-	else:
-		plot.addData(**step, **row)
+	for name, value in row.items():
+		plot.data[name][-1] = value
 
 
 def _columns(stress):

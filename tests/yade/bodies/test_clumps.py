@@ -117,17 +117,22 @@ def testAClumpOfPolygonsRestsIsStressedAndIsCut(tmp_path):
 	assert polytope.bodyStress([left])[left][1, 1] < 0
 
 
-def testABarOfPolygonsThatOverlapIsStressedByItsSection():
-	"""Pulled at both ends by a bond."""
-	left, right = (rectangle((x - 0.5, -0.5), (x + 0.5, 0.5), fixed=x < 0) for x in (-2, 2))
-	O.bodies.append([left, right])
-	number, _ = polytope.clump([rectangle((-1.5, -0.5), (0.5, 0.5)), rectangle((-0.5, -0.5), (1.5, 0.5))])
+def expectPulledBar(number):
+	"""A clump of a section of 1 m², bonded to a fixed body and to body 1, which is pulled: force over area."""
 	loop(True, damping=0.5)
 	assert polytope.bond() == 2
 	stepper()
 	O.forces.setPermF(1, (1e4, 0, 0))
 	O.run(4000, wait=True)
 	assert polytope.bodyStress([number])[number][0, 0] == pytest.approx(1e4, rel=1e-3)
+
+
+def testABarOfPolygonsThatOverlapIsStressedByItsSection():
+	"""Pulled at both ends by a bond."""
+	left, right = (rectangle((x - 0.5, -0.5), (x + 0.5, 0.5), fixed=x < 0) for x in (-2, 2))
+	O.bodies.append([left, right])
+	number, _ = polytope.clump([rectangle((-1.5, -0.5), (0.5, 0.5)), rectangle((-0.5, -0.5), (1.5, 0.5))])
+	expectPulledBar(number)
 
 
 def testCrossOfThreeTurnedBars():
@@ -243,12 +248,7 @@ def testStressOfAClumpOfOverlappingParts():
 	left, right = (polytope.cuboid((side * 2, 0, 0), (0.5, 0.5, 0.5), fixed=side < 0) for side in (-1, 1))
 	O.bodies.append([left, right])
 	number, _ = polytope.clump([box((-1.5, -0.5, -0.5), (0.5, 0.5, 0.5)), box((-0.5, -0.5, -0.5), (1.5, 0.5, 0.5))])
-	loop(True, damping=0.5)
-	assert polytope.bond() == 2
-	stepper()
-	O.forces.setPermF(1, (1e4, 0, 0))
-	O.run(4000, wait=True)
-	assert polytope.bodyStress([number])[number][0, 0] == pytest.approx(1e4, rel=1e-3)
+	expectPulledBar(number)
 
 
 # ------------------------------------------------------------------------------------------------ meshes
