@@ -47,7 +47,7 @@ const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb* dampingLaw(const Scene& scene
 namespace {
 
 	/// One contact as the scene has it.
-	struct Pair {
+	struct PairInScene {
 		const Scene&                 scene;
 		const Body &                 body1, &body2;
 		const GenericSpheresContact& geom;
@@ -99,7 +99,7 @@ namespace {
 	}
 
 	/// Moment per tilt of the bodies.
-	Matrix3r rockingStiffness(const Pair& pair, const PolytopeGeom& geom)
+	Matrix3r rockingStiffness(const PairInScene& pair, const PolytopeGeom& geom)
 	{
 		if (hasMargin(pair.body1) || hasMargin(pair.body2)) return rockingOfOutline(geom, pair.phys.kn);
 		const Real                   elastic = pair.phys.kn * math::max(geom.penetrationDepth, Real(0));
@@ -134,7 +134,7 @@ namespace {
 		return axes * angular.asDiagonal() * axes.transpose();
 	}
 
-	void addDampers(const Pair& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
+	void addDampers(const PairInScene& pair, const RockJointPhys& phys, const Law2_PolytopeGeom_RockJointPhys_MohrCoulomb& law,
 	        polytope::ContactSprings& springs)
 	{
 		const Real inverse = inverseDampedMass(pair.body1, pair.body2, pair.geom.normal, phys, law.stiffnessSums, pair.scene);
@@ -190,8 +190,8 @@ namespace {
 				const auto* geom = dynamic_cast<const GenericSpheresContact*>(contact.geom.get());
 				const auto* phys = dynamic_cast<const NormShearPhys*>(contact.phys.get());
 				if (!geom || !phys) continue;
-				Pair pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom, *phys,
-					Vector3r::Zero(), Vector3r::Zero() };
+				PairInScene pair { scene, *(*scene.bodies)[contact.getId1()], *(*scene.bodies)[contact.getId2()], *geom,
+					*phys, Vector3r::Zero(), Vector3r::Zero() };
 				if (scene.isPeriodic) {
 					pair.shift2        = scene.cell->intrShiftPos(contact.cellDist);
 					pair.shiftVelocity = scene.cell->intrShiftVel(contact.cellDist);
