@@ -22,7 +22,7 @@ from yade import (
 __all__ = ['failures', 'jointEngines']
 
 geometries = (
-	Ig2_Polytope_Polytope_PolytopeGeom,
+	Ig2_Polytope_Polytope_PolytopeGeom,  # whose settings are those of all
 	Ig2_Wall_Polytope_PolytopeGeom,
 	Ig2_Box_Polytope_PolytopeGeom,
 	Ig2_Facet_Polytope_PolytopeGeom,
@@ -33,7 +33,7 @@ bounds = (Bo1_Polytope_Aabb, Bo1_Wall_Aabb, Bo1_Box_Aabb, Bo1_Facet_Aabb)
 def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), watching=(), **law):
 	"""Sets O.engines; returns their NewtonIntegrator.
 
-	:param dict ig2: attributes of the geometry functors, of all pairs of shapes alike: {} or contactModel='boon2012' …
+	:param dict ig2: attributes of Ig2_Polytope_Polytope_PolytopeGeom, for all pairs of shapes: {} or contactModel='boon2012' …
 	:param bool perArea: stiffnesses are per area [Pa/m], else per contact [N/m]
 	:param gravity: [m/s²]
 	:param float damping: YADE's own: NewtonIntegrator.damping
@@ -47,7 +47,7 @@ def jointEngines(ig2, perArea, gravity, damping=0.0, verlet=0.01, moving=(), wat
 		ForceResetter(),
 		PolytopeCollider([bound() for bound in bounds], verletDist=verlet),
 		InteractionLoop(
-			[geometry(**ig2) for geometry in geometries],
+			[geometries[0](**ig2), *(geometry() for geometry in geometries[1:])],
 			[Ip2_RockJointMat_RockJointMat_RockJointPhys(stiffnessPerArea=perArea)],
 			[Law2_PolytopeGeom_RockJointPhys_MohrCoulomb(**law)],
 		),
