@@ -51,17 +51,18 @@ template <class R, int D> struct SurfaceOnPiece {
 		for (int k = 0; k < D; ++k)
 			centre[k] = areaVector[k] = 0;
 	}
-	/// What lies on the piece of a polygon of the surface.
-	template <class Cut> POLYTOPE_APART void add(const SurfacePiece<R, D>& piece, const Cut& cut, const SurfaceBuffers<R, D>& buffers)
+	/// What lies on the piece of a polygon of the surface, of which so much is between the bodies.
+	template <class Cut>
+	POLYTOPE_APART void add(const SurfacePiece<R, D>& piece, const Cut& cut, const SurfaceBuffers<R, D>& buffers, R share = R(1))
 	{
 		const ClippedPiece<R, D> clipped(piece, cut, clips, buffers);
 		if (clipped.count() == 0) return;
 		const PieceIntegrals<R, D> of = integrate<R>(piece, clipped);
 		if (!(of.area > 0)) return;
-		pressure += of.p;
+		pressure += share * of.p;
 		for (int k = 0; k < D; ++k) {
-			centre[k] += of.pMoment[k];
-			areaVector[k] += of.area * piece.normal[k];
+			centre[k] += share * of.pMoment[k];
+			areaVector[k] += share * of.area * piece.normal[k];
 		}
 	}
 	POLYTOPE_INLINE void average(const SurfaceOnPiece& other)

@@ -10,15 +10,18 @@ namespace polytope {
 template <class R> struct FeasibleBuffers {
 	static constexpr int mostPlanes = tolerance::feasiblePlanes, mostVertices = tolerance::feasibleVertices,
 	                     mostEdges = 2 * mostVertices, mostPieces = 2 * mostVertices;
-	static constexpr int noBody    = 2; ///< of the plane of no pressure
 	static constexpr int pieceRows = 16;
+
+	/// Whose a plane is: of body 1, of both where planes of both coincide, of body 2, of none that of no pressure. In this order the first of two is on body
+	/// 1's side of a piece between them.
+	enum Owner : std::uint8_t { Body1, Both, Body2, NoBody };
 
 	int planes, vertices, edges;
 
 	// of the planes that are tight somewhere, in any order
-	R*           plane; ///< a, d; zero: the plane of no pressure
-	int          rowOf[mostPlanes];
-	std::uint8_t bodyOf[mostPlanes]; ///< 0, 1 or noBody
+	R*    plane; ///< a, d; zero: the plane of no pressure
+	int   rowOf[mostPlanes];
+	Owner owner[mostPlanes];
 
 	R*            point; ///< of the vertices: x, y, z, s
 	std::uint8_t  tight[mostVertices][4];

@@ -13,8 +13,9 @@
 /// connect all its vertices.
 ///
 /// Where more planes meet (regular bodies have the same slack on several planes along a line), offsets that are changed by
-/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets. What that does not make a
-/// simple polytope, as planes that coincide, is left to SurfaceWalk.
+/// tolerance::splitPlanes say which four belong together. The vertices themselves have the planes' true offsets. Planes of both bodies that lie by each
+/// other, as the sides of blocks in a row do, are told apart by their true offsets. Where they coincide the energy has a ridge, and the plane belongs to
+/// either body by half. What all that does not make a simple polytope is left to SurfaceWalk.
 namespace polytope {
 
 template <class R, int W> class FeasibleSet {
@@ -39,7 +40,7 @@ public:
 		}
 		std::uint64_t noPressure = 0, named = 0, misplaced = 0;
 		for (int k = 0; k < planes; ++k)
-			if (buffers_.bodyOf[k] == Buffers::noBody) noPressure |= bit(k);
+			if (buffers_.owner[k] == Buffers::NoBody) noPressure |= bit(k);
 		for (int v = 0; v < vertices; ++v) {
 			const std::array<std::uint8_t, 4>& tight = kept.tight[std::size_t(v)];
 			const std::uint64_t three = bit(tight[0] & lastPlane) | bit(tight[1] & lastPlane) | bit(tight[2] & lastPlane);
@@ -65,18 +66,19 @@ public:
 			buffers_.dropped[v] |= one;
 			buffers_.dropped[w] |= other;
 		}
-		return right && everyEdgeOnce() && placeAll();
+		return right && everyEdgeOnce() && placeAll() && (kept.shared == 0 || shareCoinciding() == kept.shared);
 	}
 
 	/// What recall() needs in the next step; `rowOfAll`: gives a row's number among all planes of the pair.
 	template <class Rows> POLYTOPE_INLINE void keep(KeptVertices& kept, int rowsOfBody1, const Rows& rowOfAll) const
 	{
-		kept.exchanged = 0;
-		kept.planes    = std::uint8_t(buffers_.planes);
-		kept.vertices  = std::uint8_t(buffers_.vertices);
+		kept.exchanged = kept.shared = 0;
+		kept.planes                  = std::uint8_t(buffers_.planes);
+		kept.vertices                = std::uint8_t(buffers_.vertices);
 		for (int k = 0; k < buffers_.planes; ++k) {
-			const bool none = buffers_.bodyOf[k] == Buffers::noBody;
-			const int  name
+			const bool none = buffers_.owner[k] == Buffers::NoBody;
+			kept.shared += buffers_.owner[k] == Buffers::Both;
+			const int name
 			        = none ? int(KeptVertices::noPressure) : KeptVertices::name(rowOfAll(buffers_.rowOf[k]), rowsOfBody1);
 			if (name < 0) kept.vertices = 0;
 			kept.plane[std::size_t(k)] = std::uint16_t(name);
@@ -97,8 +99,9 @@ public:
 			buffers_.localOf[k] = -1;
 		for (int k = 0; k < planes_.total; ++k)
 			buffers_.split[k] = planes_.offset[k] + R(tolerance::splitPlanes) * size_ * shareOf(k);
+		const bool twins = leaveOutTwins();
 		for (int k = 0; k < 4; ++k) {
-			const int plane = use(basis[k]);
+			const int plane = use(twins ? nearerTwin(basis[k]) : basis[k]);
 			if (plane < 0) return false;
 			buffers_.tight[0][k] = std::uint8_t(plane);
 		}
@@ -109,7 +112,8 @@ public:
 			if (!goOn(v)) return false;
 		for (int k = 0; k < buffers_.planes; ++k)
 			setPlane(k, buffers_.rowOf[k]);
-		return buffers_.vertices > 4 && everyEdgeOnce() && !coincide() && placeAll();
+		if (twins) shareCoinciding();
+		return buffers_.vertices > 4 && everyEdgeOnce() && placeAll();
 	}
 
 	/// s of the program's optimum, which is one of the vertices.
@@ -124,13 +128,13 @@ private:
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
 	int                  none() const { return planes_.total; }
-	bool                 isNone(int v, int slot) const { return buffers_.bodyOf[buffers_.tight[v][slot]] == Buffers::noBody; }
+	bool                 isNone(int v, int slot) const { return buffers_.owner[buffers_.tight[v][slot]] == Buffers::NoBody; }
 
 	POLYTOPE_INLINE void setPlane(int k, int row)
 	{
-		const bool no      = row == none();
-		buffers_.rowOf[k]  = row;
-		buffers_.bodyOf[k] = std::uint8_t(no ? Buffers::noBody : row >= planes_.first);
+		const bool no     = row == none();
+		buffers_.rowOf[k] = row;
+		buffers_.owner[k] = no ? Buffers::NoBody : row >= planes_.first ? Buffers::Body2 : Buffers::Body1;
 		for (int m = 0; m < 3; ++m)
 			buffers_.plane[4 * k + m] = no ? R(0) : planes_.normal[m][row];
 		buffers_.plane[4 * k + 3] = no ? R(0) : planes_.offset[row];
@@ -294,7 +298,7 @@ private:
 	{
 		std::uint8_t* const tight = buffers_.tight[v];
 		for (int k = 0; k < 3; ++k)
-			if (buffers_.bodyOf[tight[k]] == Buffers::noBody) std::swap(tight[k], tight[3]);
+			if (buffers_.owner[tight[k]] == Buffers::NoBody) std::swap(tight[k], tight[3]);
 		buffers_.mask[v]    = bit(tight[0]) | bit(tight[1]) | bit(tight[2]) | bit(tight[3]);
 		buffers_.dropped[v] = 0;
 	}
@@ -424,29 +428,72 @@ private:
 		return true;
 	}
 
-	/// Whether planes of both bodies coincide: the energy has a ridge there, which SurfaceWalk knows.
-	POLYTOPE_INLINE bool coincide() const
+	// ------------------------------------------------------------------------------------------------------- planes of both bodies that coincide
+
+	/// The plane of a body that lies by this one, by no more than `within` in its normal and `within` × size in its offset; −1: none.
+	POLYTOPE_INLINE int twinAmong(int body, const R* a, R within) const
 	{
-		const R same = R(tolerance::twinPlanes), offset = same * size_;
-		for (int k = 0; k < buffers_.planes; ++k) {
-			if (buffers_.bodyOf[k] == Buffers::noBody) continue;
-			const int      other = 1 - buffers_.bodyOf[k];
-			const R* const a     = buffers_.plane + 4 * k;
-			const V own[3] = { broadcast<R, W>(a[0]), broadcast<R, W>(a[1]), broadcast<R, W>(a[2]) }, d = broadcast<R, W>(a[3]),
-			        far = broadcast<R, W>(R(1));
-			V least     = far;
-			for (int i = planes_.begin(other); i < planes_.end(other); i += W) {
-				V square = far - far;
-				for (int m = 0; m < 3; ++m) {
-					const V step = load<R, W>(planes_.normal[m] + i) - own[m];
-					square += step * step;
-				}
-				const V apart = absolute(V(load<R, W>(planes_.offset + i) - d));
-				least         = minOf(least, apart <= broadcast<R, W>(offset) ? square : far);
+		const V own[3] = { broadcast<R, W>(a[0]), broadcast<R, W>(a[1]), broadcast<R, W>(a[2]) }, d = broadcast<R, W>(a[3]),
+		        far = broadcast<R, W>(R(1)), offset = broadcast<R, W>(within * size_);
+		for (int i = planes_.begin(body); i < planes_.end(body); i += W) {
+			V square = far - far;
+			for (int m = 0; m < 3; ++m) {
+				const V step = load<R, W>(planes_.normal[m] + i) - own[m];
+				square += step * step;
 			}
-			if (horizontalMin<R, W>(least) <= same * same) return true;
+			const V apart = absolute(V(load<R, W>(planes_.offset + i) - d));
+			square        = apart <= offset ? square : far;
+			if (horizontalMin<R, W>(square) > within * within) continue;
+			R each[W];
+			store<R, W>(each, square);
+			for (int lane = 0; lane < W; ++lane)
+				if (each[lane] <= within * within) return i + lane;
 		}
-		return false;
+		return -1;
+	}
+
+	/// Leaves out the farther one of two planes of both bodies that lie so near by each other that changed offsets would hide which is nearer. Whether there
+	/// are any.
+	POLYTOPE_INLINE bool leaveOutTwins()
+	{
+		bool any = false;
+		for (int k = planes_.begin(1); k < planes_.end(1); ++k) {
+			if (planes_.offset[k] >= R(padOffset) / 2) continue;
+			const int twin = twinOf(k);
+			if (twin < 0) continue;
+			buffers_.split[planes_.offset[k] < planes_.offset[twin] ? twin : k] = R(padOffset);
+			any                                                                 = true;
+		}
+		return any;
+	}
+
+	/// The row of the other body's plane that lies by this one; −1: none.
+	POLYTOPE_INLINE int twinOf(int row) const
+	{
+		const R a[4] = { planes_.normal[0][row], planes_.normal[1][row], planes_.normal[2][row], planes_.offset[row] };
+		return twinAmong(row < planes_.first, a, R(tolerance::splitPlanes));
+	}
+
+	/// The plane that stands for one of the optimum's.
+	int nearerTwin(int row) const
+	{
+		if (row == none() || buffers_.split[row] < R(padOffset) / 2) return row;
+		const int twin = twinOf(row);
+		return twin < 0 ? row : twin;
+	}
+
+	/// Gives planes that coincide to both bodies, and returns how many of the tight ones do.
+	POLYTOPE_APART int shareCoinciding()
+	{
+		int count = 0;
+		for (int k = 0; k < buffers_.planes; ++k) {
+			if (buffers_.owner[k] == Buffers::NoBody) continue;
+			const int other = buffers_.owner[k] == Buffers::Body1;
+			if (twinAmong(other, buffers_.plane + 4 * k, R(tolerance::twinPlanes)) < 0) continue;
+			buffers_.owner[k] = Buffers::Both;
+			++count;
+		}
+		return count;
 	}
 
 	const PairPlanes<R, 3>& planes_;

@@ -9,6 +9,8 @@
 /// A piece of the surface between planes i and j is the set's face in which both are tight, seen along s: a polygon, whose edges are those of the set that
 /// have i and j. Each edge makes a triangle with the piece's first vertex, and none of them is negative, in whatever order they come.
 ///
+/// A plane of both bodies belongs to either by half: the sums are the mean of those for the plane as body 1's and as body 2's.
+///
 /// Volume and level are sums over cones, too, all from the set's first vertex: over each cell (where one plane is tight) in which that vertex does not
 /// lie. A cell, seen along s, is a polyhedron, and the sum of the cones from its own first vertex over those of its pieces in which that does not lie. So most
 /// pieces take no part. With the slack k of the first vertex, where the pressure is σ, in the cell's plane,
@@ -45,13 +47,14 @@ public:
 		for (int k = 0; k < pieces_; ++k) {
 			const int          i = planes_[k][0], j = planes_[k][1];
 			SurfacePiece<R, 3> piece;
-			if (!between_[k] || !placePiece<R, 3>(planes, buffers_.rowOf[i], buffers_.rowOf[j], box, piece)) continue;
-			on.add(piece, FeasiblePolygon<R>(buffers_, i, j, firstOf_[k], piece), spare);
+			if (!(share_[k] > 0) || !placePiece<R, 3>(planes, buffers_.rowOf[i], buffers_.rowOf[j], box, piece)) continue;
+			on.add(piece, FeasiblePolygon<R>(buffers_, i, j, firstOf_[k], piece), spare, share_[k]);
 		}
 	}
 
 private:
 	using Four                   = typename Lanes<R, 4>::Type;
+	using Owner                  = typename FeasibleBuffers<R>::Owner;
 	static constexpr int unknown = 255, most = FeasibleBuffers<R>::mostPlanes, rows = FeasibleBuffers<R>::pieceRows;
 	static_assert(FeasibleBuffers<R>::mostPieces < unknown);
 
@@ -62,8 +65,13 @@ private:
 
 	static std::uint64_t bit(int plane) { return std::uint64_t(1) << plane; }
 
-	/// Whether planes i and j belong to different bodies.
-	bool isBetween(int i, int j) const { return buffers_.bodyOf[i] + buffers_.bodyOf[j] == 1; }
+	/// How much of a piece of planes i and j is between the bodies: by half where one of them is of both.
+	R shareBetween(int i, int j) const
+	{
+		const Owner one = buffers_.owner[i], other = buffers_.owner[j];
+		if (one == other || one == Owner::NoBody || other == Owner::NoBody) return 0;
+		return one == Owner::Both || other == Owner::Both ? R(1) / 2 : R(1);
+	}
 	/// Whether a cone from the cell's first vertex over its piece with plane j is to be added.
 	bool hasCone(int cell, int j) const { return (coned_[cell] & bit(j)) != 0; }
 	bool isWanted(int i, int j) const { return ((wanted_[i] >> j | wanted_[j] >> i) & 1) != 0; }
@@ -71,12 +79,14 @@ private:
 	/// The pieces between the bodies.
 	POLYTOPE_INLINE void beginPlanes()
 	{
-		std::uint64_t of[3] = { 0, 0, 0 };
+		std::uint64_t of[4] = { 0, 0, 0, 0 };
 		for (int i = 0; i < buffers_.planes; ++i)
-			of[buffers_.bodyOf[i]] |= bit(i);
+			of[buffers_.owner[i]] |= bit(i);
+		const std::uint64_t ofBodies = of[Owner::Body1] | of[Owner::Both] | of[Owner::Body2];
 		for (int i = 0; i < buffers_.planes; ++i) {
-			wanted_[i] = buffers_.bodyOf[i] == FeasibleBuffers<R>::noBody ? 0 : of[1 - buffers_.bodyOf[i]];
-			coned_[i]  = 0;
+			const Owner owner = buffers_.owner[i];
+			wanted_[i]        = owner == Owner::NoBody ? 0 : ofBodies & ~of[owner];
+			coned_[i]         = 0;
 		}
 	}
 
@@ -99,7 +109,7 @@ private:
 	POLYTOPE_INLINE R slackAt(int v, int plane) const
 	{
 		const R *const x = buffers_.point + 4 * v, *const a = buffers_.plane + 4 * plane;
-		return buffers_.bodyOf[plane] == FeasibleBuffers<R>::noBody ? x[3] : a[3] - dot<R, 3>(a, x) - x[3];
+		return buffers_.owner[plane] == Owner::NoBody ? x[3] : a[3] - dot<R, 3>(a, x) - x[3];
 	}
 
 	/// The triangle of edge v w in the piece of planes i and j. PieceIntegrals.hpp has the sums.
@@ -115,7 +125,7 @@ private:
 		const Four along = load<R, 4>(own + Normal) * crossProduct<R>(from, to);
 		const R    area = abs(along[0] + along[1] + along[2]), p0 = maxOf<R>(o[3], 0), p1 = p0 + from[3], p2 = p0 + to[3],
 		        sum = p0 + p1 + p2;
-		if (!between_[known]) {
+		if (!(share_[known] > 0)) {
 			own[Sums + Area] += area;
 			own[Sums + Pressure] += area * sum;
 			return;
@@ -136,11 +146,11 @@ private:
 	POLYTOPE_INLINE std::uint8_t begin(int vertex, int i, int j)
 	{
 		const int  number  = pieces_++;
-		const bool turned  = buffers_.bodyOf[i] > buffers_.bodyOf[j];
+		const bool turned  = buffers_.owner[i] > buffers_.owner[j];
 		planes_[number][0] = std::uint8_t(turned ? j : i);
 		planes_[number][1] = std::uint8_t(turned ? i : j);
 		firstOf_[number]   = std::uint8_t(vertex);
-		between_[number]   = isBetween(i, j);
+		share_[number]     = shareBetween(i, j);
 		R* const   own     = buffers_.piece + rows * number;
 		const Four normal
 		        = load<R, 4>(buffers_.plane + 4 * planes_[number][0]) - load<R, 4>(buffers_.plane + 4 * planes_[number][1]);
@@ -163,17 +173,17 @@ private:
 			areaVector = centre = mainNormal = mainCentre = force = moment = deeper = deeperTurn = broadcast<R, 4>(R(0));
 		}
 
-		/// n: its unit normal; the integrals as in PieceIntegrals.
-		POLYTOPE_INLINE void add(const Four& n, R ofArea, R p, R square, const Four& pMoment, const Four& squareMoment)
+		/// n: its unit normal; the integrals as in PieceIntegrals, of the part that is between the bodies; `whole`: ∫ p dS of all of it.
+		POLYTOPE_INLINE void add(const Four& n, R ofArea, R p, R whole, R square, const Four& pMoment, const Four& squareMoment)
 		{
-			const Four once = broadcast<R, 4>(p), half = broadcast<R, 4>(R(1) / 2);
+			const Four once = broadcast<R, 4>(p), all = broadcast<R, 4>(whole), half = broadcast<R, 4>(R(1) / 2);
 			area += ofArea;
 			pressure += p;
-			weight += p * p;
+			weight += p * whole;
 			areaVector += broadcast<R, 4>(ofArea) * n;
 			centre += pMoment;
-			mainNormal += once * once * n;
-			mainCentre += once * pMoment;
+			mainNormal += once * all * n;
+			mainCentre += all * pMoment;
 			force += once * n;
 			moment += crossProduct<R>(pMoment, n);
 			deeper += broadcast<R, 4>(square) * half * n;
@@ -212,11 +222,11 @@ private:
 		const R length = dot<R, 3>(own + Normal, own + Normal);
 		if (!(own[Sums + Area] > 0 && length > 0)) return;
 		addCones(planes_[k][0], planes_[k][1], own, first, 1 / (6 * length), sums);
-		if (!between_[k]) return;
-		const R inverse = 1 / sqrt(length), half = inverse / 2, p = own[Sums + Pressure] * half / 3,
+		if (!(share_[k] > 0)) return;
+		const R inverse = 1 / sqrt(length), half = share_[k] * inverse / 2, p = own[Sums + Pressure] * half / 3,
 		        square = own[Sums + Square] * half / 12;
 		const Four x   = load<R, 4>(first);
-		all.add(load<R, 4>(own + Normal) * broadcast<R, 4>(inverse), own[Sums + Area] * half, p, square,
+		all.add(load<R, 4>(own + Normal) * broadcast<R, 4>(inverse), own[Sums + Area] * half, p, p / share_[k], square,
 		        broadcast<R, 4>(p) * x + load<R, 4>(own + Moment) * broadcast<R, 4>(half / 12),
 		        broadcast<R, 4>(square) * x + load<R, 4>(own + SquareMoment) * broadcast<R, 4>(half / 60));
 	}
@@ -233,7 +243,7 @@ private:
 				far += own[Normal + m] * (apex[m] - first[m]);
 			const R weight = abs(far) * third, dV = weight * own[Sums + Area],
 			        pdV = (apex[3] * dV + weight * own[Sums + Pressure]) / 4, height = height_[cell];
-			if (buffers_.bodyOf[cell] == FeasibleBuffers<R>::noBody) sums.overlap += dV;
+			if (buffers_.owner[cell] == Owner::NoBody) sums.overlap += dV;
 			sums.volume += height * dV / 4;
 			sums.level += height * (buffers_.point[3] * dV / 20 + pdV / 5);
 		}
@@ -242,11 +252,11 @@ private:
 	FeasibleBuffers<R>& buffers_;
 	int                 pieces_ = 0;
 	std::uint8_t        pieceOf_[most * most], planes_[FeasibleBuffers<R>::mostPieces][2], firstOf_[FeasibleBuffers<R>::mostPieces];
-	bool                between_[FeasibleBuffers<R>::mostPieces];
-	std::uint64_t       wanted_[most];  ///< planes with which it has pieces that take part
-	std::uint64_t       coned_[most];   ///< as a cell: planes with which its piece, if there is one, has a cone
-	std::uint8_t        firstIn_[most]; ///< vertex of a cell
-	R                   height_[most];  ///< slack of the first vertex in a cell's plane
+	R                   share_[FeasibleBuffers<R>::mostPieces]; ///< that is between the bodies
+	std::uint64_t       wanted_[most];                          ///< planes with which it has pieces that take part
+	std::uint64_t       coned_[most];                           ///< as a cell: planes with which its piece, if there is one, has a cone
+	std::uint8_t        firstIn_[most];                         ///< vertex of a cell
+	R                   height_[most];                          ///< slack of the first vertex in a cell's plane
 };
 
 } // namespace polytope

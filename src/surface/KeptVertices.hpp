@@ -19,6 +19,7 @@ struct KeptVertices {
 	std::uint8_t planes    = 0; ///< that are tight somewhere
 	std::uint8_t vertices  = 0; ///< 0: nothing is kept; of edges there are twice as many
 	std::uint8_t exchanged = 0; ///< whether the bodies are in the other order than they were then
+	std::uint8_t shared    = 0; ///< number of those planes with which one of the other body coincides
 
 	/// Codes of planes (PlaneCode.hpp), or noPressure.
 	std::array<std::uint16_t, mostPlanes> plane;

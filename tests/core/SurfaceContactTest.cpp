@@ -419,6 +419,33 @@ TEST(SurfaceContact, IsTheSameWarmAsCold)
 		}
 }
 
+/// A column at rest: sides in line, whose blocks go up and down.
+TEST(SurfaceContact, OfCubesInLineIsKept)
+{
+	std::mt19937_64 random(81);
+	for (const ContactModel model : models)
+		for (const bool turn : { false, true }) {
+			Pair pair;
+			pair.shape[0] = pair.shape[1] = ConvexShape::shared(cuboid(1, 1, 1), 0);
+			pair.centre2                  = Vector3(0, 0, 2 - 1e-3);
+			if (turn) pair = turned(pair, randomRotation(random));
+			const Vector3 up = pair.rotation[0].col(2);
+			PairMemory    memory;
+			for (int step = 0; step < 20; ++step) {
+				SCOPED_TRACE(step);
+				pair.centre2 += 1e-5 * std::sin(Real(step)) * up;
+				const ContactResult warm = query(pair, with(model), &memory), cold = query(pair, with(model));
+				expectSame(pair, warm, cold, model);
+				EXPECT_TRUE(warm.surfaceKept || step == 0);
+				// sides in line press to neither side
+				EXPECT_NEAR(warm.normal.dot(up), 1, 1e-12);
+			}
+			// moved aside, it has the sides' own force again
+			pair.centre2 += 1e-6 * pair.rotation[0].col(0);
+			expectSame(pair, query(pair, with(model), &memory), query(pair, with(model)), model);
+		}
+}
+
 TEST(SurfaceContact, AnyKeptSurfaceIsAGoodEnoughStart)
 {
 	std::mt19937_64 random(80);
@@ -445,6 +472,7 @@ TEST(SurfaceContact, AnyKeptSurfaceIsAGoodEnoughStart)
 						vertex = std::uint8_t(likely ? random() % 16 : random());
 			}
 			memory.surface.exchanged = std::uint8_t(random() % 2);
+			memory.surface.shared    = std::uint8_t(random() % 3);
 			const ContactResult warm = query(pair, with(model), &memory);
 			EXPECT_FALSE(warm.surfaceKept);
 			expectSame(pair, warm, cold, model);

@@ -34,7 +34,7 @@ public:
 		codes.resize(size);
 		codes[0] = kept.planes;
 		codes[1] = kept.vertices;
-		codes[2] = kept.exchanged;
+		codes[2] = Byte(2 * kept.shared + kept.exchanged);
 		codes[3] = wide;
 		Byte* to = codes.data() + header;
 		for (auto name = begin; name != end; ++name) {
@@ -56,7 +56,8 @@ public:
 			return;
 		kept.planes      = Byte(planes);
 		kept.vertices    = Byte(vertices);
-		kept.exchanged   = (*codes)[2];
+		kept.exchanged   = (*codes)[2] & 1;
+		kept.shared      = (*codes)[2] >> 1;
 		const Byte* from = codes->data() + header;
 		for (std::size_t k = 0; k < planes; ++k) {
 			const int low = *from++;
@@ -71,7 +72,7 @@ public:
 private:
 	using Byte                                 = std::uint8_t;
 	static constexpr int         noPressure    = 255;
-	static constexpr std::size_t header        = 4; ///< planes, vertices, exchanged, and whether a plane has two bytes
+	static constexpr std::size_t header        = 4; ///< planes, vertices, shared and exchanged, and whether a plane has two bytes
 	static constexpr std::size_t bytesOfVertex = 8; ///< four planes, and two edges of two ends
 
 	Seldom<std::vector<Byte>> codes_;
