@@ -128,7 +128,7 @@ def kernelGroup(run):
 	)
 	methods = list(dict.fromkeys(one.method for one in found.values()))
 	sets = list(dict.fromkeys(one.set for one in found.values()))
-	show = [method for method in methods if 'centroid' not in method and 'Chebyshev' not in method and 'area' not in method]
+	show = [method for method in methods if not any(word in method for word in ('centroid', 'Chebyshev', 'outline', 'energy'))]
 
 	def cell(method, name):
 		one = found.get((method, name))
@@ -140,11 +140,9 @@ def kernelGroup(run):
 	if not any(method.startswith('coal') for method in methods):
 		run.note('coal could not be fetched from PyPI: its rows are missing.')
 	for name in ('cube', 'icosahedron', 'hull 50'):
-		for start in ('cold', 'warm'):
-			parts = plots.stages(found, name, start)
-			floor = found['one pass', name].median
-			text = ', '.join(f'{stage} {1000 * cost:.0f} ns ({cost / floor:.1f} passes)' for stage, cost in parts.items())
-			run.say(f'{name}, {start}: one pass {1000 * floor:.0f} ns; {text}')
+		floor = found['one pass', name].median
+		text = ', '.join(f'{part} {1000 * cost:.0f} ns ({cost / floor:.1f} passes)' for part, cost in plots.parts(found, name).items())
+		run.say(f'{name}: one pass {1000 * floor:.0f} ns; {text}')
 	flat, solid = found['ours warm', 'squares, 2-D'].median, found['ours warm', 'cube'].median
 	run.say(f'two dimensions instead of three: squares {1000 * flat:.0f} ns, cubes {1000 * solid:.0f} ns, warm\n')
 	plots.costAgainstPlanes(found, run.output / 'cost-against-planes.png')

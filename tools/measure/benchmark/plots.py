@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The picture docs/speed.png, and the stages of a query."""
+"""The picture docs/speed.png, and the parts of a query."""
 
 import matplotlib
 
@@ -13,8 +13,8 @@ planesOf = {**{name: 2 * faces for name, faces in solids.items()}, **{f'hull {n}
 colors = {
 	'ours cold': '#c2410c',
 	'ours warm': '#f59e0b',
-	'ours, spring cold': '#be185d',
-	'ours, spring warm': '#f472b6',
+	'boon2012 cold': '#be185d',
+	'boon2012 warm': '#f472b6',
 	'one pass': '#9ca3af',
 	'libccd MPR': '#1d4ed8',
 	'coal GJK+EPA': '#7c3aed',
@@ -50,17 +50,18 @@ def costAgainstPlanes(kernels, path):
 	save(figure, path)
 
 
-def stages(kernels, name, start):
-	"""Cost of each stage [µs] from differences of medians: {stage: µs}."""
+def parts(kernels, name):
+	"""What the parts of a query cost, some as differences of medians: {part: µs}."""
 
 	def time(method):
 		return kernels[method, name].median
 
-	lp = time(f'ours, LP alone {start}')
-	byLp = time(f'ours, Chebyshev centre {start}')
+	cold, warm = time('ours cold'), time('ours warm')
 	return {
-		'frames, planes, LP': lp,
-		'normal, depth': max(0, byLp - lp),
-		'analytic centre': max(0, time(f'ours {start}') - byLp),
-		'contact area (if asked for)': max(0, time('ours with area warm') - time('ours warm')),
+		'cold': cold,
+		'linear program of it': time('ours, LP alone cold'),
+		'warm': warm,
+		'energy more, if asked for': max(0, time('ours with energy warm') - warm),
+		'outline more, for friction': max(0, time('ours with outline warm') - warm),
+		'boon2012, warm': time('boon2012 warm'),
 	}

@@ -79,6 +79,9 @@ def kernelRows(kernels):
 			ours, peer = time(f'ours {start}', name), time('libccd MPR', name)
 			if ours and peer and name not in solids and not name.endswith(' apart'):
 				rows.append(reported(f'touching, {start}, {name}', 'libccd MPR', ours, peer))
+	for start in ('cold', 'warm'):
+		for name in solids:
+			rows.append(reported(f'boon2012, {start}, {name}', 'the default', time(f'boon2012 {start}', name), time(f'ours {start}', name)))
 	return rows
 
 
