@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "host/Seldom.hpp"
+#include "host/FlatArchive.hpp"
 
 #include <src/surface/KeptVertices.hpp>
 
+#include <boost/container/small_vector.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
@@ -14,29 +15,27 @@
 
 namespace yade {
 
-/// A contact's polytope::KeptVertices as far as they are used, the planes in a byte each where they fit, as those of bodies with up to 127 planes do.
+/// A contact's polytope::KeptVertices as far as they are used, the planes in a byte each where they fit, as those of bodies with up to 127 planes do. Those of
+/// most contacts are within the geometry itself: the next pair's come into the cache with it (Prefetch.hpp).
 class StoredVertices {
 public:
 	/// Needs new memory only where there are more vertices than ever before.
 	void set(const polytope::KeptVertices& kept)
 	{
-		if (kept.vertices == 0 && !codes_.get()) return;
+		if (kept.vertices == 0) {
+			codes_.clear();
+			return;
+		}
 		const std::size_t planes = kept.planes, vertices = kept.vertices;
 		const auto        begin = kept.plane.begin(), end = begin + planes;
 		const bool        wide = std::any_of(
                         begin, end, [](int name) { return name >= noPressure && name != polytope::KeptVertices::noPressure; });
-		std::vector<Byte>& codes = codes_.make();
-		const std::size_t  size  = header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex;
-		if (codes.capacity() < size) { // growing by itself, a vector takes twice what it had
-			std::vector<Byte>().swap(codes);
-			codes.reserve(size);
-		}
-		codes.resize(size);
-		codes[0] = kept.planes;
-		codes[1] = kept.vertices;
-		codes[2] = Byte(2 * kept.shared + kept.exchanged);
-		codes[3] = wide;
-		Byte* to = codes.data() + header;
+		codes_.resize(header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex, boost::container::default_init);
+		codes_[0] = kept.planes;
+		codes_[1] = kept.vertices;
+		codes_[2] = Byte(2 * kept.shared + kept.exchanged);
+		codes_[3] = wide;
+		Byte* to  = codes_.data() + header;
 		for (auto name = begin; name != end; ++name) {
 			*to++ = Byte(!wide && *name == polytope::KeptVertices::noPressure ? noPressure : *name & 255);
 			if (wide) *to++ = Byte(*name >> 8);
@@ -47,18 +46,17 @@ public:
 
 	void get(polytope::KeptVertices& kept) const
 	{
-		const std::vector<Byte>* const codes = codes_.get();
-		if (!codes || codes->size() < header) return;
-		const std::size_t planes = (*codes)[0], vertices = (*codes)[1];
-		const bool        wide = (*codes)[3];
+		if (codes_.size() < header) return;
+		const std::size_t planes = codes_[0], vertices = codes_[1];
+		const bool        wide = codes_[3];
 		if (planes > kept.plane.size() || vertices > kept.tight.size()
-		        || codes->size() != header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex)
+		        || codes_.size() != header + planes * (wide ? 2 : 1) + vertices * bytesOfVertex)
 			return;
 		kept.planes      = Byte(planes);
 		kept.vertices    = Byte(vertices);
-		kept.exchanged   = (*codes)[2] & 1;
-		kept.shared      = (*codes)[2] >> 1;
-		const Byte* from = codes->data() + header;
+		kept.exchanged   = codes_[2] & 1;
+		kept.shared      = codes_[2] >> 1;
+		const Byte* from = codes_.data() + header;
 		for (std::size_t k = 0; k < planes; ++k) {
 			const int low = *from++;
 			kept.plane[k] = std::uint16_t(wide  ? low | *from++ << 8
@@ -72,15 +70,18 @@ public:
 private:
 	using Byte                                 = std::uint8_t;
 	static constexpr int         noPressure    = 255;
-	static constexpr std::size_t header        = 4; ///< planes, vertices, shared and exchanged, and whether a plane has two bytes
-	static constexpr std::size_t bytesOfVertex = 8; ///< four planes, and two edges of two ends
+	static constexpr std::size_t header        = 4;   ///< planes, vertices, shared and exchanged, and whether a plane has two bytes
+	static constexpr std::size_t bytesOfVertex = 8;   ///< four planes, and two edges of two ends
+	static constexpr std::size_t within        = 120; ///< of a contact of twelve vertices and a dozen planes, more than most have
 
-	Seldom<std::vector<Byte>> codes_;
+	boost::container::small_vector<Byte, within> codes_;
 
 	friend class boost::serialization::access;
 	template <class Archive> void serialize(Archive& archive, unsigned int)
 	{
-		archive& boost::serialization::make_nvp("codes", codes_);
+		std::vector<Byte> codes(codes_.begin(), codes_.end());
+		archive&          boost::serialization::make_nvp("codes", codes);
+		codes_.assign(codes.begin(), codes.end());
 	}
 };
 
