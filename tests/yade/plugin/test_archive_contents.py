@@ -82,7 +82,7 @@ def testPlanesOfAShapeAreNotChanged():
 
 @pytest.mark.skipif(polytope.buildInfo()['precision'] != 'double', reason='bytes of a double')
 def testBytesOfASavedContact(tmp_path):
-	"""The contact's numbers take 0.6 kB; what the archive notes (classes, bases, addresses) little more."""
+	"""The contact's numbers take 0.6 kB, the vertices that it keeps 0.1; what the archive notes (classes, bases, addresses) little more."""
 	sizes = []
 	for gap in (-1e-3, 0.5):
 		columns(200, gap)
@@ -94,4 +94,4 @@ def testBytesOfASavedContact(tmp_path):
 		sizes.append([os.path.getsize(tmp_path / name) for name in ('scene.yade', 'run.yade')])
 	each = [(with_ - without) / 200 for with_, without in zip(*sizes, strict=True)]
 	print(each)
-	assert all(450 < one < 700 for one in each)
+	assert all(450 < one < 800 for one in each)
