@@ -2,13 +2,14 @@
 """Boundaries that let waves out: `polytope.quietBoundary(…)`."""
 
 import numpy as np
-from yade import BaseMotion, NewtonIntegrator, O, Polytope, QuietBoundary, Vector3
+from yade import BaseMotion, O, Polytope, QuietBoundary, Vector3
 
 from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
 from ..pictures.faces import localVertices
 from ..precision import real
 from ..scene.permanentLoads import permanentLoads
+from ..scene.present import insertEngine, placeOfForces
 from ._bodies import bodiesOf, historyOf, integrator
 
 __all__ = ['quietBoundary']
@@ -58,7 +59,7 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 		raise ValueError(
 			f'ids: body {driven[0]} is moved by a BaseMotion, and a quiet boundary must be free to move; give the record to the boundary (history=), or remove the BaseMotion first'
 		)
-	gravity = integrator().gravity
+	gravity, place = integrator().gravity, placeOfForces('the dashpots act')
 	areas, faces = zip(*(_outerFace(k, normal) for k in ids), strict=True)
 	_refuseLoadedFaces(ids, normal)
 	borne = _contactForces(ids)
@@ -80,8 +81,7 @@ def quietBoundary(ids, normal, pWave, sWave, history=None):
 		state = O.bodies[k].state
 		if not set('xyz') - set(state.blockedDOFs):
 			state.vel, state.blockedDOFs = Vector3.Zero, ''.join(sorted(set(state.blockedDOFs) - set('xyz')))
-	place = next(k for k, one in enumerate(O.engines) if isinstance(one, NewtonIntegrator))
-	O.engines = [*O.engines[:place], engine, *O.engines[place:]]
+	insertEngine(place, engine)
 	return engine
 
 

@@ -4,9 +4,10 @@
 import math
 
 import numpy as np
-from yade import Matrix3, NewtonIntegrator, O, PeriTriaxController, utils
+from yade import Matrix3, O, PeriTriaxController, utils
 
 from ..bonding.bonds import bonds
+from ..scene.present import insertEngine, placeOfForces
 from .sample import Sample
 from .servo import massShare
 
@@ -85,9 +86,5 @@ class PeriodicSample(Sample):
 		if found is None:
 			# no damping of its own (YADE's default is 0.25): it would take part in the balance of a cell that deforms
 			found = PeriTriaxController(dynCell=True, growDamping=0, absStressTol=math.inf, relStressTol=math.inf, maxUnbalanced=-1)
-			engines = list(O.engines)
-			place = next((k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator)), None)
-			if place is None:
-				raise ValueError('engines: O.engines must have a NewtonIntegrator, as those of polytope.engines() do')
-			O.engines = engines[:place] + [found] + engines[place:]
+			insertEngine(placeOfForces('PeriTriaxController measures and moves the cell'), found)
 		return found

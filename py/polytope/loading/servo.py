@@ -3,7 +3,9 @@
 
 import math
 
-from yade import NewtonIntegrator, O, PyRunner
+from yade import O, PyRunner
+
+from ..scene.present import insertEngine, placeOfForces
 
 __all__ = ['Servo', 'act', 'actOn', 'eased']
 
@@ -37,8 +39,8 @@ def eased(now, goal):
 def actOn(boundary):
 	"""Has the boundary's move() called in each step from now on, between InteractionLoop and NewtonIntegrator, where forces are known; None: nothing is
 	moved."""
-	if boundary is not None and not any(isinstance(engine, NewtonIntegrator) for engine in O.engines):
-		raise ValueError('engines: O.engines must have a NewtonIntegrator, as those of polytope.engines() do')
+	if boundary is not None:
+		placeOfForces('the walls are moved')
 	known, acting[0] = acting[0], boundary
 	if (
 		boundary is not None
@@ -46,11 +48,9 @@ def actOn(boundary):
 		and any(isinstance(engine, PyRunner) and engine.command == command for engine in O.engines)
 	):
 		return
-	engines = [engine for engine in O.engines if not (isinstance(engine, PyRunner) and engine.command == command)]
+	O.engines = [engine for engine in O.engines if not (isinstance(engine, PyRunner) and engine.command == command)]
 	if boundary is not None:
-		place = next(k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator))
-		engines.insert(place, PyRunner(command=command, iterPeriod=1, initRun=True))
-	O.engines = engines
+		insertEngine(placeOfForces('the walls are moved'), PyRunner(command=command, iterPeriod=1, initRun=True))
 
 
 def act():

@@ -11,7 +11,7 @@ from ..arguments import namedArguments, number, vector, warn
 from ..pictures.faces import worldVertices
 from ..precision import isNumber
 from ..scene.movers import canMove
-from ..scene.present import integrators, placeOfForces
+from ..scene.present import insertEngine, integrators, placeOfForces
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
 from .twoWaters import refuseTwice
 
@@ -74,7 +74,7 @@ def water(level=None, density=1000, pressures=None, faces=None):
 	if not (_anyPressure(pieces, corners) or any(float(engine.load(body.id)[0].norm()) > 0 for body in bodies)):
 		low, high = _reach(bodies, np.eye(3))
 		raise ValueError(f'{name}: no face gets any pressure; the bodies reach from {_text(low)} to {_text(high)} m')
-	O.engines = O.engines[:place] + [engine] + O.engines[place:]
+	insertEngine(place, engine)
 	return engine
 
 

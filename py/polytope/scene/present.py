@@ -20,6 +20,7 @@ __all__ = [
 	'colliders',
 	'contactSettings',
 	'geometryFunctors',
+	'insertEngine',
 	'integrators',
 	'interactionLoops',
 	'isPerArea',
@@ -118,6 +119,11 @@ def placeOfForces(what):
 	return integrator
 
 
+def insertEngine(place, engine):
+	"""Puts an engine into O.engines before the one that is at this place now."""
+	O.engines = O.engines[:place] + [engine] + O.engines[place:]
+
+
 @contextlib.contextmanager
 def meanwhile(settings):
 	"""Attributes with other values, as (object, name, value), until the block ends; then they are what they were."""
@@ -160,7 +166,7 @@ class EngineOfScene:
 			place, engine = placeOfForces(act), self.kind()
 		made = making(engine)
 		if place is not None:
-			O.engines = O.engines[:place] + [engine] + O.engines[place:]
+			insertEngine(place, engine)
 			self.last = engine
 		return engine, made
 

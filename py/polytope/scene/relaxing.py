@@ -6,7 +6,9 @@ import functools
 import json
 import math
 
-from yade import NewtonIntegrator, O, PyRunner, Vector3
+from yade import O, PyRunner, Vector3
+
+from .present import insertEngine, placeOfForces
 
 __all__ = ['act', 'heldByRelaxing', 'relaxing', 'startRelaxing']
 
@@ -18,15 +20,11 @@ def startRelaxing(loads, steps):
 	"""Applies forces and torques to bodies from the next step on, less in each, and none after so many steps.
 
 	:param loads: id → (force [N], torque about the centre [N·m]), constant in direction
-	:raises ValueError: if O.engines has no NewtonIntegrator
+	:raises ValueError: as placeOfForces
 	"""
-	engines = list(O.engines)
-	place = next((k for k, engine in enumerate(engines) if isinstance(engine, NewtonIntegrator)), None)
-	if place is None:
-		raise ValueError('O.engines: there must be a NewtonIntegrator, before which the forces act')
+	place = placeOfForces('the forces that fade act')
 	plain = json.dumps([[int(k), *([float(x) for x in vector] for vector in load)] for k, load in loads.items()])
-	engines.insert(place, PyRunner(command=_command(int(O.iter), steps, plain), iterPeriod=1, initRun=True))
-	O.engines = engines
+	insertEngine(place, PyRunner(command=_command(int(O.iter), steps, plain), iterPeriod=1, initRun=True))
 
 
 def relaxing():

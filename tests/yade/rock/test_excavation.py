@@ -266,6 +266,6 @@ def testBeforeTheFirstStepThereAreNoForcesThatCouldFade():
 def testWithoutAnIntegratorForcesCannotFade():
 	material()
 	O.bodies.append(polytope.cuboid((0, 0, 0), (1, 1, 1)))
-	with pytest.raises(ValueError, match='^over: .*NewtonIntegrator'):
+	with pytest.raises(ValueError, match='^engines: set O.engines first.* before NewtonIntegrator'):
 		polytope.excavate([0], over=10)
 	assert O.bodies[0] is not None

@@ -11,7 +11,7 @@ from ...bonding.bolting import madeBolts
 from ...bonding.bonds import madeBonds
 from ...scene.movers import canMove, moverOf, partsOf
 from ...scene.namedBodies import namedBodies
-from ...scene.present import integrators
+from ...scene.present import placeOfForces
 from ...scene.ranks import refuseDivided
 from ...scene.relaxing import startRelaxing
 from .cutting import Region, restsOf
@@ -75,8 +75,8 @@ def _relax(before, made, over):
 
 
 def _refuseOver(over):
-	if over and not integrators():
-		raise ValueError('over: O.engines has no NewtonIntegrator, before which the forces act; set O.engines first')
+	if over:
+		placeOfForces('the forces that fade act')  # refuses before anything is changed
 	if over and not (madeBonds() or madeBolts() or any(contact.isReal for contact in O.interactions)):
 		raise ValueError(
 			'over: no contact bears a force yet that could fade; polytope.settle() or polytope.inSitu(…) first, or over=0, which takes the blocks away before the first step'
