@@ -39,13 +39,13 @@ def pieceOf(body, cuts):
 	own.angMom = own.ori * Vector3(*(moment * rate for moment, rate in zip(own.inertia, spin, strict=True)))
 	own.blockedDOFs = state.blockedDOFs
 	piece.shape.wire, piece.mask = shape.wire, body.mask
-	planes = _planesOf(piece, body, normals, offsets)
+	planes = _formerPlanes(piece, body, normals, offsets)
 	if len(shape.faceMaterials):
 		piece.shape.faceMaterials = [int(k) for k in np.append(shape.faceMaterials, -1)[planes]]
 	return piece, planes
 
 
-def _planesOf(piece, body, normals, offsets):
+def _formerPlanes(piece, body, normals, offsets):
 	"""For each plane of a piece which of the body's it lies on; −1: a cut. The body's from its centre, world axes."""
 	turned = rows(piece.state.ori * one for one in piece.shape.normals)
 	limits = np.array(piece.shape.offsets, float) + turned @ np.array(piece.state.pos - body.state.pos, float)

@@ -15,7 +15,8 @@ import scipy  # loads its packages at their first use: half a second
 from tqdm import tqdm
 from yade import _polytope
 
-from ..arguments import flag, namedArguments, numbersOf, randomOf, rows, vectors
+from ..arguments import flag, namedArguments, randomOf, rows, vectors
+from .halfSpaces import boxPlanes, convexRegion
 
 __all__ = ['VoronoiCells', 'voronoi']
 
@@ -94,14 +95,13 @@ def _region(region):
 	if first.shape == second.shape == (3,):
 		if not (first < second).all() or not np.isfinite(second - first).all():
 			raise ValueError(f'region: upper must be above lower, and both finite, got {region!r}')
-		return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([second, -first]), first, second
+		return *boxPlanes(first, second), first, second
 	try:
-		given = vectors(first, 'region', 3), numbersOf(second.tolist(), 'region')
-		corners = np.array(_polytope.polyhedron(*given)['vertices'], float)
+		normals, offsets, made = convexRegion(first, second)
 	except (ValueError, TypeError) as error:
 		raise ValueError(f'region: makes no convex body ({error})') from None
-	lengths = np.linalg.norm(first, axis=1)
-	return first / lengths[:, None], second / lengths, corners.min(axis=0), corners.max(axis=0)
+	corners = np.array(made['vertices'], float)
+	return normals, offsets, corners.min(axis=0), corners.max(axis=0)
 
 
 def _random(cells, normals, offsets, lower, upper, seed):

@@ -16,6 +16,7 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import Box, Facet, Polytope, RockJointMat, Wall, _polytope
 
+from ..bodies.halfSpaces import worldPlanes
 from ..pictures.faces import worldVertices
 from ..rock.faceMaterials import materialOfPlane, materialsOf
 from ..scene.movers import isMover
@@ -129,8 +130,7 @@ class Base(NamedTuple):
 def _bases(body, down):
 	"""The body's lowest face, if that is nearly level."""
 	shape, place = body.shape, np.array([float(x) for x in body.state.pos])
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = np.array([list(normal) for normal in shape.normals], float) @ turn.T
+	normals, _ = worldPlanes(body)
 	lowest = int(np.argmax(normals @ down))
 	normal, offset = normals[lowest], float(shape.offsets[lowest])
 	corners = worldVertices(body)

@@ -8,6 +8,7 @@ from ..arguments import namedArguments, number, vector
 from ..bonding.bonds import madeBonds
 from ..pictures.faces import localVertices
 from ..precision import real
+from ..rock.faces import areaVector
 from ..scene.permanentLoads import permanentLoads
 from ..scene.present import insertEngine, placeOfForces
 from ._bodies import bodiesOf, historyOf, integrator
@@ -109,8 +110,8 @@ def _outerFace(number, normal):
 def _area(corners):
 	"""(outward normal times area [m²], centroid [m]) of a convex face, by the triangles about its first corner."""
 	first, second = corners[1:-1] - corners[0], corners[2:] - corners[0]
-	twice = np.cross(first, second)
-	return twice.sum(axis=0) / 2, corners[0] + np.average((first + second) / 3, axis=0, weights=np.linalg.norm(twice, axis=1))
+	weights = np.linalg.norm(np.cross(first, second), axis=1)
+	return areaVector(corners), corners[0] + np.average((first + second) / 3, axis=0, weights=weights)
 
 
 def _contactForces(ids):

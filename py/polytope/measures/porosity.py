@@ -7,7 +7,8 @@ import numpy as np
 import scipy  # loads its packages at their first use: half a second
 from yade import O, Polytope, Sphere, Vector3, _polytope
 
-from ..arguments import numbersOf, vectors, warn
+from ..arguments import warn
+from ..bodies.halfSpaces import boxPlanes, convexRegion
 from ..bodies.polytopes import fromHalfSpaces
 from ..pictures.faces import localVertices
 from ..scene.movers import moverOf, partsOf
@@ -63,17 +64,11 @@ def _region(region, lower, upper):
 	if lower is not None or upper is not None:
 		raise ValueError('region: give a box or a region, not both')
 	try:
-		normals, offsets = (np.array(part, float) for part in region)
-		made = _polytope.polyhedron(vectors(normals, 'region', 3), numbersOf(offsets.tolist(), 'region'))
+		normals, offsets = region
+		normals, offsets, made = convexRegion(normals, offsets)
 	except (TypeError, ValueError) as error:
 		raise ValueError(f'region: must be (normals, offsets) of a convex body ({error})') from None
-	lengths = np.linalg.norm(normals, axis=1)
-	return (normals / lengths[:, None], offsets / lengths), float(made['volume']), np.array(made['vertices'], float).reshape(-1, 3)
-
-
-def boxPlanes(lower, upper):
-	"""(normals, offsets) of an axis-parallel box."""
-	return np.vstack([np.eye(3), -np.eye(3)]), np.concatenate([upper, -np.array(lower)])
+	return (normals, offsets), float(made['volume']), np.array(made['vertices'], float).reshape(-1, 3)
 
 
 def solidVolume(k):

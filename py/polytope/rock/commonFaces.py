@@ -6,11 +6,12 @@ import dataclasses
 import numpy as np
 from yade import O, RockJointPhys
 
+from ..bodies.halfSpaces import worldPlanes
 from ..bonding.bonds import facingFaces, presentBonds
 from ..pictures.faces import rows
 from .faceMaterials import materialOfPlane
 
-__all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'materialOf', 'planeOf', 'planesOf']
+__all__ = ['CommonFace', 'boundFaces', 'commonFaces', 'contactOf', 'lesser', 'materialOf', 'materialsOfSides', 'planeOf']
 
 samePlane = 1e-4
 """1 − cosine of the angle within which a plane of a body is that of its joint: that between faces which *polytope.bond* joins."""
@@ -66,17 +67,10 @@ def contactOf(face):
 	return O.interactions[face.id1, face.id2]
 
 
-def planesOf(body):
-	"""(normals (n, 3), offsets (n,)) of the body in the world."""
-	turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3)
-	normals = rows(body.shape.normals) @ turn.T
-	return normals, np.array(body.shape.offsets, float) + normals @ np.array(body.state.pos, float)
-
-
 def planeOf(face, k):
 	"""Index of the plane of body k that has the face; −1 if none does."""
 	side = 1 if k == face.id1 else -1
-	normals, offsets = planesOf(O.bodies[k])
+	normals, offsets = worldPlanes(O.bodies[k])
 	away = np.abs(normals @ face.centroid - offsets)
 	away[1 - side * normals @ face.normal > samePlane] = np.inf  # of those that are parallel one has the face
 	plane = int(np.argmin(away))
@@ -87,3 +81,13 @@ def materialOf(face, k):
 	"""Material on body k's side of the joint: that of its face, if the face has one of its own (*Polytope.faceMaterials*)."""
 	body = O.bodies[k]
 	return materialOfPlane(body, planeOf(face, k) if len(getattr(body.shape, 'faceMaterials', [])) else -1)
+
+
+def materialsOfSides(face):
+	"""Materials on both sides of the joint, that of body 1 first."""
+	return [materialOf(face, k) for k in (face.id1, face.id2)]
+
+
+def lesser(name, materials):
+	"""The least value of an attribute: of strengths, the one that counts in a joint between these materials."""
+	return min(getattr(material, name) for material in materials)

@@ -6,7 +6,7 @@ from yade import _polytope
 
 from ..arguments import numbersOf, vectors
 
-__all__ = ['areaOfFace', 'frameOf', 'shapeOf']
+__all__ = ['areaOfFace', 'areaVector', 'frameOf', 'shapeOf']
 
 onPlane = 1e-9
 """Tolerance on the corners of a block's face, as a part of the block's extent: how far from the face's plane they may be computed."""
@@ -29,6 +29,12 @@ def areaOfFace(corners, normal, offset):
 	order = np.argsort(np.arctan2(y, x))
 	x, y = x[order], y[order]
 	return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
+
+
+def areaVector(corners):
+	"""Normal times area [m²] of a polygon of these corners (n, 3), which turn to the left about it."""
+	arms = corners[1:] - corners[0]
+	return np.cross(arms[:-1], arms[1:]).sum(axis=0) / 2
 
 
 def frameOf(normal):

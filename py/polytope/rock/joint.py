@@ -9,6 +9,7 @@ from yade import _polytope
 
 from ..arguments import numbersOf, point, vectors
 from ..precision import isNumber
+from .faces import areaVector
 
 __all__ = ['Cut', 'Joint', 'areasOf', 'asArguments', 'checkedAngles', 'finite', 'positive', 'upwardNormal']
 
@@ -62,7 +63,7 @@ class Joint:
 		middle = points.mean(axis=0)
 		away = points - middle
 		extent = float(np.linalg.norm(away, axis=1).max())
-		area = np.cross(away, np.roll(away, -1, axis=0)).sum(axis=0) / 2
+		area = areaVector(away)
 		size = float(np.linalg.norm(area))
 		if not size > planar**2 * extent**2:
 			raise ValueError('corners: the polygon has no area; give corners in order round it')

@@ -12,6 +12,7 @@ import numpy as np
 from yade import _polytope
 
 from ..arguments import namedArguments, numbersOf, positive, rows, vectors, warn
+from ..bodies.halfSpaces import boxPlanes
 from ..bodies.meshes.digits import warnOfRounding
 from ..bodies.meshes.files import readMesh
 from ..bodies.polytopes import areFlat
@@ -68,8 +69,8 @@ def meshRegion(path, scale=1):
 	volume = float(np.einsum('ij,ij->i', corners[:, 0] - middle, np.cross(corners[:, 1] - middle, corners[:, 2] - middle)).sum()) / 6
 	used = points[np.unique(mesh.triangles)]
 	extent = float(np.ptp(used, axis=0).max())
-	box = [*(used.max(axis=0) + around * extent), *(around * extent - used.min(axis=0))]
-	cells = _cells(np.vstack([np.eye(3), -np.eye(3)]), box, _flattened(corners, areas, middle, flat * extent))
+	box = boxPlanes(used.min(axis=0) - around * extent, used.max(axis=0) + around * extent)
+	cells = _cells(*box, _flattened(corners, areas, middle, flat * extent))
 	turns = np.array([_windings(cell[2], corners) for cell in cells])
 	if np.abs(turns - turns.round()).max() > gap:
 		raise ValueError(f"path: '{path}' is not closed; close its gaps (trimesh: fill_holes)")

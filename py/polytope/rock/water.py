@@ -12,6 +12,7 @@ from ..pictures.faces import worldVertices
 from ..precision import isNumber
 from ..scene.movers import canMove
 from ..scene.present import insertEngine, integrators, placeOfForces
+from .faces import areaVector
 from .pressureFields import alongALine, belowALevel, belowASection, belowASurface, sectionOf
 from .twoWaters import refuseTwice
 
@@ -202,8 +203,6 @@ def _facesOf(body):
 	rings = np.split(np.frombuffer(rings, np.int32), np.cumsum(np.frombuffer(counts, np.int32))[:-1])
 	for plane, ring in zip(np.frombuffer(_polytope.planesOfFaces(body.shape), np.int32), rings, strict=True):
 		if plane >= 0:
-			first, *others = corners[ring]
-			fan = np.array(others) - first
-			twice = np.cross(fan[:-1], fan[1:]).sum(axis=0)
-			area = float(np.linalg.norm(twice)) / 2
-			yield Face(body.id, int(plane), twice / (2 * area), corners[ring].mean(axis=0), area), corners[ring]
+			outward = areaVector(corners[ring])
+			area = float(np.linalg.norm(outward))
+			yield Face(body.id, int(plane), outward / area, corners[ring].mean(axis=0), area), corners[ring]

@@ -14,7 +14,7 @@ from ...scene.permanentLoads import permanentLoads
 from ...scene.present import integrators
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker, sizeOf
-from ..commonFaces import boundFaces, commonFaces, materialOf
+from ..commonFaces import boundFaces, commonFaces, lesser, materialsOfSides
 from ..faces import frameOf
 from ..stress.forces import weightAndWater
 
@@ -204,7 +204,7 @@ def _strengthsOf(face, bond):
 	"""(tan φ, cohesion, tensile strength): of the bond, or the lower ones of the two sides."""
 	if bond is not None:
 		return math.tan(bond.frictionAngle), float(bond.cohesion), float(bond.tensileStrength)
-	sides = [materialOf(face, k) for k in (face.id1, face.id2)]
+	sides = materialsOfSides(face)
 	for k, material in zip((face.id1, face.id2), sides, strict=True):
 		if not isinstance(material, RockJointMat):
 			raise ValueError(f'O.bodies: body {k} is of a {type(material).__name__}; strengths of joints are those of RockJointMat')
@@ -213,11 +213,8 @@ def _strengthsOf(face, bond):
 				f'O.bodies: a joint of body {k} has a shear law of its own ({type(material.strength).__name__}), whose strength depends on slip; limit analysis has '
 				'Mohr-Coulomb: give strength=None, frictionAngle and cohesion, or take polytope.factorOfSafety'
 			)
-	return (
-		math.tan(min(float(material.frictionAngle) for material in sides)),
-		min(float(material.cohesion) for material in sides),
-		min(float(material.tensileStrength) for material in sides),
-	)
+	friction, cohesion, tensile = (float(lesser(name, sides)) for name in ('frictionAngle', 'cohesion', 'tensileStrength'))
+	return math.tan(friction), cohesion, tensile
 
 
 def _areas(face):

@@ -10,9 +10,10 @@ import numpy as np
 from yade import O, Quaternion, _polytope
 
 from ...arguments import vectors
+from ...bodies.halfSpaces import worldPlanes
 from ...bodies.polytopes import isotropyTolerance
 from ...pictures.faces import rows
-from ..commonFaces import materialOf, planeOf, planesOf
+from ..commonFaces import materialOf, planeOf
 from .supports import inLine
 
 __all__ = ['closures', 'enlarge', 'restore']
@@ -28,7 +29,7 @@ def closures(faces, field):
 				moved[k, plane] = materialOf(face, k)
 	found = {}
 	for (k, plane), material in inLine(moved).items():
-		normals, _ = planesOf(O.bodies[k])
+		normals, _ = worldPlanes(O.bodies[k])
 		found.setdefault(k, {})[plane] = _closure(normals[plane], field, 2 * float(material.normalStiffness))
 	return found
 

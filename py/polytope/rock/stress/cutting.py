@@ -17,7 +17,7 @@ from ..joint import Cut, asArguments
 from ..jointedRock import mostBlocks, smallestBridge
 from ..region import areSeveral
 
-__all__ = ['Part', 'Region', 'restsOf', 'together']
+__all__ = ['ExcavatedRegion', 'Part', 'restsOf', 'together']
 
 thinnest = 0.01
 """Least inscribed radius of what is cut off or left, over that of the block: such slivers bear no load and shorten the time step. More than a joint's closure, by which blocks that were
@@ -40,7 +40,7 @@ class Part:
 	"""For each of its planes which of the former body's it lies on; −1: a cut."""
 
 
-class Region:
+class ExcavatedRegion:
 	"""Convex parts, each {x : normals[i]·x ≤ offsets[i] for all i}, which may be without bounds and overlap.
 
 	:raises ValueError: naming *normals* or *offsets*

@@ -14,7 +14,7 @@ from ...scene.namedBodies import namedBodies
 from ...scene.present import placeOfForces
 from ...scene.ranks import refuseDivided
 from ...scene.relaxing import startRelaxing
-from .cutting import Region, restsOf
+from .cutting import ExcavatedRegion, restsOf
 from .forces import less, loadsAtRest, removedForces
 from .takingOver import refuseUnknown, takeOver
 
@@ -50,7 +50,7 @@ def excavate(bodies=None, normals=None, offsets=None, over=0, cut=True):
 	refuseDivided()
 	if O.running:
 		raise RuntimeError('O: is running in the background; O.pause() or O.wait() first')
-	rests = _restsOf(Region(normals, offsets), cut) if bodies is None else {int(k): [] for k in namedBodies(bodies, name='bodies')}
+	rests = _restsOf(ExcavatedRegion(normals, offsets), cut) if bodies is None else {int(k): [] for k in namedBodies(bodies, name='bodies')}
 	if not rests:
 		reach = 'is cut by the region or lies in it' if cut else 'has its centre in the region'
 		raise ValueError('bodies: there is none' if bodies is not None else f'normals: no body that can move {reach}')

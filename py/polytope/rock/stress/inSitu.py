@@ -6,7 +6,7 @@ from yade import Collider, ForceResetter, InteractionLoop, O, RockJointMat, Vect
 
 from ...arguments import namedArguments
 from ...scene.present import interactionLoops, meanwhile
-from ..commonFaces import commonFaces, contactOf, materialOf
+from ..commonFaces import commonFaces, contactOf, lesser, materialsOfSides
 from .closure import closures, enlarge, restore
 from .field import StressField
 from .refusals import massOf, refuseField, refuseForces, refuseScene
@@ -82,11 +82,11 @@ def _shear(field, faces):
 		if contact is None:
 			continue
 		_setShear(contact, face, field)
-		sides = [materialOf(face, k) for k in (face.id1, face.id2)]
-		tensile = min(material.tensileStrength for material in sides)
+		sides = materialsOfSides(face)
+		tensile = lesser('tensileStrength', sides)
 		if tensile > 0:
 			contact.phys.tensileStrength, contact.phys.intact = tensile, mayBeIntact
-			contact.phys.residualTensileStrength = min(tensile, *(material.residualTensileStrength for material in sides))
+			contact.phys.residualTensileStrength = min(tensile, lesser('residualTensileStrength', sides))
 		count += 1
 	return count
 

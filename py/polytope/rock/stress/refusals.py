@@ -6,6 +6,7 @@ import math
 import numpy as np
 from yade import O, Polytope, RockJointMat
 
+from ...bodies.halfSpaces import worldPlanes
 from ...bonding.bonds import intactBonds
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove, moverOf
@@ -13,7 +14,7 @@ from ...scene.namedBodies import namedBodies
 from ...scene.present import contactSettings, interactionLoops, jointMakers, laws
 from ...scene.ranks import refuseDivided
 from ...scene.stages import refuseMatchMaker
-from ..commonFaces import contactOf, materialOf, planesOf
+from ..commonFaces import contactOf, lesser, materialsOfSides
 from ..faceMaterials import materialsOf
 from ..faces import areaOfFace
 
@@ -114,7 +115,7 @@ def refuseField(field, faces, chosen):
 def _refuseMaterials(faces):
 	"""Refuses materials whose joints cannot be given a stress: a face's own material counts before its body's."""
 	for face in faces:
-		joint, materials = f'bodies: the joint between {face.id1} and {face.id2}', [materialOf(face, k) for k in (face.id1, face.id2)]
+		joint, materials = f'bodies: the joint between {face.id1} and {face.id2}', materialsOfSides(face)
 		if not all(isinstance(material, RockJointMat) for material in materials):
 			raise ValueError(f'{joint} is not between two RockJointMat')
 		if not all(material.stiffnessPerArea for material in materials):
@@ -135,9 +136,8 @@ def _refuseStrength(field, faces, largest):
 		traction = field.at(face.centroid) @ face.normal
 		normal = -float(traction @ face.normal)
 		shear = float(np.linalg.norm(traction + normal * face.normal))
-		materials = [materialOf(face, k) for k in (face.id1, face.id2)]
-		cohesion = min(float(material.cohesion) for material in materials)
-		friction = min(float(material.frictionAngle) for material in materials)
+		materials = materialsOfSides(face)
+		cohesion, friction = (float(lesser(name, materials)) for name in ('cohesion', 'frictionAngle'))
 		if shear > cohesion + normal * math.tan(friction) + rounding * largest:
 			weak.append((math.atan2(max(shear - cohesion, 0), normal), face, friction))
 	if weak:
@@ -150,7 +150,7 @@ def _refuseStrength(field, faces, largest):
 
 def _refuseOverlap(faces, largest):
 	for face in faces:
-		stiffness = min(float(materialOf(face, k).normalStiffness) for k in (face.id1, face.id2))
+		stiffness = float(lesser('normalStiffness', materialsOfSides(face)))
 		if face.overlap * stiffness > accuracy * largest:
 			raise ValueError(
 				f'bodies: {face.id1} and {face.id2} overlap by {face.overlap:.3g} m already; blocks must lie face on face, and a stress that they '
@@ -168,7 +168,7 @@ def _refuseCover(field, faces, chosen):
 		body = O.bodies[k]
 		if not canMove(body) or body.isClumpMember:  # members lie on each other
 			continue
-		vertices, (normals, offsets) = worldVertices(body), planesOf(body)
+		vertices, (normals, offsets) = worldVertices(body), worldPlanes(body)
 		for normal, offset in zip(normals, offsets, strict=True):
 			area = areaOfFace(vertices, normal, offset)
 			if area == 0:  # a plane that owns no face

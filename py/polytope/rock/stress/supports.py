@@ -10,9 +10,9 @@ import numpy as np
 import scipy  # loads its packages at their first use
 from yade import O, Polytope
 
+from ...bodies.halfSpaces import worldPlanes
 from ...pictures.faces import worldVertices
 from ...scene.movers import canMove
-from ..commonFaces import planesOf
 from ..faceMaterials import materialOfPlane
 
 __all__ = ['inLine']
@@ -50,7 +50,7 @@ def _follow(pieces, found):
 	corners = {k: worldVertices(O.bodies[k]) for k in pieces}
 	low, high = (np.array([side(corners[k], axis=0) for k in pieces]) for side in (np.min, np.max))
 	size = float(max(np.abs(low).max(), np.abs(high).max()))
-	planes = [planesOf(O.bodies[k]) for k in pieces]
+	planes = [worldPlanes(O.bodies[k]) for k in pieces]
 	places = np.concatenate([np.column_stack([size * normals, offsets]) for normals, offsets in planes])
 	owners = [(row, plane) for row, (normals, _) in enumerate(planes) for plane in range(len(normals))]
 	numbers = {(pieces[row], plane): number for number, (row, plane) in enumerate(owners)}
