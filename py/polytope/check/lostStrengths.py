@@ -4,7 +4,7 @@
 import numpy as np
 from yade import Polytope, RockJointMat
 
-from ..rock.faceMaterials import materialOfPlane, materialsOf
+from ..rock.faceMaterials import materialsOf, materialsOfContact
 from ..scene.movers import isMover
 from .neighbours import touchingPairs
 
@@ -24,7 +24,7 @@ def lostStrengths(scene):
 		return
 	told = set()
 	for one, other, contact in touchingPairs(scene, bodies):
-		sides = _material(one, contact.normal), _material(other, -contact.normal)
+		sides = materialsOfContact(one, other, np.array(contact.normal, float))
 		for name in lacking:
 			weak, strong = sorted(sides, key=lambda material: float(getattr(material, name)))
 			if float(getattr(strong, name)) > 0 == float(getattr(weak, name)) and (name, id(weak), id(strong)) not in told:
@@ -61,9 +61,3 @@ def hanging(scene):
 			f'body {key} hangs from body {above[key]}, which it only touches: its joint has no tensile strength before they overlap, and it falls',
 			'polytope.bond() after O.engines is set: bodies in touch then hold by the tensileStrength of their material',
 		)
-
-
-def _material(body, normal):
-	"""Material of the face that looks most along *normal*."""
-	along = body.state.ori.conjugate() * normal
-	return materialOfPlane(body, int(np.argmax([float(own.dot(along)) for own in body.shape.normals])))

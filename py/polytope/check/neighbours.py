@@ -8,7 +8,7 @@ import scipy  # loads its packages at their first use: half a second
 from yade import _polytope
 
 from ..measures.arrays import arrays
-from .overlaps import mayMeet, planesOf
+from .overlaps import mayMeet, sortedOffsets
 
 __all__ = ['looks', 'touching', 'touchingPairs']
 
@@ -40,5 +40,5 @@ def touchingPairs(scene, bodies):
 
 def _meet(scene, one, other):
 	"""Whether they may have a contact: not the same place, which coincidence() finds."""
-	samePlace = (one.state.pos - other.state.pos).norm() == 0 and planesOf(one) == planesOf(other)
+	samePlace = (one.state.pos - other.state.pos).norm() == 0 and sortedOffsets(one) == sortedOffsets(other)
 	return not samePlace and mayMeet(scene, one, other)

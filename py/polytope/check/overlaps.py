@@ -16,7 +16,7 @@ from ..scene.movers import sameClump
 from .overlapEnergy import Thrown
 from .standIns import standIn
 
-__all__ = ['coincidence', 'mayMeet', 'overlaps', 'planesOf']
+__all__ = ['coincidence', 'mayMeet', 'overlaps', 'sortedOffsets']
 
 larger = 2.0
 """Circumscribed radius over another body's above which the other is looked for by the half-spaces of the larger one: their middles say little."""
@@ -207,9 +207,9 @@ def mayMeet(scene, one, other):
 
 
 def _sameShape(one, other):
-	planes, others = planesOf(one), planesOf(other)
+	planes, others = sortedOffsets(one), sortedOffsets(other)
 	return len(planes) == len(others) and np.allclose(planes, others, rtol=0, atol=onePlace * float(one.shape.circumscribedRadius))
 
 
-def planesOf(body):
+def sortedOffsets(body):
 	return sorted(float(offset) for offset in body.shape.offsets)

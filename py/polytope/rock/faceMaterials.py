@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Materials of a block's faces by the joints that made them."""
 
+import math
 from collections.abc import Iterable
 
 from yade import O, RockJointMat
 
 from ..arguments import materialOf
+from ..bodies.halfSpaces import worldPlanes
 
-__all__ = ['faceMaterials', 'materialOfPlane', 'materialsOf', 'materialsOfFaces']
+__all__ = ['faceMaterials', 'facesThatCount', 'facing', 'materialOfPlane', 'materialsOf', 'materialsOfContact', 'materialsOfFaces']
+
+facingOfJoints = 0.01
+"""Angle [rad] between a face and a contact up to which the face lies on it (src/bond/BondTolerances.hpp)."""
 
 
 def materialsOfFaces(given, entries, own):
@@ -58,6 +63,30 @@ def materialOfPlane(body, plane):
 	"""Material of the body's plane of this index, if the plane has one of its own (*Polytope.faceMaterials*); else, and for −1, that of the body."""
 	own = getattr(body.shape, 'faceMaterials', [])
 	return O.materials[own[plane]] if 0 <= plane < len(own) and own[plane] >= 0 else body.material
+
+
+def facing(normals, along):
+	"""(index, cosine of the angle) of that one of these unit normals (n, 3) which looks most along another."""
+	cosines = normals @ along
+	best = int(cosines.argmax())
+	return best, float(cosines[best])
+
+
+def facesThatCount(cosine1, cosine2):
+	"""Whether the faces of body 1 and of body 2 count in a contact, by the cosines of their angles with it: both where both lie on it, else the closer one, as the physics of
+	rock joints has it (pkg/polytope/joint/RockJointPhysics.cpp)."""
+	if min(cosine1, cosine2) > math.cos(facingOfJoints):
+		return True, True
+	return cosine1 >= cosine2, cosine1 < cosine2
+
+
+def materialsOfContact(one, other, normal):
+	"""Materials of the two sides of a contact of polytopes with this normal, out of the first one."""
+	if not any(len(getattr(body.shape, 'faceMaterials', [])) for body in (one, other)):
+		return [one.material, other.material]
+	planes = [facing(worldPlanes(body)[0], side * normal) for body, side in ((one, 1), (other, -1))]
+	own = [materialOfPlane(body, plane) for body, (plane, _) in zip((one, other), planes, strict=True)]
+	return [own[k] if counts else own[1 - k] for k, counts in enumerate(facesThatCount(*(cosine for _, cosine in planes)))]
 
 
 def materialsOf(body):

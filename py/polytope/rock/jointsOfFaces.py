@@ -8,19 +8,17 @@ import weakref
 import numpy as np
 from yade import O, Polytope
 
+from ..bodies.halfSpaces import worldPlanes
 from ..measures.arrays import arrays
 from ..pictures.faceColors import ofFaces
 from ..pictures.faces import collect, rows
+from .faceMaterials import facesThatCount, facing
 
 __all__ = ['contactJoints', 'jointsOfFaces', 'jointsOfPlanes', 'keep', 'replaceInRocks', 'setsOf', 'writeFaces']
 
 turnOfFaces = 0.1
 """Angle [rad] by which planes of a body may differ from those that it was appended with: *inSitu* turns them by the closure of a joint
 over its width. Another body under the same number, of another scene, has others."""
-
-facingOfJoints = 0.01
-"""Angle [rad] up to which both faces of a contact are as good, as it is for their materials (src/bond/BondTolerances.hpp)."""
-
 
 _rocks = []
 """Weak references to rocks that are in the scene, or were."""
@@ -49,7 +47,7 @@ def jointsOfPlanes(body, normals, joints):
 	:param normals: of the block, in world axes; of a polygon two components
 	:param joints: for each of these the number of its joint
 	"""
-	own = np.array([body.state.ori * normal for normal in body.shape.normals], float)[:, : normals.shape[1]]
+	own = worldPlanes(body)[0][:, : normals.shape[1]]
 	return joints[np.argmax(own @ (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T, axis=1)]
 
 
@@ -73,10 +71,8 @@ def contactJoints(rock):
 	found = np.full(len(contacts.ids), -1)
 	for row, (ids, normal) in enumerate(zip(contacts.ids.tolist(), contacts.normals, strict=True)):
 		(one, cosine1), (two, cosine2) = (_facing(rock, id, side * normal, known) for id, side in zip(ids, (1, -1), strict=True))
-		if min(cosine1, cosine2) > math.cos(facingOfJoints):
-			found[row] = one if one >= 0 else two
-		else:
-			found[row] = one if cosine1 >= cosine2 else two
+		counts1, counts2 = facesThatCount(cosine1, cosine2)
+		found[row] = one if counts1 and (one >= 0 or not counts2) else two
 	return found
 
 
@@ -85,14 +81,12 @@ def _facing(rock, id, normal, known):
 	if id not in known:
 		body = O.bodies[id]
 		joints = jointsOfFaces(rock, body) if body is not None and body.shape else np.empty(0, int)
-		turn = np.array(body.state.ori.toRotationMatrix(), float).reshape(3, 3) if len(joints) else np.eye(3)
-		known[id] = joints, rows(body.shape.normals) @ turn.T if len(joints) else None
+		known[id] = joints, worldPlanes(body)[0] if len(joints) else None
 	joints, normals = known[id]
 	if not len(joints) or not np.isfinite(normal).all():
 		return -1, -1.0
-	cosines = normals @ normal
-	best = int(cosines.argmax())
-	return int(joints[best]), float(cosines[best])
+	plane, cosine = facing(normals, normal)
+	return int(joints[plane]), cosine
 
 
 def writeFaces(rock, path):

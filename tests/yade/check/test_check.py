@@ -718,6 +718,24 @@ def testStrengthThatIsLostToTheOtherSide(name):
 	assert not any(one.what == 'joint strength' for one in polytope.check(O))
 
 
+def testTheFaceThatLiesOnTheContactSaysWhichStrengthIsLost():
+	"""A block stands on an edge between two faces without strength, on a floor with cohesion: by the rule of the contact's physics the floor's face counts on both sides."""
+	O.materials.append(rock(label='weak'))
+	O.materials.append(rock(label='strong', cohesion=4e4, residualCohesion=4e4))
+	floor = polytope.cuboid((0, 0, -0.5), (2, 2, 0.5), material=1, fixed=True)
+	block = polytope.cuboid((0, 0, 0.5 * math.sqrt(2) - 1e-7), (0.5, 0.5, 0.5), Quaternion((1, 0, 0), math.pi / 4), material=0)
+	floor.shape.faceMaterials, block.shape.faceMaterials = [1] * 6, [0] * 6
+	O.bodies.append([floor, block])
+	with warnings.catch_warnings():
+		warnings.simplefilter('ignore')
+		O.engines = polytope.engines(gravity=(0, 0, -9.81))
+		said = polytope.check(O)
+	assert not any(one.what == 'joint strength' for one in said)
+	O.run(1, wait=True)
+	(contact,) = [one for one in O.interactions if one.isReal]
+	assert contact.phys.cohesion == 4e4
+
+
 @pytest.mark.parametrize('name', ['cohesion', 'tensileStrength'])
 def testStrengthInMegapascals(name):
 	for value, found in ((0.2, True), (2e5, False)):
@@ -1050,7 +1068,7 @@ def testAPolygonThickerThanHalfOfAPeriodicCell():
 def testSmallBodiesNeedNoCloserLook(monkeypatch):
 	"""A scene of a million bodies is checked, too: their corners are looked at where a ball round the body does not do."""
 	looks = []
-	for module, name in ('about', 'extentOf'), ('bodies', 'extentOf'), ('overlaps', 'planesOf'):
+	for module, name in ('about', 'extentOf'), ('bodies', 'extentOf'), ('overlaps', 'sortedOffsets'):
 		monkeypatch.setattr(importlib.import_module(f'yade.polytope.check.{module}'), name, lambda body: looks.append(body) or 1.0)
 	O.materials.append(rock())
 	O.periodic = True
