@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Draws pictures: a program of its own, called by pictures.py.
+"""Draws pictures: a program of its own, called by still.py.
 
 	python3 -P render.py FOLDER PICTURE.png [FOLDER PICTURE.png …]
 
-Each FOLDER has meshes.npz and settings.json as pictures.py writes them. Needs VTK, and Xvfb for a virtual display.
+Each FOLDER has meshes.npz and settings.json as still.py writes them. Needs VTK, and Xvfb for a virtual display.
 """
 
 import contextlib

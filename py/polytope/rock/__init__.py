@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints of a rock mass: single ones, random sets, files of them, and what is measured of the blocks that they make (jointedRock.py cuts)."""
+"""Jointed rock: joints and the blocks that they cut, stress and excavation (stress), water, linings, limit analysis (limit) and the factor of safety."""

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from yade import O
 
+from ..reporting.figures import saveFigure
 from .study import contactPointNames, solverNames
 
 __all__ = ['drawBeam', 'plotCurves']
@@ -52,7 +53,7 @@ def plotCurves(path, closed, curves, pushes, last):
 	top.set(xlim=plot.get_xlim(), xlabel='drop at midspan (mm)')
 	top.set_xticks(np.interp(ticks, 1e3 * closed.drop(turned), np.degrees(turned)), [f'{tick:g}' for tick in ticks])
 	plot.legend(fontsize=8, loc='lower center', bbox_to_anchor=(0.44, 0.02))
-	_save(figure, path)
+	saveFigure(path, figure)
 
 
 def drawBeam(path, study, contactPoints, first, last):
@@ -92,7 +93,7 @@ def drawBeam(path, study, contactPoints, first, last):
 		plot.set(xlim=(center[0] - window, center[0] + window), ylim=(center[1] - 2.4 * window, center[1] + 2.4 * window))
 		plot.set_title(f'{title}, {math.degrees(peak):.2f}°', fontsize=9)
 		plot.legend(fontsize=7, loc='lower left')
-	_save(figure, path)
+	saveFigure(path, figure)
 
 
 def _line(readings):
@@ -105,8 +106,3 @@ def _drawBodies(plot, scene, scale=1, alpha=1.0):
 		corners = sorted((vertex for vertex in shape.vertices if vertex[2] > 0), key=lambda vertex: math.atan2(vertex[1], vertex[0]))
 		corners = [scale * (state.pos + state.ori * corner) for corner in corners]
 		plot.add_patch(Polygon([(corner[0], corner[1]) for corner in corners], facecolor=shape.color, edgecolor='0.2', lw=0.8, alpha=alpha))
-
-
-def _save(figure, path):
-	figure.tight_layout()
-	figure.savefig(path)

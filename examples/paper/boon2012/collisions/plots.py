@@ -8,6 +8,8 @@ from yade import Quaternion
 from yade.polytope.motionRecord import noContact
 from yade.polytope.pictures.still import picture
 
+from ..reporting.figures import saveFigure
+
 __all__ = ['drawSequence', 'plotOverview']
 
 typeColors = {
@@ -42,7 +44,7 @@ def drawSequence(path, run, panels=6):
 		axis.imshow(imread(part))
 		axis.set_title(f'({"abcdefgh"[k]})  {record.time[step]:.3f} s: {_shown(record.type[step])}')
 		axis.axis('off')
-	_save(figure, path)
+	saveFigure(path, figure)
 
 
 def _pictureSteps(run, panels):
@@ -89,7 +91,7 @@ def plotOverview(path, run):
 	taken.set_xlabel('time [s]')
 	for axis in (energy, taken):
 		axis.legend(frameon=False)
-	_save(figure, path)
+	saveFigure(path, figure)
 
 
 def _shown(kind):
@@ -104,8 +106,3 @@ def _shadeTypes(axis, run, labelled):
 		axis.axvspan(*stretch, color=typeColors[kind], alpha=0.45, lw=0, label=label)
 		seen.add(kind)
 	axis.set_xlim(run.record.time[0], run.record.time[-1])
-
-
-def _save(figure, path):
-	figure.tight_layout()
-	figure.savefig(path, dpi=110)

@@ -7,6 +7,7 @@ from matplotlib.image import imread
 from matplotlib.patches import Polygon
 from yade.polytope.pictures.still import picture
 
+from ..reporting.figures import saveFigure
 from .theory import centroid
 
 __all__ = ['drawBlocks', 'plotMechanism', 'sideBySide']
@@ -27,7 +28,7 @@ def sideBySide(path, parts):
 		axis.imshow(imread(part))
 		axis.set_title(title)
 		axis.axis('off')
-	_save(figure, path)
+	saveFigure(path, figure)
 
 
 def plotMechanism(path, slope, limit, motion, length=0.8):
@@ -53,9 +54,4 @@ def plotMechanism(path, slope, limit, motion, length=0.8):
 	axes[0].set_xlim(corners[:, 0].min() - 2, corners[:, 0].max() + 1)
 	axes[0].set_ylim(corners[:, 1].min() - 1, corners[:, 1].max() + 1)
 	axes[0].set_ylabel('y [m]')
-	_save(figure, path)
-
-
-def _save(figure, path):
-	figure.tight_layout()
-	figure.savefig(path, dpi=110)
+	saveFigure(path, figure)

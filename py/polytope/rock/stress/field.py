@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A stress field that is linear in space. Tension is positive, as in YADE and in measures.py."""
+"""A stress field that is linear in space. Tension is positive, as in YADE and in polytope.bodyStress."""
 
 import numpy as np
 
