@@ -5,6 +5,7 @@ import numpy as np
 from yade import O
 
 from .measures.contactTypes import ContactTypes, typeOf
+from .measures.energy import storedEnergy
 
 __all__ = ['MotionRecord', 'noContact']
 
@@ -223,11 +224,9 @@ class MotionRecord:
 
 
 def _springsOf(contact):
-	"""The values named in `_springs`. Either the geometry has the energy over the stiffness, or the energy is that of a linear spring."""
-	geom, phys = contact.geom, contact.phys
-	depth = max(geom.penetrationDepth, 0)
-	perStiffness = geom.energyPerStiffness if geom.energyPerStiffness >= 0 else depth**2 / 2
-	return phys.kn * depth, phys.kn * perStiffness, phys.shearEnergy
+	"""The values named in `_springs`."""
+	phys = contact.phys
+	return (phys.normalForce - phys.normalViscous).dot(contact.geom.normal), *storedEnergy(contact)
 
 
 def _wxyz(orientation):

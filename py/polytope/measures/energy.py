@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The mechanical energy of a scene, as exactly as its time steps define it."""
 
-from yade import O, Vector3
+from yade import O, RockJointPhys, Vector3
 
 from ..bonding.bolting import madeBolts
 from ..bonding.bonds import madeBonds
 from ..scene.movers import canMove, movers
 from ..scene.present import contactSettings, geometryFunctors, integrators, meanwhile
 
-__all__ = ['mechanicalEnergy']
+__all__ = ['mechanicalEnergy', 'storedEnergy']
 
 
 def mechanicalEnergy():
@@ -17,10 +17,10 @@ def mechanicalEnergy():
 	YADE's velocities lie half a step between positions. The energy here is made of those before and after the positions,
 	½ m v₋·v₊ + ½ ω₋·I ω₊: under gravity, and in a contact that stays linear, its sum with the potential is then constant to rounding for
 	any time step (with the squares of one of them it would oscillate by f·v Δt/2). Rotation is that of NewtonIntegrator's default for
-	unequal moments of inertia (rotAlgorithm delValle2023). Springs: kn × *PolytopeGeom.energyPerStiffness* where there is one,
-	kn depth²/2 for others, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
+	unequal moments of inertia (rotAlgorithm delValle2023). Springs: of rock joints as their law books them, with dilation, tension and a closure of
+	their own; of others kn × *PolytopeGeom.energyPerStiffness* where there is one, else kn depth²/2, and shear force²/(2 ks). Heights are above z = 0, along the gravity of O.engines' NewtonIntegrator.
 
-	Contacts count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
+	Contacts of other laws count as linear springs: with a Hertzian law, or a stiffness that changes in time (per contact area), this is not the energy.
 
 	:returns: [J]
 	:raises ValueError: if O.engines has no NewtonIntegrator, or contact functors of polytopes without Ig2_Polytope_Polytope_PolytopeGeom
@@ -35,7 +35,7 @@ def mechanicalEnergy():
 		)
 	with meanwhile([(settings, 'computeEnergy', True)] if settings else []):
 		O.step()
-	stored = sum(_stored(contact) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(
+	stored = sum(sum(storedEnergy(contact)) for contact in O.interactions if contact.isReal and _moves(contact)) + sum(
 		one.energy for one in madeBonds() + madeBolts()
 	)
 	return sum(_energy(*one, integrators()[0].gravity) for one in moving) + stored
@@ -57,13 +57,22 @@ def _moves(contact):
 	return canMove(O.bodies[contact.id1]) or canMove(O.bodies[contact.id2])
 
 
-def _stored(contact):
+def storedEnergy(contact):
+	"""(energy of the normal spring, of the shear spring) of a contact [J], as its law books them in O.energy.
+
+	A geometry that has the energy whose gradient the force is counts where the force is its own. With dilation, with a rest overlap or in tension a rock joint's law has another one, of its
+	closure.
+	"""
 	geom, phys = contact.geom, contact.phys
 	perStiffness = getattr(geom, 'energyPerStiffness', -1)
+	if isinstance(phys, RockJointPhys):
+		asBond = phys.intact and phys.bond is not None  # the geometry has the bond's energy then
+		if not asBond and (perStiffness < 0 or geom.penetrationDepth <= 0 or phys.dilation != 0 or phys.restOverlap != 0):
+			closure = geom.penetrationDepth + phys.dilation - phys.restOverlap
+			if closure < 0:  # a joint that bears no tension is open, and has no force
+				closure = min(closure + phys.lastingOpening, 0) if phys.normalForce.dot(geom.normal) < 0 else 0
+			perStiffness = phys.energyPerStiffness(closure)
+		return phys.kn * perStiffness, phys.shearEnergy
 	if perStiffness < 0:
-		depth = max(geom.penetrationDepth, 0)
-		perStiffness = phys.energyPerStiffness(depth) if hasattr(phys, 'energyPerStiffness') else depth**2 / 2
-	sheared = getattr(phys, 'shearEnergy', None)
-	if sheared is None:
-		sheared = phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0
-	return phys.kn * perStiffness + sheared
+		perStiffness = max(geom.penetrationDepth, 0) ** 2 / 2
+	return phys.kn * perStiffness, phys.shearForce.squaredNorm() / (2 * phys.ks) if phys.ks > 0 else 0

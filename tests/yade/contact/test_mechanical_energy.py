@@ -9,6 +9,7 @@ from flatFace import faceEnergy
 from scenes import blockOnFloor, contact, density, gravity, joint, loop
 from yade import (
 	FrictMat,
+	HyperbolicClosure,
 	Ip2_FrictMat_FrictMat_FrictPhys,
 	Ip2_RockJointMat_RockJointMat_RockJointPhys,
 	MatchMaker,
@@ -18,6 +19,8 @@ from yade import (
 	Vector3,
 	polytope,
 )
+from yade.polytope.measures.energy import storedEnergy
+from yade.polytope.motionRecord import MotionRecord
 
 
 def energies(steps):
@@ -82,6 +85,43 @@ def testClumpMembersCountOnce():
 def testSceneWithoutIntegratorIsRefused():
 	with pytest.raises(ValueError, match='NewtonIntegrator'):
 		polytope.mechanicalEnergy()
+
+
+def touching(one, other):
+	return O.interactions.has(one.id, other.id, onlyReal=True)
+
+
+@pytest.mark.parametrize('model', ['boon2012', 'surface'])
+@pytest.mark.parametrize('kind', ['dilation', 'closure', 'tension', 'residualTension'])
+def testStoredEnergyIsThatOfTheLaw(kind, model):
+	"""Where the force is not the geometry's own times a constant stiffness, too: a block that widens its joint by sliding, with a closure of its own, and that is pulled off."""
+	joint(
+		normalStiffness=1e7,
+		**{
+			'dilation': {'dilationAngle': 0.3},
+			'closure': {'closure': HyperbolicClosure(maximumClosure=0.05)},
+			'tension': {'tensileStrength': 1e5},
+			'residualTension': {'tensileStrength': 1e5, 'residualTensileStrength': 5e4},
+		}[kind],
+	)
+	newton = loop(perArea=model == 'surface', gravity=(0, 0, -gravity), ig2={"contactModel": model, "computeEnergy": True})
+	floor, block = blockOnFloor(4e-3)
+	O.trackEnergy = True
+	O.dt = 1e-4
+	block.state.blockedDOFs = 'XYZ'
+	block.state.vel = (0, 0, 1.5) if 'ension' in kind else (1, 0, 0)
+	seen, record = [], MotionRecord(block, lambda: contact(floor, block) if touching(floor, block) else None, newton)
+	for _ in range(150):
+		record.step()
+		if touching(floor, block):
+			one = contact(floor, block)
+			assert sum(storedEnergy(one)) == pytest.approx(O.energy['elastPotential'], rel=1e-9, abs=1e-9), O.iter
+			seen.append((float(one.geom.penetrationDepth), float(one.phys.dilation)))
+	depths, dilations = zip(*seen, strict=True)
+	assert max(dilations) > 1e-3 or kind != 'dilation'
+	assert min(depths) < -1e-3 or 'ension' not in kind
+	record.finish()
+	assert record.elasticEnergy() == pytest.approx(record.elastPotential, rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize('physics', ['frictMat', 'perContact', 'perArea'])
