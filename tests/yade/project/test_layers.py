@@ -3,7 +3,7 @@
 
 	src  <  pkg  <  py/polytope  <  examples/paper/boon2012  <  tools/measure
 
-Each may use what stands to its left. Files are read as text: an import within a function counts as one at the top of a file.
+Each may use what stands to its left; tools/measure also tests/core, which stands beside pkg: tests of src alone, with the exact arithmetic that programs compare with. Files are read as text: an import within a function counts as one at the top of a file.
 """
 
 import ast
@@ -17,6 +17,7 @@ from yade import polytope
 project = pathlib.Path(__file__).resolve().parents[3]
 
 product, reproduction, measurement = project / 'py/polytope', project / 'examples/paper', project / 'tools/measure'
+coreTests = project / 'tests/core'
 ofTheProduct = set('PIL coacd cvxopt meshio numpy scipy mpmath matplotlib tabulate tqdm trimesh vtkmodules'.split())
 """Packages of others that it may use; coacd where it is installed, for meshes that are not convex."""
 
@@ -154,6 +155,27 @@ def testTheReproductionImportsNothingOfMeasurement():
 		names = imports(path, package)
 		own = foreign(name for name in names if not name.startswith('boon2012'))
 		assert not own & modules(measurement), f'{path.name} imports {own & modules(measurement)}'
+
+
+def testTestsOfTheCoreKnowTheCoreAlone():
+	measured = {path.name for path in files(measurement, '.hpp')}
+	for path in files(coreTests, '.hpp', '.cpp'):
+		for name in includes(path):
+			assert not name.startswith(('pkg/', 'py/', 'tools/', 'examples/', 'core/', 'lib/')), f'{path.name} includes {name}'
+			assert name not in measured, f'{path.name} includes {name} of tools/measure'
+
+
+def testMeasurementUsesNoTestsButThoseOfTheCore():
+	"""Its programs compare with the exact arithmetic of tests/core; of pkg's headers and of tests/yade they take nothing."""
+	ofThePlugIn = {path.relative_to(project / 'pkg/polytope').as_posix() for path in files(project / 'pkg/polytope', '.hpp')}
+	for path in files(measurement, '.hpp', '.cpp'):
+		for name in includes(path):
+			assert not name.startswith(('pkg/', 'py/', 'tests/yade/', 'examples/')), f'{path.name} includes {name}'
+			assert name not in ofThePlugIn or (project / 'src' / name).is_file(), f'{path.name} includes {name} of pkg'
+	others = modules(project / 'tests/yade') - modules(measurement) - modules(reproduction)
+	for path in files(measurement, '.py'):
+		own = foreign(imports(path, measurement))
+		assert not own & others, f'{path.name} imports {own & others} of tests/yade'
 
 
 def testClosedFormsNeedNoYade():
