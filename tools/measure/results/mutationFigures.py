@@ -48,11 +48,24 @@ def rows(path):
 		return list(csv.DictReader(found))
 
 
+def present(folder):
+	"""Rows of the mutants whose line is still in the sources, and how many others there are."""
+	found, gone = [], 0
+	for row in rows(folder / file):
+		path = folder.parents[1] / row['file']
+		lines = path.read_text().splitlines() if path.exists() else []
+		if row['source'].split() in map(str.split, lines):
+			found.append(row)
+		else:
+			gone += 1
+	return found, gone
+
+
 def judged(folder):
-	"""(killed, equivalent, open, not judged): rows of the mutants; the last three with *why*."""
+	"""(killed, equivalent, open, not judged): rows of the mutants whose line is still there; the last three with *why*."""
 	known = {tuple(row[key] for key in ofMutant): row for row in rows(judgements)}
 	found = {'killed': [], 'equivalent': [], 'open': [], 'not judged': []}
-	for row in rows(folder / file):
+	for row in present(folder)[0]:
 		said = known.get(tuple(row[key] for key in ofMutant))
 		kind = 'killed' if row['killedBy'] else said['verdict'] if said else 'not judged'
 		found[kind].append({**row, 'why': said['why'] if said else ''})
@@ -66,14 +79,16 @@ def summary(folder):
 	left = some - count['equivalent']
 	share = 100 * count['killed'] / left
 	revisions = collections.defaultdict(set)
-	for row in rows(folder / file):
-		revisions[row['revision'][:7], row['seed']].add(row['file'].split('/')[0])
+	mutants, gone = present(folder)
+	for row in mutants:
+		revisions[row['revision'][:7], row['seed']].add(str(pathlib.PurePosixPath(row['file']).parent))
 	which = '; '.join(
 		f'{", ".join(sorted(places))}: revision {revision}, seed {seed}' for (revision, seed), places in sorted(revisions.items())
 	)
 	text = f'{share:.1f} %'
-	return paragraph(f"""{some} mutants were run ({which}): {count['killed']} are killed, {count['equivalent']} change
-		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.""")
+	return paragraph(f"""{some} mutants of lines that are still there were run ({which}): {count['killed']} are killed, {count['equivalent']} change
+		no answer. Of the {left} others {text if share >= 95 else bold(text)} are killed; {count['open'] + count['not judged']} survive. The target is 95 %.
+		{gone} more are left out here: the lines that they change are no more.""")
 
 
 def byPlace(folder):
@@ -94,7 +109,7 @@ def byPlace(folder):
 def listed(kind):
 	def figure(folder):
 		some = sorted(judged(folder)[kind], key=lambda row: (row['file'], int(row['line'])))
-		lines = [[f'{row["file"]}:{row["line"]}', f'`{row["source"]}`', change(row), row['why']] for row in some]
+		lines = [[row['file'], f'`{row["source"]}`', change(row), row['why']] for row in some]
 		return table(['place', 'source', 'mutant', 'why'], lines) if lines else 'None.'
 
 	return figure
