@@ -315,7 +315,7 @@ def main(arguments=None):
 	parser.add_argument('--seed', type=count, default=1, help='of the meetings')
 	given = parser.parse_args(arguments)
 	several = meetings(given.number or (60 if given.quick else 200), given.seed)
-	findings = Findings('', 'Energy of collisions', given.output, shown(given))
+	findings = Findings('collisions', 'Energy of collisions', given.output, shown(given))
 	timeSteps(findings, several, given.quick)
 	damping(findings, several, given.quick)
 	return conclude(findings)

@@ -249,7 +249,7 @@ def main(arguments=None):
 	parser.add_argument('--steps', type=count, default=None, help='of each path (2000; quick: 400)')
 	given = parser.parse_args(arguments)
 	given.steps = given.steps or (400 if given.quick else 2000)
-	findings = Findings('', 'Smoothness of the contact', given.output, shown(given))
+	findings = Findings('path', 'Smoothness of the contact', given.output, shown(given))
 	O.reset()
 	O.materials.append(RockJointMat(density=1, normalStiffness=1, shearStiffness=1))
 	Study(given, findings).all()

@@ -111,7 +111,7 @@ class Study:
 
 def main(arguments=None):
 	given = options(arguments)
-	findings = Findings('', 'Blocks and grains with a closed form', given.output, shown(given))
+	findings = Findings('joints', 'Blocks and grains with a closed form', given.output, shown(given))
 	study = Study(given, findings)
 	study.measure()
 	study.rows()

@@ -177,6 +177,21 @@ def faster(peer):
 	return figure
 
 
+def energyCost(folder):
+	"""What the energy of *foundation* adds to a warm query of pairs that touch: least to most of the sets in space, and in the plane."""
+	kernels = {(row['method'], row['set']): row['median'] for row in read(folder)['kernels']}
+	added = {
+		name: 100 * (kernels['ours, foundation warm', name] / without - 1)
+		for (method, name), without in kernels.items()
+		if method == 'ours, foundation without energy warm' and not name.endswith('apart')
+	}
+	if not added:
+		return 'not measured'
+	inSpace = [cost for name, cost in added.items() if '2-D' not in name]
+	inPlane = [cost for name, cost in added.items() if '2-D' in name]
+	return f'{min(inSpace):.0f} to {max(inSpace):.0f} % in space, {max(inPlane):.0f} % in the plane'
+
+
 def features(folder):
 	found = read(folder)['features']
 	if not found:
@@ -191,6 +206,7 @@ figures = {
 	'bench.scenes': targets(isScene),
 	'bench.pairs': targets(isPair),
 	'bench.bodies': targets(isBody),
+	'bench.energy': energyCost,
 	'bench.features': features,
 	'bench.polyhedra': faster('Polyhedra'),
 }

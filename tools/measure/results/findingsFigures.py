@@ -87,16 +87,47 @@ def cells(row):
 titles = ['quantity', 'unit', 'paper', 'closed form', 'ours', 'difference', 'must be']
 
 
+def label(script, between):
+	"""Letter or name by which a script is chosen, and title; the title alone of results without the former."""
+	return between.join(filter(None, (script['letter'], script['title'])))
+
+
 def allRows(name):
 	"""A table for each script that was run, all its rows."""
 
 	def figure(folder):
 		parts = []
 		for script in scriptsOf(folder, name):
-			parts += [f'**{script["letter"]} · {script["title"]}** ({origin(script)}):', table(titles, map(cells, script['rows']))]
+			parts += [f'**{label(script, " · ")}** ({origin(script)}):', table(titles, map(cells, script['rows']))]
 		return '\n\n'.join(parts)
 
 	return figure
+
+
+def mainRows(folder):
+	"""The rows that answer what each of the paper's simulations is about."""
+	found = {(script['letter'], row['quantity']): (script, row) for script in scriptsOf(folder, 'paper') for row in script['rows']}
+	lines = []
+	for key in ofThePaper:
+		if key in found:
+			script, row = found[key]
+			_, unit, paper, theory, ours, *_ = cells(row)
+			lines.append([label(script, ', '), row['quantity'], unit, paper, theory, ours])
+	return table(['simulation', 'quantity', 'unit', 'paper', 'closed form', 'ours'], lines)
+
+
+ofThePaper = (
+	('A', 'linear program, cold start: N = 8 … 40'),
+	('A', 'centre by Newton, cold start: N = 8 … 40'),
+	('B', 'centroid: peak load'),
+	('B', 'analytic centre, abutments of 3 block heights: peak load'),
+	('C', 'critical friction angle'),
+	('C', 'limit equilibrium with the locked-in shear measured'),
+	('D', 'critical friction angle, way 1, joint forces set, g = 10 m/s²'),
+	('E', 'critical friction angle'),
+	('F', 'F1: height at rest'),
+)
+"""Letter and quantity."""
 
 
 def verdicts(name):
@@ -109,7 +140,7 @@ def verdicts(name):
 			'; '.join(bold(f'{row["quantity"]}: {short(row["ours"], 3)} {row["unit"]}, must be {mustBe(row)}') for row in missed) or 'none'
 		)
 		return [
-			f'{script["letter"]}: {script["title"]}',
+			label(script, ': '),
 			f'{len(judged) - len(missed)} of {len(judged)}',
 			said,
 			f'{script["seconds"]:.0f} s',
@@ -119,26 +150,36 @@ def verdicts(name):
 	return lambda folder: table(['study', 'limits met', 'missed', 'took', 'run on'], map(line, scriptsOf(folder, name)))
 
 
-def speedKept(names):
-	"""Over flush pieces at 1 m/s: the largest loss or gain of speed, over the speed, with a stiffness per contact and per area.
+def floors(folder):
+	"""Of the study of floors made of flush pieces: the largest error of each measure, for both contacts and both rules of stiffness."""
+	script = next((script for script in scriptsOf(folder, 'accuracy') if script['name'] == 'surfaces'), None)
+	if script is None:
+		return 'Not measured.'
+	found = {}
+	for row in script['rows']:
+		measure, _, of = row['quantity'].rpartition(': ')
+		if of in contacts:
+			found.setdefault((measure, row['unit']), {})[of] = row
+	lines = []
+	for (measure, unit), rows in found.items():
+		limit = next((mustBe(row) for row in rows.values() if row['accept'] is not None), '')
+		lines.append(
+			[f'{measure} [{unit or "-"}]', limit, *(cells({**rows[of], 'ours': float(short(rows[of]['ours'], 2))})[4] for of in contacts)]
+		)
+	return f'{origin(script)}:\n\n' + table(['largest error', 'must be', *contacts.values()], lines)
 
-	:param names: of the contact in the rows, that of a new run first; older results name it otherwise
-	"""
 
-	def figure(folder):
-		rows = [row for script in scriptsOf(folder, 'accuracy') if script['name'] == 'surfaces' for row in script['rows']]
-		if not rows:
-			return 'not measured'
-		loss = {row['quantity']: row['ours'] for row in rows}
-		found = [
-			[loss.get(f'1 m/s over three joints: loss of speed: {name}, per {rule}') for rule in ('contact', 'area')] for name in names
-		]
-		kept = next((both for both in found if None not in both), None)
-		return '; '.join(short(one, 2) for one in kept) if kept else 'not measured'
+contacts = {
+	f'{name}, per {rule}': f'{shown}, per {rule}'
+	for name, shown in (('surface', 'the default'), ('boon2012', '*boon2012*'))
+	for rule in ('contact', 'area')
+}
+"""What the rows of the study of floors end with, and the heading of its column."""
 
-	return figure
-
-
-contacts = {'default': ('surface',), 'paper': ('boon2012', "paper's normal")}
-figures = {f'accuracy.speed.{name}': speedKept(names) for name, names in contacts.items()}
-figures |= {'paper.rows': allRows('paper'), 'paper.verdicts': verdicts('paper'), 'accuracy.verdicts': verdicts('accuracy')}
+figures = {
+	'paper.main': mainRows,
+	'paper.rows': allRows('paper'),
+	'paper.verdicts': verdicts('paper'),
+	'accuracy.verdicts': verdicts('accuracy'),
+	'accuracy.floors': floors,
+}

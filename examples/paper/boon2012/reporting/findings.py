@@ -15,7 +15,7 @@ __all__ = ['Findings']
 class Findings:
 	"""Collects the results of one simulation, and writes them to *folder* (findings.json, and each table as CSV).
 
-	:param str letter: of the simulation in Boon et al. (2012), 'A' to 'F'
+	:param str letter: what it is chosen by: of the simulation in Boon et al. (2012), 'A' to 'F'; of a study of ./run accuracy its name
 	:param str title: in a few words
 	:param folder: for all files; made if need be
 	:param dict options: what the run was made with, as given by the user
