@@ -61,8 +61,8 @@ contacts of the scene: functors of other pairs have none of their own. Nothing i
 		        "double) to 0.1."))
 		((bool, computeArea, false, , "*boon2012*: compute :yref:`PolytopeGeom.contactArea` for every contact (for laws that need it this "
 		        "is done automatically; the other models always have it)."))
-		((bool, computeEnergy, false, , "*foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes half as "
-		        "long again; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
+		((bool, computeEnergy, false, , "*foundation*: compute :yref:`PolytopeGeom.energyPerStiffness` in each step, which takes "
+		        "about a tenth more time, in the plane more than half; O.trackEnergy and *polytope.mechanicalEnergy* do so by themselves."))
 		((bool, timing, false, , "Measure the time of the linear program and of the analytic centre (see *stats()*); costs two readings of "
 		        "the clock a pair."))
 	);
