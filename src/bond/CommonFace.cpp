@@ -121,4 +121,12 @@ std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape&
 	return found;
 }
 
+const CommonFace* largestAlong(const std::vector<CommonFace>& faces, const Vector3& direction, const Real& cosine)
+{
+	const CommonFace* largest = nullptr;
+	for (const CommonFace& face : faces)
+		if (face.axes.col(0).dot(direction) > cosine && (!largest || face.area > largest->area)) largest = &face;
+	return largest;
+}
+
 } // namespace polytope

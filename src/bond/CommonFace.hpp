@@ -23,4 +23,7 @@ struct CommonFace {
 /// Tolerances.hpp). Polygons: their edges, over the smaller thickness.
 std::vector<CommonFace> commonFaces(const PlacedShape& first, const PlacedShape& second, const Real& gap, const Real& angle);
 
+/// The largest of the areas whose normal makes an angle of a larger cosine than this with a direction; null where there is none.
+const CommonFace* largestAlong(const std::vector<CommonFace>& faces, const Vector3& direction, const Real& cosine);
+
 } // namespace polytope

@@ -2,6 +2,7 @@
 #include "contact/RoundedSection.hpp"
 
 #include "shape/DistanceTolerances.hpp"
+#include "shape/Rings.hpp"
 #include "shear/ContactOutline.hpp"
 
 #include <algorithm>
@@ -123,12 +124,7 @@ void clipByPlane(PlanePolygon& polygon, const Plane& plane, const PlaneAxes& axe
 	const Real    left = plane.offset - plane.normal.dot(at);
 	const Vector2 slope(plane.normal.dot(axes.u), plane.normal.dot(axes.v));
 	PlanePolygon  kept;
-	for (std::size_t k = 0; k < polygon.size(); ++k) {
-		const Vector2 &one = polygon[k], &next = polygon[(k + 1) % polygon.size()];
-		const Real     here = left - slope.dot(one), there = left - slope.dot(next);
-		if (here >= 0) kept.push_back(one);
-		if ((here >= 0) != (there >= 0)) kept.push_back(one + here / (here - there) * (next - one));
-	}
+	keepAbove(polygon, [&](const Vector2& corner) { return Real(left - slope.dot(corner)); }, kept);
 	polygon.swap(kept);
 }
 

@@ -3,6 +3,7 @@
 
 #include "numbers/PlaneAxes.hpp"
 #include "shape/DistanceTolerances.hpp"
+#include "shape/Rings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -135,21 +136,17 @@ namespace {
 		Real    h;
 	};
 
-	SpreadPlace between(const SpreadPlace& one, const SpreadPlace& other, const Real& part)
-	{
-		return { one.at + part * (other.at - one.at), one.h + part * (other.h - one.h) };
-	}
+	SpreadPlace operator+(const SpreadPlace& one, const SpreadPlace& other) { return { one.at + other.at, one.h + other.h }; }
+	SpreadPlace operator-(const SpreadPlace& one, const SpreadPlace& other) { return { one.at - other.at, one.h - other.h }; }
+	SpreadPlace operator*(const Real& times, const SpreadPlace& one) { return { times * one.at, times * one.h }; }
+
+	SpreadPlace between(const SpreadPlace& one, const SpreadPlace& other, const Real& part) { return one + part * (other - one); }
 
 	/// What a convex ring leaves where a function of its places is not negative.
 	template <class Value> void clip(std::vector<SpreadPlace>& ring, std::vector<SpreadPlace>& buffer, const Value& value)
 	{
 		buffer.clear();
-		for (std::size_t k = 0; k < ring.size(); ++k) {
-			const SpreadPlace &one = ring[k], &next = ring[(k + 1) % ring.size()];
-			const Real         here = value(one), there = value(next);
-			if (here >= 0) buffer.push_back(one);
-			if ((here >= 0) != (there >= 0)) buffer.push_back(between(one, next, here / (here - there)));
-		}
+		keepAbove(ring, value, buffer);
 		ring.swap(buffer);
 	}
 
@@ -223,14 +220,14 @@ namespace {
 
 		Vector2 across(const Vector3& place) const { return Vector2(axes_.u.dot(place - nearest_), axes_.v.dot(place - nearest_)); }
 		Real    height(const Vector3& place) const { return normal_.dot(place - nearest_); }
-		/// Of a face over that place.
+		/// Height of a feature's face over a place of the plane.
 		Real height(const Features& features, const Vector2& at) const
 		{
 			const Vector3 place = nearest_ + axes_.inSpace(at);
 			return features.faceNormal.dot(features.onFace - place) / features.faceNormal.dot(normal_);
 		}
 
-		/// The gaps of a pair of features, in h, to h over δ: δ where the gap is least.
+		/// Turns the gaps of a pair of features, which h holds so far, into h over δ: the depth is δ where the gap is least.
 		void fromGaps(std::vector<std::vector<SpreadPlace>>& parts) const
 		{
 			Real least = std::numeric_limits<Real>::infinity();

@@ -5,6 +5,7 @@
 #include "contact/ContactPointRules.hpp"
 #include "contact/PairSurface.hpp"
 #include "contact/PhaseOne.hpp"
+#include "contact/SlidingDepth.hpp"
 #include "contact/StartBasis.hpp"
 
 /// The contact surface of a body on one of several flush pieces: that of the solid which they make, without the faces between them, and the part of it on
@@ -45,8 +46,8 @@ private:
 	R                 offset_[2 * BoundingPlanes::most];
 };
 
-/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: thin beside the body that
-/// lies on the pieces, and within the thickness of a piece. Twice that, since beside the seam the piece's own part of the overlap is less deep.
+/// Largest depth, along n, of a contact of two flush faces, which is the contact that remains where internal faces are left out: twice the depth at which the body
+/// still slides, since beside the seam the piece's own part of the overlap is less deep.
 template <class R, int D>
 POLYTOPE_APART R internalDepth(const PlacedPair& in, const ContactFrame<R, D>& f, const InternalPlanes& internal, const R* n)
 {
@@ -55,8 +56,7 @@ POLYTOPE_APART R internalDepth(const PlacedPair& in, const ContactFrame<R, D>& f
 		if (internal.count[piece] == 0) continue;
 		R own[3] = { 0, 0, 0 };
 		rotate<R, D>(f.own[piece], n, own);
-		least = minOf<R>(least, in.shape[piece]->widthAlong(Vector3(own[0], own[1], own[2])));
-		least = minOf<R>(least, R(tolerance::thinContact) * in.shape[1 - piece]->inscribedRadius());
+		least = minOf<R>(least, R(slidingDepth(*in.shape[piece], *in.shape[1 - piece], Vector3(own[0], own[1], own[2]))));
 	}
 	return 2 * least;
 }

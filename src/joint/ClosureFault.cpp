@@ -77,8 +77,6 @@ namespace {
 
 } // namespace
 
-Real ClosureLaw::initialTangent() const { return tangent(Real(tolerance::leastClosure * tolerance::noClosure)); }
-
 std::string ClosureLaw::fault() const
 {
 	Values      low   = valuesAt(*this, tolerance::leastClosure);

@@ -149,4 +149,6 @@ Real ClosureLaw::ownClosure(Real pressure) const
 	return closure;
 }
 
+Real ClosureLaw::initialTangent() const { return tangent(Real(tolerance::leastClosure * tolerance::noClosure)); }
+
 } // namespace polytope

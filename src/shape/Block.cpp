@@ -6,6 +6,7 @@
 #include "shape/ShapeConstruction.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace polytope {
 namespace {
@@ -217,10 +218,21 @@ Block blockOf(const std::vector<Plane>& all, const std::vector<int>& which)
 bool cutBlock(const Block& block, const std::vector<Plane>& all, int cut, const Real& on, Block& inner, Block& outer)
 {
 	const Cut where(block, all, all[std::size_t(cut)], on);
-	if (!takePart(where, -1, cut, inner) || !takePart(where, 1, cut + 1, outer)) return false;
-	dropUnused(inner);
-	dropUnused(outer);
-	return true;
+	if (takePart(where, -1, cut, inner) && takePart(where, 1, cut + 1, outer)) {
+		dropUnused(inner);
+		dropUnused(outer);
+		return true;
+	}
+	try {
+		for (int side = 0; side < 2; ++side) {
+			std::vector<int> which = block.planes;
+			which.push_back(cut + side);
+			(side == 0 ? inner : outer) = blockOf(all, which);
+		}
+		return true;
+	} catch (const std::invalid_argument&) {
+		return false;
+	}
 }
 
 } // namespace polytope

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -131,7 +130,7 @@ namespace {
 			const int block = tree_.nodes[std::size_t(n)].block;
 			if (!crosses(joint.plane, tree_.nodes[std::size_t(n)])) return;
 			Block      below, above;
-			const bool both = parts(tree_.blocks[std::size_t(block)], plane, below, above);
+			const bool both = cutBlock(tree_.blocks[std::size_t(block)], rock_.planes, plane, on_, below, above);
 			if (!both) {
 				++rock_.uncut;
 				return;
@@ -175,22 +174,6 @@ namespace {
 			for (int k = below.begin(face); k < below.end(face); ++k)
 				section.push_back(below.corners[std::size_t(below.rings[std::size_t(k)])]);
 			return section;
-		}
-
-		/// False: a part is too flat to have an inside.
-		bool parts(const Block& block, int plane, Block& below, Block& above) const
-		{
-			if (cutBlock(block, rock_.planes, plane, on_, below, above)) return true;
-			try {
-				for (int side = 0; side < 2; ++side) {
-					std::vector<int> which = block.planes;
-					which.push_back(plane + side);
-					(side == 0 ? below : above) = blockOf(rock_.planes, which);
-				}
-				return true;
-			} catch (const std::invalid_argument&) {
-				return false;
-			}
 		}
 	};
 

@@ -14,15 +14,6 @@
 namespace polytope {
 namespace {
 
-	/// Moments of the tetrahedron that the origin spans with a face's triangle.
-	void addTetrahedron(SolidMoments& sum, const Vector3& a, const Vector3& b, const Vector3& c)
-	{
-		const Real    volume = a.dot(b.cross(c)) / 6;
-		const Vector3 corner = a + b + c;
-		sum.add(volume, volume / 4 * corner,
-		        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + corner * corner.transpose()));
-	}
-
 	using Points = std::vector<Vector3>;
 
 	SolidMoments momentsOf(const Polyhedron& shape, const Points& points)
@@ -30,8 +21,8 @@ namespace {
 		SolidMoments sum;
 		for (const std::vector<int>& face : shape.faces)
 			for (std::size_t k = 2; k < face.size(); ++k)
-				addTetrahedron(
-				        sum, points[std::size_t(face[0])], points[std::size_t(face[k - 1])], points[std::size_t(face[k])]);
+				sum.addTetrahedron(
+				        points[std::size_t(face[0])], points[std::size_t(face[k - 1])], points[std::size_t(face[k])]);
 		return sum;
 	}
 

@@ -76,15 +76,7 @@ namespace {
 
 	void addSlab(SolidMoments& sum, const Polyhedron& core, std::size_t f, const Vector3& normal, const Real& r)
 	{
-		const std::vector<int>& face = core.faces[f];
-		SolidMoments            flat; // over the area
-		const auto              corner = [&](std::size_t k) -> const Vector3& { return core.vertices[std::size_t(face[k])]; };
-		for (std::size_t k = 2; k < face.size(); ++k) {
-			const Vector3 &a = corner(0), &b = corner(k - 1), &c = corner(k);
-			const Vector3  all  = a + b + c;
-			const Real     area = (b - a).cross(c - a).dot(normal) / 2;
-			flat.add(area, area / 3 * all, area / 12 * (square(a) + square(b) + square(c) + square(all)));
-		}
+		const SolidMoments flat = faceMoments(core, f, normal, Vector3::Zero());
 		sum.add(r * flat.zeroth, r * flat.first + r * r / 2 * flat.zeroth * normal,
 		        r * flat.second + r * r / 2 * both(flat.first, normal) + r * r * r / 3 * flat.zeroth * square(normal));
 	}

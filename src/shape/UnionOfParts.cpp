@@ -4,21 +4,14 @@
 #include "shape/Block.hpp"
 #include "shape/ConstructionTolerances.hpp"
 #include "shape/Numbers.hpp"
+#include "shape/SolidMoments.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace polytope {
 namespace {
-
-	/// Volume; ∫ ρ dV, ∫ ρ x dV, ∫ ρ x xᵀ dV from the origin.
-	struct Sums {
-		Real    volume = 0, mass = 0;
-		Vector3 first  = Vector3::Zero();
-		Matrix3 second = Matrix3::Zero();
-	};
 
 	/// A part, and where its planes stand in the list that all have in common.
 	struct Cutter {
@@ -49,10 +42,10 @@ namespace {
 		UnionProperties properties() const
 		{
 			UnionProperties all;
-			all.volume           = sums_.volume;
-			all.mass             = sums_.mass;
-			all.centre           = sums_.first / sums_.mass;
-			const Matrix3 spread = sums_.second - sums_.mass * all.centre * all.centre.transpose();
+			all.volume           = volume_;
+			all.mass             = mass_.zeroth;
+			all.centre           = mass_.first / mass_.zeroth;
+			const Matrix3 spread = mass_.second - mass_.zeroth * all.centre * all.centre.transpose();
 			all.inertia          = spread.trace() * Matrix3::Identity() - spread;
 			return all;
 		}
@@ -61,8 +54,8 @@ namespace {
 		std::vector<Plane>  planes_;
 		std::vector<Cutter> cutters_;
 		std::size_t         most_, pieces_ = 0;
-		Real                on_ = 0, density_ = 1;
-		Sums                sums_;
+		Real                on_ = 0, density_ = 1, volume_ = 0;
+		SolidMoments        mass_; ///< times the density, from the origin
 
 		void add(const PlacedShape& part)
 		{
@@ -151,50 +144,26 @@ namespace {
 				if (low >= -on_) return false;
 				if (high <= on_) continue;
 				Block below, above;
-				if (!parts(inner, plane, below, above)) continue; // a sliver thinner than rounding
+				if (!cutBlock(inner, planes_, plane, on_, below, above)) continue; // a sliver thinner than rounding
 				outside.push_back(std::move(above));
 				inner = std::move(below);
 			}
 			return true;
 		}
 
-		bool parts(const Block& block, int plane, Block& below, Block& above) const
-		{
-			if (cutBlock(block, planes_, plane, on_, below, above)) return true;
-			try {
-				for (int side = 0; side < 2; ++side) {
-					std::vector<int> which = block.planes;
-					which.push_back(plane + side);
-					(side == 0 ? below : above) = blockOf(planes_, which);
-				}
-				return true;
-			} catch (const std::invalid_argument&) {
-				return false;
-			}
-		}
-
 		void add(const Block& block)
 		{
 			const Vector3 middle = block.middle();
-			Real          volume = 0;
-			Vector3       first  = Vector3::Zero();
-			Matrix3       second = Matrix3::Zero();
+			const auto    corner
+			        = [&](int k) -> Vector3 { return block.corners[std::size_t(block.rings[std::size_t(k)])] - middle; };
+			SolidMoments own; // about the middle
 			for (std::size_t f = 0; f < block.faces(); ++f)
-				for (int k = block.begin(f) + 2; k < block.end(f); ++k) {
-					const Vector3 a = block.corners[std::size_t(block.rings[std::size_t(block.begin(f))])] - middle,
-					              b = block.corners[std::size_t(block.rings[std::size_t(k - 1)])] - middle,
-					              c = block.corners[std::size_t(block.rings[std::size_t(k)])] - middle, sum = a + b + c;
-					const Real part = a.dot(b.cross(c)) / 6;
-					volume += part;
-					first += part / 4 * sum;
-					second += part / 20
-					        * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-				}
-			sums_.volume += volume;
-			sums_.mass += density_ * volume;
-			sums_.first += density_ * (first + volume * middle);
-			sums_.second += density_
-			        * (second + first * middle.transpose() + middle * first.transpose() + volume * middle * middle.transpose());
+				for (int k = block.begin(f) + 2; k < block.end(f); ++k)
+					own.addTetrahedron(corner(block.begin(f)), corner(k - 1), corner(k));
+			const Matrix3 across = own.first * middle.transpose();
+			volume_ += own.zeroth;
+			mass_.add(density_ * own.zeroth, density_ * (own.first + own.zeroth * middle),
+			        density_ * (own.second + across + across.transpose() + own.zeroth * middle * middle.transpose()));
 		}
 	};
 
