@@ -73,8 +73,8 @@ that bear on a block through grout; between two neighbouring stations is an elem
 		        "pretension included.")
 		.add_property("slips", &PolytopeBolt::slips, "Displacement of each node against its block, towards the end [m].")
 		.add_property("groutForces", &PolytopeBolt::groutForces, "Force of each node on its block, towards the end [N].")
-		.add_property("groutStrengths", &PolytopeBolt::groutStrengths, "Largest force of each node on its block [N]: groutStrength times the length that it "
-		        "stands for.")
+		.add_property("groutStrengths", &PolytopeBolt::groutStrengths, "Largest force of each node on its block [N]: groutStrength times the "
+		        "length that it stands for.")
 		.add_property("headForce", &PolytopeBolt::headForce, "Force of the plate on its block [N]; 0 without a plate.")
 		.add_property("largestForce", &PolytopeBolt::largestForce, "Largest tension along the bolt [N].")
 	);

@@ -45,8 +45,8 @@ broke). One engine of this kind a scene.)""",
 		, /*py*/
 		.add_property("bolts", &PolytopeBolts::boltList, "All bolts (:yref:`PolytopeBolt`), in the order in which they were made.")
 		.add_property("actingCount", &PolytopeBolts::actingCount, "Number of bolts that still hold blocks together.")
-		.add_property("actingInScene", &PolytopeBolts::actingInScene, "Number of bolts that still hold blocks of the present scene together, whether or "
-		        "not this engine is in O.engines.")
+		.add_property("actingInScene", &PolytopeBolts::actingInScene, "Number of bolts that still hold blocks of the present scene "
+		        "together, whether or not this engine is in O.engines.")
 		.def("_meetBodies", &PolytopeBolts::meetBodies)
 		.def("make", &PolytopeBolts::make, (boost::python::arg("pattern")), "Make a bolt with the values of a *PolytopeBolt*; see "
 		        "*polytope.bolt*, which calls it.")

@@ -20,7 +20,8 @@ public:
 	R"""(Moves fixed bodies as one rigid base with a velocity that is given over time, such as that of an earthquake; *polytope.baseMotion(…)*
 makes it. In each step they have the velocity of the middle of the step, with which :yref:`NewtonIntegrator` moves them.
 
-:yref:`NewtonIntegrator.damping` acts on absolute velocities, so that it would hold back what the base carries along: as long as the history goes on it must be 0.)""",
+:yref:`NewtonIntegrator.damping` acts on absolute velocities, so that it would hold back what the base carries along: as long as the
+history goes on it must be 0.)""",
 		((shared_ptr<VelocityHistory>, history, , , "Velocity of the base."))
 	);
 	// clang-format on

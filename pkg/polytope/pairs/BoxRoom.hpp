@@ -12,9 +12,10 @@ namespace yade {
 
 /// How far bodies may move within their boxes, and which of them have moved out.
 ///
-/// A box is made for the pose that its body has then, with room for both its ways: a sweep length along each axis for its centre, and for
-/// a polytope the displacement of its farthest vertex by rotation. As YADE's BoundDispatcher finds the first, so the second: from the motion since the
-/// box was made before, enough for `targetInterv` steps. Other shapes than balls and polytopes, and classes derived from Polytope that do not say their margin, have no room to turn.
+/// A box is made for the pose that its body has then. It has room for the body's translation, a sweep length along each axis, and, for a polytope, for
+/// rotation: the displacement of its farthest vertex. YADE's BoundDispatcher finds the sweep length from the motion since the last box was made, so that it is
+/// enough for `targetInterv` steps; the room for rotation is found in the same way. Shapes other than balls and polytopes, and classes derived from Polytope
+/// that do not say their margin, have no room to turn.
 class BoxRoom {
 public:
 	/// What the box of one body was made for.

@@ -33,9 +33,6 @@ public:
 	/// Keeps the basis and weights of a pair that is apart. A memory with a contact point is none of them: it is not kept.
 	void remember(const Interaction& pair, long step, const polytope::PairMemory& memory);
 
-	/// Bytes of one record.
-	static std::size_t recordBytes() { return sizeof(Record); }
-
 private:
 	/// Zero: of no pair, for no body is in contact with itself.
 	struct Record {

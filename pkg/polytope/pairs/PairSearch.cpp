@@ -119,7 +119,7 @@ void PairSearch::sortPairs(Scene& scene) const
 	}
 }
 
-/// Into the second grid.
+/// Puts these bodies, whose boxes are new, into the second grid.
 void PairSearch::move(const Scene& scene, const std::vector<Body::id_t>& ids)
 {
 	std::vector<Body::id_t> all;

@@ -11,14 +11,16 @@ namespace yade {
 
 /// Gives an Interaction to each pair of bodies that may touch while they are in their boxes, and takes it from those that may not.
 ///
-/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When it is made anew in a run, all pairs are put into the order of its cells:
-/// the InteractionLoop meets neighbours one after the other, whose bodies it has in the cache. The order is the same with any number of threads. When some bodies have got new boxes, only their pairs are
-/// searched for: they leave the grid of all for a smaller one, until they are so many that the first is made anew.
+/// Boxes that overlap are found by a grid (BoxGrid.hpp), in parallel. When the grid of all boxes is made anew in a run, all pairs are put into the order of
+/// its cells: the InteractionLoop then meets neighbours one after the other, and has their bodies in the cache. The order is the same with any number of
+/// threads. When only some bodies have got new boxes, these bodies leave the grid of all for a second, smaller one, and only their pairs are searched for. When
+/// the second grid has become too large, the first is made anew.
 ///
-/// Where the boxes of two polytopes overlap, the linear program says whether they stay apart until one of them is out of its box: such a pair gets no
-/// Interaction, which costs memory, and time in each step. Neither do two fixed ones without velocity, as the pieces of a ground are, that are apart or lie
-/// flush, or two of YADE's facets, boxes and walls, moved by a script or not; two polytopes that pierce each other do, so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body
-/// that moves keep theirs: internal faces are searched for among the pieces that a body may touch.
+/// Where the boxes of two polytopes overlap, the linear program finds whether they stay apart as long as both are in their boxes: such a pair gets no
+/// Interaction, which would cost memory, and time in each step. Two fixed polytopes without velocity that are apart or lie flush, such as pieces of a ground,
+/// get none either, nor do two of YADE's facets, boxes and walls, whether a script moves them or not. Two fixed polytopes that pierce each other do get one,
+/// so that a script can look at their contact. A piece of a rigid support (a fixed body, a member of a clump) and a body that moves always have
+/// theirs: internal faces are searched for among the pieces that a body may touch.
 class PairSearch {
 public:
 	explicit PairSearch(const BoxRoom& room) : room_(room) { }
