@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/InternalFaces.hpp"
 
+#include <src/contact/SlidingDepth.hpp>
+
 #include <algorithm>
 #include <limits>
 
@@ -65,13 +67,6 @@ namespace {
 		return chord;
 	}
 
-	/// How deep the other body may be below a face of the piece and still slide on it, and not come from the other side, or have passed through.
-	Real slidingDepth(const TouchingPair& pair, int piece, const Vector3r& face)
-	{
-		return math::min(pair.convex[piece]->widthAlong(pair.rotation[piece].transpose() * face),
-		        Real(polytope::tolerance::thinContact) * pair.convex[1 - piece]->inscribedRadius());
-	}
-
 	/// Pairs of a plane i near the overlap and a face j that the other body may slide on. `outside` is reached along j, so that it keeps the
 	/// contact point's height below it.
 	std::vector<Candidate> candidatesOf(
@@ -79,9 +74,11 @@ namespace {
 	{
 		std::vector<Candidate> all;
 		for (int j = 0; j < bounding.count[piece]; ++j) {
-			const Vector3r& face  = normals[piece][j];
-			const Chord     chord = chordBelow(bounding, piece, j, normals);
-			if (!(chord.length < slidingDepth(pair, piece, face))) continue;
+			const Vector3r& face    = normals[piece][j];
+			const Chord     chord   = chordBelow(bounding, piece, j, normals);
+			const Real      deepest = polytope::slidingDepth(
+                                *pair.convex[piece], *pair.convex[1 - piece], pair.rotation[piece].transpose() * face);
+			if (!(chord.length < deepest)) continue;
 			for (int i = 0; i < bounding.count[piece]; ++i) {
 				const Vector3r& normal = normals[piece][i];
 				const Vector3r  along  = normal - normal.dot(face) * face; // along·normal = |along|²

@@ -10,17 +10,6 @@
 
 namespace yade {
 
-namespace {
-
-	/// Whether a point lies in all half-spaces, or as near as `room` to each.
-	bool reaches(const Solid& solid, const Vector3r& point, const Real& room)
-	{
-		return std::all_of(solid.planes.begin(), solid.planes.end(),
-		        [&](const polytope::Plane& plane) { return plane.normal.dot(point) - plane.offset <= room; });
-	}
-
-} // namespace
-
 MarginOnPieces::MarginOnPieces(const TouchingPair& pair, int mover, const CoreOfBody& core) : margin_(core.margin), reach_(core.margin)
 {
 	if (core.convex)
@@ -91,9 +80,10 @@ std::optional<SupportPlace> MarginOnPieces::placeOnFace(const Vector3r& point, R
 			return &piece != &pieces_.front()
 			        && faceAt(piece, place.outward, place.point, math::max(Real(place.depth / 2), room));
 		};
-		const auto     holds = [&](const Piece& piece) { return reaches(piece.solid, place.point, math::max(place.depth, room)); };
+		const auto holds
+		        = [&](const Piece& piece) { return contains(piece.solid.planes, place.point, math::max(place.depth, room)); };
 		const Vector3r outside = point + (face.offset - face.normal.dot(point) + 2 * room) * face.normal;
-		const auto     covers  = [&](const Piece& piece) { return reaches(piece.solid, outside, room); };
+		const auto     covers  = [&](const Piece& piece) { return contains(piece.solid.planes, outside, room); };
 		const auto     any     = [&](const auto& is) { return std::any_of(pieces_.begin(), pieces_.end(), is); };
 		if (any(continues) && any(holds) && !any(covers)) best = place;
 	}
@@ -108,7 +98,7 @@ void MarginOnPieces::toNearest(SupportPlace& place) const
 		const SupportPlace present = place;
 		const Real         room    = math::max(present.depth, flushRoom());
 		for (std::size_t k = 1; k < pieces_.size(); ++k) {
-			if (!reaches(pieces_[k].solid, present.point, room)) continue;
+			if (!contains(pieces_[k].solid.planes, present.point, room)) continue;
 			const auto other = placeOn(pieces_[k]);
 			if (!other) overlaps = true;
 			else if (other->depth > place.depth) {

@@ -54,19 +54,18 @@ namespace {
 		}
 	}
 
-	/// Radius of the circle in which a sphere is cut half as deep as it overlaps.
-	Real discRadius(const Real& radius, const Real& depth)
-	{
-		const Real cap = math::max(Real(0), math::min(Real(depth / 2), radius));
-		return math::sqrt(cap * (2 * radius - cap));
-	}
-
 } // namespace
 
 NearestOfSphere nearestOfSphere(const polytope::ConvexShape& solid, const Vector3r& centre, const Quaternionr& orientation)
 {
 	const polytope::ClosestPoint nearest = polytope::closestPoint(solid, orientation.conjugate() * Vector3r(-centre));
 	return { centre + orientation * nearest.point, orientation * nearest.outward, nearest.distance };
+}
+
+Real discRadiusSquared(const Real& radius, const Real& depth)
+{
+	const Real cap = math::max(Real(0), math::min(Real(depth / 2), radius));
+	return cap * (2 * radius - cap);
 }
 
 Real shareOfSphere(
@@ -88,8 +87,8 @@ Real shareOfSphere(
 		        });
 	}
 
-	const Real                                       depth = radius - nearest.distance, disc = discRadius(radius, depth);
-	const Vector3r                                   point = nearest.point - depth / 2 * nearest.outward;
+	const Real     depth = radius - nearest.distance, disc = math::sqrt(discRadiusSquared(radius, depth));
+	const Vector3r point = nearest.point - depth / 2 * nearest.outward;
 	static thread_local std::vector<polytope::Plane> planes;
 	planes.clear();
 	const auto areaOf = [&](const polytope::ConvexShape& solid, const Vector3r& at, const Quaternionr& orientation) {

@@ -27,6 +27,9 @@ struct NearestOfSphere {
 
 NearestOfSphere nearestOfSphere(const polytope::ConvexShape& solid, const Vector3r& centre, const Quaternionr& orientation);
 
+/// Square of the radius of the disc in which a sphere is cut half as deep as it overlaps.
+Real discRadiusSquared(const Real& radius, const Real& depth);
+
 /// For a sphere in contact with a piece: replaces the nearest point of the piece by that of all pieces that meet there. Returns the contact's share of the
 /// stiffness.
 Real shareOfSphere(

@@ -17,10 +17,10 @@ void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vecto
 	if (body.shape) familyOf(*body.shape).addSupport(*body.shape, { centre, body.state->ori.toRotationMatrix(), other, near }, solid);
 }
 
-bool contains(const Planes& planes, const Vector3r& point)
+bool contains(const Planes& planes, const Vector3r& point, const Real& room)
 {
 	for (const polytope::Plane& plane : planes)
-		if (!(plane.normal.dot(point) <= plane.offset)) return false;
+		if (!(plane.normal.dot(point) <= plane.offset + room)) return false;
 	return !planes.empty();
 }
 

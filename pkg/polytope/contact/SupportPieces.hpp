@@ -40,8 +40,8 @@ int supportOf(const TouchingPair& pair);
 /// shapes without faces, and for bodies farther than `near` from the contact point.
 void setBody(Solid& solid, const Body& body, const Vector3r& centre, const Vector3r& other, Real near);
 
-/// Whether a point lies in all half-spaces.
-bool contains(const Planes& planes, const Vector3r& point);
+/// Whether a point lies in all half-spaces, of which there are some, or not farther than `room` out of each.
+bool contains(const Planes& planes, const Vector3r& point, const Real& room = 0);
 
 /// How high a step between two faces is that count as one.
 Real flushStep(const TouchingPair& pair);
